@@ -59,7 +59,7 @@ pub enum Action {
     FullScreen,
     /// The sheet of keys.
     KeySheet,
-    /// Close the topmost open part.
+    /// Close the sheet, times, panel or full screen.
     Close,
     /// Quit.
     Quit,

@@ -1,7 +1,7 @@
 //! The outputs that jobs claim, and conflicts between them: files, pictures with numbers in their names, folders.
 //!
-//! Names are kept as hashes and sorted, so that a list of a million jobs is checked in seconds. What the hashes find is
-//! looked at again by name before anything is refused.
+//! Names are kept as hashes and sorted: a list of a million jobs is checked in seconds. A match of hashes is verified by name
+//! before the list is refused.
 
 use super::job::{Asked, JobCommand};
 use super::output_path::same_place;
@@ -59,7 +59,7 @@ impl Claim {
         })
     }
 
-    /// Its place in the batch's folder, by which two that are the same are found.
+    /// Its normalised place in the batch's folder; equal places are one output.
     pub(super) fn place(&self) -> &str {
         &self.place
     }
@@ -142,7 +142,7 @@ pub(super) struct Shared {
     inside: Vec<Lines>,
 }
 
-/// Names that are the same but for a number of so many digits, in a line.
+/// Names in one line that differ only in a number of so many digits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Numbers {
     key: Key,
@@ -161,7 +161,7 @@ impl Shared {
         }
     }
 
-    /// Whether there are any: otherwise there is nothing more to find.
+    /// Whether it is empty, which ends the check.
     pub(super) fn is_empty(&self) -> bool {
         self.folders.is_empty() && self.numbered.is_empty()
     }
@@ -172,7 +172,7 @@ impl Shared {
         self.numbered.sort_unstable();
     }
 
-    /// Looks for what a line writes among them.
+    /// Searches for conflicts with a line's output.
     pub(super) fn compare(&mut self, claim: &Claim, line: u32) {
         if !self.folders.is_empty() {
             let mut hash = Sha256::new();

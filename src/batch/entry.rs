@@ -37,16 +37,16 @@ pub struct Written {
     pub sha256: String,
 }
 
-/// What is different each time a job is done.
+/// The part of an entry that differs each time a job runs.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// From reading the line to the last file.
     pub milliseconds: f64,
     /// How often it was tried: a second time where the GL context was lost.
     pub tries: u32,
-    /// Who drew; `None` where nothing was drawn.
+    /// The driver; `None` where the job drew nothing.
     pub gl: Option<Driver>,
-    /// What the command wrote to standard output: a record where the job has `json`.
+    /// The command's standard output: a record where the job has `json`.
     pub printed: Option<String>,
 }
 
@@ -57,11 +57,11 @@ pub struct Outcome {
     pub status: Status,
     /// Why it failed, if it did.
     pub error: Option<Failure>,
-    /// What the command said on the way, a sentence each.
+    /// Remarks of the command, a sentence each.
     pub remarks: Vec<String>,
-    /// What it wrote, sorted by path.
+    /// Its output files, sorted by path.
     pub outputs: Vec<Written>,
-    /// What is different each time.
+    /// The part that differs each time.
     pub run: Run,
 }
 
@@ -88,14 +88,14 @@ pub struct Entry {
     pub line: u64,
     /// [`Job::sha256`]: a job that has been changed since is another.
     pub job: String,
-    /// What was done.
+    /// The command.
     pub command: JobCommand,
     /// What came of it.
     #[serde(flatten)]
     pub outcome: Outcome,
 }
 
-/// An entry as it is read: all keys side by side, which is several times as fast as looking for those that are left over.
+/// An entry for reading, with all keys in one struct; this is several times as fast as serde's flattened keys.
 #[derive(Deserialize)]
 struct Line {
     id: String,
@@ -122,7 +122,7 @@ impl Entry {
         Self { id: job.id.clone(), line: job.line, job: job.sha256.clone(), command: job.command, outcome }
     }
 
-    /// Whether it says that this job is done, and what was written is there and as long as it was.
+    /// Whether this entry marks the job as done, and its output files still exist with the same lengths.
     pub fn is_done(&self, job: &Job, folder: &Path) -> bool {
         let is_there = |file: &Written| {
             folder.join(&file.path).metadata().is_ok_and(|there| there.is_file() && there.len() == file.bytes)
@@ -131,7 +131,7 @@ impl Entry {
     }
 }
 
-/// What lies where a job writes: its files, those in its folders, the pictures of a pattern such as `frame-%04d.png`.
+/// Returns the existing output of a job: its files, those in its folders, the pictures of a pattern such as `frame-%04d.png`.
 pub fn written(job: &Job, folder: &Path) -> Vec<Written> {
     let mut files = Vec::new();
     for claim in Claim::all(&Asked::of_job(job)) {

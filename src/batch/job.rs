@@ -39,14 +39,14 @@ impl JobCommand {
     }
 }
 
-/// What one line asks for.
+/// The contents of one line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Job {
-    /// Its name, by which it is known from run to run.
+    /// Its name, the same from run to run.
     pub id: String,
     /// Where it stands, 1-based; 0 outside of a list.
     pub line: u64,
-    /// What is to be done.
+    /// The command to run.
     pub command: JobCommand,
     /// The models.
     pub models: Vec<String>,
@@ -63,7 +63,7 @@ impl Job {
     ///
     /// # Errors
     ///
-    /// What is wrong with it, a sentence without the file's name.
+    /// Parses a line. The error is a sentence without the file's name.
     pub fn parse(line: &[u8]) -> Result<Self, String> {
         let keys = keys(line)?;
         let json = sorted(&keys);
@@ -73,7 +73,7 @@ impl Job {
     }
 }
 
-/// What a line asks for, without what it is known by: enough to check it.
+/// A line without its name: enough to check it.
 pub(super) struct Asked {
     pub id: String,
     pub command: JobCommand,
@@ -82,7 +82,7 @@ pub(super) struct Asked {
 }
 
 impl Asked {
-    /// What a job asks for.
+    /// Takes a job's command and options.
     pub(super) fn of_job(job: &Job) -> Self {
         let Job { id, command, options, .. } = job.clone();
         Self { id, command, models: Vec::new(), options }
@@ -93,7 +93,7 @@ impl Asked {
         Self::of_keys(keys(line)?)
     }
 
-    /// The options that name what the job writes, with those names.
+    /// The options that name output files, with those names.
     pub(super) fn outputs(&self) -> impl Iterator<Item = (&str, &str)> {
         self.options.iter().filter_map(|(key, value)| match value {
             OptionValue::Text(output) if OUTPUTS.contains(&key.as_str()) => Some((key.as_str(), output.as_str())),

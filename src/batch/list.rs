@@ -14,8 +14,8 @@ use std::path::Path;
 /// The list as a batch keeps it in its folder.
 pub const LIST_FILE: &str = "batch-list.jsonl";
 
-/// Jobs in the order of their list, none of the same name, no two that write the same file. All lines are checked, but jobs are
-/// made of them only when they are asked for: of a list of a million a run does a thousand.
+/// Jobs in the order of their list, without repeated names or output files. All lines are checked, but each becomes a job only
+/// when needed: a run may do a thousand of a million.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct List {
     /// How many jobs there are.
@@ -82,7 +82,7 @@ impl List {
         self.count == other.count && (self.bytes == other.bytes || content(self).eq(content(other)))
     }
 
-    /// Keeps the list in the batch's folder, so that it is known later what belongs to it.
+    /// Keeps the list in the batch's folder as the record of its jobs.
     ///
     /// # Errors
     ///
@@ -124,7 +124,7 @@ impl List {
         (1..).zip(lines).filter(|(_, text)| !text.is_empty())
     }
 
-    /// What a line asks for that has been checked.
+    /// The parsed contents of a checked line.
     fn asked(&self, line: u32) -> Option<Asked> {
         let (_, text) = self.lines().find(|(number, _)| *number == u64::from(line))?;
         Asked::of_line(text).ok()
@@ -152,13 +152,13 @@ impl List {
         suspects
     }
 
-    /// What is wrong with the later of two lines, if both write the same.
+    /// The error for the later of two lines, if both write the same file.
     fn clash(&self, (line, before): Lines) -> Option<String> {
         problem(&self.asked(line)?, &self.asked(before)?, before)
     }
 }
 
-/// So many lines that may write the same are looked at by name; one is enough but where hashes are the same by chance.
+/// Number of possibly conflicting lines compared by name; one is enough unless hashes collide.
 const SUSPECTS: usize = 8;
 
 /// A list has at most [`BATCH_BYTES`] lines, which 32 bits count.
@@ -183,7 +183,7 @@ impl Seen {
     }
 }
 
-/// Whether a file has just these bytes; of one that cannot be read nothing is said here.
+/// Whether a file has exactly these bytes; false if it cannot be read.
 fn has_bytes(path: &Path, bytes: &[u8]) -> bool {
     // A pipe would be waited for.
     if !path.metadata().is_ok_and(|metadata| metadata.is_file() && metadata.len() == bytes.len() as u64) {
@@ -338,7 +338,7 @@ mod tests {
         assert!(List::kept(folder.path()).unwrap().unwrap().is_same(&one));
         assert!(!list(&job("a", "b.png")).unwrap().is_same(&one));
         assert_eq!(one.is_kept(folder.path()).unwrap(), Some(true));
-        // Blanks do not count, other outputs do, and as long as it is.
+        // Blanks do not count; other outputs and a different length do.
         assert_eq!(list(&job("a", "a.png")).unwrap().is_kept(folder.path()).unwrap(), Some(true));
         assert_eq!(list(&format!("{}\n", job("a", "b.png"))).unwrap().is_kept(folder.path()).unwrap(), Some(false));
         assert_eq!(one.is_kept(&folder.path().join("other")).unwrap(), None);

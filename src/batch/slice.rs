@@ -1,11 +1,11 @@
-//! Slices: which jobs of a list belong to which run.
+//! Slices: the division of a list's jobs among runs.
 
 use crate::error::ParseError;
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
-/// One of `count` parts of a list: every count-th job, beginning with the number-th, so that parts cost about the same where
-/// costs change along the list.
+/// One of `count` parts of a list: every count-th job, beginning with the number-th. Slices cost about the same even where costs
+/// change along the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Slice {
     /// How many parts there are, 1 to 100,000.

@@ -41,7 +41,7 @@ pub struct Command {
 /// A job that was checked. It is given the folder that its output folder is written in until it is whole, if it writes one.
 pub type Task = Box<dyn FnOnce(Option<&Path>, &mut Session) -> Result<Verdict>>;
 
-/// What a command may use of the run.
+/// The parts of the run that a command may use.
 #[derive(Debug)]
 pub struct Call<'a> {
     /// All commands.

@@ -68,7 +68,7 @@ fn script(shell: Shell, program: &Program) -> String {
     }
 }
 
-/// clap's function is asked by one that puts words together first: `src/cli/completions/words.bash`.
+/// The script first joins words, then calls clap's function: `src/cli/completions/words.bash`.
 fn bash(command: &Command, written: &str) -> String {
     let words = include_str!("completions/words.bash")
         .replace("@models@", &models().join(" "))
@@ -78,7 +78,7 @@ fn bash(command: &Command, written: &str) -> String {
     written.replace("complete -F _tinta ", "complete -F _tinta_words ") + "\n" + &words
 }
 
-/// Where clap asks for files only, `src/cli/completions/names.zsh` also offers what is built in.
+/// Where clap offers only files, `src/cli/completions/names.zsh` also offers built-in names.
 fn zsh(written: &str) -> String {
     let escaped = |names: Vec<String>| names.join(" ").replace(':', "\\:");
     let names = include_str!("completions/names.zsh")
@@ -93,7 +93,7 @@ fn zsh(written: &str) -> String {
         } else {
             line.to_owned()
         };
-        // The script's last lines call what it defines.
+        // The script's last lines call the functions it defines.
         if line.starts_with("if [ \"$funcstack[1]\"") { format!("{names}\n{better}\n") } else { better + "\n" }
     });
     lines.collect()

@@ -44,7 +44,7 @@ pub(super) struct Arguments {
     subject: Chosen<OfSubject>,
 }
 
-/// What the edge list is asked, as the style inking asks it.
+/// The settings of the edge list, the same as in the style inking.
 struct OfEdges;
 
 impl Selection for OfEdges {

@@ -15,7 +15,7 @@ const PAGE_LINES: usize = 60;
 /// Examples below the program's help before those of the commands.
 const EXAMPLE: &str = "tinta cow.obj                                   show a model, or draw it";
 
-/// What the exit code says.
+/// The meaning of each exit code.
 const EXIT_CODES: &str = "\
 Exit codes:
   0  done
@@ -34,7 +34,7 @@ pub(super) fn whole(program: &Program) -> Command {
     commands(program).mut_subcommands(unmarked)
 }
 
-/// The program's commands; what has a look tells the look's defaults.
+/// The program's commands; those with looks state the look's defaults.
 fn commands(program: &Program) -> Command {
     let look = LOOKS[0].preset().map(|preset| preset.options).unwrap_or_default();
     let all = program.commands().iter().map(|command| (command.arguments)(Command::new(command.name)));
@@ -55,7 +55,7 @@ fn commands(program: &Program) -> Command {
 /// What begins the default at the end of an option's help.
 const DEFAULT: &str = "[default: ";
 
-/// An option whose help states the value that is drawn where nothing is asked for, then the default of a style that is named.
+/// An option whose help states the default look's value, then the default of a named style.
 fn with_drawn_default(arg: Arg, look: &Options) -> Arg {
     let value = match arg.get_long().and_then(|name| look.get(name)) {
         Some(OptionValue::Text(value)) => value.clone(),
@@ -65,7 +65,7 @@ fn with_drawn_default(arg: Arg, look: &Options) -> Arg {
     };
     let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
     match help.rsplit_once(DEFAULT) {
-        // What is the same in both is told once.
+        // A value that is the same in both appears once.
         Some((about, published)) if !published.starts_with(&format!("{value}]")) => {
             arg.help(format!("{about}{DEFAULT}{value}; published: {published}"))
         }

@@ -5,7 +5,7 @@ use tinta::request::files_named;
 use tinta::settings::Options;
 use tinta::{Error, Result};
 
-/// What a command reads, as far as its command line says.
+/// The files that a command reads, as far as the command line names them.
 #[derive(Debug)]
 pub struct Inputs(Vec<(&'static str, PathBuf)>);
 

@@ -48,7 +48,7 @@ struct Page {
     text: String,
 }
 
-/// What the program is, for its own page.
+/// The description of the program, for its own page.
 const DESCRIPTION: &str = "Draws 3D models as cartoons, ink, charcoal and line art. It runs OpenGL 2.1 programs \
 published between 2001 and 2007, almost as printed, and computes exact visible lines. It needs neither a display nor a \
 graphics card: OpenGL comes from EGL or OSMesa, and Mesa's software renderer is enough. Models are files, or built in, \
@@ -68,7 +68,7 @@ const ENVIRONMENT: [(&str, &str); 3] = [
 /// Commands that open no OpenGL.
 const WITHOUT_OPENGL: [&str; 4] = ["edges", "textures", "completions", "man"];
 
-/// What the exit code says.
+/// The meaning of each exit code.
 const EXIT_CODES: [(&str, &str); 4] = [
     ("0", "Done."),
     (
@@ -159,7 +159,7 @@ pub(super) fn page(command: &Command, examples: &[String], commands: &[String]) 
     text + &rest.render()
 }
 
-/// What is written into memory, where writing does not fail.
+/// Writes into memory, where writing does not fail.
 fn written(write: impl Fn(&mut dyn std::io::Write) -> std::io::Result<()>) -> String {
     let mut text = Vec::new();
     let _ = write(&mut text);
@@ -182,7 +182,7 @@ fn with_subsections(command: &Command, options: &str) -> String {
     lines.collect()
 }
 
-/// Paragraphs, and lines set in by two blanks as they stand.
+/// Paragraphs; lines indented by two blanks stay unchanged.
 fn described(page: &mut Roff, text: &str) {
     for (number, paragraph) in text.trim_end().split("\n\n").enumerate() {
         if number > 0 {

@@ -1,5 +1,5 @@
-//! What is wrong with a command line, in one sentence: clap's without its usage lines and hints, or a better one where more
-//! can be said, such as the name that was meant.
+//! The error of a command line in one sentence: clap's without usage lines and hints, or a better one where possible, such as a
+//! suggested name.
 
 use super::help::options;
 use crate::choice::{meant_or, nearest, no_option};
@@ -8,7 +8,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::ffi::OsString;
 use std::path::Path;
 
-/// Most characters of clap's message that are said.
+/// The longest part of clap's message that is printed, in characters.
 const LONGEST_SENTENCE: usize = 400;
 
 /// What clap has against these words, the program's name first, which `whole` was to read.
@@ -142,7 +142,7 @@ fn model(whole: &Command, words: &[OsString]) -> Option<OsString> {
     given.get_raw(if models { "models" } else { return None })?.next().map(OsString::from)
 }
 
-/// What a picture of a model may be called, without its ending; not a name that a shell would take apart.
+/// A possible name for a picture of a model, without its ending; `None` for names that a shell would split.
 fn stem(model: &OsString) -> String {
     let model = model.to_string_lossy();
     let name = model.strip_prefix("builtin:").unwrap_or(&model);

@@ -93,7 +93,7 @@ impl Arguments {
         })
     }
 
-    /// What the options ask for, and what of them changes nothing.
+    /// Returns the request, and the options without effect.
     pub(super) fn asked(&self) -> Result<(Request, Vec<String>)> {
         let below = Below {
             look: self.look.look,
@@ -126,7 +126,7 @@ pub fn asked_by(words: &[String]) -> Result<(Request, String)> {
     Ok((arguments.asked()?.0, arguments.output))
 }
 
-/// Draws what the arguments say.
+/// Draws the arguments' models.
 pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<Verdict> {
     let (request, remarks) = arguments.asked()?;
     let run = arguments.run.settings()?;
@@ -136,7 +136,7 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<Verdic
     let verdict =
         render(&request, &run, &arguments.output, &presets.into_iter().flatten().collect::<Vec<_>>(), session);
     let verdict = verdict.map_err(|error| request.attributed(error))?;
-    // Said of what was drawn: a refusal is one sentence, and no other before it.
+    // After drawing: a refusal prints one sentence only.
     remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
     Ok(verdict)
 }

@@ -7,7 +7,7 @@ pub trait Selection {
     /// Whose settings.
     type Of: HasSettings;
 
-    /// Whether they are listed under headings of their own.
+    /// Whether they have their own headings.
     const HAS_HEADINGS: bool = true;
 
     /// Whether this is one of them.

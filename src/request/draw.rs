@@ -35,9 +35,9 @@ pub struct DrawnPicture {
     pub published: Plan,
     /// The executed plan.
     pub plan: Plan,
-    /// The omitted steps, with reasons.
+    /// The omissions, with reasons.
     pub omissions: Vec<Omission>,
-    /// The candidates that were kept, with reasons.
+    /// The rules that omitted nothing, with reasons.
     pub kept: Vec<Kept>,
     /// Remarks for the user, a sentence each.
     pub remarks: Vec<String>,

@@ -45,7 +45,7 @@ pub fn open(mut options: WindowOptions) -> Result<Option<PlayedRecord>> {
     let wake = move || {
         let _ = proxy.send_event(News);
     };
-    // A recording opens its own models.
+    // A recording states which parts are open.
     if options.replay.is_none() {
         let state = &mut options.viewer.state;
         (state.has_panel, state.has_hint) = (options.size.width >= NARROW, true);

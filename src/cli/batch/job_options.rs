@@ -10,7 +10,7 @@ use tinta::request::Request;
 use tinta::settings::{HasSettings, OptionValue, Options};
 use tinta::{Error, ParseError, Result};
 
-/// What a job gives to its command.
+/// The options of a job for its command.
 #[derive(Debug)]
 pub struct JobOptions {
     /// The models.

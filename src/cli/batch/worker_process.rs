@@ -64,7 +64,7 @@ impl WorkerProcess {
             .map(|jobs| jobs.write_all(format!("{}\n", job.json).as_bytes()).and_then(|()| jobs.flush()));
         let mut line = Vec::new();
         if matches!(told, Some(Ok(()))) {
-            // What cannot be read is as good as not there.
+            // Unreadable output counts as missing.
             let _ = self.outcomes.read_until(b'\n', &mut line);
         }
         if let Ok(outcome) = serde_json::from_slice(&line) {

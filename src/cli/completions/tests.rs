@@ -1,4 +1,4 @@
-//! What the scripts hold against what the command line takes.
+//! Compares the scripts with the options of the command line.
 
 use super::*;
 
@@ -10,7 +10,7 @@ fn whole() -> Command {
     whole
 }
 
-/// What a script says of one command.
+/// A script's part for one command.
 fn part(shell: Shell, script: &str, command: &str) -> String {
     let between = |start: &str, end: &str| {
         let rest = script.split_once(start).unwrap_or_else(|| panic!("{command}: no {start:?}")).1;

@@ -85,7 +85,7 @@ fn a_setting_is_found_at_every_door() {
     // The manual page.
     let page = man::page(&command, &[], &[]);
     assert!(page.contains("dot\\-spacing") && page.contains("more is coarser"), "{page}");
-    // What a shell offers.
+    // A shell's suggestions.
     assert_eq!(completions::of_table::<Halftone>("dot-shape"), ["round", "square"]);
     assert!(completions::of_table::<Halftone>("dot-spacing").is_empty());
     // Presets, and with them recipes and jobs, which hold the same options.

@@ -62,8 +62,8 @@ impl Estimate {
 
     /// How long the work will still take, seconds.
     ///
-    /// Steps of a kind of which some are done take as long as those did; others as long as expected, by as much more or less
-    /// as the steps so far.
+    /// A kind of step already measured continues at its measured rate; other kinds use the expected time, scaled by the steps so
+    /// far.
     pub(super) fn left(&self) -> f64 {
         let took: f64 = self.kinds.iter().map(|kind| kind.took).sum();
         let expected: f64 = self.kinds.iter().map(|kind| kind.done as f64 * kind.expected.seconds).sum();

@@ -15,10 +15,10 @@ pub struct TimedProgress {
 }
 
 impl TimedProgress {
-    /// How finely the bar's length is told.
+    /// Resolution of the bar.
     const PARTS: u64 = 1000;
 
-    /// A bar with the word for what is done, such as "measuring", that begins now.
+    /// A bar with the name of the work, such as "measuring", that begins now.
     pub fn new(what: &'static str, kinds: &[Steps]) -> Self {
         let bar = bar(what, Self::PARTS);
         if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:32}] {prefix} left") {

@@ -21,7 +21,7 @@ const TURN_MS: u32 = 2500;
 /// Quake 2 shows ten frames a second.
 const MODEL_FRAME_MS: u16 = 100;
 
-/// Where the animation goes, if one is asked for.
+/// The animation's target, if the output is one.
 pub(super) fn target(
     animation: &AnimationSettings,
     output: &str,
@@ -38,7 +38,7 @@ fn delay_ms(animation: &AnimationSettings, frames: usize) -> u16 {
     as_given.unwrap_or(if animation.animate.is_some() { MODEL_FRAME_MS } else { turn })
 }
 
-/// Draws the animation that is asked for; encoding goes on beside the drawing.
+/// Draws the animation; encoding runs in parallel.
 pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: &mut Session) -> Result<Verdict> {
     let start = Instant::now();
     let Rendering { request, run, output } = *rendering;

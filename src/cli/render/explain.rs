@@ -47,7 +47,7 @@ pub(super) fn pens(layers: &[Strokes]) -> String {
     text
 }
 
-/// What the lines of a drawing are, how long each part took, and where what is seen of smooth silhouettes ends for no reason.
+/// Explains a drawing's lines: their counts, the time of each part, and where visible smooth silhouettes end without a reason.
 pub(super) fn lines(lines: &VisibleLines, counts: &LineCounts, load_ms: f64, written_ms: f64) -> String {
     let mut text = format!("{:<20}{:>10}{:>12}{:>12}\n", "class", "lines", "seen px", "hidden px");
     let mut edges = lines.edges;

@@ -97,7 +97,7 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     super::super::print_json(&record).map(|()| Verdict::Good)
 }
 
-/// What a signal has ended.
+/// The verdict after a signal.
 fn stopped(stop: Option<&Stop>) -> Verdict {
     say("tinta: stopped by a signal; nothing was written");
     Verdict::Stopped { signal: stop.map_or(0, Stop::signal) }
@@ -111,8 +111,8 @@ fn check_output(output: &str, format: Format, is_transparent: bool) -> Result<()
     }
 }
 
-/// How the drawing is written, with its recipe. Its command has a name of its own for the output: the same drawing is the same bytes
-/// wherever it is written.
+/// How the drawing is written, with its recipe. The recipe's command uses a fixed name for the output: the same drawing has the
+/// same bytes wherever it is written.
 fn with_recipe(drawing: DrawingSettings, output: &str, recipe: Option<&Recipe>) -> DrawingSettings {
     let name = if output.to_ascii_lowercase().ends_with(".pdf") { "drawing.pdf" } else { "drawing.svg" };
     DrawingSettings {

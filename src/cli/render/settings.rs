@@ -1,4 +1,4 @@
-//! The options of `tinta render` that say what is done with a drawing, not which it is: they are in no preset and no recipe.
+//! The options of `tinta render` that control the use of a drawing, not its contents: presets and recipes never contain them.
 
 use super::super::selection::Selection;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use tinta::plan::Submission;
 use tinta::settings::{HasSettings, Kind, Setting, Table, under};
 use tinta::{Error, Result};
 
-/// What is done with one drawing.
+/// The use of one drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::cli) struct RunSettings {
     pub submission: Submission,
@@ -52,7 +52,7 @@ pub(in crate::cli) fn is_of_one_run(option: &str) -> bool {
     RunSettings::table().has(option)
 }
 
-/// What a setting that is left open is called.
+/// The name of an open setting.
 const OFF: &str = "off";
 
 impl HasSettings for RunSettings {
@@ -169,7 +169,7 @@ impl RunSettings {
         Self::refuse(&[("within", self.within.is_some()), ("partial", self.partial)], problem)
     }
 
-    /// Refuses what is for one picture.
+    /// Refuses options for single pictures.
     pub(super) fn refuse_for_animations(&self) -> Result<()> {
         let given = [("explain", self.explain), ("dump", self.dump.is_some()), ("frames", self.frames != 1)];
         Self::refuse(&given, "this is for one picture; leave it out, or name a picture such as drawing.png")

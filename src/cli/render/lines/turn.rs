@@ -91,7 +91,7 @@ pub(super) fn run(
     .map(|()| Verdict::Good)
 }
 
-/// What a signal has ended after some of the drawings.
+/// The verdict after a signal that came after some of the drawings.
 fn stopped(stop: Option<&Stop>, done: u32, views: u32) -> Verdict {
     say(&format!("tinta: stopped by a signal; {done} of {views} drawings were written"));
     Verdict::Stopped { signal: stop.map_or(0, Stop::signal) }
