@@ -1,4 +1,4 @@
-//! Many small pictures: `tinta batch` beside one process a picture, and what a job costs.
+//! Many small pictures: `tinta batch` against one process per picture, and the cost of a job.
 //!
 //! `cargo bench --bench batch` writes meshes of 1,000 triangles, every one another, and a job for each: 256x256 pixels, the
 //! default style. Contestants take turns. One process a picture draws a share of them, as many at once as there are jobs

@@ -24,7 +24,7 @@ const USAGE: &str = "cargo bench --bench edges -- MODEL [--python PYTHON] [--rou
   --python PYTHON  a Python with VTK, numpy and PyVista (pip install pyvista); for its frames also xvfb-run
   --rounds N       interleaved rounds (default 7)";
 
-/// Repeats within a round, for a small and for a large mesh.
+/// Repeats within a round, for small meshes and for large ones.
 const REPEATS: [usize; 2] = [9, 3];
 
 /// Frames within a round.

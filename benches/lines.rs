@@ -120,7 +120,7 @@ fn lines_ms(mesh: &Arc<Mesh>) -> (f64, LineTimes) {
     (milliseconds_since(start), lines.times)
 }
 
-/// How long a process takes from its start to its end, and what it printed.
+/// Returns a process's time from start to end, and its output.
 fn process_ms(command: &mut Command) -> (f64, String) {
     let start = Instant::now();
     let output = command.stdin(Stdio::null()).output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
@@ -184,7 +184,7 @@ fn growth() -> Value {
     Value::Array(rows)
 }
 
-/// Times over triangles on logarithmic axes, with what n log n would be from the first one on.
+/// Times over triangles on logarithmic axes, with a curve of n log n through the first point.
 fn plot(points: &[(f64, f64)], path: &Path) -> Result<(), Box<dyn std::error::Error>> {
     let area = SVGBackend::new(path, (640, 400)).into_drawing_area();
     area.fill(&WHITE)?;

@@ -50,7 +50,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// A copy of what the program is built of, always in the same folder: in another one cargo would build all of it again.
+/// A copy of the program's sources, always in the same folder: in another one cargo would build all of it again.
 fn copy_of_the_sources() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("adding-a-style/sources");
     let _ = std::fs::remove_dir_all(&folder);
@@ -159,7 +159,7 @@ fn the_page_adds_a_style_whose_setting_is_found_at_every_door() {
     }
     assert!(pixels("default.png") != pixels("option.png"));
 
-    // A style that draws lines is its row: it has the settings of lines, writes what they write, and is drawn again.
+    // A style that draws lines needs only its row: it gets the settings of lines, writes their formats, and can be drawn again.
     let drawn = |name: &str| {
         let text = std::fs::read_to_string(folder.join(name)).unwrap();
         text.lines().filter(|line| line.contains("<path")).map(str::to_owned).collect::<Vec<_>>()
@@ -173,7 +173,7 @@ fn the_page_adds_a_style_whose_setting_is_found_at_every_door() {
     tinta("render builtin:gear --size 96 -o lines.png --style lines");
     assert!(pixels("hatches.png") == pixels("lines.png"));
 
-    // It is measured as it is by default.
+    // The measurement uses the default settings.
     tinta("measure builtin:open-box --styles stripes --quick --size 64 -o measured");
     let rows = std::fs::read_to_string(folder.join("measured/results.csv")).unwrap();
     assert!(rows.contains("--style stripes"), "{rows}");

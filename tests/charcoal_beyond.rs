@@ -54,7 +54,7 @@ fn paper_and_noise_keep_their_proportion_and_in_a_square_picture_nothing_changes
     let (published, even) = (stretch("none"), stretch("proportion"));
     assert!(published < 0.8 && (even - 1.0).abs() < 0.1, "{published} {even}");
     let square = scene("builtin:gear", 96, 96);
-    // Luminance is sand's, so that both run the shaders in parts.
+    // Luminance belongs to sand, which makes both run the shaders in parts.
     let [before, after] = ["luminance", "luminance,proportion"]
         .map(|names| draw(&mut renderer, &square, &improved(names, 96), Show::Final));
     assert_eq!(before.difference(&after), Some(EQUAL));
@@ -143,7 +143,7 @@ fn strokes_change_middle_tones_and_neither_the_mean_nor_what_is_black_or_blank()
     let mut light = |names: &str| greens(&draw(&mut renderer, &scene, &improved(names, 120), Show::Diffuse));
     let (even, hand) = (light("luminance"), light("luminance,strokes"));
     let pairs: Vec<(f64, f64)> = even.into_iter().zip(hand).collect();
-    // What was rounded to black or to the full light may have a step or two of another.
+    // A value rounded to black or to full light may differ by a step or two.
     let ends = pairs.iter().filter(|(even, _)| *even == 0.0 || *even == 255.0);
     assert!(ends.map(|(even, hand)| (even - hand).abs()).fold(0.0, f64::max) <= 2.0);
     let middle: Vec<f64> =

@@ -16,7 +16,7 @@ pub fn draw(renderer: &mut Renderer, scene: &Scene, charcoal: &Charcoal, show: S
     renderer.draw(scene, &Style::Charcoal(charcoal.clone()).plan(scene, show).unwrap()).unwrap()
 }
 
-/// What a ray through the middle of a pixel meets first: the triangle and the corners' shares in the point.
+/// Returns the first hit of a ray through the middle of a pixel: the triangle and the barycentric coordinates of the point.
 fn hit(mesh: &Mesh, origin: DVec3, direction: DVec3) -> Option<(usize, DVec3)> {
     let mut nearest: Option<(f64, usize, DVec3)> = None;
     for (number, triangle) in mesh.triangles.iter().enumerate() {
@@ -112,7 +112,7 @@ fn tones(charcoal: &Charcoal, textures: &Textures, normal_view: DVec3, place: DV
     Tones { light, cem, drawing }
 }
 
-/// Normals in eye space and triangles met, for the middle of every pixel.
+/// Normals in eye space and the triangles hit, for the middle of every pixel.
 fn cast(scene: &Scene) -> Vec<Option<(usize, DVec3)>> {
     let Size { width, height } = scene.size;
     let mesh = &scene.objects[0].mesh;

@@ -112,7 +112,7 @@ fn what_cannot_be_measured_is_refused() {
     ] {
         refused_in_one_line(arguments, words);
     }
-    // Nothing could be drawn, so nothing is left that a second try would have to respect.
+    // Without a drawing, no file is left that a second try would have to respect.
     for _ in 0..2 {
         let output = tinta(&["measure", "builtin:gear", "--styles", "sand", "-o", &folder.path("sand")]);
         let said = String::from_utf8_lossy(&output.stderr);

@@ -25,7 +25,7 @@ const FILES: [(&str, &str); 15] = [
     ("typo.jsonl", "{\"id\": \"a\", \"command\": \"render\", \"model\": \"-\", \"output\": \"a.png\"}\n"),
 ];
 
-/// Command lines, and what they are answered.
+/// Command lines and their errors.
 const MISTAKES: [(&str, &str); 88] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),

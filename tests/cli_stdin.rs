@@ -27,7 +27,7 @@ const STL: &str = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex
 fn binary_stl() -> Vec<u8> {
     let corners: Vec<u8> =
         [0.0f32, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat();
-    // It begins like text, and its length says that it is none.
+    // It begins like text, but its length shows a binary file.
     let header = [b"solid".as_slice(), &[b' '; 75]].concat();
     [header.as_slice(), &1u32.to_le_bytes(), &corners, &[0, 0]].concat()
 }

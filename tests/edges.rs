@@ -70,7 +70,7 @@ fn which_creases_are_convex_follows_from_the_outside_and_not_from_the_winding() 
         let which: Vec<bool> = iron.triangles.iter().map(|_| random.number() < 0.5).collect();
         assert_eq!(turns(&turned(&iron, |face| which[face])), (17, 1), "round {round}");
     }
-    // A hollow of the same shape: what is convex outside is concave inside, whichever way either is wound.
+    // A hollow of the same shape: a convex outside is a concave inside, whichever way either is wound.
     for (outer, inner) in [(false, false), (false, true), (true, false), (true, true)] {
         let hollow = joined(&[turned(&iron, |_| outer), turned(&angle_iron(0.1), |_| inner)]);
         assert_eq!(turns(&hollow), (18, 18), "{outer} {inner}");

@@ -14,7 +14,7 @@ use tinta_lab::figures::{
 
 const SIZE: Size = Size { width: 48, height: 48 };
 
-/// Every figure of the texts, and what stands beside them.
+/// Every figure of the texts, and the additional ones.
 const IDS: [&str; 36] = [
     "evangelista-1",
     "evangelista-2",

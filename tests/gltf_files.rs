@@ -1,4 +1,4 @@
-//! glTF files written here, for the tests that read them.
+//! glTF files written here, for tests that read them.
 
 use base64::Engine;
 use glam::DVec3;

@@ -1,4 +1,5 @@
-//! Files made to harm: counts that lie, pictures that unfold, names that break lines, files that are none, faces without end.
+//! Files made to harm: false counts, pictures that decompress to huge sizes, names that break lines, invalid files, endless
+//! faces.
 
 use crate::cli::{Folder, tinta};
 use crate::support::root;
@@ -241,7 +242,7 @@ fn pipes_and_folders_are_refused_wherever_a_file_is_read_and_nobody_waits_for_th
     one_line(&String::from_utf8(output.stderr).unwrap(), &["the material file results.jsonl is missing"]);
 }
 
-/// Cuts faces of so many corners, of which every other lies so deep, into so many triangles.
+/// Cuts faces of so many corners, every other one recessed by such a depth, into so many triangles.
 fn check_many_corners(faces: &[(u32, f64, usize)]) {
     for &(corners, depth, made) in faces {
         let mut text = String::new();
@@ -252,12 +253,12 @@ fn check_many_corners(faces: &[(u32, f64, usize)]) {
         }
         text.push('f');
         (1..=corners).for_each(|i| text.push_str(&format!(" {i}")));
-        // One triangle more, so that something is left to draw.
+        // One triangle more, to leave one to draw.
         text.push_str("\nv 0 0 1\nv 1 0 1\nv 0 1 1\nf -3 -2 -1\n");
         let options = LoadOptions { weld: 0.0, ..LoadOptions::default() };
         let mesh = read_bytes(text.as_bytes(), "face.obj", &[], &options).unwrap().mesh;
         let lost = mesh.defects.degenerate_triangles;
-        // One that is too long is said as a whole.
+        // A face with too many corners is reported as a whole.
         let is_left_out = made == 0;
         assert_eq!(mesh.defects.long_polygons, usize::from(is_left_out), "{corners} {depth}");
         let whole = if is_left_out { 1 } else { corners as usize - 1 };
@@ -355,7 +356,7 @@ fn lines_of_a_hundred_megabytes_are_read() {
 
 #[test]
 fn numbers_that_many_names_are_looked_up_by_do_not_multiply() {
-    // 16,000 materials, each used 20 times, by names of which every other is in no file.
+    // 16,000 materials, each used 20 times; every other name is in no file.
     let materials: String = (0..16_000).map(|i| format!("newmtl m{i}\n")).collect();
     let uses: String = (0..320_000).map(|i| format!("usemtl m{}\nf 1 2 3\n", i % 32_000)).collect();
     let text = format!("{SQUARE}mtllib a.mtl\n{uses}f 1 3 4\n");

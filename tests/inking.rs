@@ -91,7 +91,7 @@ fn ink_paint_and_both_are_the_texts_three_options() {
     let ink = draw(&mut renderer, &scene, style(true, PaintMode::None), Show::Final);
     assert_eq!(draw(&mut renderer, &scene, style(true, PaintMode::Ramp), Show::Tones).difference(&paint), Some(EQUAL));
     assert_eq!(draw(&mut renderer, &scene, style(true, PaintMode::Ramp), Show::Borders).difference(&ink), Some(EQUAL));
-    // Where there is no ink both is the paint, and where ink covers a pixel wholly both is the ink.
+    // Without ink, `both` is the paint; where ink covers a pixel wholly, `both` is the ink.
     let triples = both.pixels.chunks_exact(4).zip(paint.pixels.chunks_exact(4)).zip(ink.pixels.chunks_exact(4));
     let (mut painted, mut inked) = (0, 0);
     for ((both, paint), ink) in triples {
@@ -314,7 +314,7 @@ fn the_open_box_of_figure_6_has_red_outer_and_blue_inner_lines() {
 
 #[test]
 fn the_plan_says_what_the_text_does() {
-    // Two sides are seen: two upright edges and two at the bottom separate them from what is not.
+    // Two sides are visible: two upright edges and two at the bottom separate them from the hidden ones.
     let scene = scene("builtin:open-box", 100, 100);
     let text = Style::Inking(Inking { paint: PaintMode::None, ..Inking::default() }).plan(&scene, Show::Final).unwrap();
     let expected = "\

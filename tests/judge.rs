@@ -46,7 +46,7 @@ fn the_exact_lines_are_right_and_what_is_done_to_them_shows_in_the_number_it_bel
     assert!(right.one_to_one.iter().all(|one| one.best_f1 > 0.98), "{:?}", right.one_to_one);
     assert!(right.hausdorff_95_px.unwrap() < 1.2 && right.hidden.drawn_px == 0.0);
 
-    // Moved by 3 px: nothing is where it should be within 1, and all of it within 4.
+    // Moved by 3 px: no line is within 1 of its place, and every line is within 4.
     let moved = picture(&within(&whole, "<g transform=\"translate(3 0)\">", "</g>"));
     let moved = judged(&moved, &reference, false);
     assert!(moved.lines.f1 < 0.85 && moved.one_to_one[0].f1 < 0.5, "{moved:?}");
@@ -202,7 +202,7 @@ fn a_camera_of_another_program_is_read_from_its_file() {
     assert!(right > 0.99 && judged(&[], 1) < 0.8, "from another camera it is not scored");
     for file in [&record, &matrix, &picture] {
         assert!((f1(&["--camera", file]) - right).abs() < 1e-6, "{file}");
-        // A drawing from it, in a look that has a view of its own.
+        // A drawing from it, in a look with another view.
         let again = folder.path("again.png");
         let words = ["render", "builtin:gear", "-o", &again, "--camera", file, "--size", "150x100", "--look", "print"];
         let output = tinta(&words);
@@ -323,7 +323,7 @@ fn a_shaded_picture_and_one_from_elsewhere_are_said_to_be_so_instead_of_scored()
     let shaded = drawn("shaded.png", &["--style", "phong"]);
     let elsewhere = drawn("elsewhere.png", &["--style", "lines", "--view", "140,-20"]);
     let right = drawn("right.png", &["--style", "lines"]);
-    // Another view's lines cross those of this one here and there, so that numbers without the doubt mislead.
+    // Another view's lines cross the lines of this one here and there: numbers without the doubt mislead.
     for (drawing, sentence) in [
         (&shaded, "shaded.png: this looks like a shaded picture, with "),
         (&elsewhere, "elsewhere.png: this looks like another camera or model, as lines and ink agree by "),

@@ -3,7 +3,7 @@
 use crate::support::root;
 use std::process::Command;
 
-/// The allowed licences, read from deny.toml so that there is one list.
+/// The allowed licences, read from deny.toml to keep a single list.
 fn allowed() -> Vec<String> {
     let text = std::fs::read_to_string(root().join("deny.toml")).unwrap();
     let list = text.split("allow = [").nth(1).and_then(|rest| rest.split(']').next()).unwrap();

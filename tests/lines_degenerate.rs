@@ -1,4 +1,4 @@
-//! Visible lines of scenes that are hardly any: no panic, no number that is none, no endless work.
+//! Visible lines of degenerate scenes: no panic, no NaN, no endless work.
 
 use crate::lines_support::{lines, lines_with, only, scene_of, total, view};
 use crate::shapes::{Random, cuboid, icosphere, joined, mesh};

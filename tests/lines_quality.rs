@@ -1,4 +1,4 @@
-//! What the defaults of drawings find of shapes of which it is known which edges a draughtsman draws: parts as from CAD.
+//! The drawings' default lines on shapes with a known draughtsman's answer: parts as from CAD.
 
 use crate::lines_support::{length, lines_with, scene_of, view};
 use crate::shapes::mesh;
@@ -108,7 +108,7 @@ fn solids() -> Vec<(String, Solid)> {
             vec![[-1.0, 1.0], [-1.0, 0.7], [-0.2, 0.7], [-0.2, -1.0], [0.2, -1.0], [0.2, 0.7], [1.0, 0.7], [1.0, 1.0]],
         ),
     ] {
-        // Capped towards its middle: moved so that all of it is seen from there.
+        // Capped towards its middle: moved to be wholly visible from there.
         let points: Vec<DVec2> = shape.into_iter().map(DVec2::from_array).collect();
         let middle = if name.starts_with("an") { DVec2::splat(0.2) } else { DVec2::new(0.0, 0.85) };
         let points: Vec<DVec2> = points.into_iter().map(|point| point - middle).collect();

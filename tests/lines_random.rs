@@ -18,7 +18,7 @@ fn placed(mesh: Mesh, random: &mut Random) -> Mesh {
 
 fn random_meshes(kind: u32, random: &mut Random) -> Vec<Mesh> {
     match kind {
-        // Triangles by themselves, of all sizes, every third a needle.
+        // Separate triangles of all sizes, every third a needle.
         0 => {
             let count = 10 + (random.number() * 70.0) as u32;
             let triangle = |number: u32| {

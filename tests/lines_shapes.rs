@@ -1,4 +1,4 @@
-//! Visible lines of shapes whose lines can be told by hand.
+//! Visible lines of shapes with lines known by hand.
 
 use crate::lines_support::{
     assert_near, length, lines, lines_with, of_class, only, px, px_between, scene_of, total, view,
@@ -164,7 +164,7 @@ fn a_box_half_through_a_box_is_cut_by_four_lines_in_the_place_where_it_enters() 
             assert!(sides.iter().any(lies_on), "{segment:?}");
             assert_near(segment.angle_degrees.unwrap(), 90.0, 1e-9, "angle");
         }
-        // The four edges along x are seen from where they come out, but for the one below and behind.
+        // The four edges along x are visible where they emerge, except the one below and behind.
         let along_x = [(low.y, low.z), (low.y, high.z), (high.y, high.z), (high.y, low.z)];
         let seen: f64 =
             along_x[1..].iter().map(|(y, z)| px_between(&scene, vec3(1.0, *y, *z), vec3(2.0, *y, *z))).sum();
@@ -193,8 +193,8 @@ fn the_rim_of_an_open_box_is_seen_from_above_and_its_floor_where_the_walls_let_i
     let sin = f64::to_radians(60.0).sin();
     assert_near(of_class(&found, Class::Boundary, true), unit * (2.0 + 2.0 * sin), NEAR, "rim");
     assert_near(of_class(&found, Class::Boundary, false), 0.0, NEAR, "hidden rim");
-    // The front wall hides what is on the floor as far back as cot 60 = 0.577: the rest of both sides is seen, exactly behind
-    // the side walls' rims and thus hidden; the back edge of the floor is seen between, and both back uprights are behind rims.
+    // The front wall hides the floor as far back as cot 60 = 0.577. The rest of both sides is in view, exactly behind the side
+    // walls' rims and thus hidden; the back edge of the floor is visible between, and both back uprights are behind rims.
     let floor_back: f64 = found.segments.iter().filter(|s| s.edge == Some([0, 1]) && s.is_visible).map(length).sum();
     assert_near(floor_back, unit, NEAR, "the floor's back edge");
     let front_bottom: f64 = found.segments.iter().filter(|s| s.edge == Some([4, 5]) && s.is_visible).map(length).sum();

@@ -1,4 +1,4 @@
-//! What is left out of a drawing for being too short, on hand-made lines and on models: never what closes an outline.
+//! Lines that are too short to draw, on hand-made lines and on models: never a line that closes an outline.
 
 use crate::lines_support::{length, lines_with, scene_of, view};
 use crate::shapes::icosphere;

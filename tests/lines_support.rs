@@ -1,4 +1,4 @@
-//! What the tests of the visible lines share: scenes of meshes, projections of their own, sums of lengths.
+//! Shared parts of the tests of visible lines: scenes of meshes, separate projections, sums of lengths.
 
 use crate::shapes::Random;
 use glam::{DVec2, DVec3};
@@ -94,7 +94,7 @@ pub fn total(lines: &VisibleLines, is_visible: bool) -> f64 {
     lines.segments.iter().filter(|segment| segment.is_visible == is_visible).map(length).sum()
 }
 
-/// Asserts that two lengths or places are the same but for rounding.
+/// Asserts that two lengths or places are the same up to rounding.
 #[track_caller]
 pub fn assert_near(actual: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((actual - expected).abs() <= tolerance, "{what}: {actual} px instead of {expected}");

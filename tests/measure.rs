@@ -1,4 +1,4 @@
-//! What the numbers of a measured row say: on pictures made up so that the answer is known, and against a recount.
+//! The numbers of a measured row: on made-up pictures with a known answer, and against a recount.
 
 use crate::support::{BACKENDS, renderer, scene_with};
 use glam::DVec2;

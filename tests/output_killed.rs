@@ -1,5 +1,5 @@
-//! The program killed half way, and its folder taken away: what is left is whole. Killed by what it is seen to have done,
-//! never by the clock; what is asserted holds for any moment.
+//! The program killed half way, and its folder taken away: the remaining files are whole. The tests kill after an observed event,
+//! never by the clock; the assertions hold for any moment.
 
 #![cfg(target_os = "linux")]
 
@@ -49,7 +49,7 @@ fn killed_at(file: &str, options: &[&str], eighths: &[u64], looks: &[usize]) {
     let path = place.join(file);
     let mut arguments = vec!["render", "builtin:ant", "-o", path.to_str().unwrap()];
     arguments.extend(options);
-    // Once undisturbed: what it writes and how long it works.
+    // Once undisturbed: its output and its run time.
     let mut child = start(&arguments);
     let mut whole = 0;
     while state(&child).0 != 'Z' {

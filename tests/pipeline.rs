@@ -38,7 +38,7 @@ fn both_backends_of_one_driver_draw_the_same_bytes() {
     }
 }
 
-/// Settings that select the shaders with uniforms but mean what the listing means.
+/// Settings that select the shaders with uniforms but give the listing's picture.
 fn as_published_but_by_settings() -> Cartoon {
     // The next number after 0.65: no specular value a picture shows lies between the two.
     let tones = Tones { specular_threshold: 0.65f32.next_up(), ..Tones::default() };
@@ -227,7 +227,7 @@ fn auto_draws_whatever_another_context_can_and_smaller_pictures_as_before() {
         assert_eq!(auto.render(&small, &style).unwrap(), before);
         assert_eq!(auto.context(), &first);
     }
-    // What is drawn larger than the picture counts as large as it is drawn.
+    // Supersampled pictures count at the larger size.
     let quarter = scene("builtin:gear", limits[0] / 4 + 1, 16);
     let sampled = Style::ThreePass(Cartoon { supersample: Supersample::Four, ..Cartoon::default() });
     assert_eq!(auto.render(&quarter, &sampled).unwrap(), osmesa.render(&quarter, &sampled).unwrap());

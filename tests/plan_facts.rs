@@ -93,9 +93,9 @@ fn whatever_shader_is_replaced_the_short_plan_draws_what_the_full_one_does() {
             ..replaced("evangelista/toon.vert", &scaled("evangelista/toon.vert", "0.2"), three)
         },
         replaced("improved/plane-ink.frag", ALL_INK, Style::Ink(Ink::default())),
-        // A part of the shorter program only: the longer one is as it was.
+        // A part of the shorter program only: the longer one is unchanged.
         replaced("improved/tone-one.frag", dark, Style::ThreePass(one_tone)),
-        // Through holes one sees what was cleared.
+        // The cleared colour shows through holes.
         replaced("valente/paper.frag", holed, Style::Charcoal(Charcoal::default())),
     ];
     let mut renderer = renderer(BACKENDS[0]);
@@ -120,7 +120,7 @@ fn whatever_shader_is_replaced_the_short_plan_draws_what_the_full_one_does() {
     }
 }
 
-/// The same plan by copies of its shaders under names of one's own, and their texts.
+/// The same plan with copies of its shaders under new names, and their texts.
 fn as_ones_own(mut plan: Plan) -> (Plan, HashMap<String, String>) {
     let mut texts = HashMap::new();
     let mut own = |path: &mut &'static str| {
@@ -170,7 +170,7 @@ fn a_style_of_ones_own_that_states_facts_is_pruned_like_the_built_in_ones() {
             assert_eq!(own_short.plan.to_string().replace("own/", ""), short.plan.to_string());
             assert!(renderer.draw(&scene, &own_short.plan).unwrap() == picture, "{own}");
             seen.extend(left_out(&own_short).iter().map(|rule| rule.name()));
-            // What is not stated is not assumed.
+            // Facts that are not stated are not assumed.
             let mut silent = own.clone();
             draws_mut(&mut silent).for_each(|draw| draw.facts = Facts::default());
             let silent = prune(&silent, &scene, &pruning);

@@ -14,7 +14,7 @@ fn made(arguments: &[&str]) -> Vec<u8> {
     output.stdout
 }
 
-/// A picture on standard output, without a recipe, so that equal pictures are equal bytes.
+/// A picture on standard output, without a recipe: equal pictures are equal bytes.
 fn picture(model: &str, options: &[&str]) -> Vec<u8> {
     made(&[&["render", model, "-o", "-", "--size", "80x60", "--no-recipe"], options].concat())
 }
@@ -46,7 +46,7 @@ fn each_papers_preset_draws_what_its_style_draws_by_default() {
         let options = Preset::parse(name, text).unwrap().options;
         let OptionValue::Text(style) = &options["style"] else { panic!("{name}") };
         let by_preset = picture(&model, &["--preset", name]);
-        // How models are read is no setting of a style: what the preset says of it is given beside the style.
+        // The settings for reading models belong to no style: the preset's are given beside the style.
         let mut by_hand = vec!["--style".to_owned(), style.clone()];
         let of_models = options.iter().filter(|(option, _)| LoadOptions::table().has(option));
         by_hand.extend(of_models.flat_map(|(option, value)| option_words(option, value)));
@@ -73,7 +73,7 @@ fn dachsbachers_preset_reads_models_by_his_rule_for_normals() {
     ]
     .map(|options| picture("builtin:gear", options));
     assert!(preset == by_hand && preset != style);
-    // What the command line says counts more, as of any option.
+    // The command line overrides it, like any option.
     assert!(picture("builtin:gear", &["--preset", "paper:dachsbacher-inking", "--normals", "file"]) == style);
 }
 

@@ -1,4 +1,4 @@
-//! Leaving out what a scene does not need: each rule where it applies and where it must not, and pictures byte for byte.
+//! Pruning: each rule where it applies and where it must not, and pictures byte for byte.
 
 use crate::support::{BACKENDS, renderer, scene, scene_with};
 use glam::DVec3;
@@ -47,7 +47,7 @@ fn draws(plan: &Plan) -> impl Iterator<Item = &Draw> {
     plan.steps().filter_map(|(_, step)| if let Step::Draw(draw) = step { Some(draw) } else { None })
 }
 
-/// A scene looked at from the side, so that most of its copies are outside the picture.
+/// A scene seen from the side, with most of its copies outside the picture.
 pub fn beside(model: &str) -> Scene {
     let mesh = Arc::new(load(model, &LoadOptions::default()).unwrap().mesh);
     let mut scene = Scene::new(

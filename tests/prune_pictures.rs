@@ -20,7 +20,7 @@ impl Dice {
     }
 }
 
-/// The scene from a view of its own: any direction, sometimes from nearer or looking past it, sometimes in parallel.
+/// The scene from a random view: any direction, sometimes from nearer or looking past it, sometimes in parallel.
 fn random_view(scene: &Scene, dice: &mut Dice) -> Scene {
     let view =
         View { azimuth_degrees: dice.roll() * 360.0, elevation_degrees: (dice.roll() * 2.0 - 1.0).asin().to_degrees() };

@@ -1,4 +1,4 @@
-//! Reports on made-up rows: what is written is read back, nothing is lost by an interruption, plots hold their points.
+//! Reports on made-up rows: written rows are read back, an interruption loses none, plots hold their points.
 
 use image::{ImageFormat, Rgb, RgbImage};
 use roxmltree::Document;
@@ -117,7 +117,7 @@ pub fn made_up_rows(machine: &str, slowness: f64) -> Vec<Row> {
     rows
 }
 
-/// What a made-up run says of itself.
+/// The description of a made-up run.
 pub fn info() -> ReportInfo {
     let png = |color: [u8; 3]| {
         let mut png = Cursor::new(Vec::new());

@@ -1,4 +1,4 @@
-//! Standard output that is full or closed: what should have gone there is not lost without a word.
+//! Full or closed standard output: the loss of output is reported.
 
 #![cfg(target_os = "linux")]
 
@@ -44,7 +44,7 @@ fn a_result_for_closed_standard_output_is_refused_before_the_work() {
         Command::new("sh").args(["-c", script, "sh", program]).current_dir(root()).output().unwrap()
     };
     for arguments in [
-        // A model that is not there would be noticed later.
+        // A missing model would be noticed later.
         "render no-such.obj -o -",
         "render no-such.obj --style lines -o -",
         "compare no-such.obj -o -",

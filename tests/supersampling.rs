@@ -1,4 +1,4 @@
-//! Drawing larger and shrinking: the mean of the large picture, with lines and grain as wide as they were asked for.
+//! Drawing larger and shrinking: the mean of the large picture, with the requested width of lines and grain.
 
 use crate::support::{BACKENDS, ball, renderer, scene};
 use tinta::styles::{Cartoon, Charcoal, Dietrich, Improvements, Ink, Inking, LineWidth, Noise, Phong, Supersample};

@@ -47,7 +47,7 @@ fn a_colour_at_all_vertices_is_multiplied_with_the_shading() {
             for (found, expected) in colored.into_iter().zip(expected) {
                 assert!((f64::from(found) - expected).abs() <= 1.0, "{name:?}: {colored:?} of {shading:?}");
             }
-            // Left out where nobody asks for them.
+            // Left out by default.
             assert_eq!(drawn(&[[1.0, 0.5, 0.0]; 4], Surface::Plain), shading, "{name:?}");
         }
     }

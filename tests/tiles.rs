@@ -15,7 +15,7 @@ fn in_tiles(renderer: &mut Renderer, side: u32, scene: &Scene, style: &Style) ->
     picture
 }
 
-/// Every style, and what else is drawn by a way of its own.
+/// Every style, and the other separate ways to draw.
 fn all() -> Vec<(&'static str, Style)> {
     let mut all = styles();
     let three_pass = |supersample| Style::ThreePass(Cartoon { supersample, ..Cartoon::default() });
@@ -125,7 +125,7 @@ fn steps_and_times_of_a_picture_in_tiles_are_those_of_all_tiles() {
 fn a_picture_wider_than_any_viewport_is_drawn_where_it_belongs() {
     let mut renderer = renderer(BACKENDS[0]);
     let widest = renderer.context().largest_viewport.width;
-    // As wide again as a tenth, so that no tile sees both ends in its viewport.
+    // A tenth wider than the widest: no tile sees both ends in its viewport.
     let width = widest / 10 * 11 / 16 * 16;
     let styles = [
         Style::named(StyleName::Ink),

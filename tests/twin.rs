@@ -79,7 +79,7 @@ fn every_filter_and_both_styles_agree_with_the_twin_within_one_step_of_255_every
                     let (three, two) = (Style::ThreePass(cartoon.clone()), Style::TwoPass(cartoon));
                     let (map, tones) = (show(&three, Show::Map), show(&three, Show::Tones));
                     let mut pictures = vec![("three-pass", show(&three, Show::Final))];
-                    // What is blended in two programs is no single one.
+                    // A filter blended in two programs is no single one.
                     if filter != Filter::MitchellTwo {
                         pictures.push(("two-pass", show(&two, Show::Final)));
                     }
@@ -173,7 +173,7 @@ fn the_gaussian_weighs_its_centre_as_the_papers_filter_does_and_nothing_in_all()
     let answer = |at| response(&with(Filter::Gaussian), point(at));
     assert!((answer((0, 0)) - 4.0).abs() < 1e-12);
     assert!((answer((0, 1)) - 2.0 / 3.0).abs() < 1e-12 && (answer((1, 1)) - 1.0 / 3.0).abs() < 1e-12);
-    // What beside and corners take away is what the centre gives.
+    // The centre's weight balances those beside it and of the corners.
     assert!((4.0 * answer((1, 0)) + 4.0 * answer((1, 1)) - answer((0, 0))).abs() < 1e-12);
 }
 

@@ -24,14 +24,14 @@ impl Curve {
         [(y - slope * x) / w, slope]
     }
 
-    /// By which share of itself the worst time misses that line.
+    /// The worst relative deviation from that line.
     pub fn worst_miss(&self) -> f64 {
         let [start, slope] = self.line();
         self.points.iter().map(|(size, ms)| ((start + slope * size) / ms - 1.0).abs()).fold(0.0, f64::max)
     }
 }
 
-/// Draws the curves to an SVG file, under these words: a title, what the sizes are, and what the times.
+/// Draws the curves to an SVG file, under these words: a title, the axis of sizes, and the axis of times.
 pub fn plot(curves: &[Curve], [title, sizes, times]: [&str; 3], path: &Path) -> Result<(), Box<dyn std::error::Error>> {
     // Twice as many curves have them once more, thinner.
     const COLORS: [RGBColor; 7] = [

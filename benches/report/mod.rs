@@ -1,4 +1,4 @@
-//! What the benchmarks share: a contestant's times, tables of medians, the record of all raw values.
+//! Shared parts of the benchmarks: a contestant's times, tables of medians, the record of all raw values.
 
 use serde_json::{Value, json};
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! An allocator that counts, so that an input which takes more memory than it is worth counts as a crash.
+//! A counting allocator: an input that takes too much memory for its size counts as a crash.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 static NOW: AtomicUsize = AtomicUsize::new(0);
 static PEAK: AtomicUsize = AtomicUsize::new(0);
 
-/// The system's allocator with a count of what is taken and of the most there was.
+/// The system's allocator, which counts the current and the largest use of memory.
 pub struct Counting;
 
 fn add(bytes: usize) {
@@ -54,7 +54,7 @@ pub fn within(most: usize, read: impl FnOnce()) {
     assert!(peak <= most, "{peak} bytes were taken, more than {most}");
 }
 
-/// What the smallest model may take: mostly the buffers of threads and parsers.
+/// Memory of the smallest model: mostly the buffers of threads and parsers.
 const SLACK_BYTES: usize = 1 << 20;
 
 /// Most memory for a model, or anything else that is not a picture: 20 times the file.
@@ -62,8 +62,8 @@ pub fn of_model(bytes: &[u8]) -> usize {
     bytes.len() * tinta::limits::MEMORY_FACTOR + SLACK_BYTES
 }
 
-/// Most memory for what may be glTF, whose nodes show one mesh many times and whose accessors may be zeros without any bytes: what
-/// docs/dev/limits.md allows besides is used up rightly.
+/// Most memory for a possible glTF file, whose nodes may show one mesh many times and whose accessors may be zeros without any
+/// bytes: the additional memory that docs/dev/limits.md allows is legitimate.
 pub fn of_gltf(bytes: &[u8]) -> usize {
     match bytes.contains(&b'{') {
         true => bytes.len() * tinta::limits::MEMORY_FACTOR + tinta::limits::MEMORY_SLACK_BYTES,
@@ -71,7 +71,7 @@ pub fn of_gltf(bytes: &[u8]) -> usize {
     }
 }
 
-/// Most memory for a list of jobs: a line of 27 bytes may be one, with its name, content and hash in texts of their own.
+/// Most memory for a list of jobs: a line of 27 bytes may be a job, with separate strings for its name, content and hash.
 pub fn of_list(bytes: &[u8]) -> usize {
     64 * bytes.len() + SLACK_BYTES
 }

@@ -1,8 +1,8 @@
 //! What every reader must do with any bytes at all: read them or refuse them in one sentence, without a panic, without
 //! numbers that are not finite, in bounded memory.
 //!
-//! One function a reader, for the fuzz targets beside this file and for `tests/corpus.rs`, which runs every file of the
-//! corpus through the same function with an ordinary compiler.
+//! One function per reader, for the fuzz targets beside this file and for `tests/corpus.rs`, which runs every file of the corpus
+//! through the same function with an ordinary compiler.
 
 use tinta::batch::{Entries, Job, List, Slice, Summary, place_in};
 use tinta::mesh::{LoadOptions, Loaded, VertexArrays, read_bytes};
@@ -65,9 +65,9 @@ fn model_of(bytes: &[u8], materials: &[u8], name: &str) {
     check_model(read_bytes(bytes, name, &[("fuzz.mtl", materials)], &LoadOptions::default()));
 }
 
-/// A model is sound down to what is drawn of it, and says what was wrong with it in single lines.
+/// A model is sound down to its drawing, and reports its faults in single lines.
 fn check_model(loaded: Result<Loaded>) {
-    /// Larger meshes are not made into scenes: the reader is what is tried.
+    /// Larger meshes are not made into scenes: the reader is under test.
     const TRIANGLES: usize = 2000;
     let loaded = match loaded {
         Ok(loaded) => loaded,
@@ -143,7 +143,7 @@ pub fn rows(bytes: &[u8]) {
     }
 }
 
-/// A list of jobs, and what is written down of them: a job's own text is the same job, and its outputs lie in the folder.
+/// A list of jobs, and its journal: a job's own text gives the same job, and its outputs lie in the folder.
 pub fn batch(bytes: &[u8]) {
     let folder = std::path::Path::new("out");
     match List::of_bytes(bytes.to_vec(), "jobs.jsonl") {
@@ -186,7 +186,7 @@ pub fn preset(bytes: &[u8]) {
     }
 }
 
-/// A picture with a recipe, PNG or SVG: its command line has no end of its own making, and says it again.
+/// A picture with a recipe, PNG or SVG: its command line stays finite and gives the same recipe.
 pub fn recipe(bytes: &[u8]) {
     match Recipe::of_bytes(bytes, "fuzz.png") {
         Ok(recipe) => {
@@ -197,7 +197,7 @@ pub fn recipe(bytes: &[u8]) {
     }
 }
 
-/// One sentence that names the file and is not without end. What breaks lines is escaped where it is said.
+/// One sentence of limited length that names the file. Characters that break lines are escaped.
 fn check_sentence(sentence: &str) {
     assert!(sentence.len() > 8 && sentence.len() < 2000, "{} bytes: {sentence:.500}", sentence.len());
 }

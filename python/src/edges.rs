@@ -11,7 +11,7 @@ use tinta::glam::DVec3;
 use tinta::settings::HasSettings;
 use tinta::{EdgeList, LineSettings, Mesh as TintaMesh, SceneSettings};
 
-/// What is found of the edges: a row each.
+/// The edges found, one row each.
 struct Rows {
     vertices: Vec<[u32; 2]>,
     codes: Vec<u8>,

@@ -14,7 +14,7 @@ use tinta::lines::{GHOST_OPACITY, LineSegment, Progress, drawn_layers, pdf, svg}
 use tinta::record::lines_json;
 use tinta::{DrawingSettings, Recipe, Request, Result, Scene, VisibleLines};
 
-/// The lines of a scene, as they were found.
+/// The lines found in a scene.
 #[pyclass(frozen, module = "tinta_npr._native")]
 pub(crate) struct Lines {
     lines: Arc<VisibleLines>,
@@ -71,7 +71,7 @@ impl Lines {
         let mut request = before.clone();
         request.tells_hidden = true;
         let all = done(py, || (), move || found(lines, &scene, &before, &request))?;
-        // Another thread may have been here first: then both keep what they found.
+        // Another thread may have been here first: then both keep its result.
         Ok(self.all.get_or_init(|| all).clone())
     }
 

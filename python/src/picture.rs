@@ -18,7 +18,7 @@ use tinta::settings::Options;
 use tinta::styles::is_ignored;
 use tinta::{Error, ParseError, Recipe, Size, Target, TextTarget};
 
-/// A picture as it was drawn: its pixels, handed over once, and the recipe that its PNG file carries.
+/// A drawn picture: its pixels, handed over once, and the recipe in its PNG file.
 #[pyclass(frozen, module = "tinta_npr._native")]
 pub(crate) struct Picture {
     #[pyo3(get)]
@@ -103,7 +103,7 @@ pub(crate) fn save(
     done(py, || (), move || Target::of_file(&path, is_transparent)?.write_with(&picture, note.as_ref()))
 }
 
-/// Writes a file whole, or leaves what was there as it was.
+/// Writes a file whole, or leaves the old file unchanged.
 #[pyfunction]
 pub(crate) fn write(py: Python<'_>, path: String, content: Vec<u8>) -> PyResult<()> {
     done(py, || (), move || TextTarget::check(&path)?.write_bytes(&content))

@@ -1,5 +1,5 @@
-//! The thread that draws: OpenGL's contexts belong to the thread that opened them, and Python's threads come and go. One thread
-//! keeps the contexts, their programs and what they hold of meshes, and draws for all others, one picture after another.
+//! The drawing thread: OpenGL's contexts belong to the thread that opened them, and Python's threads come and go. One thread
+//! keeps the contexts, their programs and their mesh data, and draws for all others, one picture after another.
 
 use crate::errors::raised;
 use crate::work::wait;
@@ -40,7 +40,7 @@ impl Studio {
     }
 }
 
-/// Draws with this way to OpenGL and returns what comes of it; given up as [`crate::work::done`] does.
+/// Draws with this backend and returns the result; cancelled as [`crate::work::done`] is.
 pub(crate) fn drawn<T: Send + 'static>(
     py: Python<'_>,
     backend: Backend,
@@ -57,7 +57,7 @@ pub(crate) fn drawn<T: Send + 'static>(
         if matches!(result, Err(Error::ContextLost { .. })) {
             renderers.clear();
         }
-        // Nobody may wait any more.
+        // The caller may have stopped waiting.
         drop(sender.send(result));
     });
     submit(job)?;

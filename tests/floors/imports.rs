@@ -1,8 +1,8 @@
 //! Which files of a crate use which, by the crate's texts alone: imports and paths, resolved to the file that defines each name.
 //!
-//! In: a crate's texts. Out: for each file the files it uses, with the names. Re-exports are followed, so that a file which only
-//! declares and re-exports its children uses none of them. Comments, literals and tests do not count. Names of standard or foreign
-//! crates, and those made by macros of other files, have no file here and are left out.
+//! Takes a crate's texts and returns, for each file, the files it uses, with the names. Re-exports are followed: a file that only
+//! declares and re-exports its children uses none of them. Comments, literals and tests do not count. Names of standard or
+//! foreign crates, and those made by macros of other files, have no file here and are left out.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,7 +26,7 @@ pub fn uses(read: &dyn Fn(&str) -> Option<String>) -> (Uses, usize) {
     (uses, count)
 }
 
-/// The circles in which files use one another, each by its files.
+/// The circles of files that use one another, each by its files.
 pub fn circles(uses: &Uses) -> Vec<Vec<String>> {
     let reached = |from: &str| {
         let (mut reached, mut waiting) = (BTreeSet::new(), vec![from.to_owned()]);
@@ -54,7 +54,7 @@ pub fn circles(uses: &Uses) -> Vec<Vec<String>> {
 /// A name that a module takes over from elsewhere.
 struct Import {
     path: Vec<String>,
-    /// What it is called here; `*` for all names of a module.
+    /// The imported name; `*` for all names of a module.
     name: String,
     is_public: bool,
     /// Whether it holds for the whole module, not for one function.
@@ -135,7 +135,7 @@ impl Modules {
         used
     }
 
-    /// The module in which a path ends, and the name that it defines; without one where the path is of the module itself.
+    /// The module at the end of a path, and the name that it defines; no name if the path is the module itself.
     fn resolve(
         &self,
         from: usize,
@@ -296,7 +296,7 @@ fn parsed(tokens: &[String]) -> (Module, Vec<String>) {
     (module, declared)
 }
 
-/// Whether an attribute, from the bracket on, is that of tests.
+/// Whether an attribute, starting at its bracket, marks tests.
 fn is_of_tests(attribute: &[String]) -> bool {
     let begins = |with: &[&str]| attribute.iter().zip(with).filter(|(a, b)| a == *b).count() == with.len();
     begins(&["cfg", "(", "test"]) || begins(&["cfg", "(", "all", "(", "test"])

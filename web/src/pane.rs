@@ -1,4 +1,4 @@
-//! What the page draws with: a canvas's renderer, a scene, and from where it is seen.
+//! The page's drawing parts: a canvas's renderer, a scene, and its view.
 
 use crate::errors::{said, unreadable};
 use crate::model::{Model, asked};
@@ -43,7 +43,7 @@ impl Pane {
         json!(self.renderer.context()).to_string()
     }
 
-    /// Shows this model from now on.
+    /// Shows this model.
     ///
     /// # Errors
     ///
@@ -76,7 +76,7 @@ impl Pane {
     ///
     /// # Errors
     ///
-    /// Where nothing was drawn yet.
+    /// Before the first drawing.
     pub fn png(&self, options: &str, model: &Model) -> Result<Vec<u8>, JsError> {
         let picture = self.drawn.as_ref().ok_or_else(|| JsError::new("nothing was drawn yet"))?;
         let driver = Driver::new(self.renderer.context());
@@ -132,7 +132,7 @@ impl Pane {
         format!("{},{}", words.join(","), if *parallel { "parallel" } else { "perspective" })
     }
 
-    /// Sees the scene from where a link says; what it says wrongly is left as it is.
+    /// Sets the view from a link; invalid parts change nothing.
     #[wasm_bindgen(js_name = setOrbit)]
     pub fn set_orbit(&mut self, words: &str) {
         let numbers: Vec<f64> = words.split(',').map_while(|word| word.parse().ok()).collect();
