@@ -37,7 +37,7 @@ pub struct InkMask {
 }
 
 impl InkMask {
-    /// Pixels at least a quarter covered by ink, so that faint lines count too: on white by how far the pixel is from white
+    /// Pixels covered by at least a quarter of ink, to include faint lines: on white by the pixel's largest difference from white
     /// in any channel, on a transparent ground by its alpha.
     pub fn of(lines: &Picture) -> Self {
         let is_transparent = lines.pixels.chunks_exact(4).any(|pixel| pixel[3] < u8::MAX);
@@ -48,12 +48,12 @@ impl InkMask {
         Self { size: lines.size, ink: lines.pixels.chunks_exact(4).map(is_ink).collect() }
     }
 
-    /// A mask of these pixels' darkness, of 255, row by row from the top: ink from a quarter on.
+    /// A mask of these pixels' darkness, of 255, row by row from the top: ink is at least a quarter dark.
     pub fn of_darkness(size: Size, darkness: &[u8]) -> Self {
         Self::of_darkness_from(size, darkness, INK_FROM)
     }
 
-    /// The same, ink from another darkness on.
+    /// The same, with another least darkness of ink.
     pub fn of_darkness_from(size: Size, darkness: &[u8], from: u8) -> Self {
         Self { size, ink: darkness.iter().map(|darkness| *darkness >= from).collect() }
     }
@@ -75,7 +75,7 @@ impl InkMask {
         self
     }
 
-    /// The pixels in which points lie, given from the upper left corner, y down; those outside the picture are left out.
+    /// The pixels that contain points, given from the upper left corner, y down; points outside the picture are left out.
     pub fn of_points(size: Size, points: impl Iterator<Item = DVec2>) -> Self {
         let mut ink = vec![false; size.pixel_count()];
         for point in points {
@@ -128,7 +128,7 @@ impl InkMask {
 /// Who drew a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Drawn {
-    /// Nobody.
+    /// Neither of them.
     Neither,
     /// One has ink here, the other within the tolerance.
     Both,
@@ -211,7 +211,7 @@ impl Agreement {
     }
 }
 
-/// Ink that both drew: dark grey. The three are told apart by colour-blind eyes too (Okabe and Ito).
+/// Ink of both drawings: dark grey. Colour-blind eyes can distinguish the three colours (Okabe and Ito).
 pub const BOTH_COLOR: [u8; 3] = [60, 60, 60];
 /// Ink that only the left drawing has: vermilion.
 pub const LEFT_COLOR: [u8; 3] = [213, 94, 0];

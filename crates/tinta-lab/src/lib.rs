@@ -1,4 +1,4 @@
-//! The laboratory of tinta: what a drawing is worth. It lies above the library `tinta`, which draws.
+//! The laboratory of tinta, which measures the quality of drawings. It lies above the library `tinta`, which draws.
 //!
 //! | for | see |
 //! |---|---|

@@ -41,7 +41,7 @@ use tinta::output::Staged;
 
 /// All rows with all their columns but the times of single frames, which `results.jsonl` has.
 ///
-/// The first line names the columns of [`columns`], in their order; what a style does not have is empty.
+/// The first line names the columns of [`columns`], in their order; values that a style lacks are empty.
 pub fn csv(rows: &[Row]) -> String {
     let columns = columns();
     let mut writer = csv::Writer::from_writer(Vec::new());
@@ -60,7 +60,7 @@ pub fn csv(rows: &[Row]) -> String {
     writer.into_inner().map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
 }
 
-/// A row with its columns by their names: numbers, texts, and `null` for what a style does not have.
+/// A row with its columns by their names: numbers, texts, and `null` for values that a style lacks.
 pub fn record(row: &Row) -> Vec<(String, serde_json::Value)> {
     let cell = |value: Value| match value {
         Value::Text(text) => text.into(),

@@ -104,7 +104,7 @@ impl HasSettings for CompareSettings {
     }
 }
 
-/// What a comparison of two styles has: no lines, no animation.
+/// The settings of a comparison of two styles: neither lines nor animation.
 struct OfComparison;
 
 impl Selection for OfComparison {
@@ -161,7 +161,7 @@ struct DrawingRecord {
     style: Style,
     /// Making the first plan: edge list, classes and planes included, where the style needs them.
     plan_ms: f64,
-    /// The frames after warm-up, each with a plan of its own, read-back included, milliseconds.
+    /// The frames after warm-up, each including its plan and reading back, milliseconds.
     frame_ms: Summary,
 }
 

@@ -39,11 +39,11 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "MODEL")]
     model: String,
 
-    /// Size in which an SVG is drawn, in pixels [default: its own]
+    /// Size of an SVG's picture, in pixels [default: its own]
     #[arg(long, value_name = "WxH")]
     size: Option<Size>,
 
-    /// What is ink: dark (on white), light (on black), alpha, or the colour of the lines [default: dark]
+    /// Which pixels are ink: dark (on white), light (on black), alpha, or the colour of the lines [default: dark]
     #[arg(long, value_name = "INK", default_value = "dark", hide_default_value = true)]
     ink: InkColor,
 
@@ -51,11 +51,11 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "PIXELS", default_value = "2", hide_default_value = true, allow_hyphen_values = true)]
     tolerance: f64,
 
-    /// Look for a shift of up to 5 % of the diagonal, a scale of up to 1.1 and a mirror image first, and say what was found [default: off]
+    /// Look for a shift of up to 5 % of the diagonal, a scale of up to 1.1 and a mirror image first, and print the result [default: off]
     #[arg(long)]
     fit: bool,
 
-    /// Folder for results.jsonl, to which rows are added, plots, pictures of the errors and report.html [default: none]
+    /// Folder for results.jsonl (rows are added), plots, pictures of the errors and report.html [default: none]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 
@@ -85,7 +85,7 @@ pub(super) struct Arguments {
     subject: Chosen<OfSubject>,
 }
 
-/// What the exact lines are asked, as `tinta measure` asks it.
+/// The settings of the exact lines, as in `tinta measure`.
 struct OfReference;
 
 impl Selection for OfReference {
@@ -96,7 +96,7 @@ impl Selection for OfReference {
     }
 }
 
-/// What is printed of a drawing with `--json`.
+/// The record printed with `--json`.
 #[derive(Serialize)]
 struct Record<'a> {
     version: &'static str,
@@ -244,7 +244,7 @@ fn largest_shift_px(scene: &Scene, other: &Camera) -> f64 {
     shifts.fold(0.0, f64::max)
 }
 
-/// What the drawings are called, once what is said of each is known to be for as many.
+/// The drawings' names, after checking that each list of values has one for each drawing.
 fn names(arguments: &Arguments) -> Result<Vec<String>> {
     let count = arguments.drawings.len();
     let check = |option: &str, given: usize| match given {

@@ -1,4 +1,4 @@
-//! What a shell is offered for the options of all commands.
+//! A shell's suggestions for the options of all commands.
 
 use super::{program, stress};
 use clap::Command;

@@ -1,9 +1,9 @@
 //! The pictures of docs/guide/options.md: the command below each heading draws them again, without the option of the heading and
 //! with it, side by side.
 //!
-//! `TINTA_UPDATE_PICTURES=1 cargo test -p tinta-lab --all-features option_pictures` writes them anew and then fails, so that nobody does so
-//! unnoticed; an option's name instead of 1 writes that one. All are drawn in one process by one context, which is what makes it cheap; the words are parsed, the models
-//! read and the plans made by the program's own functions.
+//! `TINTA_UPDATE_PICTURES=1 cargo test -p tinta-lab --all-features option_pictures` writes them anew and then fails, to make
+//! every update deliberate; an option's name instead of 1 writes that one. One process and one context draw all of them, which
+//! makes it cheap; the program's own functions parse the words, read the models and make the plans.
 
 use super::program;
 use std::collections::BTreeSet;
@@ -30,7 +30,7 @@ const MOST_BYTES: u64 = 1536 * 1024;
 /// Width of the line between both halves, pixels.
 const GAP: u32 = 4;
 
-/// Colours of the squares behind what is transparent.
+/// Colours of the squares behind transparent pixels.
 const CHECKS: [u8; 2] = [235, 205];
 
 /// Commands whose options draw something.
@@ -44,7 +44,7 @@ fn page() -> String {
     std::fs::read_to_string(root().join("docs/guide/options.md")).unwrap()
 }
 
-/// A heading of the page with what stands below it.
+/// A heading of the page with the text below it.
 struct Section {
     /// Without its dashes.
     option: String,
@@ -86,7 +86,7 @@ fn without(section: &Section) -> Vec<String> {
     words
 }
 
-/// What the command draws.
+/// Returns the command's picture.
 fn drawn(renderer: &mut Renderer, words: &[String]) -> Picture {
     let refuse = |error: &dyn std::fmt::Display| -> ! { panic!("{}: {error}", words.join(" ")) };
     let folder = tempfile::tempdir().unwrap();
@@ -129,7 +129,7 @@ fn rasterized(svg: &str, size: Size) -> Picture {
     Picture { size, pixels: map.data().to_vec() }
 }
 
-/// Four pictures in a square of half their size each; one as it is.
+/// Four pictures in a square of half their size each; a single one unchanged.
 fn tiled(mut pictures: Vec<Picture>) -> Picture {
     if pictures.len() == 1 {
         return pictures.remove(0);
@@ -151,7 +151,7 @@ fn tiled(mut pictures: Vec<Picture>) -> Picture {
     Picture { size, pixels }
 }
 
-/// Squares of two greys where nothing is drawn.
+/// Squares of two greys behind transparent pixels.
 fn opaque(mut picture: Picture) -> Picture {
     let width = picture.size.width as usize;
     for (number, pixel) in picture.pixels.chunks_exact_mut(4).enumerate() {
@@ -313,7 +313,7 @@ fn a_picture_of_fewer_colours_is_the_picture_within_the_tolerance_and_another_is
     let read = Picture::read_png(&path).unwrap();
     let colors: BTreeSet<&[u8]> = read.pixels.chunks_exact(4).collect();
     assert!(colors.len() <= 256, "{}", colors.len());
-    // At two bits a channel, of which the picture of many colours needs no more, half a step is 43.
+    // At two bits a channel, enough for the picture of many colours, half a step is 43.
     assert_eq!(different_share(&picture, &read, 43), 0.0);
     let mut moved = picture.clone();
     moved.pixels.rotate_right(4 * 9);

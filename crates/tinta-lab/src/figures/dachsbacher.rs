@@ -1,5 +1,5 @@
-//! The pictures of Dachsbacher's article. They have no numbers, and of each only its caption is known here: the captions below
-//! keep apart what the article says and what ours shows.
+//! The pictures of Dachsbacher's article. They have no numbers, and only their captions are known here: the captions below
+//! separate the article's statements from our pictures.
 //!
 //! All are drawn by the article's own rules, its normals among them (`--normals dachsbacher`).
 

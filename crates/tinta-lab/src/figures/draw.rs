@@ -23,7 +23,7 @@ impl Artist {
         Self { textured, ..Self::default() }
     }
 
-    /// Whether this panel can be drawn: all can but those of a textured model where there is none.
+    /// Whether this panel can be drawn: false only for a textured model without a texture.
     pub fn can_draw(&self, panel: &Panel) -> bool {
         !panel.needs_texture() || self.textured.is_some()
     }

@@ -49,17 +49,17 @@ pub struct Figure {
     pub id: &'static str,
     /// Where it stands.
     pub text: Text,
-    /// The text's own number, or what takes its place where the text has none.
+    /// The text's own number, or its substitute where the text has none.
     pub number: &'static str,
-    /// What it is of, a few words.
+    /// Its subject, a few words.
     pub title: &'static str,
-    /// What the text's figure shows and what ours shows in its stead.
+    /// The contents of the text's figure and of ours.
     pub caption: &'static str,
-    /// What is drawn or measured.
+    /// The drawing or measurement.
     pub content: Content,
 }
 
-/// What a figure is made of.
+/// The contents of a figure.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Content {
     /// Pictures side by side.
@@ -72,7 +72,7 @@ pub enum Content {
     Passes,
     /// The text's claims, measured.
     Claims(Text),
-    /// Nothing, for this reason.
+    /// Not drawn, for this reason.
     NotDrawn(&'static str),
 }
 
@@ -106,9 +106,9 @@ pub enum Drawing {
 /// A model in a style.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneDrawing {
-    /// What is drawn.
+    /// The model.
     pub model: Model,
-    /// By which rule its normals are made.
+    /// How its normals are made.
     pub normals: Normals,
     /// How often.
     pub copies: u32,
@@ -122,12 +122,12 @@ pub struct SceneDrawing {
     pub options: String,
 }
 
-/// What a panel draws.
+/// The model of a panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Model {
     /// A built-in model by its whole name, `builtin:…`.
     Builtin(&'static str),
-    /// The user's model with a picture on it; there is none built in.
+    /// The user's model with a picture on it; no built-in model has one.
     Textured,
 }
 
@@ -149,7 +149,7 @@ impl Figure {
 }
 
 impl Panel {
-    /// The command that draws this picture by itself; `textured` is the user's model and its skin.
+    /// The command that draws this picture alone; `textured` is the user's model and its skin.
     pub fn command(&self, size: Size, textured: Option<&str>) -> String {
         match &self.drawing {
             Drawing::Scene(scene) => {

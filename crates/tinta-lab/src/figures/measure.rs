@@ -1,6 +1,6 @@
-//! The numbers of Evangelista et al. 2005, section 5, measured here: figure 13, the filter's gain, two passes without the
-//! square, the shaders' throughput. Settings take turns, so that a busy moment hits all of them; reported are medians, and
-//! every raw time is kept.
+//! The numbers of Evangelista et al. 2005, section 5, measured here: figure 13, the filter's gain, two passes without the square,
+//! the shaders' throughput. Settings take turns, and a busy moment hits all of them; the report gives medians and keeps every raw
+//! time.
 
 use super::mix::{Kit, TRIANGLES};
 use super::numbers::{ARTICLE, BackgroundRow, FilterRow, FrameRow, Host, MixRow, Numbers};
@@ -45,7 +45,7 @@ pub fn triangles_a_turn(how: &HowToMeasure) -> usize {
     TRIANGLES.into_iter().take(how.scenes).sum::<usize>() * CURVES.len() * 2
 }
 
-/// Measures; `step` is told of each turn.
+/// Measures; `step` receives each turn.
 ///
 /// # Errors
 ///

@@ -17,7 +17,7 @@ const CYCLE: [&str; 3] = ["gear", "ant", "bust"];
 /// Gap between neighbours, whose largest extent is 1.
 const GAP: f64 = 0.15;
 
-/// What a scene is made of.
+/// The contents of a scene.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Mix {
     /// Triangles aimed at.

@@ -1,4 +1,4 @@
-//! What is measured of Evangelista et al. 2005, section 5, and beside it what the article prints.
+//! The measurements of Evangelista et al. 2005, section 5, with the numbers printed in the article.
 
 use super::mix::Mix;
 use super::series::{Series, gain_percent};
@@ -8,7 +8,7 @@ use tinta::gl::ContextInfo;
 use tinta::scene::Size;
 use tinta::styles::Filter;
 
-/// What the article's text prints.
+/// The numbers printed in the article's text.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Article {
     /// The card.
@@ -51,7 +51,7 @@ pub struct Numbers {
     pub backgrounds: Vec<BackgroundRow>,
     /// The shaders.
     pub shaders: Vec<ShaderRow>,
-    /// What the article's text prints.
+    /// The numbers printed in the article's text.
     #[serde(rename = "paper")]
     pub article: Article,
     /// Why ours differ, a few sentences for each number.
@@ -70,7 +70,7 @@ pub struct Reason {
 /// A scene of figure 13.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MixRow {
-    /// What it is made of.
+    /// Its contents.
     #[serde(flatten)]
     pub mix: Mix,
     /// Share of the picture's pixels that its models cover, 0 to 1.

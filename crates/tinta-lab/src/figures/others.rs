@@ -1,8 +1,9 @@
-//! The figures that are not drawn, with the reason, and each text's claims at its end: what no list of drawn figures has.
+//! The figures that are not drawn, with the reason, and each text's claims at its end: the parts missing in the lists of drawn
+//! figures.
 
 use super::figure::{Content, Figure, Text};
 
-/// Figures of other authors in Valente's report, each with the figure before which it stands.
+/// Figures of other authors in Valente's report, each with the figure that follows it.
 fn not_drawn() -> Vec<(&'static str, Figure)> {
     let figure = |id, number, title, caption, reason| Figure {
         id,

@@ -24,7 +24,7 @@ pub struct PassColumn {
 pub struct PassSteps {
     /// Its name in reports and dumps.
     pub name: &'static str,
-    /// What it does, a line a step.
+    /// Its steps, a line each.
     pub steps: Vec<String>,
 }
 

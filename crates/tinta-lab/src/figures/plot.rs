@@ -14,10 +14,10 @@ const THREE_PASSES: RGBColor = RGBColor(30, 90, 170);
 ///
 /// # Errors
 ///
-/// [`Error::Gl`] when nothing was measured, or a rate is no number.
+/// [`Error::Gl`] without measurements, or with a rate that is not finite.
 pub fn plot(numbers: &Numbers, tones: u8) -> Result<String> {
     let rates = |passes| numbers.curve(tones, passes).map(|row| (row.triangles as f64, row.series.frames_per_second()));
-    // All plots have the same axes, so that they can be compared.
+    // All plots have the same axes for comparison.
     let all = || numbers.frames.iter().map(|row| (row.triangles as f64, row.series.frames_per_second()));
     let failed = |what: String| Error::gl("plotting figure 13", what);
     if all().next().is_none() || all().any(|(_, rate)| !rate.is_finite()) {

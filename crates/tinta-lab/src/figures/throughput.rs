@@ -13,13 +13,13 @@ use tinta::styles::{Border, Cartoon, Filter, Show, Style};
 /// A shader of the article.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shader {
-    /// What it does.
+    /// Its task.
     pub name: &'static str,
     /// The article's number, million pixels a second, where it prints one.
     pub article_mpixels: Option<f64>,
     is_two_pass: bool,
     pass: &'static str,
-    /// With a factor other than the published one, so that both filters run in the same shader with settings.
+    /// With a factor other than the published one, to run both filters in the same shader with settings.
     filter: Option<Filter>,
 }
 

@@ -1,6 +1,6 @@
 //! The figures of Valente 2007 that show a result of his: 2 to 4 and 6 to 12. Figures 1 and 5 are other authors' pictures.
 //!
-//! The originals' pictures were not at hand: what captions say of them is what the report's own text says.
+//! The originals' pictures were not at hand: captions repeat the report's own text about them.
 
 use super::figure::{Content, Drawing, Figure, Panel, Shot, Text, panel};
 use tinta::scene::Size;

@@ -27,7 +27,7 @@ const AREA_SIDE: f64 = 0.018;
 /// Its least side in small pictures, pixels: lines are as wide there as in large ones.
 const LEAST_SIDE_PX: usize = 8;
 
-/// Share of the ink in areas from which a drawing is taken for a shaded one.
+/// Least share of the ink in areas that marks a drawing as shaded.
 const SHADED: f64 = 0.5;
 
 /// Precision and recall, less what chance gives, below which lines are taken for another view's. Drawings of the right view lack lines or
@@ -73,7 +73,7 @@ impl Display for Doubt {
     }
 }
 
-/// How much of the box around all of these masks lies within a distance of one of them: what of anything would be near it by chance.
+/// The share of the box around all of these masks within a distance of one of them: the chance level of being near it.
 fn share_near(mask: &InkMask, around: &[&InkMask], distance_px: f64) -> f64 {
     let width = mask.size.width as usize;
     let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);

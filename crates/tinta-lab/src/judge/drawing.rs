@@ -1,4 +1,4 @@
-//! A drawing by any program, read as a picture: PNG and the like as they are, an SVG drawn by resvg.
+//! A drawing by any program, read as a picture: PNG and the like unchanged, an SVG drawn by resvg.
 //!
 //! ```
 //! use tinta_lab::judge::drawing;

@@ -1,14 +1,15 @@
 //! Pixels of two masks paired one to one, as many as can be: Hopcroft and Karp (SIAM Journal on Computing 2, 1973).
 //!
-//! The Berkeley benchmark solves an assignment of least cost in which staying alone costs more than any pair; it has as many pairs.
+//! The Berkeley benchmark solves an assignment of least cost with a penalty for unmatched pixels above the cost of any pair; it
+//! finds as many pairs.
 
 use crate::compare::InkMask;
 use std::collections::VecDeque;
 
-/// Nobody.
+/// No partner.
 const NONE: u32 = u32::MAX;
 
-/// How many pixels of `left` have a partner of their own in `right`, at most `distance_px` away.
+/// Number of pixels of `left` with a separate partner in `right`, at most `distance_px` away.
 pub fn matched(left: &InkMask, right: &InkMask, distance_px: f64) -> usize {
     let mut pairs = Pairs::new(left, right, distance_px);
     let mut count = pairs.take_nearest();
@@ -130,7 +131,7 @@ impl Pairs {
                 }
             }
             if !goes_on {
-                // Nothing beyond: nobody need come here again in this round.
+                // A dead end: the search need not come here again in this round.
                 self.layer[left as usize] = NONE;
                 path.pop();
                 if let Some(before) = path.last() {

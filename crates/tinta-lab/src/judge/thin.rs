@@ -1,4 +1,4 @@
-//! Ink thinned to lines a pixel wide that stay connected: what is counted pixel by pixel must not count a thick line twice.
+//! Ink thinned to lines a pixel wide that stay connected: a count of pixels must not count a thick line twice.
 //!
 //! The two-step parallel thinning of Guo and Hall (Communications of the ACM 32, 1989).
 

@@ -19,8 +19,8 @@ pub fn line_options(silhouette: SilhouetteRule, scene_options: &str) -> String {
     format!("--style lines --classes silhouette --silhouette {}{scene_options}", silhouette.text())
 }
 
-/// Measures the silhouettes that style lines finds by a rule; `options` as by [`line_options`]. A frame is finding them, nothing known before but what belongs to the mesh alone,
-/// without drawing them.
+/// Measures the silhouettes that style lines finds by a rule; `options` as by [`line_options`]. A frame is finding them, with
+/// only the mesh's own data known before, without drawing them.
 ///
 /// # Errors
 ///

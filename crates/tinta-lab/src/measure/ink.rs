@@ -12,7 +12,7 @@ use tinta::renderer::Renderer;
 use tinta::scene::{Scene, Size};
 use tinta::styles::{Show, Style};
 
-/// Darkness from which a pixel is ink, of 255: a quarter, so that faint lines count too.
+/// Least darkness of a pixel of ink, of 255: a quarter, to include faint lines.
 pub const INK_FROM: u8 = 64;
 
 /// A picture's ink: how dark each pixel is, of 255, row by row from the top.
@@ -33,7 +33,7 @@ pub struct InkVerdicts {
     pub missed: Vec<DVec2>,
 }
 
-/// What is said of a pixel of ink.
+/// The verdict on a pixel of ink.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// A visible line is near.
@@ -57,7 +57,7 @@ impl Ink {
         if !matches!(style, Style::TwoPass(_)) {
             return Ok(Some(Self::on_white(&renderer.draw(scene, &style.plan(scene, Show::Borders)?)?)));
         }
-        // Two passes never draw the border by itself: it is what their picture is darker than its tones.
+        // Two passes never draw the border separately: it is the part of their picture darker than the tones.
         let whole = renderer.draw(scene, &style.plan(scene, Show::Final)?)?;
         let tones = renderer.draw(scene, &style.plan(scene, Show::Tones)?)?;
         Ok(Some(Self::over(&tones, &whole)))
@@ -144,7 +144,7 @@ impl Ink {
         }
     }
 
-    /// Who has what, for a picture of the error.
+    /// Each pixel's verdict, for a picture of the error.
     pub fn verdicts(&self, reference: &Reference, tolerance_px: f64) -> InkVerdicts {
         let mut pixels = vec![None; self.darkness.len()];
         for (index, middle) in self.pixels(INK_FROM) {
@@ -177,7 +177,7 @@ fn average_precision(recall: impl Fn(u8) -> f64, precision: impl Fn(u8) -> f64) 
 }
 
 impl LineError {
-    /// From how far each sample of a reference is from what was drawn, and how far what was drawn is from the reference, with its weight.
+    /// From the distance of each reference sample to the drawing, and of each drawn sample to the reference, with its weight.
     pub(super) fn of_distances(
         reference: &Reference,
         tolerance_px: f64,
@@ -214,7 +214,7 @@ impl LineError {
     }
 }
 
-/// The share of all weight that those have of which something holds; 1 of none.
+/// The share of all weight for which the flag holds; 1 without any.
 fn share_of(weights: impl Iterator<Item = (bool, f64)>) -> f64 {
     let (held, all) = weights
         .fold((0.0, 0.0), |(held, all), (holds, weight)| (held + if holds { weight } else { 0.0 }, all + weight));

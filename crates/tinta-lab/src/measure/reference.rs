@@ -12,7 +12,7 @@ use tinta::scene::{Scene, Size};
 /// Distance between points along a line, pixels: at a tolerance of 2 they see a distance by less than 0.001 too far.
 const STEP_PX: f64 = 0.125;
 
-/// The same where lines are compared with a contour in closed form, to which they come as near as thousandths of a pixel.
+/// The same for comparing lines with a contour in closed form, where distances are as small as thousandths of a pixel.
 const FINE_STEP_PX: f64 = 1.0 / 128.0;
 
 /// Creases between this angle and the reference's own threshold count neither as lines nor as none: filters of a picture
@@ -26,9 +26,9 @@ pub struct Reference {
     pub size: Size,
     /// The lines; of a surface none.
     pub lines: VisibleLines,
-    /// What they are.
+    /// Their kind.
     pub against: Against,
-    /// From which angle an edge is a crease.
+    /// Least angle of a crease.
     pub crease_angle: CreaseAngle,
     /// Points along the lines.
     pub samples: Vec<Sample>,
@@ -86,7 +86,7 @@ impl Reference {
         Self::with_progress(scene, settings, &Progress::default())
     }
 
-    /// As [`Reference::of`], with what of the lines is hidden.
+    /// Like [`Reference::of`], with the hidden lines.
     ///
     /// # Errors
     ///
@@ -96,13 +96,13 @@ impl Reference {
         Self::of_lines(scene, VisibleLines::of(scene, &all)?, &all, &Progress::default())
     }
 
-    /// As [`Reference::of`], for whoever may want it to be given up.
+    /// Like [`Reference::of`], with progress and cancellation.
     ///
     /// # Errors
     ///
     /// As [`VisibleLines::with_progress`].
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
-        // Ink is held against what is seen.
+        // Ink is compared with visible lines.
         let seen = LineSettings { finds_hidden: false, ..settings.clone() };
         Self::of_lines(scene, VisibleLines::with_progress(scene, &seen, progress)?, settings, progress)
     }
@@ -204,7 +204,7 @@ fn middles(ends: [DVec2; 2], step_px: f64) -> impl Iterator<Item = DVec2> {
     (0..count as usize).map(move |index| ends[0].lerp(ends[1], (index as f64 + 0.5) / count))
 }
 
-/// A tree over points of lines so close that distances to them are those to the lines, but for thousandths of a pixel.
+/// A tree over points of lines, so dense that distances to them equal those to the lines within thousandths of a pixel.
 pub(super) fn fine_tree(lines: impl Iterator<Item = [DVec2; 2]>) -> RTree<Place> {
     tree(lines.flat_map(|ends| middles(ends, FINE_STEP_PX)))
 }

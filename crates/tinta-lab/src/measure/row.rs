@@ -26,7 +26,7 @@ pub struct Row {
     pub is_faithful: bool,
     /// How well its lines are those of the reference; `None` for a style without lines.
     pub lines: Option<LineError>,
-    /// How well its tones are those of the reference; `None` for a style without tones of its own.
+    /// The agreement of its tones with the reference's; `None` for a style without separate tones.
     pub tones: Option<ToneError>,
     /// How long it takes.
     pub time: RunTime,
@@ -58,7 +58,7 @@ tinta_geometry::choices! {
 /// The error of a picture's ink against the visible lines.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LineError {
-    /// What is the reference.
+    /// The kind of reference.
     #[serde(default)]
     pub against: Against,
     /// Distance within which ink and line count as the same, pixels.
@@ -73,9 +73,9 @@ pub struct LineError {
     pub ink_px: f64,
     /// Share of the reference's length with ink within the tolerance.
     pub recall: f64,
-    /// Share of the ink from that darkness on, weighted by it, within the tolerance of the reference; 1 without any ink.
+    /// Share of the ink of at least that darkness, weighted by it, within the tolerance of the reference; 1 without any ink.
     pub precision: f64,
-    /// The same share of all ink, however faint: what a threshold does not see.
+    /// The same share of all ink, however faint: it includes the ink below the threshold.
     pub precision_of_all: f64,
     /// Harmonic mean of recall and precision.
     pub f1: f64,

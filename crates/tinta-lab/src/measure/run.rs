@@ -51,9 +51,9 @@ pub struct Subject {
 pub struct Measured {
     /// The numbers.
     pub row: Row,
-    /// What the style draws.
+    /// The style's drawing.
     pub drawing: Picture,
-    /// Agreed ink black, missed lines red, invented ink blue, what does not count grey; `None` without lines.
+    /// Agreed ink black, missed lines red, false ink blue, ignored ink grey; `None` without lines.
     pub error_picture: Option<Picture>,
 }
 
@@ -64,7 +64,7 @@ pub struct MeasureSettings {
     pub tolerance_px: f64,
     /// Frames of each setting that are timed. Default 21.
     pub frames: usize,
-    /// What the machine is called in the rows.
+    /// The machine's name in the rows.
     pub machine: String,
 }
 
@@ -149,9 +149,8 @@ pub enum MeasureStep {
     Turn,
 }
 
-/// Measures settings on a subject. Their errors one by one, their frames in turns, so that a busy moment hits all of them;
-/// `step` is told of each step. A setting that this scene cannot be drawn with is left out, and the reason
-/// returned beside the rows.
+/// Measures settings on a subject: their errors one by one, their frames in turns, which makes a busy moment hit all of them.
+/// `step` receives each step. A setting that cannot draw this scene is left out, and the reason returned with the rows.
 ///
 /// # Errors
 ///

@@ -8,13 +8,13 @@ use tinta::styles::StyleName::{self, Charcoal, Dietrich, Ink, Inking, Mrt, Phong
 pub struct Constant {
     /// The styles that draw with it.
     pub styles: &'static [StyleName],
-    /// What it is.
+    /// Its description.
     pub name: &'static str,
     /// Its value.
     pub value: &'static str,
     /// Whose it is.
     pub provenance: Provenance,
-    /// What it does, so what changes if it were otherwise.
+    /// Its effect, and the change if it were otherwise.
     pub otherwise: &'static str,
 }
 

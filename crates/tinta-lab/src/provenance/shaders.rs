@@ -7,7 +7,7 @@ use tinta::settings::Provenance;
 pub struct ShaderNumbers {
     /// Below `glsl/`.
     pub path: &'static str,
-    /// As they are written there, without suffix.
+    /// As written there, without suffix.
     pub numbers: &'static [&'static str],
     /// Whose they are.
     pub provenance: Provenance,

@@ -8,7 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::ops::Range;
 use tinta::error::{Error, Result};
 
-/// What is written: the page gives these two colours others in the dark.
+/// Text: the page gives these two colours others in the dark.
 pub(super) const INK: RGBColor = RGBColor(0, 0, 0);
 pub(super) const BACKGROUND: RGBColor = RGBColor(255, 255, 255);
 /// Lines behind everything, and axes.
@@ -28,7 +28,7 @@ pub(super) fn text_width(text: &str, size_px: f64) -> f64 {
     text.chars().count() as f64 * size_px * 0.56
 }
 
-/// Lines of a text that is wider than the room, broken at spaces, in a word only where it has no room by itself.
+/// Lines of a text wider than the available width, broken at spaces, and within a word only if the word alone is too wide.
 pub(super) fn wrapped(text: &str, size_px: f64, room_px: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let longest = ((room_px / text_width("m", size_px)) as usize).max(1);

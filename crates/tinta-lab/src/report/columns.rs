@@ -10,7 +10,7 @@ pub struct Column {
     pub name: Cow<'static, str>,
     /// Its title on the page.
     pub title: Cow<'static, str>,
-    /// What it means, with its unit.
+    /// Its meaning, with its unit.
     pub meaning: Cow<'static, str>,
     /// Digits after the point on the page; `results.csv` has all.
     pub(super) decimals: usize,
@@ -25,7 +25,7 @@ impl std::fmt::Debug for Column {
     }
 }
 
-/// What stands in a cell.
+/// The contents of a cell.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Value {
     Text(String),

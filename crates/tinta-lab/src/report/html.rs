@@ -1,7 +1,7 @@
 //! The report as one page that needs nothing else: plots, pictures, a table to sort, what every column means.
 //!
-//! It is HTML that is well-formed XML too, so that an XML parser can check it, and it forbids itself the network. Without
-//! scripts everything is shown; `page.js` hides what was not chosen and sorts.
+//! It is HTML and well-formed XML, checkable by an XML parser, and it forbids itself the network. Without scripts everything is
+//! shown; `page.js` hides unchosen rows and sorts.
 
 use super::answer::answer;
 use super::columns::{Column, Value, columns};
@@ -90,7 +90,7 @@ fn answers(machines: &[Machine<'_>]) -> String {
     text
 }
 
-/// What is shown of models, styles and machines.
+/// The choices of models, styles and machines.
 fn choices(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
     let as_they_are = BTreeMap::new();
     let select = |id: &str, label: &str, all: &str, names: &[&str], shown: &BTreeMap<&str, String>| {
@@ -167,7 +167,7 @@ fn convergence(machines: &[Machine<'_>]) -> Result<String> {
     Ok(text)
 }
 
-/// A cell of a table: what is read and, for a number, what sorts.
+/// A cell of a table: its text and, for a number, its sort key.
 struct Cell {
     text: String,
     number: Option<f64>,
@@ -286,7 +286,7 @@ fn pictures(info: &ReportInfo, models: &[&str]) -> String {
 fn row_table(rows: &[Row], machines: &[Machine<'_>]) -> String {
     let columns = columns();
     let names = model_names(rows.iter().map(|row| row.model.as_str()));
-    // What is the same everywhere tells nothing, what differs does.
+    // Only columns that differ are informative.
     let differs = |column: &Column| {
         let mut values = rows.iter().map(|row| column.value(row));
         let first = values.next();
@@ -374,7 +374,7 @@ fn meanings() -> String {
     )
 }
 
-/// A list of names and what they are, both HTML already.
+/// A list of names with descriptions, both HTML already.
 fn definitions(entries: impl Iterator<Item = (String, String)>) -> String {
     let entries: String =
         entries.map(|(name, value)| format!("<div><dt>{name}</dt><dd>{value}</dd></div>\n")).collect();

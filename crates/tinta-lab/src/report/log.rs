@@ -1,5 +1,4 @@
-//! `results.jsonl`: a row a line, on disk as soon as it is known, so that an interruption loses the row in the making at
-//! most.
+//! `results.jsonl`: a row a line, on disk as soon as it is known; an interruption loses at most the current row.
 
 use crate::measure::Row;
 use std::fs::{File, OpenOptions};
@@ -39,7 +38,7 @@ impl RowLog {
         }
     }
 
-    /// Goes on with the folder's file and hands over its rows; begins one where there is none.
+    /// Continues the folder's file and returns its rows; begins one where it is missing.
     ///
     /// A last line that was half written when a run was interrupted is cut off.
     ///
@@ -117,7 +116,7 @@ fn read(path: &Path) -> Result<Vec<u8>> {
     })
 }
 
-/// Refuses what lies where the rows go and is no file: a pipe would wait for somebody to read it.
+/// Refuses anything but a file in the rows' place: a pipe would wait for a reader.
 fn check(path: &Path) -> Result<()> {
     match path.metadata() {
         Ok(metadata) if !metadata.is_file() => {

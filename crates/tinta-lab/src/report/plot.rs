@@ -10,7 +10,7 @@ use super::settings::{Machine, Measure, Point, Points, model_names, pareto, poin
 use std::ops::Range;
 use tinta::error::Result;
 
-/// What a plot is drawn for.
+/// The destination of a plot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// A file, or a page on a screen: names stand beside their points.
@@ -42,7 +42,7 @@ impl Shape {
     }
 }
 
-/// What the plot is of: the models and the machine.
+/// The plot's subject: the models and the machine.
 pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
     let Points { models, left_out, .. } = points(&machine.rows, measure);
     let names = model_names(models.iter().map(String::as_str));
@@ -113,7 +113,7 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
     text((inner.right, inner.bottom + line_height * 2.0), Anchor::End, "time of a frame, ms (median) →")?;
     grid(&canvas, &axes, &scale, &inner, &layout)?;
     canvas.line(&steps, MIDDLE, 2)?;
-    // Hollow marks first, so that the published settings lie above them.
+    // Hollow marks first, to put the published settings above them.
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by_key(|index| (front.contains(index), points[*index].is_faithful));
     for index in order {
@@ -164,7 +164,7 @@ pub(super) fn short(number: f64) -> String {
     format!("{number:.*}", digits.clamp(0, 9) as usize)
 }
 
-/// What the axes reach over.
+/// The range of the axes.
 pub(super) struct Scale {
     pub(super) time_ms: Range<f64>,
     pub(super) error: Range<f64>,

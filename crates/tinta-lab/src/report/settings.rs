@@ -3,7 +3,7 @@
 use crate::measure::Row;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a plot holds against time.
+/// The quantity that a plot shows against time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Measure {
     /// How far the ink is from the exact lines: 1 - F1.
@@ -31,7 +31,7 @@ impl Measure {
         }
     }
 
-    /// What the plot shows.
+    /// The plot's title.
     pub(super) fn title(self) -> &'static str {
         match self {
             Self::Lines => "Lines: error against time",
@@ -59,7 +59,7 @@ pub struct Machine<'a> {
     pub rows: Vec<&'a Row>,
 }
 
-/// Machines in the order in which they first appear.
+/// Machines in the order of first appearance.
 pub fn machines(rows: &[Row]) -> Vec<Machine<'_>> {
     const NONE: &str = "none";
     let mut names: Vec<&str> = Vec::new();
@@ -88,7 +88,7 @@ pub fn machines(rows: &[Row]) -> Vec<Machine<'_>> {
     machines
 }
 
-/// Models in the order in which they first appear.
+/// Models in the order of first appearance.
 pub(super) fn models<'a>(rows: &[&'a Row]) -> Vec<&'a str> {
     let mut models = Vec::new();
     for row in rows {
@@ -125,7 +125,7 @@ pub struct Point {
     pub error: f64,
 }
 
-/// A plot's points, and what they are means of.
+/// A plot's points, with the models of their means.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Points {
     /// One for each setting measured on all of the models.

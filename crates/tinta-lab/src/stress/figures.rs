@@ -20,7 +20,7 @@ const SEEN: u8 = 8;
 /// Distance within which ink and shades may move without having come or gone, pixels.
 const MOVED_PX: u32 = 1;
 
-/// A scene with what is exact about it.
+/// A scene with its exact lines.
 #[derive(Debug)]
 pub struct Exact {
     /// The scene.
@@ -49,7 +49,7 @@ impl Exact {
         self.light.picture(style, &self.scene)
     }
 
-    /// What is known of the scene whatever the style: edges by class, visible length, numbers that are not finite.
+    /// The figures of the scene in any style: edges by class, visible length, numbers that are not finite.
     pub fn figures(&self) -> Figures {
         let lines = &self.reference.lines;
         let mut counts = lines.edges;
@@ -77,7 +77,7 @@ pub(super) fn non_finite(scene: &Scene) -> usize {
         count += usize::from(!scene.view_from_object(object, arrays.centre).is_finite());
         count += arrays.vertices.iter().flatten().filter(|number| !number.is_finite()).count();
         count += arrays.texture_coordinates.iter().flatten().filter(|number| !number.is_finite()).count();
-        // A normal is a direction: one without length is none.
+        // A normal is a direction: a vector without length is invalid.
         let normal = |vertex: &&[f32; 6]| (Vec3::from_slice(&vertex[3..]).length() - 1.0).abs() > 1e-3;
         count += arrays.vertices.iter().filter(normal).count();
     }
@@ -96,8 +96,8 @@ pub(super) fn popped(before: &InkMask, after: &InkMask) -> f64 {
     if all == 0 { 0.0 } else { popped as f64 / all as f64 }
 }
 
-/// Pixels whose colour is none that the other picture has there or next to it, as a share of those that either covers: what
-/// changed without having moved.
+/// Pixels with a colour that the other picture has neither there nor next to it, as a share of those that either covers: changes
+/// other than movement.
 pub(super) fn shades_popped(before: &Picture, after: &Picture) -> f64 {
     let covered = |picture: &Picture, index: usize| picture.pixels[index * 4..index * 4 + 3] != [u8::MAX; 3];
     let all = (0..before.size.pixel_count()).filter(|&index| covered(before, index) || covered(after, index)).count();

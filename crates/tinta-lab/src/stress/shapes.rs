@@ -8,7 +8,7 @@ use tinta::mesh::{LoadOptions, Material, Mesh, load};
 use tinta::picture::{Picture, write_rgba_png};
 use tinta::scene::Size;
 
-/// A shape by name; what has a parameter has it here.
+/// A shape by name, with its parameter if it has one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
     /// One of the models that need no file.
@@ -29,13 +29,13 @@ pub enum Shape {
     Point,
     /// Three vertices on a line.
     Line,
-    /// A vertex of which one coordinate is this, in a square whose other corners are sound.
+    /// A vertex with this value as one coordinate, in a square whose other corners are sound.
     BadVertex(f64),
     /// A needle this much longer than wide, standing on a triangle.
     Needle(f64),
     /// A ball with triangles without area strewn over its edges.
     ZeroAreas,
-    /// A ball with triangles on its edges whose third corner lies between the others but for rounding.
+    /// A ball with triangles on its edges whose third corner lies between the others up to rounding.
     Slivers,
     /// Every triangle of a cube three times.
     Duplicates,
@@ -278,7 +278,7 @@ fn moebius(steps: u32) -> Triangles {
     (points, faces.collect())
 }
 
-/// Small triangles on a grid, each turned by itself.
+/// Small triangles on a grid, each turned separately.
 fn isolated(count: u32) -> Triangles {
     let side = f64::from(count).sqrt().ceil();
     let corner = |index: u32, corner: u32| {

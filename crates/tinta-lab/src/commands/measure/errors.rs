@@ -1,4 +1,4 @@
-//! Pictures of what a row's setting draws and where its errors lie, beside the page that shows them.
+//! Pictures of a row's drawing and of its errors, for the report page.
 
 use crate::measure::Row;
 use crate::report::ReportPicture;
@@ -14,11 +14,11 @@ pub(super) fn is_shown(row: &Row) -> bool {
     row.lines.is_some() && (row.is_faithful || row.style == "ink" || is_exact)
 }
 
-/// What the names of drawings end with, and of pictures of errors.
+/// The endings of the names of drawings and of pictures of errors.
 const DRAWING: &str = "-drawing";
 const ERRORS: &str = "";
 
-/// What a drawing may take in the page, bytes: a hundred of them stay below five million in base 64.
+/// The largest size of a drawing in the page, bytes: a hundred of them stay below five million in base 64.
 const MOST_BYTES: usize = 36_000;
 
 /// Where a picture of a row lies.

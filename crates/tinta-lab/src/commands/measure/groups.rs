@@ -1,4 +1,4 @@
-//! What is measured: models at sizes, and how long that will take.
+//! The measurements: models at sizes, and their expected time.
 
 use crate::measure::{Against, frames_a_turn, turns};
 use std::time::Instant;
@@ -21,7 +21,7 @@ const SECONDS_A_REFERENCE: f64 = 0.5;
 /// Frames of a setting that are drawn besides those of its turns.
 const FRAMES_A_SETTING: f64 = 10.0;
 
-/// What is done for each model at each size, in the order of [`expected`]: references once, errors of each setting, turns.
+/// The work for each model at each size, in the order of [`expected`]: references once, errors of each setting, turns.
 pub(super) const KINDS: [usize; 3] = [0, 1, 2];
 
 /// A model at a size.

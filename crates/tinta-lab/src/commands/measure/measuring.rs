@@ -22,7 +22,7 @@ const FRAMES_OF_LINES: usize = 3;
 /// Settings whose frames are timed in turns.
 const SETTINGS_IN_TURN: usize = 8;
 
-/// What is measured of every group.
+/// The measurements of every group.
 pub(super) struct Measuring {
     pub(super) settings: Vec<Setting>,
     pub(super) how: MeasureSettings,
@@ -58,7 +58,7 @@ impl Measuring {
         Ok(Self { settings, how, against, of_scene })
     }
 
-    /// Measures the group of this number, except what is in the results already.
+    /// Measures the group of this number, except settings already in the results.
     pub(super) fn measure(
         &self,
         renderer: &mut Renderer,
@@ -80,7 +80,7 @@ impl Measuring {
         let rules: Vec<(SilhouetteRule, String)> = rules.collect();
         progress.skip(errors, self.settings.len() - left.len());
         progress.skip(turn, (self.settings.len() - left.len()) * turns(self.how.frames));
-        // Settings take turns in groups, so that rows are on disk soon and an interruption costs little.
+        // Settings take turns in groups: rows reach the disk soon and an interruption costs little.
         for some in left.chunks(SETTINGS_IN_TURN) {
             let step = |step| progress.step(if step == MeasureStep::Errors { errors } else { turn });
             let (measured, left_out) = measure(renderer, &subject, some, &self.how, step)?;
@@ -94,7 +94,7 @@ impl Measuring {
         Ok(())
     }
 
-    /// The rules by which exact lines are measured too, each with its row's options.
+    /// The rules for measuring exact lines, each with its row's options.
     fn rules(&self) -> Vec<(SilhouetteRule, String)> {
         let rules: &[SilhouetteRule] = match self.against {
             Against::Lines => &[],
@@ -106,7 +106,7 @@ impl Measuring {
 
 /// Camera and model as the user asked for them: without these a row could not be drawn again.
 fn scene_options(options: &Options) -> String {
-    // Whether defects are refused is nothing of a picture, and what lies outside is for whoever has it.
+    // The refusal of defects does not change a picture, and files outside the folder are the user's decision.
     let is_flag = |name: &str| {
         LoadOptions::table().settings.iter().any(|setting| setting.name == name && setting.kind == Kind::Flag)
     };

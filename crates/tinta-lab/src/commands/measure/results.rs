@@ -1,4 +1,4 @@
-//! What a measurement leaves in its folder: rows, pictures of errors, a report.
+//! A measurement's files: rows, pictures of errors, a report.
 
 use super::errors::{error_page, is_shown, known_picture};
 use super::words::counted;
@@ -115,7 +115,7 @@ impl<'a> Results<'a> {
         }
     }
 
-    /// Writes the report, and prints where it lies; `command` is what it says it was made by.
+    /// Writes the report, and prints its path; `command` is the command line stated in it.
     pub(super) fn report(self, command: &str) -> Result<()> {
         let info = ReportInfo {
             command: command.to_owned(),

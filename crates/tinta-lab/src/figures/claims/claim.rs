@@ -17,7 +17,7 @@ pub struct Claim {
     pub section: &'static str,
     /// The line of the text's transcript.
     pub line: u32,
-    /// What it says, in our words.
+    /// Its sentence, in our words.
     pub says: &'static str,
     /// When it counts as confirmed.
     pub rule: &'static str,
@@ -35,7 +35,7 @@ impl Claim {
     }
 }
 
-/// Makes the claims of a text, without pictures: id, section, line, what it says, the rule, what shows it, and how it is measured.
+/// Makes the claims of a text, without pictures: id, section, line, sentence, rule, command, and measurement.
 pub(super) fn of_text(
     text: Text,
 ) -> impl Fn(&'static str, &'static str, u32, &'static str, &'static str, &'static str, Measure) -> Claim {
@@ -59,7 +59,7 @@ pub(super) enum Measure {
     Section5(fn(&Numbers) -> Finding),
     /// Drawn, timed or counted for this claim.
     Here(fn(&mut Lab<'_>) -> Result<Finding>),
-    /// Nothing here could decide it, for this reason.
+    /// It cannot be decided here, for this reason.
     Nowhere(&'static str),
 }
 

@@ -23,7 +23,7 @@ pub(crate) fn place(text: Text, section: &str, line: u32) -> String {
 }
 
 impl Claim {
-    /// What of its row in claims.md no measurement changes: place, sentence, rule, command.
+    /// The part of its row in claims.md that no measurement changes: place, sentence, rule, command.
     pub fn cells(&self) -> [String; 4] {
         [
             place(self.text, self.section, self.line),
@@ -35,7 +35,7 @@ impl Claim {
 }
 
 impl ClaimRecord {
-    /// The measured numbers in a line, or why there are none.
+    /// The measured numbers in a line, or the reason for their absence.
     pub(crate) fn measured(&self) -> String {
         let numbers: Vec<String> = self.finding.numbers.iter().map(ToString::to_string).collect();
         match self.finding.reason {

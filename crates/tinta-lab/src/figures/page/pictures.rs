@@ -25,12 +25,12 @@ pub struct PictureRecord {
     pub style: Option<Style>,
     /// Which of the style's pictures.
     pub show: Option<Show>,
-    /// What the page shows: [`png_source`] or [`svg_source`].
+    /// The page's source: [`png_source`] or [`svg_source`].
     #[serde(skip)]
     pub source: String,
 }
 
-/// What a picture of the page may take, bytes, unless it is grain all over: sixty of them and more stay below six million in
+/// The largest size of a picture of the page, bytes, unless it is all grain: more than sixty of them stay below six million in
 /// base 64.
 const MOST_BYTES: usize = 80_000;
 

@@ -5,7 +5,7 @@ use crate::stress::{Shape, Study, Variant};
 use glam::DVec3;
 use tinta::camera::CameraSettings;
 
-/// Share of the pixels that may differ from the picture of the model as it is: its coordinates round differently, and an edge
+/// Share of the pixels that may differ from the picture of the unscaled model: its coordinates round differently, and an edge
 /// that passes a pixel's middle by less than that falls on its other side.
 const ROUNDED: f64 = 0.002;
 

@@ -15,10 +15,10 @@ use tinta::styles::{Inking, LightOn, RampRow, Show, Style};
 /// A step or a change of light that is seen, of 1.
 const SEEN: f64 = 2.0 / 255.0;
 
-/// Share of pixels that may differ between pictures that are the same but for rounding.
+/// Share of pixels that may differ between pictures that are the same up to rounding.
 const SAME: f64 = 0.01;
 
-/// Light up to which a face is in shadow: the text clamps it there, and what is in shadow has one tone.
+/// Most light of a face in shadow: the text clamps it there, and shadow has one tone.
 const SHADOW: f64 = 0.1;
 
 /// The text's light: a normal's share in (0, 1, 1), seen from the eye, within 0.1 and 0.9.

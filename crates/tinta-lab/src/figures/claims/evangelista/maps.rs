@@ -1,4 +1,4 @@
-//! The claims about passes, maps and tones: pictures compared with pictures, and what stands in plans and shaders.
+//! The claims about passes, maps and tones: pictures compared with pictures, and the contents of plans and shaders.
 
 use super::super::finding::{Finding, Number};
 use super::super::lab::{Lab, changed};
@@ -15,7 +15,7 @@ use tinta::renderer::milliseconds_since;
 use tinta::scene::{Background, Color, SceneSettings};
 use tinta::styles::{Cartoon, Filter, Mrt, Show, Style, ToneLookup, Tones};
 
-/// Share of pixels that may differ between pictures that are the same but for rounding.
+/// Share of pixels that may differ between pictures that are the same up to rounding.
 const SAME: f64 = 0.01;
 
 /// A pixel differs beyond this, of 255.

@@ -14,10 +14,10 @@ use tinta::plan::Plan;
 use tinta::scene::{Scene, SceneSettings};
 use tinta::styles::{Border, Cartoon, Filter, MapEncoding, Show, Style};
 
-/// A percentage that the text prints counts as found again from this share of it on.
+/// Least share of a printed percentage that counts as reproducing it.
 const FOUND_AGAIN: f64 = 0.5;
 
-/// Frames a second from which the eye sees motion, as in the cinema.
+/// Least frames a second that the eye sees as motion, as in the cinema.
 const REAL_TIME: f64 = 24.0;
 
 /// By how many points the gain has to vary to vary greatly.
@@ -130,7 +130,7 @@ pub(super) fn throughput(numbers: &Numbers) -> Finding {
         return Finding::nowhere("no shader was timed");
     };
     let ratio = joint.square_ms / (tones.square_ms + border.square_ms);
-    // What the paper's millions of pixels a second say of the same.
+    // The same from the paper's millions of pixels a second.
     let cost = |row: &crate::figures::ShaderRow| row.article_mpixels.map_or(f64::NAN, f64::recip);
     let printed = cost(joint) / (cost(tones) + cost(border));
     Finding::of(
