@@ -25,7 +25,7 @@ enum Source {
     Surface(ClosedForm),
 }
 
-/// Triangles of a surface whose name says no number.
+/// Triangles of a surface named without a number.
 const TRIANGLES: usize = 10_000;
 
 /// Least and most triangles of a surface.
@@ -41,7 +41,7 @@ impl Builtin {
 /// A built-in model by the name a user gives: `builtin:NAME`, or `builtin:NAME:TRIANGLES` for a surface.
 #[derive(Debug, Clone, Copy)]
 pub struct Named {
-    /// Which.
+    /// The model.
     pub builtin: Builtin,
     /// The approximate number of triangles, for a surface.
     pub triangles: usize,
@@ -106,11 +106,11 @@ pub const BUILTINS: [Builtin; 10] = [
     },
 ];
 
-/// The built-in model a name stands for; `None` if the name is a path.
+/// The built-in model of a name; `None` if the name is a path.
 ///
 /// # Errors
 ///
-/// [`Error::File`] if it names none, or a number of triangles that cannot be had.
+/// [`Error::File`] for an unknown model, or an impossible number of triangles.
 pub fn builtin(name: &str) -> Option<Result<Named>> {
     let short = name.strip_prefix("builtin:")?;
     let (short, count) = short.split_once(':').map_or((short, None), |(short, count)| (short, Some(count)));

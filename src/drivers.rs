@@ -37,7 +37,8 @@ const SIDE: u32 = 96;
 /// limit.
 const OTHER_SHADE: u8 = 3;
 
-/// Share of pixels of other shades that a driver may have: edges fall on other pixels where it rasterises otherwise. As for goldens.
+/// Share of pixels of other shades that a driver may have: edges fall on other pixels if it rasterises differently. The goldens
+/// use the same limit.
 const OTHER_SHARE: f64 = 0.005;
 
 /// The reference pictures, drawn by llvmpipe of Mesa 22.3.6 on EGL and looked at once.
@@ -54,10 +55,10 @@ const REFERENCES: [(StyleName, &[u8]); 10] = [
     (StyleName::Sand, include_bytes!("drivers/sand.png")),
 ];
 
-/// One way to OpenGL, and what its driver draws.
+/// One backend, and its driver's drawings.
 #[derive(Debug, Clone, Serialize)]
 pub struct Checked {
-    /// The library, and the device where there is a choice.
+    /// The library, and the device if there are several.
     pub device: String,
     /// The check's findings, if a context opened.
     pub found: Option<Found>,
@@ -87,7 +88,7 @@ pub struct Drawn {
     pub style: &'static str,
     /// Pixels that are not the reference's, byte for byte; `None` where the style could not be drawn.
     pub differing: Option<usize>,
-    /// Of them, those of a shade that no rounding explains.
+    /// The number of these whose difference exceeds rounding.
     pub of_other_shades: usize,
     /// The largest difference of a channel, of 255.
     pub largest: u8,

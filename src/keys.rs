@@ -1,4 +1,4 @@
-//! What keys do in the window of `tinta view` and on the page in a browser: one table for both, and for the sheets that list it.
+//! The keys in the window of `tinta view` and on the page in a browser: one table for both, and for the sheets that list it.
 //!
 //! ```
 //! use tinta::keys::{Action, action};
@@ -71,11 +71,11 @@ enum With {
     /// No modifier, or one without a meaning for this key.
     Nothing,
     Shift,
-    /// Ctrl, or the command key where there is one.
+    /// Ctrl, or the command key on systems that have one.
     Ctrl,
 }
 
-/// A line of the sheet, and what its keys do. Keys have the names of `KeyboardEvent.key` in browsers.
+/// A line of the sheet, with its keys' actions. Keys have the names of `KeyboardEvent.key` in browsers.
 struct Row {
     keys: &'static str,
     what: &'static str,
@@ -84,16 +84,16 @@ struct Row {
     bindings: &'static [(&'static str, With, Action)],
 }
 
-/// What an arrow turns or moves by, shares of the picture's height.
+/// Turn or move of an arrow key, shares of the picture's height.
 const STEP: f64 = 1.0 / 24.0;
 
-/// What + and - bring nearer by.
+/// Zoom factor of + and -.
 const ZOOM: f64 = 1.25;
 
-/// What [ and ] move the divider by, share of the width.
+/// Move of the divider by [ and ], share of the width.
 const DIVIDE: f64 = 0.05;
 
-/// Stands for the styles' names.
+/// A placeholder for the styles' names.
 const STYLES: &str = "STYLES";
 
 /// A row that the page has too.
@@ -182,7 +182,7 @@ const ROWS: &[Row] = &[
 
 /// Returns the lines of the sheet of keys: keys and their effects, either all of the window's or those that the page has.
 pub fn sheet(is_page: bool) -> impl Iterator<Item = (&'static str, String)> {
-    // Those after the ninth have no key.
+    // Styles after the ninth have no key.
     let names: Vec<&str> = StyleName::ALL.iter().map(|(name, _)| *name).take(9).collect();
     let rows = ROWS.iter().filter(move |row| row.is_on_page || !is_page);
     rows.map(move |row| (row.keys, row.what.replace(STYLES, &names.join(", "))))

@@ -95,7 +95,7 @@
 
 #![deny(unreachable_pub)]
 
-// Floors, from the ground up: a module uses those above it in this list and none below (`tests/floors.rs`).
+// Floors, from the ground up: a module uses only those above it in this list (`tests/floors.rs`).
 
 // Geometry without GL: from a file to visible lines. A separate crate with its own list of floors.
 #[cfg(any(feature = "cli", feature = "recipes"))]

@@ -1,4 +1,4 @@
-//! What all pages share: how they begin, and their one style sheet, light and dark.
+//! Shared parts of all pages: their head, and the style sheet, light and dark.
 //!
 //! ```
 //! use tinta::page::{Pictures, beginning};
@@ -14,9 +14,9 @@ pub const STYLE_SHEET: &str = include_str!("page.css");
 /// Where a page's pictures are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pictures {
-    /// In the page, which forbids itself all else.
+    /// Inside the page, which forbids everything else.
     Within,
-    /// Files beside it.
+    /// In separate files.
     Beside,
 }
 

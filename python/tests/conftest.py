@@ -9,7 +9,7 @@ import pytest
 
 @pytest.fixture(scope="session")
 def tinta():
-    """Runs the program: `tinta("render", "builtin:gear", "-o", "gear.svg")`; returns its error if it refuses."""
+    """Runs the program: `tinta("render", "builtin:gear", "-o", "gear.svg")`; returns its exit code and error."""
     program = os.environ.get("TINTA") or shutil.which("tinta")
     if not program:
         pytest.fail("TINTA names no program; run scripts/python, which builds it")

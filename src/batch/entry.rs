@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 pub enum Status {
     /// Its outputs are there, whole.
     Done,
-    /// With an error, or with a check that found a difference.
+    /// Ended with an error, or with a check that found a difference.
     Failed,
 }
 
@@ -22,7 +22,7 @@ pub enum Status {
 pub struct Failure {
     /// [`crate::Error::kind`], `check` for a check that found a difference, `crash` for a worker that ended.
     pub kind: String,
-    /// The sentence that the command would have said; places in the batch's folder are named from there.
+    /// The command's error; paths in the batch's folder are relative to it.
     pub problem: String,
 }
 
@@ -50,7 +50,7 @@ pub struct Run {
     pub printed: Option<String>,
 }
 
-/// What came of a job.
+/// The result of a job.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
     /// How it ended.
@@ -66,7 +66,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Of a job that failed for this reason.
+    /// The outcome of a job that failed for this reason.
     pub fn failed(kind: &str, problem: impl Into<String>) -> Self {
         Self {
             status: Status::Failed,
@@ -78,7 +78,7 @@ impl Outcome {
     }
 }
 
-/// A job and what came of it: a line of a slice's file.
+/// A job and its result: a line of a slice's file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Line")]
 pub struct Entry {
@@ -90,7 +90,7 @@ pub struct Entry {
     pub job: String,
     /// The command.
     pub command: JobCommand,
-    /// What came of it.
+    /// The result.
     #[serde(flatten)]
     pub outcome: Outcome,
 }
@@ -117,7 +117,7 @@ impl From<Line> for Entry {
 }
 
 impl Entry {
-    /// Of this job.
+    /// Makes the entry of a job.
     pub fn new(job: &Job, outcome: Outcome) -> Self {
         Self { id: job.id.clone(), line: job.line, job: job.sha256.clone(), command: job.command, outcome }
     }
@@ -170,7 +170,7 @@ fn files_in(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// The files whose names are those of a pattern with a number in its place.
+/// The files whose names match a pattern with a number.
 fn numbered(claim: &Claim, pattern: &Path, folder: &Path) -> Vec<PathBuf> {
     let names = std::fs::read_dir(pattern.parent().unwrap_or(folder)).into_iter().flatten().flatten();
     let is_one = |file: &PathBuf| {

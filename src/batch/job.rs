@@ -9,7 +9,7 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::fmt::{Formatter, Write};
 
-/// The options whose value is a file or folder that a job writes.
+/// The options that name a file or folder to write.
 pub const OUTPUTS: [&str; 3] = ["output", "dump", "save-preset"];
 
 /// The commands that jobs may be.
@@ -25,11 +25,11 @@ pub enum JobCommand {
 }
 
 impl JobCommand {
-    /// All of them, as a list names them.
+    /// All of them, with their names in lists.
     pub const ALL: [(&'static str, Self); 3] =
         [("render", Self::Render), ("compare", Self::Compare), ("measure", Self::Measure)];
 
-    /// As a list names it.
+    /// Its name in lists.
     pub fn name(self) -> &'static str {
         match self {
             Self::Render => "render",
@@ -44,7 +44,7 @@ impl JobCommand {
 pub struct Job {
     /// Its name, the same from run to run.
     pub id: String,
-    /// Where it stands, 1-based; 0 outside of a list.
+    /// Its line number, 1-based; 0 outside of a list.
     pub line: u64,
     /// The command to run.
     pub command: JobCommand,
@@ -195,7 +195,7 @@ fn scalar(value: Value) -> Result<String, String> {
     }
 }
 
-/// A line's keys in their order, none twice: JSON itself would keep the last one of each in silence.
+/// A line's keys in their order, without repetition: JSON itself would silently keep the last one of each.
 struct Keys(Vec<(String, Value)>);
 
 impl<'de> Deserialize<'de> for Keys {
@@ -225,7 +225,7 @@ impl<'de> Deserialize<'de> for Keys {
     }
 }
 
-/// The same content is the same text, whatever order its keys stood in.
+/// The same content gives the same text in any order of keys.
 fn sorted(keys: &[(String, Value)]) -> String {
     let mut keys: Vec<&(String, Value)> = keys.iter().collect();
     keys.sort_by(|one, other| one.0.cmp(&other.0));

@@ -28,7 +28,7 @@ impl Journal {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] where it cannot be written, [`Error::Busy`] where another run has it open.
+    /// [`Error::File`] if it cannot be written, [`Error::Busy`] if another run has it open.
     pub fn open(folder: &Path, slice: Slice) -> Result<Self> {
         let path = folder.join(slice.file_name());
         if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
@@ -46,7 +46,7 @@ impl Journal {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] where it cannot be written: then nothing half is left.
+    /// [`Error::File`] if it cannot be written: no partial line is left.
     pub fn append(&mut self, entry: &Entry) -> Result<()> {
         let refuse = |problem: String| Error::output(&self.path, problem);
         let mut line = serde_json::to_string(entry).map_err(|error| refuse(format!("{error}; please report this")))?;
@@ -89,19 +89,19 @@ fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
     use rustix::fs::{FlockOperation, flock};
     use rustix::io::Errno;
     let file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
-    // Where the file system cannot tell, the run is believed to be alone.
+    // If the file system cannot tell, the run counts as alone.
     let is_taken = matches!(flock(&file, FlockOperation::NonBlockingLockExclusive), Err(Errno::WOULDBLOCK));
     Ok((!is_taken).then_some(file))
 }
 
-/// The same where a file says itself how others may open it: to read.
+/// The same on Windows, where a file itself limits how others may open it: for reading.
 #[cfg(windows)]
 fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
     use std::os::windows::fs::OpenOptionsExt;
     use windows_sys::Win32::Foundation::ERROR_SHARING_VIOLATION;
     use windows_sys::Win32::Storage::FileSystem::FILE_SHARE_READ;
     let mut options = OpenOptions::new();
-    // What Windows opens to append to cannot be cut.
+    // On Windows a file opened for appending cannot be truncated.
     options.read(true).write(true).create(true).truncate(false).share_mode(FILE_SHARE_READ);
     match options.open(path) {
         Err(error) if error.raw_os_error() == Some(ERROR_SHARING_VIOLATION as i32) => Ok(None),
@@ -109,7 +109,7 @@ fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
     }
 }
 
-/// Elsewhere nothing can be known of others.
+/// On other systems a second run is not detected.
 #[cfg(not(any(unix, windows)))]
 fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
     OpenOptions::new().read(true).append(true).create(true).open(path).map(Some)
@@ -119,7 +119,7 @@ fn read(path: &Path) -> Result<Vec<u8>> {
     files::read(path, BATCH_BYTES).map_err(|failure| failure.into_error(FileKind::Batch, path, "a batch's record"))
 }
 
-/// The slices that have begun in a batch's folder, whose files are not read for that.
+/// The slices with a file in a batch's folder; the files are not read.
 pub fn begun(folder: &Path) -> Vec<Slice> {
     let names = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut slices: Vec<Slice> = names.filter_map(|file| Slice::of_file_name(file.file_name().to_str()?)).collect();
@@ -129,14 +129,14 @@ pub fn begun(folder: &Path) -> Vec<Slice> {
 
 /// Returns which of a slice's jobs are done with their output still present.
 ///
-/// Only files that can tell are read: the slice's own and those of another number of slices. The slices beside this one have
+/// Only relevant files are read: the slice's own and those of another number of slices. Other slices of the same number contain
 /// none of its jobs.
 ///
 /// # Errors
 ///
 /// [`Error::File`] for a file that cannot be read.
 pub fn done(folder: &Path, slice: Slice, jobs: &[Job]) -> Result<Vec<bool>> {
-    /// As much of an entry as most of them need.
+    /// The parts of an entry that most callers need.
     #[derive(Deserialize)]
     struct Ended<'a> {
         #[serde(borrow)]
@@ -160,7 +160,7 @@ pub fn done(folder: &Path, slice: Slice, jobs: &[Job]) -> Result<Vec<bool>> {
     Ok(done)
 }
 
-/// All that is written down in a batch's folder, by whatever slices: its bytes, and where in them the entry of each job is.
+/// All entries in a batch's folder, of any slices: the bytes, and the place of each job's entry in them.
 #[derive(Debug, Default)]
 pub struct Entries {
     files: Vec<Vec<u8>>,

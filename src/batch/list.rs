@@ -29,7 +29,7 @@ impl List {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] with the line that is no job, or that has the name or an output of another.
+    /// [`Error::File`] with the line that is invalid, or that has the name or an output of another.
     pub fn read(path: &Path) -> Result<Self> {
         let name = path.display().to_string();
         let bytes = files::read(path, BATCH_BYTES)
@@ -37,7 +37,7 @@ impl List {
         Self::of_bytes(bytes, &name)
     }
 
-    /// Reads a list's bytes; `name` is what errors call it.
+    /// Reads a list's bytes; `name` is its name in errors.
     ///
     /// # Errors
     ///
@@ -91,11 +91,11 @@ impl List {
         write_whole(&folder.join(LIST_FILE), &self.bytes)
     }
 
-    /// The list that a batch's folder keeps; `None` where it keeps none.
+    /// The list kept in a batch's folder; `None` if missing.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] where it cannot be read.
+    /// [`Error::File`] if it cannot be read.
     pub fn kept(folder: &Path) -> Result<Option<Self>> {
         let path = folder.join(LIST_FILE);
         match path.symlink_metadata() {
@@ -104,7 +104,7 @@ impl List {
         }
     }
 
-    /// Whether the list that a batch's folder keeps asks for the same; `None` where it keeps none.
+    /// Whether the list kept in a batch's folder has the same jobs; `None` if missing.
     ///
     /// # Errors
     ///
@@ -136,7 +136,7 @@ impl List {
         refused(name, Some(line.into()), problem)
     }
 
-    /// Lines that may write the same by a number or in a folder, the first few of them.
+    /// Lines that may write the same file by a number or in a folder; only the first few.
     fn suspects(&self, mut shared: Shared) -> Vec<Lines> {
         if shared.is_empty() {
             return Vec::new();
@@ -175,7 +175,7 @@ impl Seen {
         self.0.push((key(name), in_32_bits(line)));
     }
 
-    /// The first line with a name that stands in one before it, or in the same; then that one.
+    /// The first line that repeats a name of an earlier line, or of itself; then the earlier line.
     fn first_twice(mut self) -> Option<Lines> {
         self.0.sort_unstable();
         let twice = self.0.windows(2).filter(|pair| pair[0].0 == pair[1].0);
@@ -235,7 +235,7 @@ mod tests {
         assert_eq!(twice, "jobs.jsonl: line 3: the id a is already used by line 1; choose another");
         let twice = said(&format!("{}\n{}\n", job("a", "x/a.png"), job("b", "./x//a.png")));
         assert_eq!(twice, "jobs.jsonl: line 2: output: ./x//a.png is also written by line 1; name another");
-        // The first such line of the list, whatever stands twice in it.
+        // The first such line of the list, whichever name it repeats.
         let lines = [job("a", "a.png"), job("b", "b.png"), job("c", "./a.png"), job("b", "d.png"), job("a", "e.png")];
         let twice = said(&lines.join("\n"));
         assert_eq!(twice, "jobs.jsonl: line 3: output: ./a.png is also written by line 1; name another");

@@ -1,4 +1,4 @@
-//! Output paths of jobs: inside the batch's own folder, whatever a job's line says.
+//! Output paths of jobs: always inside the batch's own folder.
 
 use std::path::{Component, Path, PathBuf};
 

@@ -21,15 +21,15 @@ pub const SUMMARY_FILE: &str = "batch-summary.jsonl";
 /// The facts that differ every time, one line per job.
 pub const TIMES_FILE: &str = "batch-times.jsonl";
 
-/// So much is written at once.
+/// Bytes written at once.
 const WRITTEN_BYTES: usize = 1 << 20;
 
-/// What came of a batch.
+/// The result of a batch.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
     /// Jobs in the list.
     pub jobs: usize,
-    /// Of these, how many are done.
+    /// The number of these that are done.
     pub done: usize,
     /// How many failed.
     pub failed: usize,
@@ -50,7 +50,7 @@ pub struct Summary {
 /// A command's jobs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CommandSummary {
-    /// Which.
+    /// The command.
     pub command: JobCommand,
     /// How many are done.
     pub done: usize,
@@ -58,7 +58,7 @@ pub struct CommandSummary {
     pub failed: usize,
     /// How many have not ended yet.
     pub missing: usize,
-    /// Milliseconds of those that ended: all of them together, the median, the longest.
+    /// Milliseconds of the ended jobs: the sum, the median, the maximum.
     pub milliseconds: [f64; 3],
 }
 
@@ -108,7 +108,7 @@ struct TimesRow<'a> {
 }
 
 impl Summary {
-    /// Reads a batch's folder, even while runs are at work in it, and writes both files there, both or none.
+    /// Reads a batch's folder, even while runs are working there, and writes either both files there or none.
     ///
     /// # Errors
     ///
@@ -235,7 +235,7 @@ impl Tally {
 fn lines(job: &Job, outcome: Option<&Outcome>) -> [String; 2] {
     let outputs = outcome.map_or(&[][..], |outcome| &outcome.outputs);
     let remarks = outcome.map_or(&[][..], |outcome| &outcome.remarks);
-    // A measurement says at first how long it will take.
+    // A measurement first prints its expected time.
     let (same, differ) = if job.command == JobCommand::Measure { (&[][..], remarks) } else { (remarks, &[][..]) };
     let row = Row {
         line: job.line,
@@ -279,7 +279,7 @@ fn holds_times(command: JobCommand, path: &str) -> bool {
 }
 
 fn line_of(row: &impl Serialize) -> String {
-    // Of text and finite numbers, which JSON has.
+    // Only text and finite numbers, which JSON can represent.
     let mut text = serde_json::to_string(row).unwrap_or_default();
     text.push('\n');
     text

@@ -49,7 +49,7 @@ impl Arguments {
 /// An option that a picture's recipe cannot grant: only the user can.
 const NOT_GRANTED: &str = "allow-external";
 
-/// Draws the picture again; exit code 1 if it comes out otherwise.
+/// Draws the picture again; exit code 1 if it differs.
 pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
     let recipe = Recipe::read(&arguments.picture)?;
     check_output(arguments)?;
@@ -181,7 +181,7 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
     }
     let output = arguments.output().display().to_string();
     let style = is_of_lines(&output).then_some(Layer::Style(StyleName::Lines));
-    // The recipe says all that the picture's look was made of, and of a style not named means the published one.
+    // The recipe has all options of the picture's look; a style not named is the published one.
     let layers: Vec<Layer> = style.into_iter().chain([Layer::Given(recipe.options.clone())]).collect();
     let (request, _) = Request::from_layers(&layers).map_err(|error| match error {
         Error::Setting { .. } | Error::Settings { .. } => {

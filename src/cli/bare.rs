@@ -4,7 +4,7 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use tinta::mesh::is_model_name;
 
-/// How many pictures of one model may stand beside it.
+/// Most pictures of one model beside it.
 const MOST_PICTURES: usize = 10_000;
 
 /// Adds the implied command to the words, the program's name first; words that name a command stay unchanged. The second value is
@@ -29,7 +29,7 @@ pub(super) fn with_command(words: Vec<OsString>, has_window: bool) -> (Vec<OsStr
     (all, output)
 }
 
-/// Whether a word can only be a model: a built-in one, or a file's name that ends as models' do.
+/// Whether a word can only be a model: a built-in one, or a file name with a model's ending.
 fn is_model(word: &OsStr) -> bool {
     let text = word.to_string_lossy();
     text.starts_with("builtin:") || is_model_name(&text)

@@ -120,12 +120,11 @@ struct Begun {
     journal: Journal,
     /// How many jobs the slice has.
     jobs: usize,
-    /// Those of them that are not done.
+    /// The unfinished ones.
     left: Vec<Job>,
 }
 
-/// Opens the slice's file, once it is known that this list and this folder belong together. Of the list only the jobs that
-/// are left stay in memory.
+/// Opens the slice's file, after checking that the list belongs to this folder. Only the unfinished jobs stay in memory.
 fn begin(arguments: &Arguments, folder: &Path, list: List) -> Result<Begun> {
     let refuse = |problem: String| Err(Error::output(folder, problem));
     let slice = arguments.slice;
@@ -167,7 +166,7 @@ impl Counts {
     }
 }
 
-/// What all workers' threads write to.
+/// Shared output of all workers' threads.
 struct Desk {
     journal: Journal,
     counts: Counts,
@@ -254,7 +253,7 @@ fn in_words(counts: &Counts, jobs: usize, before: usize) -> String {
     format!("tinta: {} of {jobs} jobs done{before}, {} failed", counts.done, counts.failed)
 }
 
-/// Puts together what all slices wrote down.
+/// Combines the journals of all slices.
 fn sum_up(folder: &Path, json: bool) -> Result<Verdict> {
     let summary = Summary::put_together(folder)?;
     if json {

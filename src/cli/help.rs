@@ -1,7 +1,7 @@
 //! The two helps: `-h` lists the options that most people need, `--help` all of them in their groups.
 //!
-//! Which these are is declared with the settings (`Setting::common`), and with the options of single commands as clap has it
-//! (`hide_short_help`). clap would give each option of a long help three lines; here both are set as its short one is.
+//! The settings declare which options are common (`Setting::common`), and single commands do so with clap's `hide_short_help`.
+//! clap would give each option of a long help three lines; here both helps use the short form.
 
 use super::Program;
 use clap::{Arg, ArgAction, Command};
@@ -52,7 +52,7 @@ fn commands(program: &Program) -> Command {
     })
 }
 
-/// What begins the default at the end of an option's help.
+/// The beginning of the default at the end of an option's help.
 const DEFAULT: &str = "[default: ";
 
 /// An option whose help states the default look's value, then the default of a named style.
@@ -78,8 +78,7 @@ pub(super) fn unmarked(command: Command) -> Command {
     command.mut_args(|arg| arg.hide_short_help(false))
 }
 
-/// The program's commands for these words, the program's name first: where they ask for the short help, that is what help
-/// prints.
+/// The program's commands for these words, the program's name first. If the words request the short help, help prints that one.
 pub(super) fn command(program: &Program, words: &[OsString]) -> Command {
     if !words.iter().skip(1).take_while(|word| *word != "--").any(|word| word == "-h") {
         return whole(program);
@@ -105,7 +104,7 @@ fn lines(command: &Command) -> usize {
     command.clone().term_width(80).render_help().to_string().lines().count()
 }
 
-/// A command that lists these options alone, in one group, and says where the others are.
+/// A command that lists only these options, in one group, and names the way to the others.
 fn shortened(command: Command, needed: &[String]) -> Command {
     let name = command.get_name().to_owned();
     let count = options(&command).count();
@@ -171,7 +170,7 @@ mod tests {
         assert!(whole.contains("\nCamera:\n") && !short.contains("\nCamera:\n"));
         let headings: Vec<&str> = short.lines().filter(|line| line.ends_with(':') && !line.starts_with(' ')).collect();
         assert_eq!(headings, ["Arguments:", "Options:"]);
-        // Wherever the word stands; behind two dashes it is a model.
+        // At any place; after two dashes it is a model.
         assert_eq!(help_of("tinta render a.obj --style ink -h"), short);
         assert!(help_of("tinta help render").contains("\nCamera:\n"));
     }

@@ -70,12 +70,12 @@ fn list() -> String {
     text + "\nDraw a model in every look:  tinta looks MODEL -o looks\nDraw it in one look:         tinta render MODEL -o picture.png --look NAME\n"
 }
 
-/// The file of a look: vectors where it draws lines.
+/// The file of a look: vectors if it draws lines.
 fn file(look: Look) -> String {
     format!("{}.{}", look.name, if look.draws_lines() { "svg" } else { "png" })
 }
 
-/// The page, which needs the pictures beside it and nothing else.
+/// The page, which needs only the pictures beside it.
 fn html(model: &str, size: Size) -> String {
     let mut figures = String::new();
     for look in LOOKS {

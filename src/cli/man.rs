@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<()> {
 struct Page {
     /// Its file: `tinta-render.1`.
     file: String,
-    /// In man's language.
+    /// The page in man's language.
     text: String,
 }
 
@@ -97,7 +97,7 @@ fn pages(program: &Program) -> Vec<Page> {
     std::iter::once(of_all).chain(of_commands).collect()
 }
 
-/// The examples below the program's help; what continues on a second line stays with its first.
+/// The examples below the program's help; a second line stays with its first.
 fn examples(whole: &Command) -> Vec<String> {
     let text = whole.get_after_help().map(ToString::to_string).unwrap_or_default();
     let lines = text.lines().skip_while(|line| *line != "Examples:").skip(1).take_while(|line| !line.is_empty());
@@ -116,7 +116,7 @@ pub(super) fn page(command: &Command, examples: &[String], commands: &[String]) 
     let usage = command.clone().render_usage().to_string();
     let usage = usage.strip_prefix("Usage: ").unwrap_or(&usage).to_owned();
     let man = Man::new(command.clone().override_usage(usage));
-    // roff leaves out an empty date, and with it the order of what follows.
+    // roff omits an empty date, which would shift the following fields.
     let title = command.get_display_name().unwrap_or("tinta");
     let mut text = format!(".TH {title} 1 \"\" \"tinta {}\" \"tinta\"\n", env!("CARGO_PKG_VERSION"));
     text += &written(|out| man.render_name_section(out));

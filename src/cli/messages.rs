@@ -15,7 +15,7 @@ pub(super) struct Captured {
     pub printed: String,
 }
 
-/// Of the process: a job may speak from more than one thread.
+/// For the whole process: a job may print from several threads.
 static CAPTURED: Mutex<Option<Captured>> = Mutex::new(None);
 
 /// Starts to capture messages.
@@ -52,7 +52,7 @@ pub fn plain(line: &str) -> String {
         .collect()
 }
 
-/// Writes text to standard output; a reader that has heard enough (`| head`) is no error.
+/// Writes text to standard output; a reader that stops early (`| head`) is no error.
 pub fn print(text: &str) -> Result<()> {
     if let Some(captured) = CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
         captured.printed.push_str(text);
@@ -69,7 +69,7 @@ pub(super) fn print_help(help: &clap::Error) -> Result<()> {
         help.exit();
     }
     check_output(STANDARD_OUTPUT)?;
-    // Which knows whether a terminal shows colours.
+    // clap knows whether the terminal shows colours.
     printed(help.print().and_then(|()| std::io::stdout().flush()))
 }
 

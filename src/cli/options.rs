@@ -21,9 +21,9 @@ use tinta::{LoadOptions, Result};
 /// The given options of a selection on the command line.
 #[derive(Debug)]
 pub struct Chosen<S> {
-    /// By name, as a preset has it.
+    /// By name, as in a preset.
     pub options: Options,
-    /// Files whose paths are no text, which options cannot hold.
+    /// Files whose paths are not valid text; options cannot hold them.
     paths: Vec<(&'static str, PathBuf)>,
     selection: PhantomData<S>,
 }
@@ -141,7 +141,7 @@ impl Selection for OfRequest {
     type Of = Request;
 }
 
-/// A model and from where it is seen.
+/// A model and its view.
 #[derive(Debug)]
 pub struct OfSubject;
 
@@ -188,7 +188,7 @@ pub struct Below<'a> {
     pub look: Option<Look>,
     pub preset: Option<&'a str>,
     pub camera: Option<&'a Path>,
-    /// Whether the file's name asks for lines.
+    /// Whether the output's name requests lines.
     pub draws_lines: bool,
     /// Whether the command has looks, with the first as the default.
     pub has_looks: bool,

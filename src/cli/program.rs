@@ -48,7 +48,7 @@ impl Program {
     ///
     /// # Errors
     ///
-    /// That sentence, as the program prints it.
+    /// The error sentence, as the program prints it.
     pub fn check(&self, words: impl IntoIterator<Item = OsString>) -> std::result::Result<Option<String>, String> {
         match self.parse(super::bare::with_command(words.into_iter().collect(), false).0) {
             Ok(_) => Ok(None),

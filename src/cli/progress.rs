@@ -1,4 +1,4 @@
-//! A progress bar for commands that take a while: on standard error, and only where that is a terminal.
+//! A progress bar for long commands: on standard error, and only if that is a terminal.
 
 mod estimate;
 mod timed;
@@ -25,7 +25,7 @@ impl Progress {
         }
     }
 
-    /// So many steps are done of so many.
+    /// Sets the number of finished steps and their total.
     pub fn set(&self, done: u64, count: u64) {
         if self.0.length() != Some(count) {
             self.0.set_length(count);

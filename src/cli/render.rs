@@ -78,7 +78,7 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    /// Of a job's options.
+    /// Reads a job's options.
     pub(super) fn of_job(job: &JobOptions) -> Result<Self> {
         let is_own = |name: &str| name == "look" || Chosen::<OfRun>::has(name) || Chosen::<OfRequest>::has(name);
         job.refuse_unknown("render", is_own)?;
@@ -113,7 +113,7 @@ const WARM_UP: usize = 2;
 /// Most frames drawn again to time single passes.
 const PASS_FRAMES: usize = 21;
 
-/// The request of a command line of this command, the program's name first, and where it is drawn into.
+/// Returns the request of a command line of this command, the program's name first, and its output.
 ///
 /// # Errors
 ///

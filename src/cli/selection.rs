@@ -4,7 +4,7 @@ use tinta::settings::{HasSettings, Setting};
 
 /// Some of a table's settings as options.
 pub trait Selection {
-    /// Whose settings.
+    /// The struct that the settings belong to.
     type Of: HasSettings;
 
     /// Whether they have their own headings.

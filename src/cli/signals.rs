@@ -24,7 +24,7 @@ impl Stop {
         let stop = Self { is_asked: Arc::default(), signal: Arc::default() };
         let is_long_ago: Arc<AtomicBool> = Arc::default();
         for signal in [SIGINT, SIGTERM] {
-            // Where a handler cannot be had, a signal ends the run as ever.
+            // If a handler cannot be registered, a signal ends the run as usual.
             let _ = register_conditional_shutdown(signal, 128 + signal, is_long_ago.clone());
             let _ = register_usize(signal, stop.signal.clone(), signal.unsigned_abs() as usize);
             let _ = register(signal, stop.is_asked.clone());
@@ -52,7 +52,7 @@ impl Stop {
     }
 }
 
-/// In a worker: terminals and schedulers send their signals to it too, but its run says when it has done enough.
+/// In a worker: terminals and schedulers send it their signals too, but its run decides when it stops.
 pub(super) fn leave_to_the_run() {
     for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
         let _ = signal_hook::flag::register(signal, Arc::default());

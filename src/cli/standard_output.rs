@@ -13,8 +13,8 @@ pub(super) fn was_closed() -> bool {
 /// A function that the system's loader calls before Rust's runtime.
 #[cfg(target_os = "linux")]
 #[expect(unsafe_code, reason = "nothing in Rust runs before /dev/null is in its place")]
-// SAFETY: the section holds pointers to functions of the C ABI, which is what this is. `look` makes two system calls and stores
-// a value; it needs nothing of what Rust sets up before main, and cannot unwind.
+// SAFETY: the section holds pointers to functions of the C ABI, as here. `look` makes two system calls and stores a value; it
+// does not need Rust's runtime, and cannot unwind.
 #[unsafe(link_section = ".init_array")]
 #[used]
 static LOOK: extern "C" fn() = look;

@@ -52,7 +52,7 @@ impl Selection for OfGrain {
     }
 }
 
-/// Makes all textures, then writes them: nonsense leaves no file, a full disk none of them.
+/// Makes all textures, then writes them: an invalid setting leaves no file, a full disk none of them.
 pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let mut made = Vec::new();
     let contrast = arguments.contrast()?;

@@ -132,7 +132,7 @@ fn state(request: &Request, right: Option<StyleName>, is_coarse: bool) -> Result
     let mut state = ViewerState::new(request.models.clone(), Orbit::default());
     state.put_scene(request.scene.clone());
     let left = request.style.style_name();
-    // Options are for every style that has them, whichever is chosen later.
+    // Options apply to every style that has them, even one chosen later.
     for (_, name) in StyleName::ALL {
         match request.in_style(name) {
             Ok(request) => state.prepare_style(&request.style),

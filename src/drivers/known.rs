@@ -12,7 +12,7 @@ pub struct KnownFault {
     pub first_seen: &'static str,
     /// The last version with the fault; untested versions may have it too.
     pub last_seen: &'static str,
-    /// What tinta does about it.
+    /// tinta's workaround.
     pub workaround: &'static str,
     /// How tinta knows that the driver has it.
     pub detected_by: &'static str,

@@ -40,7 +40,7 @@ impl Look {
     ///
     /// # Errors
     ///
-    /// Which names there are.
+    /// Returns the look of a name.
     pub fn of_name(name: &str) -> std::result::Result<Self, ParseError> {
         let found = LOOKS.into_iter().find(|look| look.name == name);
         let names = LOOKS.map(|look| look.name);
@@ -67,7 +67,7 @@ impl Look {
     ///
     /// # Errors
     ///
-    /// None: a test reads them all.
+    /// None in practice: a test reads them all.
     pub fn preset(self) -> Result<Preset> {
         Preset::parse(&format!("look {}", self.name), self.text)
     }

@@ -15,7 +15,7 @@ use crate::styles::LineStyle;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What came of a request.
+/// The result of a request.
 #[derive(Debug)]
 pub enum Drawn {
     /// A picture that OpenGL drew.
@@ -50,7 +50,7 @@ pub struct DrawnPicture {
 /// How long the stages took, milliseconds.
 #[derive(Debug, Clone, Default)]
 pub struct Times {
-    /// Reading the models and making meshes of them.
+    /// Reading the models and making meshes.
     pub load_ms: f64,
     /// Each stage's part of that.
     pub stages: Vec<(LoadStage, f64)>,
@@ -58,7 +58,7 @@ pub struct Times {
     pub arrays_ms: f64,
     /// Plan and pruning.
     pub plan_ms: f64,
-    /// Opening the context; 0 where it was open.
+    /// Opening the context; 0 if it was open.
     pub context_ms: f64,
     /// Drawing one triangle meanwhile; `None` where the models were read before.
     pub warm_up_ms: Option<f64>,
@@ -86,9 +86,9 @@ pub struct DrawnLines {
 pub struct ReadModels {
     /// Their meshes.
     pub meshes: Vec<Arc<Mesh>>,
-    /// The files that were read besides the models' own.
+    /// The files read besides the models' own.
     pub files: Vec<PathBuf>,
-    /// How long each stage of reading took for all of them together, milliseconds.
+    /// Time of each stage of reading, for all models together, milliseconds.
     pub stages: Vec<(LoadStage, f64)>,
     /// How long all of it took, milliseconds.
     pub ms: f64,
@@ -159,7 +159,7 @@ impl Request {
         wanted
     }
 
-    /// Whether all that is found for this request does for another of the same lines, whatever that one shows of them.
+    /// Whether the result of this request also serves another request for the same lines, whichever parts that one shows.
     pub fn finds_all_for(&self, other: &Self) -> bool {
         let wanted = [self, other].map(|request| request.line_style().map(|style| request.wanted(&style)));
         let [Some(own), Some(other)] = wanted else { return false };
@@ -180,7 +180,7 @@ impl Request {
         VisibleLines::with_progress(scene, &self.wanted(&style), progress)
     }
 
-    /// Finds the lines of a scene that the drawing shows, without those that are too short to be seen.
+    /// Finds the lines of a scene that the drawing shows, without those too short to see.
     ///
     /// # Errors
     ///
@@ -249,9 +249,10 @@ impl Request {
         let shared = &*session;
         let (models, submission) = (&shared.models, shared.submission);
         let load = || self.planned(models, submission);
-        // Context and driver need as long as a large model: both at once. The renderer stays on this thread, as GL wants.
+        // Opening the context takes as long as reading a large model: both run in parallel. The renderer stays on this thread, as
+        // GL requires.
         let (opened, loaded) = std::thread::scope(|scope| {
-            // Where no second thread can be had, one after the other.
+            // Without a second thread, one after the other.
             let Ok(loading) = std::thread::Builder::new().spawn_scoped(scope, load) else {
                 let loaded = load();
                 return (self.open(shared, || true), loaded);

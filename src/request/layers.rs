@@ -17,7 +17,7 @@ pub enum Layer {
     Style(StyleName),
     /// A look. Its options for styles other than the drawn one do not count.
     Look(Look),
-    /// A file, or something that stands for one: a preset, a recipe, a camera.
+    /// A file or a substitute for one: a preset, a recipe, a camera.
     File(Preset),
     /// A camera, which replaces the camera of the layers below it.
     Camera(Preset),
@@ -97,7 +97,7 @@ fn unknown(name: &str) -> Error {
     Error::setting(name.chars().take(40).collect::<String>(), format!("there is no such option; {choice}"))
 }
 
-/// Whether a value says that something is off.
+/// Whether a value turns its option off.
 fn is_off(value: &OptionValue) -> bool {
     *value == OptionValue::Switch(false)
 }
@@ -168,11 +168,11 @@ impl Request {
         Ok((request, remark.into_iter().collect()))
     }
 
-    /// As [`Request::from_layers`], of options alone.
+    /// Like [`Request::from_layers`], for options alone.
     ///
     /// # Errors
     ///
-    /// As there.
+    /// Those of [`Request::from_layers`].
     pub fn from_given(options: &Options) -> Result<Self> {
         Ok(Self::from_layers(&[Layer::Given(options.clone())])?.0)
     }
@@ -181,7 +181,7 @@ impl Request {
 /// The options that are about paper.
 pub const OF_PAPER: [&str; 4] = ["page", "width-mm", "dpi", "margin"];
 
-/// What to say of paper where pixels are written.
+/// The error about a paper size for pixels.
 pub fn pixels_on_paper(options: &Options) -> String {
     /// Dots an inch of a print.
     const DPI: f64 = 300.0;
@@ -191,7 +191,7 @@ pub fn pixels_on_paper(options: &Options) -> String {
     }
 }
 
-/// What to say of options that none of the styles that are drawn has.
+/// The remark about options that no drawn style has.
 pub fn ignored_remark<'a>(options: impl Iterator<Item = &'a str>, styles: &[&str]) -> Option<String> {
     let ignored: Vec<&str> = options.filter(|option| is_ignored(option, styles)).collect();
     let (first, rest) = ignored.split_first()?;
@@ -280,7 +280,7 @@ mod tests {
             refused(&[file("\ntones = \"many\"")]),
             "a.toml: line 2: tones many: give a whole number from 0 to 255"
         );
-        // Even where it is beaten.
+        // Even if a higher layer overrides it.
         assert!(refused(&[file("tones = \"many\""), given(&[("tones", "2")])]).starts_with("a.toml: line 1"));
         assert!(refused(&[file("tone = 2")]).contains("line 1: tone: there is no such option; did you mean tones?"));
         assert!(refused(&[file("eye = [1, 2, 3]\nview = \"top\"")]).contains("exclude each other"));

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
-/// Reads models, and keeps them where there are many jobs.
+/// Reads models, and caches them for many jobs.
 #[derive(Debug)]
 pub struct ModelCache {
     models: Mutex<Models>,
@@ -56,7 +56,7 @@ impl ModelCache {
 pub struct Model {
     /// Its mesh.
     pub mesh: Arc<Mesh>,
-    /// The files that were read besides its own.
+    /// The files read besides its own.
     pub files: Vec<PathBuf>,
     /// Remarks for the user.
     pub remarks: Vec<String>,

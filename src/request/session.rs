@@ -17,7 +17,7 @@ pub struct Session {
     renderers: Vec<(Backend, Renderer)>,
     /// The backend of the current job.
     used: Option<Backend>,
-    /// Also for other threads: models are read while the first context opens.
+    /// Other threads use it too: models are read while the first context opens.
     pub models: ModelCache,
     /// How vertices are handed to GL. Default in buffers.
     pub submission: Submission,
@@ -103,7 +103,7 @@ impl Session {
         self.renderers.iter().map(|(_, renderer)| renderer.live_objects()).sum()
     }
 
-    /// Lets go of all contexts: one of them is lost.
+    /// Closes all contexts, because one of them is lost.
     pub fn close(&mut self) {
         self.renderers.clear();
     }

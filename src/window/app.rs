@@ -35,8 +35,8 @@ struct News;
 ///
 /// # Errors
 ///
-/// [`Error::NoWindow`] without a display or OpenGL on it, what keeps the renderer from drawing at all, and for a recording
-/// what keeps its pictures from being written.
+/// [`Error::NoWindow`] without a display or OpenGL on it, the renderer's errors, and for a recording the errors of writing its
+/// pictures.
 pub fn open(mut options: WindowOptions) -> Result<Option<PlayedRecord>> {
     let no_window = |error: winit::error::EventLoopError| Error::NoWindow { reason: reason(&error.to_string()) };
     let event_loop = EventLoop::<News>::with_user_event().build().map_err(no_window)?;
@@ -101,7 +101,7 @@ impl App {
         match delay {
             Duration::ZERO => shown.window.request_redraw(),
             delay => event_loop.set_control_flow(
-                // Too long to be a time is for ever.
+                // A delay too long for the clock means no limit.
                 Instant::now().checked_add(delay).map_or(ControlFlow::Wait, ControlFlow::WaitUntil),
             ),
         }

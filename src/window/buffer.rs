@@ -26,7 +26,7 @@ impl Default for Buffer {
 const EDGE_CLASSES: &str = "edge-classes";
 
 impl Buffer {
-    /// As the user writes it.
+    /// In the user's notation.
     pub fn name(self) -> &'static str {
         match self {
             Self::Show(show) => show.choice_name(),
@@ -34,7 +34,7 @@ impl Buffer {
         }
     }
 
-    /// The style and its picture that are drawn for this buffer of a style; its finished picture where it has no such buffer.
+    /// The style and picture that draw this buffer of a style; the finished picture if the style lacks the buffer.
     pub fn drawn(self, style: &Style) -> (Style, Show) {
         match self {
             Self::EdgeClasses => (edge_classes(), Show::Final),

@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// The measurements of the shown picture.
 #[derive(Debug, Default)]
 pub struct Costs {
-    /// Each side's style with the times of its passes and its lines' error, where they are known.
+    /// Each side's style with the times of its passes and its lines' error, if known.
     pub sides: Vec<SideCost>,
     /// All measurements in this view, for the plot.
     pub history: Vec<Point>,
@@ -28,7 +28,7 @@ pub struct Costs {
 /// A side's cost.
 #[derive(Debug, Clone)]
 pub struct SideCost {
-    /// Which side.
+    /// The side.
     pub side: Side,
     /// The style's name.
     pub style: &'static str,

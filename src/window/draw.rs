@@ -1,7 +1,7 @@
 //! A rendering thread: it owns a renderer, takes jobs and answers with pictures. The window stays responsive meanwhile.
 //!
-//! In: a [`Job`], all values. Out: the pictures that `tinta render` draws with the same settings, byte for byte, because
-//! it is the same renderer with the same plans.
+//! Takes a [`Job`], all values; returns the pictures that `tinta render` draws with the same settings, byte for byte, because it
+//! is the same renderer with the same plans.
 
 use super::coarse;
 use super::event::Side;
@@ -33,7 +33,7 @@ pub(super) enum Order {
 /// Number of frames that time a pass.
 const TIMED_FRAMES: usize = 5;
 
-/// What draws: a renderer and shaders that may have been replaced.
+/// A renderer with possibly replaced shaders.
 #[derive(Debug)]
 pub struct Drawer {
     renderer: Renderer,

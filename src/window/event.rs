@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// One of the two styles of a split view; of a single one the left.
+/// One of the two styles of a split view; the left one if there is a single style.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Side {
@@ -32,7 +32,7 @@ pub enum Layout {
 pub enum ViewerEvent {
     /// The model is turned by a drag to the right and down, shares of a pane's height.
     Turn([f64; 2]),
-    /// It is moved likewise.
+    /// The pointer moved.
     Move([f64; 2]),
     /// It is brought nearer by this factor.
     Zoom(f64),

@@ -19,7 +19,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 impl LineJob {
-    /// The lines on nothing, and how many of their strokes are those of the view before.
+    /// The lines on a transparent ground, and how many of their strokes belong to the view before.
     fn find(&self, ids: &Mutex<Option<Kept>>, progress: &Progress) -> Result<(Picture, Stayed)> {
         let (scene, drawing) = (self.view.scene()?, &self.style.drawing);
         let lines = VisibleLines::with_progress(&scene, &self.style.wanted(), progress)?.without_specks(drawing)?;
@@ -38,7 +38,7 @@ impl LineJob {
         let stayed = strokes.intersection(&kept.strokes).count();
         let stayed = Stayed { count: strokes.len(), new: strokes.len() - stayed, gone: kept.strokes.len() - stayed };
         kept.strokes = strokes;
-        // As the file has them: a path that ends where a stroke does would begin its dashes anew.
+        // As in the file: a path that ends where a stroke does would restart its dashes.
         let drawn = strokes_of_paths(&lines, chain(&lines.segments), drawing)?;
         Ok((painted(&drawn, scene.size), stayed))
     }
@@ -53,7 +53,7 @@ struct Kept {
     strokes: HashSet<u32>,
 }
 
-/// A scene's lines on nothing.
+/// A scene's lines on a transparent ground.
 ///
 /// # Errors
 ///
@@ -69,7 +69,7 @@ pub struct ExactLines {
     found: Option<Found>,
     /// The current search.
     finding: Option<(LineJob, Arc<Progress>)>,
-    /// Whose cannot be found, and why.
+    /// The lines that failed, and why.
     refused: Option<(LineJob, String)>,
     /// The strokes that the next view's strokes are matched with.
     kept: Arc<Mutex<Option<Kept>>>,
@@ -109,7 +109,7 @@ impl ExactLines {
             self.refused = None;
         }
         if let Some((job, progress)) = &self.finding {
-            // Its thread says so when it has ended.
+            // Its thread reports its end.
             if !is_wanted(job) && (!is_picture || wanted.is_none()) {
                 progress.cancel();
             }

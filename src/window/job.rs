@@ -75,7 +75,7 @@ impl Job {
 /// A side's picture.
 #[derive(Debug, Clone)]
 pub struct Drawing {
-    /// Which side.
+    /// The side.
     pub side: Side,
     /// The picture.
     pub picture: Picture,
@@ -86,7 +86,7 @@ pub struct Drawing {
 /// The cost of a side's picture.
 #[derive(Debug)]
 pub struct Cost {
-    /// Which side.
+    /// The side.
     pub side: Side,
     /// The style's name.
     pub style: &'static str,
@@ -96,6 +96,6 @@ pub struct Cost {
     pub passes: Vec<PassTime>,
     /// Whether the style draws lines.
     pub has_lines: bool,
-    /// How dark each pixel of its lines is; `None` without lines, and where they are not measured.
+    /// The darkness of each pixel of its lines; `None` without lines, and if not measured.
     pub ink: Option<Vec<u8>>,
 }

@@ -1,4 +1,4 @@
-//! Keys: which event each makes.
+//! The event of each key.
 
 use super::event::{Side, ViewerEvent};
 use super::line_style::LinesShown;
@@ -15,7 +15,7 @@ pub(super) const SAVES: [(&str, Action); 4] = [
     ("preset", Action::SavePreset),
 ];
 
-/// The event of a key; `None` for a key that does nothing.
+/// The event of a key; `None` for a key without an action.
 pub(super) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Option<ViewerEvent> {
     event_of(action(|name| Key::from_name(name) == Some(key), modifiers.shift, modifiers.command)?, state)
 }

@@ -11,7 +11,7 @@ use crate::styles::LineStyle;
 pub struct LineJob {
     /// The view; other contents of the job do not matter.
     pub view: Job,
-    /// Which lines, and how they look.
+    /// The lines and their appearance.
     pub style: LineStyle,
 }
 
@@ -20,7 +20,7 @@ pub struct LineJob {
 pub struct Stayed {
     /// Strokes in this view.
     pub count: usize,
-    /// Of these not in the one before; all in a first view.
+    /// The number of these that are new in this view; all in a first view.
     pub new: usize,
     /// Those of the one before that are not in this one.
     pub gone: usize,
@@ -37,9 +37,9 @@ impl Stayed {
 /// Lines that were found.
 #[derive(Debug)]
 pub struct Found {
-    /// Whose they are.
+    /// The job that they belong to.
     pub job: LineJob,
-    /// They on nothing.
+    /// The lines on a transparent ground.
     pub ink: Picture,
     /// How many of their strokes are those of the view before.
     pub stayed: Stayed,

@@ -20,7 +20,7 @@ pub const LINE_SETTINGS: [&str; 13] = [
 /// How a side shows exact lines.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum LinesShown {
-    /// Nothing.
+    /// No lines.
     #[default]
     None,
     /// They lie over the style's picture.

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Starts threads that read models; the last one asked counts.
+/// Starts threads that read models; the last request counts.
 pub(super) struct Loader {
     reporter: Reporter,
     /// The number of the last load.
@@ -16,12 +16,12 @@ pub(super) struct Loader {
 }
 
 impl Loader {
-    /// Tells this reporter.
+    /// With this reporter.
     pub(super) fn new(reporter: Reporter) -> Self {
         Self { reporter, last: AtomicU64::default() }
     }
 
-    /// Whether this load is the last one asked for.
+    /// Whether this load is the last request.
     pub(super) fn is_last(&self, number: u64) -> bool {
         self.last.load(Ordering::Relaxed) == number
     }

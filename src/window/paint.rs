@@ -9,7 +9,7 @@ use crate::picture::Picture;
 use crate::scene::{Color, Size};
 use glam::DVec2;
 
-/// Strokes on nothing.
+/// Strokes on a transparent ground.
 pub fn painted(strokes: &[Strokes], size: Size) -> Picture {
     let mut pixels = vec![0; size.pixel_count() * 4];
     let mut layer = Layer::new(size);
@@ -25,7 +25,7 @@ pub fn painted(strokes: &[Strokes], size: Size) -> Picture {
     Picture { size, pixels }
 }
 
-/// A picture with ink over it; the picture alone where they are of different sizes.
+/// A picture with ink over it; the picture alone if their sizes differ.
 pub fn over(ink: &Picture, picture: &Picture) -> Picture {
     if ink.size != picture.size {
         return picture.clone();
@@ -145,7 +145,7 @@ mod tests {
         let picture = painted(&[strokes(&[[5.0, 20.0], [95.0, 20.0]], 2.0, false)], SIZE);
         assert!((6..94).all(|x| [19, 20].iter().all(|y| alpha(&picture, x, *y) == 255)));
         assert!((0..100).all(|x| [18, 21].iter().all(|y| alpha(&picture, x, *y) == 0)));
-        // Half a pixel wide in the middle of a row: half of the row, and nothing beside it.
+        // Half a pixel wide in the middle of a row: half of the row, no ink beside it.
         let thin = painted(&[strokes(&[[5.0, 20.5], [95.0, 20.5]], 0.5, false)], SIZE);
         assert_eq!([19, 20, 21].map(|y| alpha(&thin, 50, y)), [0, 128, 0]);
     }
@@ -168,7 +168,7 @@ mod tests {
         let square = [[20.0, 10.0], [60.0, 10.0], [60.0, 50.0], [20.0, 50.0]];
         let open = painted(&[strokes(&square, 2.0, false)], SIZE);
         let closed = painted(&[strokes(&square, 2.0, true)], SIZE);
-        // 40 pixels of two, without the quarter discs and squares that the ends had.
+        // 40 pixels of two, without the quarter discs and squares of the ends.
         let added = area(&closed) - area(&open);
         assert!((added - (80.0 - 2.0 * (1.0 + PI / 4.0))).abs() < 0.5, "{added}");
         let mut twice = strokes(&square, 2.0, true);

@@ -1,4 +1,4 @@
-//! The panel: a widget for every control of the active style. It reads the state and makes events, nothing else.
+//! The panel: a widget for every control of the active style. It reads the state and makes events.
 
 use super::controls::{self, Control};
 use super::event::{Layout, Side, ViewerEvent};
@@ -18,7 +18,7 @@ pub(super) const CHANGED: Color32 = Color32::from_rgb(220, 160, 60);
 /// Colour of the hint in an empty field.
 pub(super) const HINT: Color32 = Color32::GRAY;
 
-/// What being coarser is.
+/// The meaning of coarser.
 const COARSE: &str =
     "while the model turns: half the width and height, without the faces that look away, three-pass in one pass";
 
@@ -138,12 +138,12 @@ fn search(ui: &mut Ui) -> String {
     words.trim().to_owned()
 }
 
-/// A group is called by its heading, without what explains that: it has no room here.
+/// A group's heading, without its explanation, which does not fit here.
 fn by_heading(heading: &str) -> String {
     heading.split(['(', ':']).next().unwrap_or(heading).trim().to_owned()
 }
 
-/// Settings that a style shares with others are its own here, whichever styles the heading names.
+/// Settings shared with other styles appear as the style's own, whichever styles the heading names.
 fn of_style_heading(heading: &str, style: &str) -> String {
     if heading.starts_with("Style") { format!("Style {style}") } else { by_heading(heading) }
 }
@@ -210,7 +210,7 @@ fn file(ui: &mut Ui, label: &str, open: RichText, about: &str) -> Option<String>
     opened
 }
 
-/// Whether all settings are the article's, where there is one, as a state that can be returned to; or a look's.
+/// Whether all settings are the article's, if there is one, as a state to return to; or a look's.
 fn changes<T: Clone + 'static>(
     ui: &mut Ui,
     origin: Origin,

@@ -15,11 +15,11 @@ use std::time::Instant;
 pub struct PlayedRecord {
     /// From the program's start to the first picture on the screen.
     pub first_picture_ms: f64,
-    /// Each frame, from its events to its being shown; in frames that wait for their pictures with that.
+    /// The time of each frame, from its events to its display; includes the drawing of frames that wait for it.
     pub frame_ms: Summary,
     /// Frames that ran while something was being read or drawn.
     pub free_frame_ms: Summary,
-    /// In drags, from one new picture on the screen to the next.
+    /// In drags, the time from one new picture on the screen to the next.
     pub drag_frame_ms: Summary,
     /// Pixels of the window to a point.
     pub scale: f64,
@@ -31,14 +31,14 @@ pub(super) struct Player {
     frame: u64,
     /// Whether frames run without waiting for the work they started.
     is_free: bool,
-    /// In a drag: the number of the picture shown last, and when that was.
+    /// In a drag: the number and time of the last picture shown.
     dragged: Option<(u64, Instant)>,
     /// When the program began.
     started: Instant,
     times: Times,
 }
 
-/// What frames took.
+/// The times of frames.
 #[derive(Default)]
 struct Times {
     first_picture_ms: Option<f64>,
@@ -54,7 +54,7 @@ impl Player {
         Self { replay, frame: 0, is_free: false, dragged: None, started, times: Times::default() }
     }
 
-    /// Whether it says how large the drawing area is.
+    /// Whether it gives the size of the drawing area.
     pub(super) fn has_sizes(&self) -> bool {
         self.replay.has_sizes()
     }
@@ -95,7 +95,7 @@ impl Player {
         for event in lines.iter().filter_map(|line| line.event.clone()) {
             let saves = event.saves();
             shown.event(event);
-            // What saving says comes later.
+            // Saving reports later.
             if let Some(problem) = shown.viewer.state.message.clone().filter(|_| !saves) {
                 return Err(Self::refused(self.frame, problem));
             }
@@ -118,7 +118,7 @@ impl Player {
         }
         let is_wanted = lines.iter().any(|line| line.window.is_some());
         if is_wanted {
-            // egui places a sheet that is new where it belongs only once it knows its size, and that of the texts in it.
+            // egui places a new sheet correctly only once it knows the size of the sheet and of its texts.
             (0..2).try_for_each(|_| shown.frame(false).map(drop))?;
         }
         let (window, _) = shown.frame(is_wanted)?;

@@ -1,4 +1,4 @@
-//! The threads that render, and what each is doing.
+//! The rendering threads and their current jobs.
 //!
 //! One thread draws, until the picture changes faster than it can draw. Then, where the processor draws, a second one takes every
 //! other picture. Mesa's software drivers compute vertices on one core; a second core would wait for them. Two contexts of one
@@ -36,7 +36,7 @@ pub(super) struct RenderThreads {
     count: u64,
 }
 
-/// One of them.
+/// A rendering thread.
 struct Thread {
     /// Until it shall end.
     orders: Option<Sender<Order>>,
@@ -144,7 +144,7 @@ impl RenderThreads {
 #[derive(Debug)]
 pub(super) struct Ended;
 
-/// Whether two contexts are those of the same driver, whose pictures are the same.
+/// Whether two contexts belong to the same driver and draw the same pictures.
 fn is_same_driver(a: &ContextInfo, b: &ContextInfo) -> bool {
     (&a.renderer, &a.version) == (&b.renderer, &b.version)
 }
@@ -160,7 +160,7 @@ impl Drop for RenderThreads {
     fn drop(&mut self) {
         self.threads.iter_mut().for_each(|thread| thread.orders = None);
         for handle in self.threads.iter_mut().filter_map(|thread| thread.handle.take()) {
-            // One that has panicked has said so.
+            // A panicked thread has printed its message.
             let _ = handle.join();
         }
     }

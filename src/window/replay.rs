@@ -1,4 +1,4 @@
-//! A recording: events by the number of their frame, and pictures to be taken, one JSON object a line.
+//! A recording: events by frame number, and pictures to take, one JSON object a line.
 //!
 //! ```text
 //! {"frame": 0, "event": {"resize": [320, 240]}}
@@ -18,9 +18,9 @@ use std::path::Path;
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Line {
-    /// The frame's number, from 0; as the line before it if none is given.
+    /// The frame's number, from 0; by default the same as in the previous line.
     pub frame: Option<u64>,
-    /// What happens.
+    /// The event.
     pub event: Option<ViewerEvent>,
     /// A file for the picture of the panes.
     pub screenshot: Option<String>,
@@ -29,7 +29,7 @@ pub struct Line {
     /// Frames run without waiting for the work that the event starts; the record has each frame's time.
     #[serde(default)]
     pub free: bool,
-    /// The frame is one of a drag: it shows the newest picture there is as soon as its own is begun.
+    /// The frame is one of a drag: it shows the newest finished picture as soon as its own is begun.
     #[serde(default)]
     pub drag: bool,
 }
@@ -101,7 +101,7 @@ impl Replay {
         self.lines.last().map_or(0, |(frame, _)| *frame)
     }
 
-    /// Whether it says how large the drawing area is; else it is as the window leaves it.
+    /// Whether it gives the size of the drawing area; otherwise the window decides.
     pub fn has_sizes(&self) -> bool {
         self.lines.iter().any(|(_, line)| matches!(line.event, Some(ViewerEvent::Resize(_))))
     }

@@ -18,7 +18,7 @@ use std::sync::mpsc::Sender;
 pub enum Report {
     /// A drawing thread has something to draw with.
     Renderer(usize, Box<ContextInfo>),
-    /// It has nothing to draw with.
+    /// A thread has no renderer.
     NoRenderer(usize, Error),
     /// A job is done; where a new shader was refused, its log.
     Drawn {
@@ -46,7 +46,7 @@ pub enum Report {
     ShadersRefused(Error),
     /// Progress of loading: the number of the load, and its stage.
     Stage(u64, Stage),
-    /// Models are loaded: the number of the load, and what there is.
+    /// Models are loaded: the number of the load, and the models.
     Loaded(u64, Box<LoadedModels>),
     /// Models cannot be loaded.
     NotLoaded(u64, Error),
@@ -54,7 +54,7 @@ pub enum Report {
     Measured(u64, Vec<(Side, LineScore)>),
     /// The exact lines of a view, or the reason why they failed.
     Lines(Box<Result<Found>>),
-    /// Models were chosen, or none.
+    /// Chosen models, possibly none.
     #[cfg(feature = "file-dialogue")]
     Chosen(Vec<String>),
     /// A model's file has changed.
@@ -89,7 +89,7 @@ pub struct Stage {
     pub share: f32,
 }
 
-/// Tells the viewer news and wakes it.
+/// Sends the viewer reports and wakes it.
 #[derive(Clone)]
 pub struct Reporter {
     sender: Sender<Report>,

@@ -26,7 +26,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Pictures of a turn, and how long each is shown, milliseconds: what `--turntable 36` makes of it.
+/// Pictures of a turn, and the time of each, milliseconds, as in `--turntable 36`.
 const TURN: (u32, u16) = (36, 69);
 
 /// How a model is read and where files go.
@@ -67,7 +67,7 @@ fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Sav
     let mut options = SceneSettings { camera: job.camera()?, ..job.settings.clone() }.to_options()?;
     options.extend(surroundings.load.to_options()?);
     match save {
-        // The file's name says that it has lines.
+        // The file's name requests lines.
         Save::Lines => {
             options.extend(state.style_of_lines().to_options()?.into_iter().filter(|(name, _)| name != "style"))
         }
@@ -119,7 +119,7 @@ fn style_options(state: &ViewerState, job: &Job, side: Side) -> Result<Options> 
 ///
 /// # Errors
 ///
-/// [`crate::Error::File`] and what drawing is refused for.
+/// [`crate::Error::File`] and the errors of drawing.
 pub(super) fn save(
     state: &ViewerState,
     job: &Job,
@@ -137,7 +137,7 @@ pub(super) fn save(
     Ok(said?.join("; "))
 }
 
-/// Writes one file and says where.
+/// Writes one file and reports where.
 fn save_of(
     state: &ViewerState,
     job: &Job,
@@ -192,7 +192,7 @@ fn save_of(
             }
         }
         Save::Preset => {
-            // Not from where: a preset is for any model.
+            // Without the view: a preset is for any model.
             let mut options = controls::of_scene_in(&job.settings.to_options()?);
             options.remove("view");
             options.extend(style_options(state, job, side)?);

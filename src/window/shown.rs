@@ -23,7 +23,7 @@ pub(super) const NARROW: u32 = 800;
 /// How long a dragging pointer rests before the full picture is drawn.
 const STILL: Duration = Duration::from_millis(200);
 
-/// What there is once there is a window.
+/// The parts that exist once the window exists.
 pub(super) struct Shown {
     pub viewer: Viewer,
     textures: Textures,
@@ -34,11 +34,11 @@ pub(super) struct Shown {
     title: String,
     /// Whether the drawing area is as large as the window leaves it.
     pub follows_window: bool,
-    /// Whether it is to be closed.
+    /// Whether the window should close.
     pub is_over: bool,
     /// Whether the window is too narrow for the panel beside the panes.
     is_narrow: bool,
-    /// Whether a recording says what happens, and when the view moves.
+    /// Whether a recording controls the events, including those that move the view.
     is_played: bool,
 }
 
@@ -118,7 +118,7 @@ impl Shown {
             pixels_per_point: output.pixels_per_point,
         };
         let size = self.size();
-        // A window without pixels shows nothing; its textures are kept up to date all the same.
+        // A window without pixels shows nothing, but its textures stay up to date.
         let picture = self.gl.paint(size, &shapes, is_wanted)?;
         let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |output| output.repaint_delay);
         let delay = moving.map_or(delay, |left| left.min(delay));
@@ -162,7 +162,7 @@ impl Shown {
 pub(super) fn dress(context: &egui::Context) {
     context.set_theme(egui::Theme::Dark);
     context.all_styles_mut(|style| {
-        // What fades in has to be painted again and again.
+        // A fading element would need repeated painting.
         style.animation_time = 0.0;
         style.visuals.override_text_color = Some(egui::Color32::from_gray(TEXT_GREY));
     });

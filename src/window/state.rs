@@ -20,11 +20,11 @@ pub struct ViewerState {
     pub models: Vec<String>,
     /// How they are read.
     pub(super) load: LoadOptions,
-    /// From where they are seen.
+    /// The view of them.
     pub orbit: Orbit,
-    /// The styles of both sides by their names, with the settings each had last.
+    /// The styles of both sides by their names, each with its last settings.
     pub(super) styles: [Vec<Style>; 2],
-    /// Which of them is shown.
+    /// The shown style of each side.
     pub(super) chosen: [StyleName; 2],
     /// Whether exact lines lie over it.
     pub(super) has_lines_over: [bool; 2],
@@ -36,7 +36,7 @@ pub struct ViewerState {
     pub divider: f64,
     /// The shown buffer of the styles.
     pub buffer: Buffer,
-    /// The scene of both sides; its size is that of a pane, and from where it is seen says the orbit.
+    /// The scene of both sides; a pane gives its size, and the orbit its view.
     pub(super) scene: SceneSettings,
     /// Whether pictures may be coarser while the view moves.
     pub is_coarse_while_moving: bool,
@@ -44,7 +44,7 @@ pub struct ViewerState {
     pub area: Size,
     /// Whether the panel is shown.
     pub has_panel: bool,
-    /// Whether a line says how to begin, until something was done.
+    /// Whether the starting hint is shown, until the first event.
     pub has_hint: bool,
     /// Whether the key sheet is.
     pub has_key_sheet: bool,
@@ -62,7 +62,7 @@ const DIVIDER_MARGIN: f64 = 0.02;
 /// Pixels between the panes of a difference.
 const GAP_PX: u32 = 2;
 
-/// Largest side of a drawing area asked for by an event.
+/// Largest side of a drawing area that an event may set.
 const LARGEST_SIDE: u32 = 16_384;
 
 impl Default for ViewerState {

@@ -48,10 +48,10 @@ const DIVIDER_REACH: f32 = 6.0;
 /// Points of scrolling that bring the model nearer by e.
 const SCROLL_POINTS: f64 = 300.0;
 
-/// Between updates of what loading is doing.
+/// Time between updates of the loading stage.
 const LOADING_INTERVAL: Duration = Duration::from_millis(100);
 
-/// The pictures as textures, made anew when there are new ones.
+/// The pictures as textures, replaced when new ones arrive.
 #[derive(Default)]
 pub(super) struct Textures {
     made_of: Option<(u64, bool)>,
@@ -101,9 +101,9 @@ pub(super) fn frame(
     let mut events = Vec::new();
     textures.update(context, viewer);
     let state = &viewer.state;
-    // While a text is typed its letters are no keys of ours.
+    // While the user types a text, its letters are not keys.
     let is_typing = context.memory(|memory| memory.focused()).is_some();
-    // Esc closes a list that is open, and nothing besides.
+    // Esc closes an open list, and only that.
     if !is_typing && !egui::Popup::is_any_open(context) {
         let pressed = |event: &egui::Event| match event {
             egui::Event::Key { key, pressed: true, modifiers, .. } => keys::event(*key, *modifiers, state),
@@ -229,7 +229,7 @@ fn paint(ui: &Ui, textures: &Textures, pane: Pane, corner: Pos2, scale: f32) {
     }
 }
 
-/// The line between two styles, to be dragged.
+/// The draggable line between two styles.
 fn divider(ui: &Ui, top: Pos2, area: Rect, events: &mut Vec<ViewerEvent>) {
     let reach = Rect::from_x_y_ranges(top.x - DIVIDER_REACH..=top.x + DIVIDER_REACH, area.y_range());
     let response =
@@ -245,7 +245,7 @@ fn divider(ui: &Ui, top: Pos2, area: Rect, events: &mut Vec<ViewerEvent>) {
     }
 }
 
-/// A text of the sheet, on two lines where it is long.
+/// A text of the sheet, on two lines if it is long.
 fn broken(text: &str) -> String {
     let end = text.char_indices().nth(LINE_LETTERS).and_then(|(end, _)| text[..end].rfind(' '));
     end.map_or_else(|| text.to_owned(), |end| format!("{}\n{}", &text[..end], &text[end + 1..]))
@@ -303,7 +303,7 @@ fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     }
     if state.has_key_sheet {
         let shown = window("keys").anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
-            // In a small window the rest is scrolled to.
+            // In a small window the rest scrolls.
             let Vec2 { x: width, y: height } = context.content_rect().size();
             egui::ScrollArea::vertical().max_height(height - KEY_SHEET_MARGIN).show(ui, |ui| {
                 let rows: Vec<_> = crate::keys::sheet(false).collect();

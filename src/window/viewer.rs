@@ -39,7 +39,7 @@ pub struct ViewerOptions {
     pub load: LoadOptions,
     /// The OpenGL backend for the pictures; the window has another.
     pub backend: Backend,
-    /// A folder laid out like `glsl/` whose shaders are used, and used anew when they change.
+    /// A folder laid out like `glsl/` with the shaders to use, reloaded when they change.
     pub shaders: Option<PathBuf>,
     /// Where files are written.
     pub folder: PathBuf,
@@ -55,7 +55,7 @@ pub struct Viewer {
     pub costs: Costs,
     /// The exact lines of the view, where a side shows them.
     pub lines: ExactLines,
-    /// What loading is doing, while it does.
+    /// The current stage of loading.
     pub stage: Option<Stage>,
     /// A shader that was refused, with the driver's log.
     pub shader_log: Option<String>,
@@ -87,7 +87,7 @@ pub struct Viewer {
     loader: Loader,
     watched: Sender<Vec<PathBuf>>,
     loads_going_on: u64,
-    /// The drawing threads' last words, where they have gone.
+    /// The drawing threads' final error, after they ended.
     gone: Option<Error>,
 }
 
@@ -105,7 +105,7 @@ impl Viewer {
     ///
     /// # Errors
     ///
-    /// [`Error::Gl`] when the system has no threads to give.
+    /// [`Error::Gl`] when the system cannot start a thread.
     pub fn start(options: ViewerOptions, wake: impl Fn() + Send + Sync + 'static) -> Result<Self> {
         let no_thread = |error: std::io::Error| Error::gl("starting the window's threads", error.to_string());
         let (sender, reports) = channel();
@@ -158,7 +158,7 @@ impl Viewer {
         Ok(viewer)
     }
 
-    /// Lets an event happen. What only a window can do is returned.
+    /// Applies an event and returns its effect outside the viewer.
     pub fn event(&mut self, event: ViewerEvent) -> Option<Effect> {
         let effect = self.state.update(event);
         match effect {
@@ -176,7 +176,7 @@ impl Viewer {
     ///
     /// # Errors
     ///
-    /// What keeps the drawing thread from drawing anything at all.
+    /// The error that keeps the drawing thread from drawing at all.
     pub fn take_reports(&mut self) -> Result<bool> {
         let mut is_news = false;
         while let Ok(report) = self.reports.try_recv() {
@@ -213,7 +213,7 @@ impl Viewer {
         Ok(())
     }
 
-    /// Asks for the picture of the state, if it is not there, and for its cost when it is. To be called after events.
+    /// Requests the picture of the state if it is missing, and otherwise its cost. Call it after events.
     pub fn ask(&mut self) {
         let Some(job) = self.job() else { return };
         let is_picture = self.shows(LinesShown::Alone);
@@ -267,7 +267,7 @@ impl Viewer {
         self.loads_going_on == 0 && !is_working
     }
 
-    /// A side's picture, with the exact lines where it shows them.
+    /// A side's picture, with the exact lines if it shows them.
     pub fn picture(&self, side: Side) -> Option<&Picture> {
         self.inked[side as usize].as_ref().or_else(|| self.drawing(side).map(|drawing| &drawing.picture))
     }
@@ -319,7 +319,7 @@ impl Viewer {
         self.state.sides().iter().any(|side| self.state.lines_shown(*side) == lines)
     }
 
-    /// Lays the lines that were found over the pictures, where they are of the same view.
+    /// Lays the found lines over the pictures of the same view.
     fn ink(&mut self) {
         let lines = [Side::Left, Side::Right].map(|side| match self.state.lines_shown(side) {
             LinesShown::Over if !self.has_ink_over(side) => LinesShown::None,
@@ -425,7 +425,7 @@ impl Viewer {
             }
             Report::NotDrawn(thread, error) => {
                 if let Some(job) = self.done(thread) {
-                    // Not asked for again until something changes; the last picture stays.
+                    // Not requested again until the state changes; the last picture stays.
                     self.drawn = Some(job);
                     self.problem = Some(error.to_string());
                 }
@@ -528,7 +528,7 @@ impl Drop for Viewer {
         self.costs.view_changed();
         self.lines.cancel();
         for thread in self.saving_threads.drain(..) {
-            // One that has panicked has said so.
+            // A panicked thread has printed its message.
             let _ = thread.join();
         }
     }

@@ -36,7 +36,7 @@ impl Watched {
         Self { files: files.into_iter().map(seen).collect() }
     }
 
-    /// Looks again; whether a file has changed since it was last said to have, and stood still since the last look.
+    /// Checks the files; returns whether one has changed since the last report and stayed the same since the last check.
     pub(super) fn has_changed(&mut self) -> bool {
         let mut has_changed = false;
         for (file, said, last) in &mut self.files {

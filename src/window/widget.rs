@@ -1,4 +1,4 @@
-//! The widget of a control, by what its setting can be.
+//! The widget of a control, by the kind of its setting.
 
 use super::controls::Control;
 use crate::scene::Color;
@@ -135,7 +135,7 @@ fn widget(ui: &mut Ui, kind: &Kind, value: &str) -> Option<String> {
     }
 }
 
-/// Some of a few names, one at least, each to be switched on and off.
+/// At least one of a few names, each with a switch.
 fn several(ui: &mut Ui, names: &[&str], value: &str) -> Option<String> {
     let mut chosen: Vec<&str> = value.split(',').collect();
     let mut switched = None;

@@ -14,7 +14,7 @@ pub(super) struct WorkerProcess {
     outcomes: BufReader<ChildStdout>,
 }
 
-/// Mesa's threads beside the one that draws, which it reads once when it starts.
+/// The variable for the number of Mesa's extra threads, which Mesa reads once when it starts.
 const RASTER_THREADS: &str = "LP_NUM_THREADS";
 
 impl WorkerProcess {
@@ -43,7 +43,7 @@ impl WorkerProcess {
         };
         let mut command = Command::new(program().map_err(cannot)?);
         command.args(["batch", "--worker", "--output"]).arg(folder);
-        // Threads that draw for one another only where there are processors left for them.
+        // More drawing threads only while processors are free.
         if std::env::var_os(RASTER_THREADS).is_none() {
             let threads = if cores >= workers * 2 { cores / workers } else { 0 };
             command.env(RASTER_THREADS, threads.to_string());

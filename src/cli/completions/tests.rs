@@ -74,7 +74,7 @@ fn files_are_offered_where_files_are_taken_and_nothing_where_numbers_are() {
 
 #[test]
 fn an_option_takes_a_value_in_all_commands_or_in_none() {
-    // bash's words are put together before it is known whose option it is.
+    // bash's words are joined before their option is known.
     let whole = whole();
     let with_value = with_value(&whole);
     assert!(with_value.iter().any(|option| option == "-o") && with_value.len() > 80, "{with_value:?}");

@@ -16,7 +16,7 @@ pub fn with_values(program: &Program) -> Command {
     })
 }
 
-/// Whether a value stands after it.
+/// Whether the option takes a value.
 pub(super) fn takes_value(arg: &Arg) -> bool {
     arg.get_long().is_some() && arg.get_action().takes_values()
 }
@@ -40,7 +40,7 @@ fn with_value(offers: fn(&str) -> Vec<&'static str>, arg: Arg) -> Arg {
     }
 }
 
-/// The names an option takes, or the usual ones where it takes others too.
+/// The names an option takes, or the default suggestions where it takes other values too.
 fn offered(offers: fn(&str) -> Vec<&'static str>, option: &str) -> Vec<&'static str> {
     let of_command = offers(option);
     match option {

@@ -1,4 +1,4 @@
-//! A made-up setting of a made-up style, at every door that is a loop over tables. The viewer's is tried beside its controls.
+//! A made-up setting of a made-up style passes through every loop over tables. The viewer's is tested with its controls.
 
 use super::super::{completions, man};
 use super::*;

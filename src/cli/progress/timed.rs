@@ -6,7 +6,7 @@ use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
-/// A bar for steps of several kinds, whose length and time left go by how long each kind takes.
+/// A bar for steps of several kinds; its length and remaining time account for the time of each kind.
 #[derive(Debug)]
 pub struct TimedProgress {
     bar: ProgressBar,
@@ -35,7 +35,7 @@ impl TimedProgress {
         self.show();
     }
 
-    /// So many steps of this kind need not be done.
+    /// Removes so many steps of this kind.
     pub fn skip(&self, kind: usize, count: usize) {
         self.estimate.borrow_mut().skip(kind, count);
         self.show();

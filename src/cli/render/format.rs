@@ -1,4 +1,4 @@
-//! What an output's name asks for: lines or pixels.
+//! The format of an output by its name: lines or pixels.
 
 use std::path::Path;
 use tinta::picture::PictureFormat;

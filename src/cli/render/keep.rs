@@ -53,7 +53,7 @@ pub(super) fn recipe(
         size: [scene.size.width, scene.size.height],
         models: request.models.clone(),
         options: request.options.clone(),
-        // One that has gone since it was read is left out: the picture is there, and says so by drawing otherwise.
+        // A file removed after reading is left out: drawing the recipe reports the difference.
         files: paths.iter().filter_map(|path| record(path)).collect(),
         gl: context.map(Driver::new),
     })

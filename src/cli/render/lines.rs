@@ -56,7 +56,7 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
         say(&format!("tinta: {output}: {note}"));
     }
     let recipe = match format {
-        // What there is of a part depends on the machine: nothing makes it again.
+        // Partial lines depend on the machine and cannot be reproduced.
         _ if note.is_some() => None,
         Format::Svg | Format::Pdf | Format::Picture => keep::recipe(rendering, &scene, &files, None),
         Format::Json => None,
@@ -103,7 +103,7 @@ fn stopped(stop: Option<&Stop>) -> Verdict {
     Verdict::Stopped { signal: stop.map_or(0, Stop::signal) }
 }
 
-/// Writes nothing yet: checks that the file can be written.
+/// Checks that the file can be written, without writing.
 fn check_output(output: &str, format: Format, is_transparent: bool) -> Result<()> {
     match format {
         Format::Picture => Target::check(output, is_transparent).map(drop),

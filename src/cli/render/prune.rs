@@ -10,7 +10,7 @@ use tinta::{Picture, Renderer, Result, Scene, Target};
 /// Least rounds that time an omission.
 const LEAST_ROUNDS: usize = 5;
 
-/// Most of them.
+/// Most rounds.
 const MOST_ROUNDS: usize = 101;
 
 /// Draws the published plan and compares it with the picture of the shorter one; without a difference no picture of one stays.
@@ -93,7 +93,7 @@ pub(super) fn explanation(
     Ok(text)
 }
 
-/// What putting something back costs, in words; medians of a busy machine differ by a twentieth for no reason.
+/// The time of restoring an omission, in words; medians of a busy machine vary by a twentieth.
 fn saved(with_ms: f64, without_ms: f64) -> String {
     match with_ms - without_ms {
         saved if saved.abs() > 0.05 * without_ms && saved > 0.0 => format!("saved {saved:.2} ms"),

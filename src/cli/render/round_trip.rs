@@ -163,7 +163,7 @@ fn an_option_is_said_to_have_no_effect_exactly_where_it_changes_nothing() {
                 Style::with_options(style, &options).map_or(true, |changed| changed != Style::named(style));
             match is_ignored(name, &[]) {
                 false => assert!(!is_changed, "--{name} is an option of styles"),
-                // Exact is what lines have anyway, and they refuse the listing's rule.
+                // Lines always use exact, and refuse the listing's rule.
                 true if name == "silhouette" && style.draws_lines() => {}
                 true => assert_eq!(is_ignored(name, &[style_name]), !is_changed, "--{name} in {style_name}"),
             }

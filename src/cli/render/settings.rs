@@ -163,7 +163,7 @@ impl RunSettings {
         }
     }
 
-    /// Refuses what only lines have.
+    /// Refuses options of lines.
     pub(super) fn refuse_for_pictures(&self) -> Result<()> {
         let problem = "only exact lines can end before they are done; leave it out, or write a .svg";
         Self::refuse(&[("within", self.within.is_some()), ("partial", self.partial)], problem)
@@ -175,7 +175,7 @@ impl RunSettings {
         Self::refuse(&given, "this is for one picture; leave it out, or name a picture such as drawing.png")
     }
 
-    /// Refuses what only pictures have.
+    /// Refuses options of pictures.
     pub(super) fn refuse_for_lines(&self) -> Result<()> {
         let problem =
             "style lines has no passes and no model's frames; leave it out, or name a picture such as drawing.png";

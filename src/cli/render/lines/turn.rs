@@ -19,7 +19,7 @@ use tinta::{Error, Result, Scene};
 ///
 /// # Errors
 ///
-/// [`Error::File`] for a name that has no place for a number, or means no drawing.
+/// [`Error::File`] for a name without a place for a number, or without a format of lines.
 pub(super) fn names(output: &str, format: Format) -> Result<NumberedName> {
     NumberedName::parse(output).filter(|_| format != Format::Json).ok_or_else(|| {
         Error::output(output, "this names one drawing; a turn has numbered ones such as frame-%04d.svg, .pdf or .png")

@@ -52,7 +52,7 @@ pub(super) fn progress(rendering: &Rendering<'_>) -> LineProgress {
 /// How often the progress bar is looked after, and how long work takes before it gets one.
 const GLANCE: Duration = Duration::from_millis(200);
 
-/// Work on lines; a thread beside it says how far it is and looks after signals.
+/// Works on lines while another thread shows progress and watches for signals.
 pub(super) fn watched<T>(progress: &LineProgress, stop: Option<&Stop>, work: impl FnOnce() -> T) -> T {
     let (done, is_done) = std::sync::mpsc::channel::<()>();
     std::thread::scope(|scope| {
@@ -74,7 +74,7 @@ pub(super) fn watched<T>(progress: &LineProgress, stop: Option<&Stop>, work: imp
         };
         // Without the thread progress is not shown.
         let _ = std::thread::Builder::new().spawn_scoped(scope, watch);
-        // Also where the work panics.
+        // Also if the work panics.
         let _done = done;
         work()
     })
