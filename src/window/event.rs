@@ -32,7 +32,7 @@ pub enum Layout {
 pub enum ViewerEvent {
     /// The model is turned by a drag to the right and down, shares of a pane's height.
     Turn([f64; 2]),
-    /// The pointer moved.
+    /// The model is moved by a drag, in the same units.
     Move([f64; 2]),
     /// It is brought nearer by this factor.
     Zoom(f64),

@@ -1,8 +1,8 @@
 //! Compares the lines of two drawings: drawn by both, or by only one.
 //!
-//! In: two pictures of lines alone (dark on light, or ink by its alpha). Out: counts and a map of agreement. A pixel of ink
-//! counts as drawn by both where the other drawing has ink within a tolerance, for lines of different width and half a
-//! pixel's difference are the same lines to the eye.
+//! Takes two pictures of lines alone (dark on light, or ink by its alpha); returns counts and a map of agreement. A pixel of ink
+//! counts as drawn by both if the other drawing has ink within a tolerance: lines of different width or half a pixel apart look
+//! the same.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -27,7 +27,7 @@ use tinta::scene::Size;
 /// Least darkness of a pixel that counts as ink, of 255.
 const INK_FROM: u8 = 64;
 
-/// Which pixels of a picture are ink.
+/// The ink pixels of a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct InkMask {
     /// The picture's size.
@@ -58,7 +58,7 @@ impl InkMask {
         Self { size, ink: darkness.iter().map(|darkness| *darkness >= from).collect() }
     }
 
-    /// The ink at whose pixels' middles this holds.
+    /// The ink of the pixels whose middles satisfy a condition.
     #[must_use]
     pub fn kept(mut self, holds: impl Fn(DVec2) -> bool) -> Self {
         let width = self.size.width as usize;
@@ -97,8 +97,7 @@ impl InkMask {
         self.ink.iter().filter(|ink| **ink).count()
     }
 
-    /// Pixels with ink that have none of the other picture's, which is of the same size, within `radius_px`: ink that was not
-    /// merely moved.
+    /// Number of ink pixels without ink of the other picture, of the same size, within `radius_px`: ink that did not merely move.
     pub fn count_far_from(&self, other: &Self, radius_px: u32) -> usize {
         self.ink.iter().zip(other.grown(radius_px)).filter(|(ink, near)| **ink && !near).count()
     }
@@ -147,7 +146,7 @@ pub struct Agreement {
     pub numbers: AgreementNumbers,
 }
 
-/// How many pixels of ink there are, and how many of them the other drawing has too.
+/// The number of ink pixels, and of those that the other drawing shares.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct AgreementNumbers {
     /// Distance within which ink counts as the same, pixels.
@@ -156,9 +155,9 @@ pub struct AgreementNumbers {
     pub left_px: usize,
     /// Ink of the right drawing.
     pub right_px: usize,
-    /// Ink of the left drawing with none of the right one's near it.
+    /// Ink of the left drawing without ink of the right one near it.
     pub only_left_px: usize,
-    /// Ink of the right drawing with none of the left one's near it.
+    /// Ink of the right drawing without ink of the left one near it.
     pub only_right_px: usize,
     /// Share of the left drawing's ink that the right one has too, 0 to 1; `None` without ink.
     pub left_shared: Option<f64>,

@@ -124,7 +124,7 @@ impl Face {
         Self { font, scale: PxScale::from(em_px * lines_a_em.unwrap_or(1.0)) }
     }
 
-    /// Of a line, pixels.
+    /// Height of a line, pixels.
     fn height(&self) -> u32 {
         self.scale.y.ceil() as u32
     }

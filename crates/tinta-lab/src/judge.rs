@@ -94,7 +94,7 @@ pub struct Judgement {
     pub hidden: Hidden,
     /// How the lines were moved onto the drawing, if requested.
     pub fit: Option<Fit>,
-    /// Why the numbers probably say nothing of the drawing's lines.
+    /// Why the numbers probably do not describe the drawing's lines.
     #[serde(default)]
     pub doubt: Option<Doubt>,
 }
@@ -117,7 +117,7 @@ pub struct OneToOne {
     pub average_precision: f64,
 }
 
-/// Lines that lie behind something, farther than twice the tolerance from every visible one; none of a reference without hidden lines
+/// Lines behind something, farther than twice the tolerance from every visible one; empty for a reference without hidden lines
 /// ([`Reference::with_hidden`]).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Hidden {

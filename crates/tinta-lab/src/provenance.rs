@@ -1,8 +1,7 @@
-//! Whose each value of a style is: printed in its text, deduced from it, or ours.
+//! The origin of each value of a style: printed in its text, deduced from it, or ours.
 //!
-//! Settings say it where they are declared ([`tinta::settings::Setting::provenance`]), fixed values in [`CONSTANTS`], the numbers
-//! in shaders in [`SHADERS`]. In: the name of a style, or none for all. Out: rows, a table for a terminal, and a page
-//! of all tables.
+//! Settings declare it ([`tinta::settings::Setting::provenance`]), fixed values have it in [`CONSTANTS`], the numbers in shaders
+//! in [`SHADERS`]. Takes the name of a style, or none for all; returns rows, a table for a terminal, and a page of all tables.
 //!
 //! ```
 //! use tinta::StyleName;
@@ -24,7 +23,7 @@ use tinta::choice::Choice;
 use tinta::settings::{HasSettings, Whose};
 use tinta::styles::{Style, StyleName};
 
-/// A value and whose it is.
+/// A value and its origin.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Row {
     /// The styles that use it.
@@ -33,7 +32,7 @@ pub struct Row {
     pub name: String,
     /// The value, by default.
     pub value: String,
-    /// Whose.
+    /// Its origin.
     pub whose: Whose,
     /// Its printed place, its derivation, or the reason for its choice.
     pub why: &'static str,
@@ -41,7 +40,7 @@ pub struct Row {
     pub otherwise: &'static str,
 }
 
-/// All rows of a style, or of all; a row that several styles share stands once.
+/// All rows of a style, or of all styles; a row shared by several styles appears once.
 ///
 /// First the settings in the order of help, then fixed values, then the numbers in the shaders.
 pub fn rows(style: Option<StyleName>) -> Vec<Row> {

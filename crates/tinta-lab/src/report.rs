@@ -1,9 +1,9 @@
 //! Reports on measured rows: `results.jsonl` row by row, then `results.csv`, plots of error against run time and one
 //! page that holds all of it.
 //!
-//! In: [`Row`]s of one machine or several, and [`ReportInfo`] about the run. Out: files in a folder, each written whole.
-//! Nothing here measures, draws models or looks at the clock. The plots are work-precision diagrams as numerical
-//! analysts draw them (Hairer, Nørsett, Wanner: Solving Ordinary Differential Equations I, section II.10).
+//! Takes [`Row`]s of one machine or several, and [`ReportInfo`] about the run; writes files in a folder, each whole. It does not
+//! measure, draw models or read the clock. The plots are work-precision diagrams as in numerical analysis (Hairer, Nørsett,
+//! Wanner: Solving Ordinary Differential Equations I, section II.10).
 //!
 //! ```
 //! // The first line names the columns.

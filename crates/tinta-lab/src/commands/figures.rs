@@ -198,7 +198,7 @@ impl Arguments {
         HowToMeasure { size: self.size, frames: frames as usize, scenes }
     }
 
-    /// The model with a texture: the user's, or else the built-in one.
+    /// The model with a texture: the user's, or the built-in one.
     fn textured(&self) -> Result<Option<Arc<Mesh>>> {
         let path = self.model.as_deref().unwrap_or(BUILTIN_CHARACTER);
         let options = LoadOptions { skin: self.skin.clone(), ..LoadOptions::default() };

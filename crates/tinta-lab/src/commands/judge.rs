@@ -110,7 +110,7 @@ struct Record<'a> {
 /// Files that are written into the folder, pictures of plots and errors aside.
 const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 
-/// Judges the drawings; exit code 1 where one looks like something else than lines of this view.
+/// Judges the drawings; exit code 1 if one looks like something other than lines of this view.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<Verdict> {
     let mut verdict = Verdict::Good;
     let names = names(arguments)?;
@@ -208,7 +208,7 @@ impl Subject {
     }
 }
 
-/// Says where a picture that tinta drew, as its recipe has it, shows the model from elsewhere than it is judged from; whether it does.
+/// Warns if the recipe of a picture by tinta has another view than the judge; returns whether it does.
 fn say_other_camera(drawing: &Path, scene: &Scene) -> bool {
     let Ok(recipe) = Recipe::read(drawing) else { return false };
     let options = camera_file::of_camera(recipe.options);
@@ -229,7 +229,7 @@ fn say_other_camera(drawing: &Path, scene: &Scene) -> bool {
 
 /// How far a corner of the scene moves at most if another camera sees it, pixels.
 fn largest_shift_px(scene: &Scene, other: &Camera) -> f64 {
-    /// Positions asked of each object.
+    /// Number of positions tested for each object.
     const ASKED: usize = 256;
     let size = DVec2::new(f64::from(scene.size.width), f64::from(scene.size.height));
     let [own, other] =

@@ -71,7 +71,7 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    /// Of a job's options.
+    /// Reads a job's options.
     pub(super) fn of_job(job: &JobOptions) -> Result<Self> {
         let is_own = |name: &str| name == "merge" || Chosen::<OfHow>::has(name) || Chosen::<OfSubject>::has(name);
         job.refuse_unknown("measure", is_own)?;
@@ -191,7 +191,7 @@ fn measured(
     let renderer = session.renderer(asked.backend)?;
     let expected = expected(renderer, &groups, settings.len(), how.frames)?;
     let seconds: f64 = expected.iter().copied().map(Steps::total).sum();
-    // Once nothing but the measuring can go wrong.
+    // Only now, when the measuring alone can fail.
     let mut results = Results::open(&arguments.output, asked.resume)?;
     results.refuse_other_terms(*against, how)?;
     tinta::cli::say(&format!(

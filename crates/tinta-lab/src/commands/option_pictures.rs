@@ -14,17 +14,16 @@ use tinta::cli::render;
 use tinta::request::{ModelCache, Request};
 use tinta::{Backend, Picture, Renderer, Size};
 
-/// A pixel counts as different beyond this, 1/255: what another driver rounds differently, and half a step of the fewer
-/// colours that the files have.
+/// A pixel counts as different beyond this, 1/255: the rounding of another driver, and half a step of the files' fewer colours.
 const LARGEST_DIFFERENCE: u8 = 12;
 
 /// Share of pixels that may be different: edges and grains fall on other pixels where another driver rasterises differently.
 const DIFFERENT_SHARE: f64 = 0.01;
 
-/// Share of a half that an option must change, or its picture shows nothing.
+/// Least share of a half that an option must change; below it the picture shows nothing.
 const LEAST_CHANGE: f64 = 0.001;
 
-/// What all pictures together may take, bytes.
+/// Largest size of all pictures together, bytes.
 const MOST_BYTES: u64 = 1536 * 1024;
 
 /// Width of the line between both halves, pixels.
@@ -33,7 +32,7 @@ const GAP: u32 = 4;
 /// Colours of the squares behind transparent pixels.
 const CHECKS: [u8; 2] = [235, 205];
 
-/// Commands whose options draw something.
+/// Commands with options that affect a drawing.
 const COMMANDS: [&str; 3] = ["render", "compare", "measure"];
 
 fn root() -> &'static Path {
@@ -106,7 +105,7 @@ fn drawn(renderer: &mut Renderer, words: &[String]) -> Picture {
             }
             opaque(tiled(pictures(&request, renderer).unwrap_or_else(|error| refuse(&error))))
         }
-        // The picture of a comparison that has no times in it: whose line is whose.
+        // The picture of a comparison without times: it shows which drawing has each line.
         "compare" => {
             into("");
             Picture::read_png(&folder.path().join("lines.png")).unwrap()
@@ -175,7 +174,7 @@ fn side_by_side(left: &Picture, right: &Picture) -> Picture {
     Picture { size: Size { width: 2 * width + GAP, height }, pixels }
 }
 
-/// With at most 256 colours, the fewest bits a channel that give so few: a third of the size of one with all.
+/// With at most 256 colours, in the fewest bits a channel that give so few: a third of the full size.
 fn write(picture: &Picture, path: &Path) {
     let reduced = |bits: u32| -> Vec<[u8; 3]> {
         let steps = (1u32 << bits) - 1;

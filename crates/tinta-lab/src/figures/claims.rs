@@ -64,8 +64,8 @@ pub fn claims(text: Text) -> Vec<Claim> {
     }
 }
 
-/// Measures claims; `numbers` are those of section 5, without which what follows from them is not testable, and `step` is called
-/// once for each claim.
+/// Measures claims; `numbers` are those of section 5, which some claims need to be testable. `step` is called once for each
+/// claim.
 ///
 /// # Errors
 ///

@@ -28,11 +28,11 @@ impl Artist {
         !panel.needs_texture() || self.textured.is_some()
     }
 
-    /// Draws a panel; `None` where [`Artist::can_draw`] says no.
+    /// Draws a panel; `None` if [`Artist::can_draw`] is false.
     ///
     /// # Errors
     ///
-    /// As [`Renderer::draw`]; [`tinta::Error::Setting`] for a model that has no texture.
+    /// Those of [`Renderer::draw`]; [`tinta::Error::Setting`] for a model without a texture.
     pub fn draw(&mut self, renderer: &mut Renderer, panel: &Panel, size: Size) -> Result<Option<Picture>> {
         match &panel.drawing {
             Drawing::Grains { texture, .. } => texture.picture().map(Some),

@@ -1,5 +1,5 @@
-//! The figures of Evangelista et al. 2005: all fourteen, and the numbers of section 5. Figures 2 and 3 are other authors' pictures
-//! and not drawn; figure 4 is one too, but the paper says which two tones it has.
+//! The figures of Evangelista et al. 2005: all fourteen, and the numbers of section 5. Figures 2 and 3 are other authors'
+//! pictures and not drawn; figure 4 is one too, but the paper names its two tones.
 
 use super::figure::{Content, Figure, Panel, Shot, Text, panel};
 use tinta::styles::{Border, Cartoon, ClassColors, Filter, Inking, PaintMode, Phong, Show, Style, Tones};
@@ -11,7 +11,7 @@ fn pair(file: &str, label: &'static str, style: Style, options: &str) -> Panel {
     panel(file, label, BUST, Shot::view(20.0, 10.0, "--view 20,10"), style, options).times(2)
 }
 
-/// A filter's borders of that scene, whose maps are figure 9's.
+/// A filter's borders of that scene, with the maps of figure 9.
 fn filtered(file: &str, label: &'static str, filter: Filter, options: &str) -> Panel {
     let border = Some(Border { filter, ..Border::default() });
     pair(file, label, Style::ThreePass(Cartoon { border, ..Cartoon::default() }), options)

@@ -20,7 +20,7 @@ use tinta_geometry::markup::escaped;
 /// A finished figure, for the page and for `figures.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FigureRecord {
-    /// As `--only` takes it.
+    /// Its name for `--only`.
     pub id: &'static str,
     /// The text it is in.
     pub text: &'static str,
@@ -34,7 +34,7 @@ pub struct FigureRecord {
     pub pictures: Vec<PictureRecord>,
     /// Labels of pictures that were left out, each with the reason.
     pub left_out: Vec<String>,
-    /// Why none was drawn, where none is ever drawn.
+    /// The reason, for a figure that is never drawn.
     pub not_drawn: Option<&'static str>,
     /// The passes that it is a diagram of.
     pub passes: Vec<PassColumn>,
@@ -69,7 +69,7 @@ impl FigureRecord {
 pub struct Shown<'a> {
     /// The figures.
     pub figures: &'a [FigureRecord],
-    /// Section 5's numbers, where they were measured.
+    /// Section 5's numbers, if they were measured.
     pub numbers: Option<&'a Numbers>,
     /// The findings of claims.
     pub claims: &'a [ClaimRecord],

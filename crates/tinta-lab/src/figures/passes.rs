@@ -13,7 +13,7 @@ use tinta::styles::{Show, Style, StyleName};
 pub struct PassColumn {
     /// Its heading.
     pub title: &'static str,
-    /// What prints it.
+    /// The command that prints it.
     pub command: String,
     /// Its passes, from the first to the last.
     pub passes: Vec<PassSteps>,

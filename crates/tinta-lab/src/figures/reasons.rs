@@ -212,7 +212,7 @@ fn joint(numbers: &Numbers) -> Option<String> {
     })
 }
 
-/// A whole number of per cent with its sign, nothing without one.
+/// A whole number of per cent with its sign; zero has none.
 pub(super) fn signed(percent: f64) -> String {
     let whole = percent.round();
     if whole == 0.0 { "0 %".to_owned() } else { format!("{whole:+} %") }

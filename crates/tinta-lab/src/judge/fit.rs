@@ -20,7 +20,7 @@ pub const LARGEST_SCALE: f64 = 1.1;
 /// A place beyond this share of the diagonal is as far as any: where lines lack, they must not pull.
 const FARTHEST: f64 = 0.03;
 
-/// How much nearer a mirrored drawing's lines must be to be believed, as a share: symmetric models are their own mirror image.
+/// How much nearer a mirrored drawing's lines must be to count, as a share: symmetric models are their own mirror image.
 const MIRROR_GAIN: f64 = 0.8;
 
 /// Number of points of lines and of ink tested, first for every start, then for the best of each mirroring.
@@ -140,13 +140,13 @@ fn diagonal(size: Size) -> f64 {
     f64::from(size.width).hypot(f64::from(size.height))
 }
 
-/// So many of the points at most, evenly.
+/// At most so many of the points, evenly chosen.
 fn some(points: &[DVec2], count: usize) -> Vec<DVec2> {
     let step = points.len().div_ceil(count).max(1);
     points.iter().copied().step_by(step).collect()
 }
 
-/// What distances are taken between.
+/// The points between which distances are taken.
 struct Points<'a> {
     lines: Vec<DVec2>,
     ink: Vec<DVec2>,

@@ -1,4 +1,4 @@
-//! Which colour of a drawing is its ink.
+//! The colour of a drawing's ink.
 
 use crate::measure::Ink;
 use std::str::FromStr;

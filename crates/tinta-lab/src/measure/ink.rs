@@ -38,7 +38,7 @@ pub struct InkVerdicts {
 pub enum Verdict {
     /// A visible line is near.
     Agreed,
-    /// None is.
+    /// No line is near.
     Invented,
     /// Only a soft crease is.
     Ignored,
@@ -49,7 +49,7 @@ impl Ink {
     ///
     /// # Errors
     ///
-    /// As [`Renderer::draw`], and the style's own.
+    /// Those of [`Renderer::draw`], and the style's own.
     pub fn of_style(renderer: &mut Renderer, scene: &Scene, style: &Style) -> Result<Option<Self>> {
         if !style.has_lines() {
             return Ok(None);
@@ -63,7 +63,7 @@ impl Ink {
         Ok(Some(Self::over(&tones, &whole)))
     }
 
-    /// Which pixels are ink.
+    /// The ink pixels.
     pub fn mask(&self) -> InkMask {
         InkMask::of_darkness(self.size, &self.darkness)
     }
@@ -74,7 +74,7 @@ impl Ink {
         Self { size: picture.size, darkness: picture.pixels.chunks_exact(4).map(darkness).collect() }
     }
 
-    /// The ink of a picture over the same one without: the share of each pixel's light that is gone, where there was any.
+    /// The ink of a picture over the same one without: the lost share of each pixel's light, if it had any.
     pub fn over(without: &Picture, with: &Picture) -> Self {
         let share = |(without, with): (&u8, &u8)| match without {
             0 => 0,
@@ -114,7 +114,7 @@ impl Ink {
     pub fn error(&self, reference: &Reference, tolerance_px: f64) -> LineError {
         let reach: Vec<u8> =
             reference.samples.iter().map(|sample| self.darkest_within(sample.px, tolerance_px)).collect();
-        // Every pixel with any ink once: whether it is near a line, or to be ignored.
+        // Every ink pixel once: whether it is near a line, or ignored.
         let pixels: Vec<(u8, Verdict, f64)> = self
             .pixels(1)
             .map(|(index, middle)| {
@@ -221,7 +221,7 @@ fn share_of(weights: impl Iterator<Item = (bool, f64)>) -> f64 {
     if all > 0.0 { held / all } else { 1.0 }
 }
 
-/// Weighted mean and 95th percentile of values with their weights; `None` for none.
+/// Weighted mean and 95th percentile of values with their weights; `None` without values.
 fn mean_and_95th(mut values: Vec<(f64, f64)>) -> Option<[f64; 2]> {
     values.retain(|(value, _)| value.is_finite());
     values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 pub struct Row {
     /// tinta's version.
     pub version: String,
-    /// Operating system, processor architecture and threads it runs at once, or what `--machine` says.
+    /// Operating system, processor architecture and parallel threads, or the value of `--machine`.
     pub machine: String,
     /// GL_RENDERER; `none` for lines found without GL.
     pub renderer: String,
@@ -33,7 +33,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// What tells rows apart: machine, model, size and options.
+    /// The key of a row: machine, model, size and options.
     pub fn key(&self) -> String {
         format!(
             "{} | {} | {} | {}x{} | {}",
@@ -43,14 +43,14 @@ impl Row {
 }
 
 tinta_geometry::choices! {
-    /// What lines are compared with.
+    /// The reference of lines.
     #[derive(Default, Deserialize)]
     #[serde(rename_all = "lowercase")]
     pub enum Against {
         /// The exact visible lines of the mesh.
         #[default]
         Lines = "lines",
-        /// The visible contour of the smooth surface in closed form that the mesh stands for.
+        /// The visible contour of the smooth surface in closed form that the mesh approximates.
         Smooth = "smooth",
     }
 }
@@ -94,11 +94,11 @@ pub struct LineError {
 pub struct ToneError {
     /// Covered pixels farther than 1 pixel from every visible line.
     pub inner_px: usize,
-    /// Share of them whose tone differs; for continuous tones `None`.
+    /// Share of them with another tone; `None` for continuous tones.
     pub inner_differing: Option<f64>,
     /// Covered pixels within 1 pixel of a visible line.
     pub rim_px: usize,
-    /// Share of them whose tone differs; for continuous tones `None`.
+    /// Share of them with another tone; `None` for continuous tones.
     pub rim_differing: Option<f64>,
     /// Mean and largest difference of any channel over the inner pixels, of 255.
     pub mean_difference: f64,
@@ -106,12 +106,12 @@ pub struct ToneError {
     pub largest_difference: f64,
 }
 
-/// How long a setting takes, milliseconds of the clock unless said otherwise.
+/// Time of a setting, wall-clock milliseconds unless noted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunTime {
     /// Reading the model.
     pub load_ms: f64,
-    /// Finding its edges, where the style draws them; 0 otherwise.
+    /// Finding its edges, if the style draws them; 0 otherwise.
     pub edges_ms: f64,
     /// Making the plan, edges ready.
     pub plan_ms: f64,
@@ -132,8 +132,8 @@ pub struct RunTime {
 pub struct PassRow {
     /// Its name in the plan.
     pub name: String,
-    /// By the clock, until GL has finished it.
+    /// Wall-clock time until GL has finished it.
     pub cpu_ms: f64,
-    /// By a timer query; `None` where GL has none.
+    /// By a timer query; `None` if GL has none.
     pub gpu_ms: Option<f64>,
 }

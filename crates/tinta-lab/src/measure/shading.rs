@@ -25,7 +25,7 @@ pub(super) struct Surface {
 
 /// How a style shades.
 pub(super) enum Shading<'a> {
-    /// In tones: a pixel has one or another.
+    /// In tones: a pixel has one of them.
     Tones(&'a Tones),
     Phong(&'a Phong),
     /// Noise, contrast-enhanced texture and paper; for sand each object's material pictures.

@@ -17,7 +17,7 @@ use tinta::styles::Style;
 /// Pixels nearer to a visible line than this are counted apart: there one renderer's pixel may lie on another surface.
 const RIM_PX: f64 = 1.0;
 
-/// Where the articles' light stands, eye space, scene radii.
+/// The place of the articles' light, eye space, scene radii.
 const LIGHT: DVec3 = DVec3::ONE;
 
 /// Differences up to this come from rounding a colour twice, of 255.
@@ -48,7 +48,7 @@ impl ReferenceLight {
     ///
     /// # Errors
     ///
-    /// As the style's own when its textures cannot be had.
+    /// The style's own errors if its textures cannot be made.
     pub fn picture(&self, style: &Style, scene: &Scene) -> Result<Option<Picture>> {
         let Some(shading) = Shading::of(style, scene)? else { return Ok(None) };
         let pixel = |surface: &Option<Surface>| match surface {
@@ -66,7 +66,7 @@ impl ReferenceLight {
     ///
     /// # Errors
     ///
-    /// As the style's own when its textures cannot be had.
+    /// The style's own errors if its textures cannot be made.
     pub fn error(
         &self,
         picture: &Picture,

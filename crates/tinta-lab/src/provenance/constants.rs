@@ -1,4 +1,4 @@
-//! Values that no setting changes, and whose they are.
+//! Fixed values, and their origins.
 
 use tinta::settings::Provenance;
 use tinta::styles::StyleName::{self, Charcoal, Dietrich, Ink, Inking, Mrt, Phong, Sand, ThreePass, TwoPass};
@@ -12,7 +12,7 @@ pub struct Constant {
     pub name: &'static str,
     /// Its value.
     pub value: &'static str,
-    /// Whose it is.
+    /// Its origin.
     pub provenance: Provenance,
     /// Its effect, and the change if it were otherwise.
     pub otherwise: &'static str,

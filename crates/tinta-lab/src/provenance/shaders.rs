@@ -1,4 +1,4 @@
-//! The numbers in shaders that are neither 0 nor 1, and whose they are.
+//! The numbers in shaders other than 0 and 1, and their origins.
 
 use tinta::settings::Provenance;
 
@@ -9,7 +9,7 @@ pub struct ShaderNumbers {
     pub path: &'static str,
     /// As written there, without suffix.
     pub numbers: &'static [&'static str],
-    /// Whose they are.
+    /// Their origin.
     pub provenance: Provenance,
 }
 

@@ -1,4 +1,4 @@
-//! The page's answer in a sentence: which setting to take.
+//! The page's answer in a sentence: the recommended setting.
 
 use super::plot::short;
 use super::settings::{Point, Points};

@@ -23,7 +23,7 @@ pub(super) enum Anchor {
     End,
 }
 
-/// Pixels a text takes at most, of a size in pixels: plotters without a font has no better estimate.
+/// Greatest width of a text, pixels, for a font size in pixels: plotters has no better estimate without a font.
 pub(super) fn text_width(text: &str, size_px: f64) -> f64 {
     text.chars().count() as f64 * size_px * 0.56
 }
@@ -90,7 +90,7 @@ impl<'a> Canvas<'a> {
         // The backend divides sizes by this.
         let font = FontDesc::new(FontFamily::SansSerif, size_px * 1.24, style);
         let style = font.color(&INK).pos(Pos::new(horizontal, VPos::Center));
-        // plotters escapes what XML writes otherwise, but not what XML cannot hold.
+        // plotters escapes XML's special characters, but not those that XML forbids.
         let text = text.replace(tinta_geometry::markup::is_unprintable, "\u{FFFD}");
         drawn(self.area.draw(&Text::new(text, pixel(at), style)))
     }

@@ -1,4 +1,4 @@
-//! The columns of the reports: one list for `results.csv`, the page's table and what each means.
+//! The columns of the reports: one list for `results.csv`, the page's table and the meaning of each.
 
 use crate::measure::{LineError, Row, ToneError};
 use std::borrow::Cow;

@@ -143,7 +143,7 @@ pub(super) fn plot(curves: &[Curve], surface: &str, shape: Shape) -> Result<Stri
         for point in &points {
             marks::draw(&canvas, &curve.style, *point, curve.is_faithful)?;
         }
-        // Its number right of the last mark, or beside the numbers that are there.
+        // Its number right of the last mark, or beside existing numbers.
         let label = (number + 1).to_string();
         let Some((x, y)) = points.last().copied() else { continue };
         let mut place = Rectangle {

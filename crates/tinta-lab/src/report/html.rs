@@ -1,4 +1,4 @@
-//! The report as one page that needs nothing else: plots, pictures, a table to sort, what every column means.
+//! The report as one self-contained page: plots, pictures, a sortable table, the meaning of every column.
 //!
 //! It is HTML and well-formed XML, checkable by an XML parser, and it forbids itself the network. Without scripts everything is
 //! shown; `page.js` hides unchosen rows and sorts.
@@ -145,7 +145,7 @@ fn plots(models: &[&str], machines: &[Machine<'_>]) -> Result<String> {
     Ok(text)
 }
 
-/// Error against the number of triangles; nothing where no surface was measured with several meshes.
+/// Error against the number of triangles; empty unless a surface was measured with several meshes.
 fn convergence(machines: &[Machine<'_>]) -> Result<String> {
     let curves = machines.first().map(|machine| curves(&machine.rows)).unwrap_or_default();
     if curves.is_empty() {
@@ -221,7 +221,7 @@ fn options(text: &str) -> String {
     format!("<code>{}</code>", parts.join(" <span>--").replace("<span>--<span>", "<span>--"))
 }
 
-/// Times on every machine beside each other; nothing for one machine.
+/// Times on every machine side by side; empty for one machine.
 fn machine_table(machines: &[Machine<'_>]) -> String {
     if machines.len() < 2 {
         return String::new();

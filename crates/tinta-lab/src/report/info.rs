@@ -20,7 +20,7 @@ pub struct ReportPicture {
     pub caption: String,
     /// The model it belongs to: shown when that model is chosen; `None`: always.
     pub model: Option<String>,
-    /// The drawing that has these errors, a whole PNG file; `None` where it is not kept.
+    /// The drawing with these errors, a whole PNG file; `None` if it was not kept.
     pub drawing: Option<Vec<u8>>,
     /// The errors, a whole PNG file.
     pub png: Vec<u8>,

@@ -1,4 +1,4 @@
-//! A style's mark in the plots, which stands in its row.
+//! A style's mark in the plots, taken from its row.
 
 use super::canvas::{BACKGROUND, Canvas};
 use plotters::style::{Color, RGBColor};

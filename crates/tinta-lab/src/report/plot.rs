@@ -168,7 +168,7 @@ pub(super) fn short(number: f64) -> String {
 pub(super) struct Scale {
     pub(super) time_ms: Range<f64>,
     pub(super) error: Range<f64>,
-    /// Where no error at all is drawn, which a logarithmic axis does not have.
+    /// The place of zero error, which a logarithmic axis lacks.
     pub(super) zero: Option<f64>,
 }
 
@@ -251,7 +251,7 @@ pub(super) fn grid(canvas: &Canvas<'_>, axes: &Axes, scale: &Scale, inner: &Rect
     canvas.line(&[(inner.left, inner.top), (inner.left, inner.bottom), (inner.right, inner.bottom)], MIDDLE, 1)
 }
 
-/// The front's points from the fastest to the most exact; of equal ones the first.
+/// The front's points from the fastest to the most exact; the first of equal ones.
 fn front(points: &[Point]) -> Vec<usize> {
     let all: Vec<(f64, f64)> = points.iter().map(|point| (point.time_ms, point.error)).collect();
     let mut front: Vec<usize> = (0..all.len()).zip(pareto(&all)).filter(|(_, is_on)| *is_on).map(|(i, _)| i).collect();
@@ -260,7 +260,7 @@ fn front(points: &[Point]) -> Vec<usize> {
     front
 }
 
-/// The border between what some setting reaches and what none does.
+/// The border between the reached and the unreached times and errors.
 fn steps(front: &[(f64, f64)], inner: &Rectangle) -> Vec<(f64, f64)> {
     let mut line = Vec::new();
     let mut height = inner.top;

@@ -18,7 +18,7 @@ use tinta::renderer::Renderer;
 use tinta::scene::{Scene, SceneSettings, Size};
 use tinta::styles::Show;
 
-/// Steps of a turn, and how many of them a full turn has: one degree in sixty.
+/// Steps of a turn, and the number of steps of a full turn: each is one degree in sixty.
 const STEPS: usize = 60;
 const STEPS_AROUND: u32 = 360 * 60;
 
@@ -188,7 +188,7 @@ impl Sums {
     }
 }
 
-/// Writes what popped into the figures: drawn, and by the exact scene.
+/// Writes the popped ink into the figures: of the drawing, and of the exact scene.
 fn note(what: &'static str, popped: &Popped, figures: &mut Figures) {
     let names = match what {
         "jitter" => ["jitter_ink", "jitter_lines", "jitter_shades", "jitter_exact_shades"],

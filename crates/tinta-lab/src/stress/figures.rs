@@ -88,8 +88,8 @@ fn non_finite_ends(lines: &VisibleLines) -> usize {
     lines.segments.iter().flat_map(|segment| segment.ends_px).filter(|end| !end.is_finite()).count()
 }
 
-/// How much of some ink came or went from one picture to the next, as a share of both pictures' ink: pixels with none of the
-/// other picture's ink in them or next to them.
+/// How much ink came or went from one picture to the next, as a share of both pictures' ink: pixels without ink of the other
+/// picture in them or next to them.
 pub(super) fn popped(before: &InkMask, after: &InkMask) -> f64 {
     let all = before.count() + after.count();
     let popped = before.count_far_from(after, MOVED_PX) + after.count_far_from(before, MOVED_PX);
@@ -105,7 +105,7 @@ pub(super) fn shades_popped(before: &Picture, after: &Picture) -> f64 {
     if all == 0 { 0.0 } else { popped as f64 / (2 * all) as f64 }
 }
 
-/// Pixels of the first picture whose colour the second has nowhere near.
+/// Pixels of the first picture with a colour that is nowhere near in the second.
 fn colors_gone(first: &Picture, second: &Picture) -> usize {
     let (width, height) = (i64::from(first.size.width), i64::from(first.size.height));
     let near = i64::from(MOVED_PX);
@@ -121,7 +121,7 @@ fn colors_gone(first: &Picture, second: &Picture) -> usize {
     (0..height).map(|y| (0..width).filter(|x| is_gone(*x, y)).count()).sum()
 }
 
-/// Pixels that differ at all.
+/// Number of different pixels.
 pub(super) fn differing_px(first: &Picture, second: &Picture) -> f64 {
     first.difference(second).map_or(f64::NAN, |difference| difference.pixels as f64)
 }
@@ -159,7 +159,7 @@ mod tests {
         assert_eq!(shades_popped(&before, &before), 0.0);
         assert_eq!(shades_popped(&before, &grey([100, 200, 200, 200, 255])), 0.0);
         assert_eq!(shades_popped(&before, &grey([104, 100, 196, 200, 255])), 0.0);
-        // One of four covered pixels has a colour that was not there, and took none away that is not beside it.
+        // One of four covered pixels has a new colour, and every old colour is still in a neighbour.
         assert_eq!(shades_popped(&before, &grey([100, 150, 200, 200, 255])), 0.125);
     }
 }

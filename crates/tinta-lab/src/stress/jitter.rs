@@ -24,20 +24,20 @@ const UNKNOWN_SIGN: f64 = 64.0 * f64::EPSILON;
 pub struct Flips {
     /// All edges.
     pub edges: usize,
-    /// Those whose silhouette or static class is another, by exact arithmetic.
+    /// Edges whose exact silhouette or static class changed.
     pub exact: usize,
     /// Edges that change under the listing's rule for silhouettes.
     pub published: usize,
-    /// Those among `exact` for which no predicate that decides it changed its sign: there must be none.
+    /// Edges among `exact` without a sign change in any predicate that decides them: this must be 0.
     pub unexplained: usize,
 }
 
 /// How much came and went, in a picture and by the exact scene, as shares.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Popped {
-    /// Of a style's ink, and of the exact lines.
+    /// The popped share of a style's ink, and of the exact lines.
     pub ink: Option<[f64; 2]>,
-    /// Of a style's shading, and of the same formula in f64, where it is computed.
+    /// The popped share of a style's shading, and of the same formula in f64, if computed.
     pub shades: Option<[f64; 2]>,
 }
 

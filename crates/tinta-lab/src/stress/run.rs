@@ -23,7 +23,7 @@ pub struct StressSettings {
     pub seed: u64,
     /// How many mixes. Default 24.
     pub mixes: usize,
-    /// Only cases whose name or group has this in it; default all.
+    /// Only cases with this text in their name or group; default all.
     pub only: Option<String>,
     /// The backends, each of which must draw the same; missing ones are left out. Default [`witnesses`].
     pub backends: Vec<Backend>,
@@ -74,7 +74,7 @@ pub struct Row {
     pub style: String,
     /// The backend.
     pub backend: &'static str,
-    /// What came of it: rendered, or refused with a kind of error.
+    /// Its outcome: rendered, or refused with a kind of error.
     pub verdict: String,
     /// The required outcome.
     pub expected: String,
@@ -102,7 +102,7 @@ pub struct Summary {
     pub cases: Vec<Row>,
 }
 
-/// A backend that could not be had.
+/// A backend that could not be opened.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct MissingBackend {
     /// Its backend's name.
@@ -112,7 +112,7 @@ pub struct MissingBackend {
 }
 
 impl Summary {
-    /// Rows that did not end as their case says.
+    /// Rows that did not end as their case requires.
     pub fn failures(&self) -> impl Iterator<Item = &Row> {
         self.cases.iter().filter(|row| !row.passed)
     }
@@ -184,7 +184,7 @@ fn row(case: &Case, style: &str, backend: &'static str, outcome: Outcome) -> Row
     }
 }
 
-/// A failure for a check whose figure no row has: it would check nothing.
+/// A failure for a check on a figure that no row has: it would check nothing.
 fn never_checked(case: &Case, rows: &[Row]) -> Option<Row> {
     let is_known = |figure: &str| rows.iter().any(|row| row.figures.contains_key(figure));
     let missing = case.checks.iter().find(|check| !is_known(check.figure))?;
@@ -240,14 +240,14 @@ fn take<'a>(next: &AtomicUsize, cases: &'a [Case]) -> Option<(usize, &'a Case)> 
     cases.get(index).map(|case| (index, case))
 }
 
-/// What there is of the backends asked for.
+/// The available ones of the requested backends.
 struct Found {
     backends: Vec<Backend>,
     renderers: Vec<String>,
     missing: Vec<MissingBackend>,
 }
 
-/// Tries each backend; that none is there is an error.
+/// Tries each backend; returns an error if none opens.
 fn find(asked: &[Backend]) -> Result<Found> {
     let (mut found, mut missing, mut all_attempts) = (Vec::new(), Vec::new(), Vec::new());
     for backend in asked {

@@ -21,7 +21,7 @@ pub enum Shape {
     Cube,
     /// A cube from 0 to 1 and, before the middle of its front, another this much smaller.
     CubeAndSmaller(f64),
-    /// Nothing.
+    /// An empty mesh.
     Nothing,
     /// One triangle.
     Triangle,
@@ -45,13 +45,13 @@ pub enum Shape {
     Fins(u32),
     /// A band with one side and one edge.
     Moebius,
-    /// A square beside two half as long, whose common corner lies on its side.
+    /// A square beside two half as long, with their common corner on its side.
     TJunction,
-    /// A cube that stands on another, with part of a face in common.
+    /// A cube standing on another, with part of a face in common.
     Contact,
     /// Two cubes that pass through one another.
     Piercing,
-    /// This many triangles that share nothing.
+    /// This many separate triangles.
     Isolated(u32),
     /// This many triangles around one vertex, in a plane.
     Fan(u32),
@@ -63,8 +63,8 @@ pub enum Shape {
     Flat,
     /// A square of two triangles with a picture on it.
     Textured,
-    /// A long strip that reaches from before the eye of these cases to far behind it, through the point (1, 1, 1) of eye
-    /// space, where the articles' light stands.
+    /// A long strip from in front of the eye of these cases to far behind it, through the point (1, 1, 1) of eye space, the place
+    /// of the articles' light.
     ThroughTheLight,
 }
 
@@ -77,7 +77,7 @@ impl Shape {
     ///
     /// # Errors
     ///
-    /// As a file's that holds the same triangles.
+    /// The errors of a file with the same triangles.
     pub fn mesh(self, scale: f64, offset: DVec3, folder: &Path) -> Result<Mesh> {
         let (positions, triangles) = match self {
             Self::Builtin(name) if scale == 1.0 && offset == DVec3::ZERO => {
@@ -291,7 +291,7 @@ fn isolated(count: u32) -> Triangles {
     (points, (0..count).map(|index| [index * 3, index * 3 + 1, index * 3 + 2]).collect())
 }
 
-/// A sheet of squares in the plane z = 0 whose rim is wavy.
+/// A sheet of squares in the plane z = 0 with a wavy rim.
 fn sheet(side: u32) -> Triangles {
     let at = |x: u32, y: u32| {
         let (x, y) = (f64::from(x) / f64::from(side), f64::from(y) / f64::from(side));

@@ -33,7 +33,7 @@ impl Summary {
     }
 }
 
-/// A sentence for each backend that could not be had.
+/// A sentence for each missing backend.
 fn missing(missing: &[MissingBackend]) -> String {
     let sentence = |of: &MissingBackend| {
         format!("Without {}, which is not available ({}): no two backends were compared.\n\n", of.backend, of.reason)

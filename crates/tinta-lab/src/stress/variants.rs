@@ -32,7 +32,7 @@ impl Variant {
         all
     }
 
-    /// Those whose lines answer to geometry, faithful and mended: for cases that are too large to be drawn by all.
+    /// The styles with geometric lines, faithful and corrected: for cases too large to draw in all styles.
     pub fn of_lines() -> Vec<Self> {
         vec![Self::published(StyleName::ThreePass), Self::published(StyleName::Ink), Self::exact_inking()]
     }

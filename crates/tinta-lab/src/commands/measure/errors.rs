@@ -7,7 +7,7 @@ use tinta::cli::make_folder;
 use tinta::picture::PictureFormat;
 use tinta::{Error, Picture, Result, Target};
 
-/// Whether the page shows where a row's errors lie: of each style's published settings, and of the best.
+/// Whether the page shows a row's errors: those of each style's published settings, and of the best.
 pub(super) fn is_shown(row: &Row) -> bool {
     let is_exact = row.options.starts_with("--style inking --silhouette exact")
         && !["smooth", "line-", "polygon", "classes", "ink-depth"].iter().any(|other| row.options.contains(other));
@@ -33,7 +33,7 @@ fn path(folder: &Path, row: &Row, end: &str) -> PathBuf {
     folder.join("errors").join(name)
 }
 
-/// A name that every file system takes: of a long one the beginning, and a number that stands for the rest.
+/// A name that every file system accepts: a long one is cut, with a number for the rest.
 fn shortened(name: String) -> String {
     const MOST_LETTERS: usize = 120;
     if name.chars().count() <= MOST_LETTERS {

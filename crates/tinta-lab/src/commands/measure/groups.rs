@@ -9,16 +9,16 @@ use tinta::renderer::milliseconds_since;
 use tinta::request::{ModelCache, Request};
 use tinta::{Error, LoadOptions, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName};
 
-/// Triangles of the surfaces' meshes, where none are named.
+/// Triangles of the surfaces' meshes by default.
 const SURFACE_TRIANGLES: [usize; 3] = [1_000, 10_000, 100_000];
 
-/// How long a setting takes besides its frames, seconds: its pictures compared with the references.
+/// Time of a setting besides its frames, seconds: its pictures are compared with the references.
 const SECONDS_A_SETTING: f64 = 0.35;
 
 /// How long a model's references take at first guess, seconds: exact lines and rays.
 const SECONDS_A_REFERENCE: f64 = 0.5;
 
-/// Frames of a setting that are drawn besides those of its turns.
+/// Frames of a setting besides those of its turns.
 const FRAMES_A_SETTING: f64 = 10.0;
 
 /// The work for each model at each size, in the order of [`expected`]: references once, errors of each setting, turns.
@@ -27,7 +27,7 @@ pub(super) const KINDS: [usize; 3] = [0, 1, 2];
 /// A model at a size.
 pub(super) struct Group {
     pub(super) model: String,
-    /// The surface whose contour its lines are compared with, if they are.
+    /// The surface whose contour its lines are compared with, if any.
     pub(super) surface: Option<ClosedForm>,
     pub(super) scene: Scene,
     pub(super) load_ms: f64,

@@ -16,7 +16,7 @@ use tinta::{LoadOptions, Renderer, Result, Style};
 /// Timed frames of a setting.
 const FRAMES: [usize; 2] = [21, 7];
 
-/// Times that exact lines are found to be timed.
+/// Number of timed searches for exact lines.
 const FRAMES_OF_LINES: usize = 3;
 
 /// Settings whose frames are timed in turns.
@@ -32,7 +32,7 @@ pub(super) struct Measuring {
 }
 
 impl Measuring {
-    /// As asked, with the options of the scene; `own_setting` is a preset's style.
+    /// The measurement as requested, with the options of the scene; `own_setting` is a preset's style.
     pub(super) fn asked(asked: &HowMeasured, of_scene: &Options, own_setting: Option<Setting>) -> Result<Self> {
         let how = MeasureSettings {
             tolerance_px: asked.tolerance_px,
@@ -50,7 +50,7 @@ impl Measuring {
         if against == Against::Smooth && settings.iter().any(|setting| matches!(setting.style, Style::Inking(_))) {
             settings.push(smooth_inking()?);
         }
-        // A preset's style is measured beside the others, unless it is one of them.
+        // A preset's style is measured with the others, unless it is one of them.
         if let Some(setting) = own_setting.filter(|own| settings.iter().all(|other| other.style != own.style)) {
             settings.push(setting);
         }
@@ -104,7 +104,7 @@ impl Measuring {
     }
 }
 
-/// Camera and model as the user asked for them: without these a row could not be drawn again.
+/// The user's options of camera and model, which are needed to draw a row again.
 fn scene_options(options: &Options) -> String {
     // The refusal of defects does not change a picture, and files outside the folder are the user's decision.
     let is_flag = |name: &str| {

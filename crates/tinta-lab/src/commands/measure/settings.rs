@@ -80,7 +80,7 @@ impl HasSettings for HowMeasured {
     }
 }
 
-/// Values with commas between; a word for none.
+/// Values joined by commas; a word for an empty list.
 fn listed<T: ToString>(values: &[T], none: &str) -> String {
     match values {
         [] => none.to_owned(),
@@ -227,7 +227,7 @@ fn setting(text: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
         .chunks(2)
         .filter_map(|pair| Some((pair.first()?.strip_prefix("--")?.to_owned(), OptionValue::text(*pair.get(1)?))))
         .collect();
-    // How vertices are handed over is no part of a drawing.
+    // The submission of vertices is not part of a drawing.
     let submission = match options.remove("submission") {
         Some(OptionValue::Text(how)) => {
             how.parse().map_err(|problem: tinta::ParseError| Error::value("submission", how, problem))?

@@ -1,4 +1,4 @@
-//! A claim: where a text says it, how it is measured, which rule decides.
+//! A claim: its place in a text, its measurement, its rule.
 
 use super::finding::Finding;
 use super::lab::Lab;
@@ -11,9 +11,9 @@ use tinta::error::Result;
 pub struct Claim {
     /// The letter of its text and a few words: its place on the page.
     pub id: &'static str,
-    /// Where it stands.
+    /// Its text.
     pub text: Text,
-    /// The text's own section, or its heading where sections have no numbers.
+    /// The text's own section, or its heading if sections have no numbers.
     pub section: &'static str,
     /// The line of the text's transcript.
     pub line: u32,
@@ -21,9 +21,9 @@ pub struct Claim {
     pub says: &'static str,
     /// When it counts as confirmed.
     pub rule: &'static str,
-    /// What shows it.
+    /// The command that shows it.
     pub command: &'static str,
-    /// Pictures that show it; most have none.
+    /// Pictures that show it; usually empty.
     pub(super) panels: fn() -> Vec<Panel>,
     pub(super) measure: Measure,
 }

@@ -1,4 +1,4 @@
-//! What Dachsbacher's article says that can be measured.
+//! The measurable claims of Dachsbacher's article.
 
 mod edges;
 mod painting;

@@ -1,4 +1,4 @@
-//! What Evangelista et al. 2005 say that can be measured.
+//! The measurable claims of Evangelista et al. 2005.
 
 mod lines;
 mod maps;

@@ -9,7 +9,7 @@ pub struct Finding {
     pub verdict: Verdict,
     /// The measured numbers, the one that decides first.
     pub numbers: Vec<Number>,
-    /// Why it cannot be tested, where it cannot.
+    /// Why it cannot be tested, if so.
     pub reason: Option<&'static str>,
 }
 
@@ -17,7 +17,7 @@ pub struct Finding {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// The numbers are as the text says.
+    /// The numbers agree with the text.
     Confirmed,
     /// They are not.
     Refuted,
@@ -26,7 +26,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// In words.
+    /// Its name in words.
     pub fn name(self) -> &'static str {
         match self {
             Self::Confirmed => "confirmed",

@@ -1,5 +1,5 @@
-//! What claims are measured with: scenes read once, pictures, ink against exact lines, frames that take turns, and a few
-//! numbers about pictures.
+//! The tools that measure claims: scenes read once, pictures, ink against exact lines, frames that take turns, and a few numbers
+//! about pictures.
 
 use super::finding::Number;
 use crate::figures::measure::HowToMeasure;

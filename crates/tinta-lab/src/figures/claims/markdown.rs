@@ -16,7 +16,7 @@ impl Text {
     }
 }
 
-/// Where a claim stands: `E:145, section 4.1`.
+/// The place of a claim: `E:145, section 4.1`.
 pub(crate) fn place(text: Text, section: &str, line: u32) -> String {
     let section = if section.starts_with(char::is_numeric) { format!("section {section}") } else { section.to_owned() };
     format!("{}:{line}, {section}", text.letter())

@@ -1,4 +1,4 @@
-//! What Valente's report of 2007 says that can be measured.
+//! The measurable claims of Valente's report of 2007.
 
 mod drawing;
 mod textures;

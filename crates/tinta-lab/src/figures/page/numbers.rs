@@ -1,4 +1,4 @@
-//! The measured numbers as tables, the article's beside ours, and why they differ.
+//! The measured numbers as tables with the article's, and the reasons for the differences.
 
 use crate::figures::numbers::Numbers;
 use crate::figures::reasons::signed;

@@ -7,7 +7,7 @@ use tinta::camera::CameraSettings;
 use tinta::gl::Fault;
 use tinta::scene::Size;
 
-/// A side that stands for the largest one a backend draws, and that plus one for one more.
+/// Placeholders for the largest side that a backend draws, and for one pixel more.
 pub(super) const LARGEST: u32 = u32::MAX - 1;
 
 /// The extreme property of a case.
@@ -18,7 +18,7 @@ pub enum Group {
     Scale,
     /// Planes, angles and places of the camera.
     Depth,
-    /// Which faces meet where.
+    /// How faces meet.
     Topology,
     /// Settings and geometry at the very edge of a decision.
     Thresholds,
@@ -34,14 +34,14 @@ pub enum Group {
     Faults,
 }
 
-/// What must come of a case.
+/// The required outcome of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Expected {
     /// A picture, the same on every backend and with every omission, from finite numbers.
     Rendered,
-    /// An error of this kind whose sentence has these words in it.
+    /// An error of this kind whose sentence contains these words.
     Refused {
-        /// As [`tinta::Error::kind`] says it.
+        /// The name returned by [`tinta::Error::kind`].
         kind: &'static str,
         /// The words it must contain.
         words: &'static str,
@@ -102,7 +102,7 @@ impl Drawing {
     }
 }
 
-/// A side in pixels; the one that stands for the largest becomes that, and one more than it one more.
+/// A side in pixels; replaces the placeholders for the largest side, and for one pixel more.
 pub(in crate::stress) fn side_px(side: u32, largest: u32) -> u32 {
     match side.checked_sub(LARGEST) {
         None => side,
@@ -132,11 +132,11 @@ impl Default for Drawing {
 pub enum Content {
     /// These bytes.
     Bytes(Vec<u8>),
-    /// As many zeros, which take no room on most disks.
+    /// As many zeros, which take no space on most disks.
     Zeros(u64),
-    /// Nothing: it is a folder.
+    /// No content: it is a folder.
     Folder,
-    /// Nothing: it is not there.
+    /// No content: it is missing.
     Missing,
 }
 
@@ -160,9 +160,9 @@ pub struct Case {
     pub group: Group,
     /// The work.
     pub work: Work,
-    /// What must come of it.
+    /// Its required outcome.
     pub expected: Expected,
-    /// Which figures must have which values.
+    /// The required values of figures.
     pub checks: Vec<Check>,
 }
 

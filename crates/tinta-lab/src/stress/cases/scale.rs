@@ -1,4 +1,4 @@
-//! Models of any size anywhere: what counts is a model's shape.
+//! Models of any size anywhere: only the shape counts.
 
 use super::case::{Case, Drawing, Group};
 use crate::stress::{Shape, Study, Variant};

@@ -1,4 +1,4 @@
-//! The claims about painting: the light of faces and of vertices, and the colours that come of it.
+//! The claims about painting: the light of faces and of vertices, and the resulting colours.
 
 use super::super::finding::{Finding, Number};
 use super::super::lab::{Lab, changed};
@@ -72,7 +72,7 @@ pub(super) fn gouraud_gives_gradients(lab: &mut Lab<'_>) -> Result<Finding> {
         let light = |corner: &u32| f64::from(lights[*corner as usize][0]);
         let most = corners.iter().map(light).fold(f64::NEG_INFINITY, f64::max);
         let least = corners.iter().map(light).fold(f64::INFINITY, f64::min);
-        // In f32 the clamp is a hair beside the number.
+        // In f32 the clamp is slightly off the number.
         if most > SHADOW + f64::from(f32::EPSILON) {
             all += 1;
             gradients += usize::from(most - least > SEEN);

@@ -191,7 +191,7 @@ pub(super) fn saturation_is_a_factor(lab: &mut Lab<'_>) -> Result<Finding> {
     let mask = mask(lab)?;
     let mut cem = |saturation| draw(lab, &Charcoal { saturation, ..published(lab) }, Show::Cem);
     let [plain, saturated] = [cem(1.0)?, cem(1.2)?];
-    // Bright enough to round little, dark enough not to be clamped.
+    // Bright enough to round little, dark enough to avoid clamping.
     let pairs = greys(&plain, &mask).zip(greys(&saturated, &mask)).filter(|(plain, _)| (100.0..200.0).contains(plain));
     let factor = mean(pairs.map(|(plain, saturated)| saturated / plain));
     Ok(Finding::of((factor / 1.2 - 1.0).abs() <= 0.01, vec![Number::new("times as bright", factor, "", 3)]))
@@ -268,8 +268,8 @@ pub(super) fn smaller_exponent_darkens(lab: &mut Lab<'_>) -> Result<Finding> {
     )
 }
 
-/// Another exponent with the lights chosen here and with two in one place: where their sum is above 1, its powers go the other
-/// way, and the report says nothing of its lights.
+/// Another exponent with the lights chosen here and with both lights in one place: where their sum is above 1, its powers go the
+/// other way, and the report does not describe its lights.
 fn with_both_lights(
     lab: &mut Lab<'_>,
     what: &'static str,
