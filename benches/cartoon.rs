@@ -1,4 +1,4 @@
-//! The cartoon's frame and cold start beside the programs people would otherwise take. docs/results/performance.md has the command.
+//! The cartoon's frame and cold start compared with alternative programs. docs/results/performance.md has the command.
 //!
 //! Rounds are interleaved: each contestant runs once in each round, and a busy moment of the machine hits all of them. The report
 //! gives medians over all rounds and their ratios; all raw values go to `target/bench/cartoon.json`.

@@ -1,4 +1,4 @@
-//! The charcoal drawing's frame beside the same model's in Phong shading. docs/results/measuring.md has the command.
+//! The charcoal drawing's frame compared with the same model's in Phong shading. docs/results/measuring.md has the command.
 //!
 //! Interleaved: in each round every contestant draws the same turning model, and a busy moment hits all of them. The report gives
 //! medians and ratios; all raw values go to `target/bench/charcoal.json`.

@@ -1,5 +1,5 @@
-//! What leaving out saves, and how a frame's cost grows with triangles and with pixels, beside the limits: clearing, drawing
-//! the mesh once, one filter over the picture. docs/results/performance.md has the command.
+//! The savings of pruning, and how a frame's cost grows with triangles and with pixels, compared with lower bounds: clearing,
+//! drawing the mesh once, one filter over the picture. docs/results/performance.md has the command.
 //!
 //! Contestants take turns, round by round. The model turns by 3 degrees a round. Every frame includes making the plan and pruning
 //! it; the search for omissions that hold in all views is timed separately.
@@ -74,7 +74,7 @@ fn main() {
     write_record("performance", &record);
 }
 
-/// What draws a frame.
+/// The contestants of a frame.
 enum Contestant {
     /// As published.
     Full(Style),
@@ -262,7 +262,7 @@ fn add(curves: &mut Vec<Curve>, series: &[Series], size: f64) {
     }
 }
 
-/// Prints each curve's straight line and draws all of them.
+/// Prints each curve's fitted line and draws all curves.
 fn finish(curves: &[Curve], title: &str, sizes: &str, file: &str) {
     println!("\n  straight lines through them: start, and nanoseconds for each of the {sizes}; the worst miss");
     for curve in curves {

@@ -1,7 +1,7 @@
 //! The window under Xvfb: time to the first picture, pictures a second while the model turns, the longest frame while a large
 //! model is read, and processor time at rest. docs/guide/window.md has the command and its results.
 //!
-//! Each round starts the program anew for each row. Raw values go to `target/bench/window.json`.
+//! Each round starts a new process for each row. Raw values go to `target/bench/window.json`.
 
 mod report;
 

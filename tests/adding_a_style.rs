@@ -1,5 +1,5 @@
-//! `docs/dev/adding-a-style.md` holds: its blocks, put where it says into a copy of the sources, make a style, and its one setting is
-//! found at every door.
+//! `docs/dev/adding-a-style.md` holds: its blocks, put at the stated places into a copy of the sources, make a style, and every
+//! interface has its one setting.
 
 use crate::support::root;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 /// A block of code that belongs into a file.
 struct Block {
     path: String,
-    /// The line it stands before; `None` for a new file.
+    /// The line before which it is inserted; `None` for a new file.
     before: Option<String>,
     text: String,
 }
@@ -88,7 +88,7 @@ impl Block {
     }
 }
 
-/// A style that draws exact lines, which is nothing but a row.
+/// A style that draws exact lines, which is only a row.
 fn lines_style() -> Block {
     let text = r#"    /// Exact lines by another name.
     Hatches(LineStyle) {
@@ -143,7 +143,7 @@ fn the_page_adds_a_style_whose_setting_is_found_at_every_door() {
     tinta("man -o manuals");
     assert!(std::fs::read_to_string(folder.join("manuals/tinta-render.1")).unwrap().contains("stripe\\-distance"));
 
-    // An option, a preset, a job, and a picture that says how it was made draw the same.
+    // An option, a preset, a job, and a picture's recipe draw the same.
     let record = tinta("render builtin:bust --size 96 -o option.png --style stripes --stripe-distance 12 --json");
     let record: serde_json::Value = serde_json::from_str(&record).unwrap();
     assert_eq!((&record["style"]["name"], &record["style"]["stripe-distance"]), (&"stripes".into(), &12.into()));

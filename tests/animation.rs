@@ -111,7 +111,7 @@ fn a_transparent_gif_keeps_ink_to_its_edge_and_no_fringe() {
     let name = folder.path("disc.gif");
     let pictures = moving_disc(6, 0);
     write(&name, &pictures, true, 50);
-    // From half the alpha on a pixel is kept, opaque, in its own colour; the others are nothing.
+    // A pixel with at least half the alpha becomes opaque, in its own colour; the others become transparent.
     let expected: Vec<Picture> = pictures
         .into_iter()
         .map(|mut picture| {

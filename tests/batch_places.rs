@@ -87,7 +87,7 @@ fn names_that_only_look_alike_are_no_reason_to_refuse() {
 #[test]
 fn a_job_that_finds_the_disk_full_stops_the_batch_and_is_done_when_there_is_room() {
     let folder = Folder::new();
-    // A picture takes four pages. Two fit beside the list and the record, which has room for all jobs even then.
+    // A picture takes four pages. Two pictures fit, besides the list and the record, which still has room for all jobs.
     let ppm = |id: usize| render(&format!("p{id}"), "").replace(".png", ".ppm").replace("\"size\":32", "\"size\":64");
     let jobs: Vec<String> = (0..12).map(ppm).collect();
     let list = list(&folder, &jobs);

@@ -1,4 +1,4 @@
-//! The styles charcoal and sand, drawn: in every setting's direction, by closed forms, refused where they cannot draw.
+//! The styles charcoal and sand, drawn: the direction of every setting, closed forms, and refusals.
 
 use crate::charcoal_twin::{ball, draw, variants};
 use crate::cli::{Folder, refused_in_one_line, tinta};

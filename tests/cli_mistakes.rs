@@ -1,4 +1,4 @@
-//! What somebody types wrong, each with its whole sentence: exit code 2, nothing on standard output, no file left.
+//! Typing mistakes, each with its whole error: exit code 2, empty standard output, no file left.
 
 use std::path::Path;
 use std::process::{Command, Stdio};

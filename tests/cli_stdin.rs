@@ -10,7 +10,7 @@ fn piped(arguments: &[&str], bytes: &[u8]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tinta"));
     let command = command.args(arguments).current_dir(root());
     let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    // Whoever does not read it has refused it before.
+    // A program that does not read it has already refused it.
     let _ = child.stdin.take().unwrap().write_all(bytes);
     child.wait_with_output().unwrap()
 }

@@ -1,6 +1,6 @@
 //! The documents name only existing files, folders, headings, options and commands; quoted output is real output.
 //!
-//! That each `tinta` command parses is checked beside the parser: `crates/tinta-lab/src/commands/documents.rs`.
+//! A test beside the parser checks that each `tinta` command parses: `crates/tinta-lab/src/commands/documents.rs`.
 
 use crate::support::root;
 use std::path::PathBuf;
@@ -156,7 +156,7 @@ fn commands(text: &str) -> Vec<(usize, String)> {
         };
         for span in spans {
             let command = span.trim().trim_start_matches("$ ").split("  ").next().unwrap().split(" #").next().unwrap();
-            // Variables before a command are no part of it.
+            // Variables before a command do not belong to it.
             let mut words = command.trim().split(' ').skip_while(|word| {
                 word.split_once('=').is_some_and(|(name, _)| {
                     name.chars().all(|c| c.is_ascii_uppercase() || c == '_' || c.is_ascii_digit())
@@ -218,7 +218,7 @@ fn cargo_fault(words: &[&str], manifest: &str, sources: &str) -> Option<String> 
             return Some(format!("there is no {option} {name}"));
         }
     }
-    // What `cargo test` is given besides is part of the names of tests.
+    // The other arguments of `cargo test` are parts of test names.
     let takes_value = ["-p", "--bench", "--example", "--test", "--bin", "--features"];
     let filter = own.iter().enumerate().find(|(at, word)| {
         !word.starts_with('-') && *subcommand == "test" && (*at == 0 || !takes_value.contains(&own[at - 1]))

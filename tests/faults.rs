@@ -193,7 +193,7 @@ fn fails(environment: &[(&str, &Path)], backend: &str, words: &[&str]) {
     }
 }
 
-/// Whether a backend is Mesa, whose environment variables these tests turn.
+/// Whether a backend is Mesa, which reads the environment variables of these tests.
 fn is_mesa(backend: &str) -> bool {
     let text = String::from_utf8(tinta(&[], &["info", "--backend", backend]).stdout).unwrap();
     let is_mesa = text.lines().any(|line| line.contains("GL version") && line.contains("Mesa"));
@@ -223,7 +223,7 @@ fn without_a_driver_the_error_names_what_was_missing() {
     assert_eq!(image::load_from_memory(&output.stdout).unwrap().width(), 32);
 }
 
-/// A shared library of this machine that is no driver.
+/// A shared library of this machine other than a driver.
 #[cfg(target_os = "linux")]
 fn some_library() -> Option<PathBuf> {
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap();

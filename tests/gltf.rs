@@ -226,7 +226,7 @@ fn triangles_strips_and_fans_of_indices_of_every_size_or_of_none() {
         (4, [0, 1, 2, 3], &[0, 1, 2, 0, 2, 3], 2),
         (4, [0, 1, 2, 3], &[0, 1, 2, 0, 2, 3], 4),
         (5, [0, 1, 3, 2], &[], 0),
-        // A strip that stands still for two triangles, and a fan.
+        // A strip with two degenerate triangles, and a fan.
         (5, [0, 1, 3, 2], &[0, 0, 0, 1, 3, 2], 1),
         (6, [0, 1, 2, 3], &[1, 2, 3, 0], 1),
     ];

@@ -12,10 +12,10 @@ use tinta::styles::{
 };
 use tinta::{Picture, SceneSettings, Show, Size, Style, StyleName};
 
-/// Of borders.
+/// Width of borders.
 const WIDE: LineWidth = LineWidth::Pixels(5);
 
-/// A pixel counts as different beyond this, in 1/255: what another version of Mesa may round differently.
+/// A pixel counts as different beyond this, in 1/255: the rounding of another version of Mesa.
 const LARGEST_DIFFERENCE: u8 = 3;
 
 /// Share of pixels that may be different: edges fall on other pixels where another driver rasterises differently.
@@ -289,14 +289,14 @@ fn bust_dietrich() {
     golden("bust-dietrich", BUST, &Style::named(StyleName::Dietrich), Show::Final);
 }
 
-/// Whose pictures goldens are, by how their names begin.
+/// Groups of goldens, by the beginning of their names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Goldens {
-    /// Of styles.
+    /// Styles.
     Styles,
-    /// Of looks.
+    /// Looks.
     Looks,
-    /// Of the window.
+    /// The window.
     Window,
 }
 

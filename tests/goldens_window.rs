@@ -25,7 +25,7 @@ fn replay() -> Option<BTreeMap<String, Picture>> {
 const WINDOWS: [(&str, &str, u32); 3] =
     [("1280x720", "1280x720", 1), ("640x480", "640x480", 1), ("double", "640x480", 2)];
 
-/// The line below the panes, points: it says how long pictures took.
+/// The line below the panes, points: it shows the pictures' times.
 const STATUS_HEIGHT: u32 = 24;
 
 /// The pictures of the other recording by window and name.

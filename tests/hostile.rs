@@ -12,7 +12,7 @@ use tinta::{LoadOptions, Mesh, Scene, SceneSettings, load};
 
 pub const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\n";
 
-/// Runs the program with so many MiB of address space: whoever asks for more is killed and does not exit with code 2.
+/// Runs the program with so many MiB of address space: a program that exceeds it is killed and does not exit with code 2.
 #[cfg(unix)]
 fn tinta_within(mebibytes: usize, arguments: &[&str]) -> Output {
     let script = format!("ulimit -v {}; exec \"$@\"", mebibytes << 10);
@@ -21,7 +21,7 @@ fn tinta_within(mebibytes: usize, arguments: &[&str]) -> Output {
     command.output().unwrap()
 }
 
-/// Asserts exit code 2 and one line that contains `words` and nothing that commands a terminal.
+/// Asserts exit code 2 and one line that contains `words` and no terminal control characters.
 pub fn refused(output: &Output, words: &[&str]) {
     let message = String::from_utf8(output.stderr.clone()).unwrap();
     assert_eq!(output.status.code(), Some(2), "{message}");
@@ -47,7 +47,7 @@ fn png_chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
     [(data.len() as u32).to_be_bytes().as_slice(), &body, &(!remainder).to_be_bytes()].concat()
 }
 
-/// A PNG file of 200 bytes that says it has so many pixels.
+/// A PNG file of 200 bytes that declares so many pixels.
 fn bomb(width: u32, height: u32) -> Vec<u8> {
     let header = [width.to_be_bytes().as_slice(), &height.to_be_bytes(), &[8, 2, 0, 0, 0]].concat();
     let data = [0x78, 0x01].into_iter().chain([0; 120]).collect::<Vec<u8>>();
@@ -140,7 +140,7 @@ fn pictures_that_unfold_are_refused_before_they_do() {
         ("lie.png", bomb(16_384, 16_384), "bytes cannot hold 16384 x 16384 pixels"),
         ("lie.pcx", pcx, "bytes cannot hold 16384 x 16384 pixels"),
         ("lie.ppm", b"P6\n16384 16384\n255\n".to_vec(), "bytes cannot hold"),
-        // Long enough for its pixels if they were white, but not worth a gibibyte.
+        // Long enough for white pixels, but too short to justify a gibibyte.
         ("large.png", [bomb(16_384, 16_384), vec![0; 50_000]].concat(), "take 1024 MiB of memory"),
     ];
     for (name, bytes, sentence) in files {
@@ -148,7 +148,7 @@ fn pictures_that_unfold_are_refused_before_they_do() {
         let arguments = ["render", "builtin:ant", "-o", &out, "--style", "inking", "--ramp", &file];
         refused(&tinta_within(700, &arguments), &[name, sentence]);
     }
-    // As a model's texture it waits until a style asks for it.
+    // As a model's texture it is read only when a style needs it.
     folder.file("a.mtl", b"newmtl a\nmap_Kd bomb.png\n");
     let model = folder.file("a.obj", format!("mtllib a.mtl\n{SQUARE}usemtl a\nf 1/1 2/1 3/2\n").as_bytes());
     let scene = scene(load(&model, &LoadOptions::default()).unwrap().mesh);
@@ -309,7 +309,7 @@ fn corners_of_two_bytes_each_are_refused_before_they_take_more_than_twenty_times
     let bytes = file.stream_position().unwrap() as usize;
     drop(file);
     assert_eq!(bytes >> 20, 19);
-    // 20 times the file, the slack of docs/dev/limits.md, and what any process takes of its address space.
+    // 20 times the file, the slack of docs/dev/limits.md, and the basic address space of a process.
     let sentence =
         "corners.obj: its 4 vertices and 9999998 triangles take more than 20 times the file's size in memory";
     refused(&tinta_within(20 * 20 + 64 + 300, &["edges", &model]), &[sentence]);

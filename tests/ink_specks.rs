@@ -81,7 +81,7 @@ fn error(renderer: &mut Renderer, scene: &Scene, reference: &Reference, style: &
     Drawn::of_style(renderer, scene, style).unwrap().unwrap().error(reference, 2.0)
 }
 
-/// A prism of so many sides, and a cube whose edges are cut off at 45 degrees.
+/// A prism of so many sides, and a cube with edges cut off at 45 degrees.
 fn solids() -> [(&'static str, String); 2] {
     let mut prism = String::new();
     for (x, z) in (0..6).map(|corner| (f64::from(corner) * 60.0 + 15.0).to_radians().sin_cos()) {

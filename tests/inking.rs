@@ -223,7 +223,7 @@ fn flat_shading_gives_each_side_of_a_box_the_tone_of_its_light() {
         let light = scene.camera.view_from_world().transpose().transform_vector3(DVec3::new(0.0, 1.0, 1.0).normalize());
         let (low, high) = mesh.bounds();
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
-            // With its own corners' normals Gouraud's mixes equal colours.
+            // With its own corners' normals Gouraud interpolation mixes equal colours.
             let middle = (low + high) * 0.5 + axis * (high - low) * 0.5;
             let (x, y) = pixel(&scene, middle);
             let bright = axis.dot(light).clamp(0.1, 0.9);
@@ -384,7 +384,7 @@ fn the_models_own_picture_is_multiplied_into_the_paint() {
         let flat = Inking { paint: PaintMode::Flat, has_texture: true, is_inked: false, ..Inking::default() };
         let picture = draw(&mut renderer, &scene, flat.clone(), Show::Final);
         let quarter = |x, y| picture.pixel(x, y)[..3].to_vec();
-        // In the middle of each texel the picture's colour times the object's.
+        // In the middle of each texel the picture's colour multiplied by the object's.
         let expected = [[255, 0, 0], [0, 255, 0], [0, 0, 128], [255, 255, 128]];
         for ((x, y), expected) in [(27, 27), (73, 27), (27, 73), (73, 73)].into_iter().zip(expected) {
             let close = quarter(x, y).iter().zip(expected).all(|(a, b)| a.abs_diff(b) <= 8);

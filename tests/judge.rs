@@ -1,4 +1,4 @@
-//! Drawings whose faults are known are judged by them.
+//! Drawings with known faults are judged by them.
 
 use crate::cli::{Folder, refused_in_one_line, tinta};
 use crate::support::{renderer, scene};
@@ -63,14 +63,14 @@ fn the_exact_lines_are_right_and_what_is_done_to_them_shows_in_the_number_it_bel
     assert!((half.lines.recall - left / reference.length_px()).abs() < 0.02, "{half:?}");
     assert!(half.lines.precision > 0.999);
 
-    // With hidden lines as well.
+    // With hidden lines.
     let mut all = reference.lines.clone();
     all.segments.iter_mut().for_each(|segment| segment.is_visible = true);
     let hidden = judged(&picture(&lines::svg(&all, &DrawingSettings::default()).unwrap()), &reference, false);
     assert!(hidden.hidden.length_px > 50.0 && hidden.hidden.drawn_px > 0.9 * hidden.hidden.length_px, "{hidden:?}");
     assert!(hidden.lines.recall > 0.9999 && hidden.lines.precision < 0.8);
 
-    // Nothing, and everything.
+    // An empty picture, and a full one.
     let blank = |value: u8| Picture {
         size: Size { width: SIDE, height: SIDE },
         pixels: [value, value, value, 255].repeat(14_400),
@@ -79,7 +79,7 @@ fn the_exact_lines_are_right_and_what_is_done_to_them_shows_in_the_number_it_bel
     assert_eq!((empty.lines.recall, empty.lines.f1, empty.chamfer_px, empty.hidden.drawn_px), (0.0, 0.0, None, 0.0));
     let black = judged(&blank(0), &reference, false);
     assert_eq!((black.lines.recall, black.hidden.drawn_px), (1.0, black.hidden.length_px));
-    // As much of the picture as lies beside a line, those pixels left out that lie beside a soft crease alone.
+    // The share of the picture near a line, without pixels near a soft crease alone.
     let middles =
         (0..SIDE * SIDE).map(|index| DVec2::new(f64::from(index % SIDE) + 0.5, f64::from(index / SIDE) + 0.5));
     let (mut near, mut counted) = (0.0, 0.0);
@@ -218,7 +218,7 @@ fn whatever_an_svg_holds_is_drawn_or_refused() {
     let (_, reference) = subject("builtin:open-box");
     let whole = svg(&reference);
     let right = judged(&picture(&whole), &reference, false).lines.f1;
-    // Other elements around and beside the lines change nothing of them.
+    // Other elements around and beside the lines do not affect them.
     for (before, after) in [
         ("<text x=\"9\" y=\"9\">words</text>", ""),
         ("<g transform=\"translate(50 50) scale(2)\"><g transform=\"scale(0.5) translate(-50 -50)\">", "</g></g>"),

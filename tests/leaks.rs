@@ -9,8 +9,8 @@ use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, St
 /// 1,000 frames as after 6,000; a frame of one style that leaked a 64 x 64 RGBA picture would need 4,800.
 const ALLOWED_KIB: u64 = 2048;
 
-/// By how much memory grows from one equal span of work to the next, KiB, where it grows in three of them one after another:
-/// what leaks does, the allocator's level moves once.
+/// The growth of memory between equal spans of work, KiB, if it grows in three consecutive spans: a leak does, while the
+/// allocator's level moves once.
 fn growth(mut memory_after_a_span: impl FnMut() -> u64) -> u64 {
     let (mut before, mut least) = (memory_after_a_span(), u64::MAX);
     for _ in 0..3 {

@@ -72,7 +72,7 @@ impl<'a> Brute<'a> {
         matches!(self.scene.camera.projection, Projection::Parallel { .. })
     }
 
-    /// From a point to the eye, with a length beyond which nothing hides it.
+    /// The ray from a point to the eye, limited to the length that can hide it.
     fn to_eye(&self, point: DVec3) -> DVec3 {
         let backward = self.scene.camera.backward();
         let from_point = self.scene.camera.eye - point;
@@ -95,7 +95,7 @@ impl<'a> Brute<'a> {
                 let [a, b, c] = *corners;
                 let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
                 let distance = (b - a).cross(c - a).normalize().dot(point - a).abs();
-                // A piece is judged in its middle: what touches there may be twice as far at its end.
+                // A piece is judged in its middle: the distance at a contact may be twice as large at its end.
                 if share > nearest && distance > 2.01 * CONTACT * longest.min(line_length) {
                     return Some(true);
                 }
@@ -197,7 +197,7 @@ impl<'a> Brute<'a> {
                     let touches = touch(f, g, &shared) || touch(g, f, &shared) || a.distance(b) < 2.0 * CONTACT;
                     cuts.push(Cut { faces: [first, second], ends: [a, b], touches });
                 } else if touch(f, g, &shared) || touch(g, f, &shared) {
-                    // Whatever line there may be lies within the smaller's reach.
+                    // Any such line lies within the smaller's reach.
                     cuts.push(Cut { faces: [first, second], ends: [f[0], f[1]], touches: true });
                 }
             }
@@ -265,7 +265,7 @@ impl<'a> Brute<'a> {
         for piece in intersections {
             let places = (0..cuts.len()).filter_map(|cut| Some((lies_on(piece.ends_px, &images[cut]?), cut)));
             let places: Vec<(f64, usize)> = places.filter(|(distance, _)| *distance < SAME_LINE_PX).collect();
-            // Where it lies on several it is one of them.
+            // A point on several lines belongs to one of them.
             let looks = places.iter().map(|(_, cut)| {
                 let (faces, mut look) = (cuts[*cut].faces, agreement);
                 self.look(piece, cuts[*cut].ends, |face| faces.contains(&face), random, &mut look);
@@ -303,7 +303,7 @@ impl<'a> Brute<'a> {
             let at = from + (to - from) * (place_px / length_px);
             let point = self.point_at(ends, at);
             self.is_blocked(point, ends[0].distance(ends[1]), &is_own) == Some(piece.is_visible)
-                // By the rule for lines on one another the nearest one is drawn.
+                // By the rule for overlapping lines the nearest one is drawn.
                 && (piece.is_visible || !self.is_drawn_over(at))
         };
         let count = (length_px * 0.7).clamp(6.0, 100.0).ceil();
@@ -367,7 +367,7 @@ fn check(kind: u32, seed: u64) -> Agreement {
 /// How many random scenes the quick tests draw of each kind.
 const FEW: u64 = 8;
 
-/// How many the exhaustive ones draw, or as many as `TINTA_LINE_SCENES` says.
+/// The number of scenes of the exhaustive tests: the default, or `TINTA_LINE_SCENES`.
 fn many() -> u64 {
     scenes_wanted().unwrap_or(70)
 }
@@ -476,7 +476,7 @@ fn what_is_seen_of_the_ant_and_the_gear_is_what_rays_see() {
 
 #[test]
 fn lines_that_cannot_be_told_apart_in_the_picture_are_drawn_once() {
-    // Of 20,000 random scenes the two with cuts that near to one another.
+    // Two of 20,000 random scenes have cuts that close to one another.
     check(3, 287_756_342_340_050_861);
     check(3, 7_113_230_251_776_330_223);
 }

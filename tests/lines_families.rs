@@ -199,7 +199,7 @@ fn stairs(random: &mut Random) -> Scene {
         let (rise, run) = random.one_of(&[(0, 1), (1, 0), (1, 1), (2, 1), (-1, 1), (0, 2), (1, 2)]);
         profile.push((y + f64::from(rise), z + f64::from(run)));
     }
-    // A strip of that profile, closed below by as many boxes' worth of quads.
+    // A strip of that profile, closed below by the corresponding quads.
     let count = profile.len() as u32;
     let floor = profile.iter().map(|(y, _)| *y).fold(f64::INFINITY, f64::min) - 1.0;
     let mut positions = Vec::new();

@@ -126,7 +126,7 @@ fn the_same_boxes_are_looked_at_every_time() {
     assert_eq!(compared(), compared());
 }
 
-/// Lines of a scene that takes a while, a part of them.
+/// A scene's lines, interrupted after a part of them.
 fn part(scene: &Scene, settings: &LineSettings) -> VisibleLines {
     // However fast the machine is, one of these times is over in the midst of it.
     let mut milliseconds = 1.0;
@@ -273,7 +273,7 @@ fn leaving_out_specks_ends_when_asked_and_goes_on_a_little_where_a_part_is_wante
     assert!(matches!(ended(&Progress::within(Duration::ZERO)), Err(Error::OutOfTime { .. })));
     let whole = found.without_specks(&settings).unwrap();
     assert!(whole.segments.len() < found.segments.len(), "nothing to leave out");
-    // Whether a tenth of the time more is enough depends on the machine; what there is then does not.
+    // Whether a tenth more time suffices depends on the machine; the number of lines found by then does not.
     let part = ended(&Progress::within_or_part(Duration::from_secs(3_600))).unwrap();
     assert_eq!((part.segments, part.has_specks), (whole.segments, false));
     let partly = Progress::within_or_part(Duration::ZERO);
@@ -281,7 +281,7 @@ fn leaving_out_specks_ends_when_asked_and_goes_on_a_little_where_a_part_is_wante
     assert!(matches!(ended(&partly), Err(Error::Cancelled)));
 }
 
-/// A square lattice of so many lines each way through the whole picture, cut where they cross, and as many long lines across it.
+/// A square lattice of so many lines each way through the whole picture, cut at the crossings, and as many long lines across it.
 fn lattice_with_long_lines(count: usize) -> VisibleLines {
     let at = |number: usize| 10.0 + 480.0 * number as f64 / count as f64;
     let mut segments = Vec::new();
@@ -355,7 +355,7 @@ fn the_time_left_follows_from_what_is_done() {
             }
         }
     }
-    // Of the soup alone there are some thousand lines, and looking at them takes no time beside that of a line.
+    // The soup alone has some thousand lines, and sampling them takes no time compared with computing one.
     assert!(places > 20, "{places}");
 }
 

@@ -1,4 +1,4 @@
-//! Hidden lines as drawings have them: none under a visible line, and each once; the same whichever way a scene is written.
+//! Hidden lines as drawn: never under a visible line, and each once; independent of the order in which a scene is written.
 
 use crate::lines_support::{assert_near, length, lines, px, scene_of, shuffled, view};
 use crate::shapes::{Random, cuboid, joined, mesh};
@@ -10,7 +10,7 @@ use tinta::{DrawingSettings, Mesh, Scene};
 
 const NEAR: f64 = 1e-6;
 
-/// The length of the hidden lines that are drawn, and of those in whose place others are.
+/// The length of the hidden lines drawn, and of those replaced by others.
 fn hidden(lines: &VisibleLines) -> [f64; 2] {
     [false, true].map(|is_covered| {
         let of_it = lines.segments.iter().filter(|segment| !segment.is_visible && segment.is_covered == is_covered);
@@ -42,7 +42,7 @@ fn no_hidden_line_is_drawn_under_a_visible_one() {
     assert_hidden(&from(cube(), "front"), [0.0, 4.0], "the back of a cube lies under its front");
     let sheet = |z: f64| mesh([[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]].map(DVec3::from).into(), vec![[0, 1, 2]]);
     assert_hidden(&from(vec![sheet(0.0), sheet(-1.0)], "front"), [0.0, 2.0 + 2f64.sqrt()], "one sheet behind another");
-    // A beam under a slab: of its eight long and short edges and four upright ones only the rectangle is drawn.
+    // A beam under a slab: of its eight long and short edges and four upright ones the drawing has only the rectangle.
     let slab = bar([0.0, 1.0, 0.0], [4.0, 1.2, 4.0]);
     let beam = bar([0.5, 0.5, 1.9], [3.5, 0.7, 2.1]);
     assert_hidden(&from(vec![slab.clone(), beam.clone()], "top"), [6.4, 16.0 + 6.4], "a beam under a slab");
@@ -141,7 +141,7 @@ fn blocks(random: &mut Random) -> Vec<Mesh> {
 fn cut_otherwise(block: &Mesh) -> Mesh {
     let pairs = block.triangles.chunks(2);
     let cut = pairs.flat_map(|pair| {
-        // Of the faces 0 1 2 and 0 2 3 the diagonal is 0 to 2; of 0 1 3 and 1 2 3 it is the other.
+        // In the faces 0 1 2 and 0 2 3 the diagonal is 0 to 2; in 0 1 3 and 1 2 3 it is the other.
         let [first, second] = [pair[0], pair[1]];
         let common: Vec<u32> = first.into_iter().filter(|corner| second.contains(corner)).collect();
         let apex = |of: [u32; 3]| of.iter().position(|corner| !common.contains(corner)).unwrap();

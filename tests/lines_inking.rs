@@ -124,7 +124,7 @@ fn shares_by(renderer: &mut Renderer, scene: &Scene, name: &str, silhouette: Sil
     let of_gl = renderer.render(scene, &Style::Inking(inking)).unwrap();
     let settings = LineSettings { classes: CLASSES, silhouette, ..LineSettings::as_published() };
     let lines = VisibleLines::of(scene, &settings).unwrap();
-    // GL leaves nothing out.
+    // GL draws short lines too.
     let all = DrawingSettings { min_length: Some(Length::Px(0.0)), ..DrawingSettings::default() };
     let pixels = rendered(&svg(&lines, &all).unwrap());
     let size = Size { width: pixels.width(), height: pixels.height() };

@@ -7,7 +7,7 @@ use tinta::edges::Class;
 use tinta::lines::LineSettings;
 use tinta::{LoadOptions, Mesh, load};
 
-/// The length of the visible creases, all of them and those that last.
+/// The length of the visible creases, of all and of the lasting ones.
 fn creases(mesh: Mesh) -> [f64; 2] {
     let scene = scene_of(vec![mesh], view("33,17", true));
     [false, true].map(|lasting_creases| {

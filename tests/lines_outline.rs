@@ -1,5 +1,5 @@
-//! Outlines: the pieces of visible lines beyond which there is only background, on shapes whose outline is known and against a
-//! twin that casts rays beside points of lines.
+//! Outlines: the pieces of visible lines with only background on one side, on shapes with a known outline and against a twin that
+//! casts rays beside points of lines.
 
 use crate::lines_support::{assert_near, length, lines, lines_with, pierce, px, scene_of, shuffled, total, view};
 use crate::shapes::{Random, cuboid, icosphere, joined, mesh};
@@ -78,8 +78,8 @@ fn what_is_in_front_of_something_else_is_no_outline_there_whatever_the_order() {
         let found = outlined(&seen);
         assert_eq!(outline_of(&found, Some(number(1))), 0.0, "the small one is in front of the big one");
         assert_near(outline_of(&found, Some(number(0))), 8.0 * unit, NEAR, "the big one's");
-        // A bar that sticks out at the right, in front of the big one or behind it: its own outline is what sticks out, and
-        // the big one's has a gap there, also where its edge is seen.
+        // A bar that sticks out at the right, in front of the big one or behind it: its own outline is the part outside, and the
+        // big one's has a gap there, even where its edge is visible.
         for z in [2.0, -2.0] {
             let seen = scene(&bar(z));
             let unit = px(&seen, DVec3::X).x - px(&seen, DVec3::ZERO).x;
@@ -87,7 +87,7 @@ fn what_is_in_front_of_something_else_is_no_outline_there_whatever_the_order() {
             assert_near(outline_of(&found, Some(number(1))), 1.4 * unit, NEAR, &format!("the bar at {z}"));
             assert_near(outline_of(&found, Some(number(0))), 7.6 * unit, NEAR, &format!("beside a bar at {z}"));
             let beyond = found.segments.iter().filter(|s| s.is_visible && !s.is_outline).map(length).sum::<f64>();
-            // In front the bar's other half and its end are drawn, behind the big one's edge is.
+            // In front, the bar's other half and its end are drawn; behind, the big one's edge is.
             assert_near(beyond, if z > 0.0 { 1.4 } else { 0.4 } * unit, NEAR, &format!("inner lines at {z}"));
         }
     }
@@ -161,7 +161,7 @@ fn rays_beside_points_of_lines_find_the_same_outline() {
         let world_from_clip = camera.inverse();
         for segment in outlined(&scene).segments.iter().filter(|segment| segment.is_visible && length(segment) > 0.01) {
             let [a, b] = segment.ends_px;
-            // As far beside as background counts.
+            // The distance beside a line that counts as background.
             let aside = (b - a).perp().normalize() * 512.0 * tinta::tolerances::BESIDE;
             // Near both ends too: a cut at the wrong place is visible there. Parts shorter than five times that distance are
             // ignored.
@@ -259,7 +259,7 @@ fn a_rim_is_outline_also_where_a_face_beside_it_is_edge_on_but_for_rounding() {
                 let around = hull(corners.iter().map(|corner| px(&scene, *corner)).collect());
                 let sides: Vec<[DVec2; 2]> =
                     (0..around.len()).map(|k| [around[k], around[(k + 1) % around.len()]]).collect();
-                // Two rims may lie beside one another, nearer than background has to be.
+                // Two rims may be closer together than the distance of background.
                 let what = format!("{sides_count} sides from {name}, parallel {parallel}");
                 for (of, others) in [(&sides, &outline), (&outline, &sides)] {
                     for at in of.iter().flat_map(|[a, b]| (0..=50).map(|k| a.lerp(*b, f64::from(k) / 50.0))) {

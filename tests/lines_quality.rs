@@ -15,7 +15,7 @@ struct Solid {
     drawn: HashSet<[u32; 2]>,
 }
 
-/// A ring of points at a height and whether its own edges are drawn; which of the edges from it to the next ring are.
+/// A ring of points at a height, whether its own edges are drawn, and which of the edges to the next ring are.
 struct Ring {
     points: Vec<DVec2>,
     z: f64,
@@ -27,7 +27,7 @@ fn edge(a: usize, b: usize) -> [u32; 2] {
     [a.min(b) as u32, a.max(b) as u32]
 }
 
-/// Rings from the lowest outside up, over, and where they are `closed` back down inside; else the first and last are capped.
+/// Rings from the lowest outside up, over, and, if `closed`, back down inside; otherwise the first and last are capped.
 fn solid(rings: &[Ring], closed: bool) -> Solid {
     let count = rings[0].points.len();
     let mut positions: Vec<DVec3> =
@@ -140,7 +140,7 @@ fn solids() -> Vec<(String, Solid)> {
     all
 }
 
-/// Length of visible lines by their mesh edges: what each file edge shows, silhouettes or not.
+/// Length of visible lines by their mesh edges: the visible part of each file edge, silhouette or not.
 fn by_edge(lines: &VisibleLines, is_meant: impl Fn(&LineSegment) -> bool) -> BTreeMap<[u32; 2], f64> {
     let mut lengths = BTreeMap::new();
     for segment in lines.segments.iter().filter(|segment| segment.is_visible && is_meant(segment)) {

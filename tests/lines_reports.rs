@@ -315,7 +315,7 @@ fn a_disc_whose_last_corner_is_not_quite_the_first_has_no_spoke() {
 #[test]
 fn what_is_only_written_otherwise_is_drawn_alike() {
     let cube = seen(&[cuboid([0.0; 3], [10.0; 3])], "30,20");
-    // SketchUp's api-issue-tracker 611: mixed windings, a long edge beside two short ones.
+    // SketchUp's api-issue-tracker 611: mixed windings, a long edge along two short ones.
     let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     let sides = [
         [at(5.0, 0.0, 10.0), at(5.0, 10.0, 10.0), at(0.0, 10.0, 10.0), at(0.0, 0.0, 10.0)],

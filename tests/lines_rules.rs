@@ -267,9 +267,9 @@ fn what_is_nearer_than_the_near_plane_hides_nothing_and_what_it_cuts_hides_behin
         [of(0, true), of(0, false), of(1, true)]
     };
     for (near, far, expected) in [
-        // All of the board is there: of the wall's 16 units two pieces of 4 are hidden.
+        // The whole board is in view: two pieces of 4 of the wall's 16 units are hidden.
         (1.0, 20.0, [8.0, 8.0, 16.0]),
-        // None of it is.
+        // The board is out of view.
         (8.5, 20.0, [16.0, 0.0, 0.0]),
         // Up to z = 3, which is its left half.
         (7.0, 20.0, [12.0, 4.0, 8.0]),
@@ -295,7 +295,7 @@ fn a_prism_seen_along_two_of_its_sides_keeps_both_ends_of_its_outline() {
             for end in found.segments.iter().filter(|segment| segment.is_visible).flat_map(|segment| segment.ends_px) {
                 (low, high) = (low.min(end.y), high.max(end.y));
             }
-            // Along x, whose lines are horizontal from here: the uppermost and the lowest are whole.
+            // Along x, with horizontal lines in this view: the uppermost and the lowest are whole.
             for limit in [low, high] {
                 let on_it = |segment: &&LineSegment| {
                     segment.is_visible && segment.ends_px.iter().all(|end| (end.y - limit).abs() < NEAR)

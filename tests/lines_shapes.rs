@@ -153,7 +153,7 @@ fn a_box_half_through_a_box_is_cut_by_four_lines_in_the_place_where_it_enters() 
         let sides: Vec<[DVec2; 2]> =
             (0..4).map(|side| [px(&scene, rim[side]), px(&scene, rim[(side + 1) % 4])]).collect();
         let side_length = |side: usize| sides[side][0].distance(sides[side][1]);
-        // Seen: above the entering box and before it; not seen: under it and behind it.
+        // Visible above the entering box and in front of it; hidden under it and behind it.
         let (visible, hidden) = (side_length(1) + side_length(2), side_length(0) + side_length(3));
         assert_near(of_class(&found, Class::Intersection, true), visible, NEAR, "visible intersection");
         assert_near(of_class(&found, Class::Intersection, false), hidden, NEAR, "hidden intersection");
@@ -186,7 +186,7 @@ fn the_rim_of_an_open_box_is_seen_from_above_and_its_floor_where_the_walls_let_i
     let top = |triangle: &[u32; 3]| triangle.iter().all(|corner| corner >> 1 & 1 == 1);
     open.triangles.retain(|triangle| !top(triangle));
     assert_eq!(open.triangles.len(), 10);
-    // Straight in front and from above: in parallel projection heights are scaled by the cosine, depths by the sine.
+    // Straight ahead and from above: in parallel projection heights are scaled by the cosine, depths by the sine.
     let scene = scene_of(vec![open], view("0,60", true));
     let unit = px_between(&scene, DVec3::ZERO, DVec3::X);
     let found = lines(&scene);
@@ -269,7 +269,7 @@ fn of_a_torus_the_inner_contour_is_hidden_where_the_tube_lies_before_it() {
                 smooth[usize::from(!is_hidden)].push(px(&scene, at));
             }
         }
-        // A contour that folds zigzags on a mesh: not its length but its place is that of the smooth one.
+        // A contour with folds zigzags on a mesh: its place agrees with the smooth one, its length does not.
         for is_visible in [true, false] {
             let pieces: Vec<[DVec2; 2]> =
                 found.segments.iter().filter(|s| s.is_visible == is_visible).map(|s| s.ends_px).collect();

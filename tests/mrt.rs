@@ -16,8 +16,8 @@ use tinta::{
     load,
 };
 
-/// Share of pixels that rounding may change between framebuffer and texture: 0.3 % is the most that was seen, on the bust,
-/// whose colours lie between two steps of 8 bits.
+/// Share of pixels that rounding may change between framebuffer and texture: the largest observed is 0.3 %, on the bust, whose
+/// colours lie between two steps of 8 bits.
 const ROUNDED_SHARE: f64 = 0.005;
 
 /// A pixel counts as moved beyond this, in 1/255: a map's value that is one step off counts four times in the filter, with

@@ -24,7 +24,7 @@ fn assert_refused(output: &Output, words: &[&str]) {
     assert!(words.iter().all(|word| said.contains(word)), "{words:?}: {said}");
 }
 
-/// Commands that write into the folder `{}`, one for each kind of file, and the file that would come of it.
+/// Commands that write into the folder `{}`, one for each kind of file, and the file each would write.
 const WRITERS: [(&str, &str); 6] = [
     ("render builtin:ant --size 200 -o {}/a.ppm", "a.ppm"),
     ("render builtin:ant --size 400 -o {}/a.svg", "a.svg"),
@@ -79,7 +79,7 @@ fn a_limit_on_files_sizes_is_an_error_and_no_signal() {
         assert_refused(&through_shell(limit, &arguments(command, &folder.path(""))), &[file, "ulimit -f"]);
         assert!(names(Path::new(&folder.path(""))).is_empty(), "{command}");
     }
-    // Of several pictures that belong together none appears.
+    // If several pictures belong together, none appears.
     let folder = Folder::new();
     let place = folder.path("textures");
     assert_refused(&through_shell(limit, &arguments("textures --size 64 -o {}", &place)), &["ulimit -f"]);
@@ -154,7 +154,7 @@ fn a_full_disk_leaves_the_old_file_and_nothing_else() {
     for (command, file) in WRITERS {
         let folder = Folder::new();
         let command = command.replace("{}", "\"$D\"");
-        // 8 KiB in all, 4 of them taken by the old file.
+        // 8 KiB in total, 4 of them used by the old file.
         let script = format!(
             "{TRY} mount -t tmpfs -o size=8k none \"$D\"; head -c 4096 /dev/zero > \"$D/{file}\"; \
              try {command}; hold; head -c 4096 /dev/zero | cmp - \"$D/{file}\" && echo same; \
@@ -196,7 +196,7 @@ fn a_read_only_folder_is_refused_before_the_work() {
     for (command, file) in WRITERS {
         let folder = Folder::new();
         folder.file(file, OLD);
-        // The model is not there either: that would be noticed later.
+        // The model is missing too: that would be noticed later.
         let command = command.replace("{}", "\"$D\"").replace("builtin:ant", "no-such.obj");
         let script = format!(
             "{TRY} mount --bind \"$D\" \"$D\"; mount -o remount,ro,bind \"$D\"; try {command}; hold; cat \"$D/{file}\""

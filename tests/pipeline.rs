@@ -1,4 +1,4 @@
-//! The pipeline on real contexts: shaders compile, both backends agree, twins agree, nothing leaks, limits are kept.
+//! The pipeline on real contexts: shaders compile, both backends agree, twins agree, nothing leaks, limits hold.
 
 use crate::support::{BACKENDS, renderer, scene, scene_with, skip, styles};
 use std::sync::Arc;
@@ -25,7 +25,7 @@ fn both_backends_of_one_driver_draw_the_same_bytes() {
     let [mut first, mut second] = BACKENDS.map(renderer);
     let of = |renderer: &Renderer| [&renderer.context().renderer, &renderer.context().version].map(String::clone);
     if of(&first) != of(&second) {
-        // Not a pass: said aloud, because only one and the same driver promises equal bytes.
+        // Skipped with a message, because only the same driver promises equal bytes.
         skip(&format!("equal bytes of both backends: they are {:?} and {:?}", of(&first), of(&second)));
         return;
     }
@@ -69,7 +69,7 @@ fn three_and_two_passes_agree_to_rounding() {
     let scene = scene("builtin:bust", 256, 256);
     let [three, two] =
         [Style::ThreePass, Style::TwoPass].map(|make| renderer.render(&scene, &make(Cartoon::default())).unwrap());
-    // Where the border's response exceeds 1, three-pass clamps alpha and two-pass clamps a negative colour: both black.
+    // Where the border's response exceeds 1, three-pass clamps alpha and two-pass clamps a negative colour: both give black.
     assert!(three.difference(&two).unwrap().largest <= 1);
 }
 
@@ -231,7 +231,7 @@ fn auto_draws_whatever_another_context_can_and_smaller_pictures_as_before() {
     let quarter = scene("builtin:gear", limits[0] / 4 + 1, 16);
     let sampled = Style::ThreePass(Cartoon { supersample: Supersample::Four, ..Cartoon::default() });
     assert_eq!(auto.render(&quarter, &sampled).unwrap(), osmesa.render(&quarter, &sampled).unwrap());
-    // Beyond all of them it is drawn in tiles by the first.
+    // Beyond all limits the first one draws it in tiles.
     let wide = scene("builtin:gear", limits[1] / 4 + 1, 16);
     assert_eq!(auto.render(&wide, &sampled).unwrap(), egl.render(&wide, &sampled).unwrap());
     assert_eq!(auto.context(), &first);

@@ -88,7 +88,7 @@ fn what_the_command_line_gives_counts_more_and_the_record_states_what_counted() 
     assert_eq!((&given["style"]["name"], &given["style"]["tones"]), (&"mrt".into(), &2.into()));
     assert!((given["style"]["detection-factor"].as_f64().unwrap() - 0.7).abs() < 1e-6);
     assert_eq!(given["background"]["color"], serde_json::json!([1.0, 0.0, 0.0]));
-    // On either side of --preset; and what excludes an option of the preset beats it.
+    // On either side of --preset; an option that excludes one of the preset overrides it.
     for options in [
         &["--tones", "1", "--preset", &preset, "--eye", "1,2,9", "--transparent"][..],
         &["--preset", &preset, "--transparent", "--eye=1,2,9", "--tones=1"],
@@ -174,7 +174,7 @@ fn settings_in_use_are_saved_and_draw_the_same() {
     assert_eq!(preset.options["parallel"], OptionValue::Switch(true));
     assert_eq!(preset.options.len(), 6, "{:?}", preset.options);
     assert!(asked == picture("builtin:gear", &["--preset", &first]));
-    // A preset with something beside it becomes another preset.
+    // A preset with an additional option becomes another preset.
     let more = picture("builtin:gear", &["--preset", &first, "--line-width", "1", "--save-preset", &second]);
     assert!(more != asked && more == picture("builtin:gear", &["--preset", &second]));
     assert_eq!(Preset::read(&second).unwrap().options["line-width"], OptionValue::text("1"));

@@ -72,7 +72,7 @@ fn with_tones(mut row: Row, inner_differing: Option<f64>, mean_difference: f64) 
     row
 }
 
-/// As many settings as a real run has, on three models.
+/// As many settings as in a real run, on three models.
 pub fn made_up_rows(machine: &str, slowness: f64) -> Vec<Row> {
     let mut rows = Vec::new();
     for (model, weight) in [("builtin:bust", 1.0), ("models/stanford-bunny.obj", 2.2), ("fandisk.obj", 1.3)] {

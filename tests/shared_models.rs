@@ -1,4 +1,4 @@
-//! Public models, where they lie beside the checkout; said aloud where they do not.
+//! Public models beside the checkout; without them the test prints that it is skipped.
 //!
 //! `TINTA_MODELS` names their folder, by default `../shared/models`.
 

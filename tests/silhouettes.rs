@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use tinta::edges::{Eye, Incidence, Side, SilhouetteRule, Silhouettes, side_of_face};
 use tinta::{EdgeList, Mesh};
 
-/// The loops that edges form: `None` if at some position other than two of them meet.
+/// The loops formed by edges: `None` unless exactly two of them meet at every position.
 pub fn loops(edges: &EdgeList, chosen: &[u32]) -> Option<usize> {
     let mut neighbours: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for edge in chosen {
@@ -58,7 +58,7 @@ fn the_silhouette_is_closed_even_where_faces_are_seen_exactly_edge_on() {
         let found = find(Eye::Direction(direction));
         assert_eq!((found.len(), loops(&edges, &found)), (4, Some(1)), "{direction}");
     }
-    // In the plane of the top: of the three sides around that corner only one is seen.
+    // In the plane of the top: of the three sides around that corner only one is visible.
     let found = find(Eye::Point(DVec3::new(3.0, 1.0, 0.5)));
     assert_eq!((found.len(), loops(&edges, &found)), (4, Some(1)));
 }
@@ -260,7 +260,7 @@ fn every_silhouette_from_eyes_close_to_a_surface_is_that_of_its_faces_sides() {
 
 #[test]
 fn the_papers_rule_takes_edges_between_faces_that_are_both_edge_on_and_the_exact_one_does_not() {
-    // Errata D4: two faces whose normals' components along the view have one sign and this product.
+    // Errata D4: two faces whose normals' components along the view have the same sign and this product.
     let roof = |first: f64, second: f64| {
         let (left, right) = (first.asin(), second.asin());
         mesh(

@@ -174,7 +174,7 @@ fn check_scale(summary: &Summary) {
     assert!(count > 0);
 }
 
-/// In one test, for others would wait until all cases are carried out.
+/// In one test, because others would wait for all cases.
 #[test]
 #[ignore = "exhaustive: all cases of tinta stress, by both backends"]
 fn all_cases_hold_what_one_of_each_kind_does_and_more() {
@@ -229,7 +229,7 @@ fn a_backend_that_is_not_there_is_an_error_and_no_failed_case() {
 #[test]
 fn cases_are_tried_without_a_backend_that_is_not_there_and_that_is_said() {
     if BACKENDS[1] != Backend::OsMesa {
-        // Both are EGL's then, and go with it.
+        // Without OSMesa both backends are EGL's and both are missing.
         return skip("a missing backend: there is no OSMesa to go on with");
     }
     let folder = tempfile::tempdir().unwrap();

@@ -27,12 +27,12 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap()
 }
 
-/// Says that a test checks less than it could; written past the test harness, which would keep it to itself.
+/// Reports that a test checks less than it could, bypassing the test harness's capture.
 pub fn skip(what: &str) {
     let _ = writeln!(std::io::stderr(), "SKIPPED {what}");
 }
 
-/// The folder of public models that tests try where they have it: `TINTA_MODELS`, by default `../shared/models`.
+/// The folder of optional public models for tests: `TINTA_MODELS`, by default `../shared/models`.
 pub fn public_models() -> Option<PathBuf> {
     let folder = std::env::var_os("TINTA_MODELS").map_or_else(|| root().join("../shared/models"), PathBuf::from);
     if folder.is_dir() {

@@ -8,7 +8,7 @@ use tinta::{
     CameraSettings, Color, LoadOptions, Mesh, Picture, Scene, SceneSettings, Show, Size, Style, StyleName, load,
 };
 
-/// Styles whose colours are the scene's.
+/// Styles that use the scene's colours.
 const STYLES: [StyleName; 6] =
     [StyleName::ThreePass, StyleName::TwoPass, StyleName::Mrt, StyleName::Phong, StyleName::Ink, StyleName::Charcoal];
 
@@ -26,7 +26,7 @@ fn square(colors: Vec<[f32; 3]>, surface: Surface) -> Scene {
     Scene::new([mesh], &SceneSettings { bare_color: white, ..settings(surface) }).unwrap()
 }
 
-/// The middle pixel, which every style shades alike whatever its colour.
+/// The middle pixel, which every style shades alike in any colour.
 fn middle(picture: &Picture) -> [u8; 4] {
     picture.pixel(20, 20)
 }

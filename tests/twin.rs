@@ -1,4 +1,4 @@
-//! An independent twin on the CPU: border filter and blending recomputed in f64 from what GL dumped.
+//! An independent twin on the CPU: border filter and blending recomputed in f64 from GL's dumped pictures.
 
 use crate::support::{BACKENDS, failure_folder, renderer, scene, side_by_side};
 use tinta::picture::write_rgba_png;
@@ -6,7 +6,7 @@ use tinta::styles::{Border, Cartoon, Filter};
 use tinta::{Picture, Show, Style};
 
 /// The border at a pixel from the map around it, as the shaders define it but in f64: 0 none, 1 and more black; one for each
-/// program that is blended.
+/// blended program.
 ///
 /// `map(x, y)` is the map's four channels in [0, 1] at this offset in pixels, y up, clamped at the rim.
 fn responses(border: &Border, map: impl Fn(i32, i32) -> [f64; 4]) -> Vec<f64> {

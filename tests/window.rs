@@ -46,7 +46,7 @@ fn style(name: &str) -> ViewerEvent {
 /// Returns the picture of a command line written by the viewer.
 fn by_command(command: &str, backend: &str) -> Picture {
     let folder = tempfile::tempdir().unwrap();
-    // Nothing in these commands has blanks in it; colours are quoted.
+    // These commands contain no blanks; colours are quoted.
     let command = command.replace('\'', "");
     let words: Vec<&str> = command.split(' ').skip(1).collect();
     let output = Command::new(env!("CARGO_BIN_EXE_tinta"))
@@ -262,7 +262,7 @@ fn files_saved_from_the_viewer_are_those_its_commands_write() {
     assert!(preset.contains("style = \"three-pass\"\ntones = 2"), "{preset}");
 }
 
-/// A viewer of this model whose files go into this folder, at rest.
+/// An idle viewer of this model that saves files into this folder.
 fn saving_viewer(model: &str, folder: &Path) -> Viewer {
     let options = ViewerOptions {
         state: ViewerState::new(vec![model.to_owned()], Default::default()),
@@ -278,7 +278,7 @@ fn saving_viewer(model: &str, folder: &Path) -> Viewer {
     viewer
 }
 
-/// What saving this says.
+/// The message after saving this.
 fn saved(viewer: &mut Viewer, event: ViewerEvent) -> String {
     viewer.event(event);
     while viewer.state.message.as_deref() == Some("saving") {

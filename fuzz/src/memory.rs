@@ -18,26 +18,26 @@ fn add(bytes: usize) {
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         add(layout.size());
-        // SAFETY: as promised to this function.
+        // SAFETY: the caller's promises hold.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         add(layout.size());
-        // SAFETY: as promised to this function.
+        // SAFETY: the caller's promises hold.
         unsafe { System.alloc_zeroed(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         NOW.fetch_sub(layout.size(), Ordering::Relaxed);
-        // SAFETY: as promised to this function.
+        // SAFETY: the caller's promises hold.
         unsafe { System.dealloc(pointer, layout) }
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         add(size);
         NOW.fetch_sub(layout.size(), Ordering::Relaxed);
-        // SAFETY: as promised to this function.
+        // SAFETY: the caller's promises hold.
         unsafe { System.realloc(pointer, layout, size) }
     }
 }
@@ -45,7 +45,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Runs a reader and panics where it took more than `most` bytes at once.
+/// Runs a reader and panics if it uses more than `most` bytes at once.
 pub fn within(most: usize, read: impl FnOnce()) {
     let before = NOW.load(Ordering::Relaxed);
     PEAK.store(before, Ordering::Relaxed);
@@ -57,7 +57,7 @@ pub fn within(most: usize, read: impl FnOnce()) {
 /// Memory of the smallest model: mostly the buffers of threads and parsers.
 const SLACK_BYTES: usize = 1 << 20;
 
-/// Most memory for a model, or anything else that is not a picture: 20 times the file.
+/// Most memory for a model, or any input except pictures: 20 times the file.
 pub fn of_model(bytes: &[u8]) -> usize {
     bytes.len() * tinta::limits::MEMORY_FACTOR + SLACK_BYTES
 }

@@ -1,5 +1,5 @@
-//! What every reader must do with any bytes at all: read them or refuse them in one sentence, without a panic, without
-//! numbers that are not finite, in bounded memory.
+//! The duty of every reader for any bytes: read them or refuse them in one sentence, without a panic, without infinite numbers or
+//! NaN, in bounded memory.
 //!
 //! One function per reader, for the fuzz targets beside this file and for `tests/corpus.rs`, which runs every file of the corpus
 //! through the same function with an ordinary compiler.
@@ -15,7 +15,7 @@ pub fn obj(bytes: &[u8]) {
         Some(end) => (&bytes[..end], &bytes[end + 1..]),
         None => (bytes, [].as_slice()),
     };
-    // What looks like another format would be read as that.
+    // Text that looks like another format would be read as that.
     model_of([b"o o\n", model].concat().as_slice(), materials, "fuzz.obj");
 }
 
@@ -39,7 +39,7 @@ pub fn three_ds(bytes: &[u8]) {
     model_of(bytes, b"", "fuzz.3ds");
 }
 
-/// A glTF model, JSON or GLB; pictures in it are no longer than it.
+/// A glTF model, JSON or GLB; its pictures are no longer than the file.
 pub fn gltf(bytes: &[u8]) {
     let loaded = read_bytes(bytes, "fuzz.gltf", &[], &LoadOptions::default());
     if let Ok(Loaded { mesh, .. }) = &loaded {
@@ -49,7 +49,7 @@ pub fn gltf(bytes: &[u8]) {
     check_model(loaded);
 }
 
-/// A model of any format, by its content alone, with other options than the default: the first byte says which.
+/// A model of any format, recognised by its content, with other options than the default: the first byte selects them.
 pub fn load(bytes: &[u8]) {
     let Some((how, bytes)) = bytes.split_first() else { return };
     let options = LoadOptions {
@@ -102,7 +102,7 @@ fn check_model(loaded: Result<Loaded>) {
     }
 }
 
-/// A picture of any format; the first byte says which extension its name has.
+/// A picture of any format; the first byte selects the extension of its name.
 pub fn picture(bytes: &[u8]) {
     let Some((how, bytes)) = bytes.split_first() else { return };
     let name = ["a.png", "a.tga", "a.pcx", "a"][usize::from(*how) % 4];

@@ -5,7 +5,7 @@
 //! over the tables of settings (`settings.rs`), arrays (`mesh.rs`, `arrays.rs`), and the threads that work while Python's other
 //! threads run (`work.rs`, `studio.rs`).
 //!
-//! All `unsafe` code is what pyo3's macros make of `#[pyclass]` and `#[pyfunction]`.
+//! All `unsafe` code comes from pyo3's macros `#[pyclass]` and `#[pyfunction]`.
 
 mod arrays;
 mod edges;
@@ -20,7 +20,7 @@ mod studio;
 mod warnings;
 mod work;
 
-/// What Python imports as `tinta_npr._native`.
+/// The module `tinta_npr._native` in Python.
 #[pyo3::pymodule]
 mod _native {
     #[pymodule_export]

@@ -22,7 +22,7 @@ pub(crate) struct Mesh {
     pub path: Option<String>,
     /// The settings it was read with.
     pub options: Options,
-    /// The files that were read besides.
+    /// The other files read with it.
     pub files: Vec<PathBuf>,
     remarks: Vec<String>,
     /// How it was seen first: its arrays and edges are shared by all later views.
@@ -77,7 +77,7 @@ fn checked_vertices(numbers: &[f64]) -> std::result::Result<Vec<DVec3>, String> 
 
 #[pymethods]
 impl Mesh {
-    /// Of arrays that are one piece of memory each; `sizes` are the faces' corners, none for triangles. All are copied before
+    /// Makes a mesh of contiguous arrays; `sizes` are the faces' numbers of corners, none for triangles. All are copied before
     /// anything else can run, and the copies are checked.
     #[staticmethod]
     fn of_arrays(
@@ -123,13 +123,13 @@ impl Mesh {
         Ok(Self::new(mesh, None, options, Vec::new(), remarks))
     }
 
-    /// Of a file.
+    /// Reads a mesh from a file.
     #[staticmethod]
     fn of_file(py: Python<'_>, path: String, given: &Bound<'_, PyDict>) -> PyResult<Self> {
         let options = options("mesh", given)?;
         let (of_mesh, file) = (options.clone(), path.clone());
         let loaded = done(py, || (), move || load(&file, &LoadOptions::from_options(&of_mesh)?))?;
-        // Of the file and of the two functions between it and who asks.
+        // The level skips the two functions between the caller and this one.
         warn(py, &loaded.remarks, 4)?;
         Ok(Self::new(loaded.mesh, Some(path), options, loaded.files, loaded.remarks))
     }

@@ -18,11 +18,11 @@ use tinta::{Error, ParseError, Preset, Request, Result, Scene};
 #[derive(Debug, Clone)]
 pub(crate) struct Asked {
     pub request: Request,
-    /// Paths of the models; `None` where one is no file's.
+    /// Paths of the models; `None` if one has no file.
     models: Option<Vec<String>>,
-    /// What their drawing is titled.
+    /// The title of the drawing.
     pub title: String,
-    /// The files that were read besides the models.
+    /// The other files read with the models.
     beside: Vec<PathBuf>,
 }
 
@@ -45,7 +45,7 @@ impl Asked {
         basis: &Basis<'_>,
     ) -> PyResult<Self> {
         let mut request = asked(function, options(function, given)?, basis).map_err(raised)?;
-        // Meshes are there: how they were read says each itself.
+        // The meshes are already read: each knows its reading options.
         request.options.retain(|name, _| !is_reading(name));
         for mesh in meshes {
             request.options.extend(mesh.get().options.clone());
@@ -60,7 +60,7 @@ impl Asked {
         Ok(Self { request, models: paths, title, beside })
     }
 
-    /// The same with other options beside those there are.
+    /// The same with additional options.
     pub(crate) fn with(&self, options: Options) -> Result<Self> {
         let mut all = self.request.options.clone();
         all.extend(options);

@@ -1,6 +1,6 @@
 //! Settings by their names: each function's settings, the conversion of Python values, and the help texts.
 //!
-//! No setting is named here: everything is a loop over the tables beside the structs.
+//! This file names no setting: everything is a loop over the tables beside the structs.
 
 use crate::errors::{in_python, python_name, raised};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -12,10 +12,10 @@ use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, names_of
 use tinta::styles::{StyleName, is_of_lines_alone};
 use tinta::{Backend, DrawingSettings, Error, LineSettings, LoadOptions, Request, SceneSettings, Show, Style};
 
-/// Which settings of a drawing a function takes.
+/// The settings of a drawing that a function takes.
 #[derive(Clone, Copy)]
 struct Taken {
-    /// The style that its settings are of; none for all that OpenGL draws.
+    /// The style of its settings; `None` for all OpenGL styles.
     style: Option<StyleName>,
     of_style: fn(&str) -> bool,
     has_scene: bool,
@@ -56,7 +56,7 @@ impl Entry {
     }
 }
 
-/// Whether a setting says how a mesh is read, which is done before it is drawn.
+/// Whether a setting controls how a mesh is read, which happens before drawing.
 pub(crate) fn is_reading(name: &str) -> bool {
     LoadOptions::table().has(name)
 }
@@ -145,7 +145,7 @@ pub(crate) fn check(function: &str, given: &Bound<'_, PyDict>) -> PyResult<()> {
     options(function, given).map(drop)
 }
 
-/// What to say of a name that is no setting of a function.
+/// The error about an unknown setting of a function.
 fn unknown(py: Python<'_>, function: &str, key: &str, entries: &[Entry]) -> String {
     let own = own_names(py, function).unwrap_or_default();
     let settings: Vec<String> = entries.iter().map(|entry| python_name(entry.name())).collect();

@@ -14,7 +14,7 @@ use tinta::{Backend, Error, Renderer, Result};
 /// The contexts that are open.
 type Renderers = Vec<(Backend, Renderer)>;
 
-/// Something to be done with them.
+/// A job for the renderers.
 type Job = Box<dyn FnOnce(&mut Renderers) + Send>;
 
 struct Studio {
@@ -75,7 +75,7 @@ fn opened(renderers: &mut Renderers, backend: Backend) -> Result<&mut Renderer> 
     Ok(&mut renderers[place].1)
 }
 
-/// Hands a job to the thread, which is started for the first one, and again where it has died.
+/// Hands a job to the thread, which starts with the first job, and again if it has died.
 fn submit(job: Job) -> PyResult<()> {
     let mut studio = STUDIO.lock().unwrap_or_else(PoisonError::into_inner);
     if studio.as_ref().is_some_and(|studio| studio.process != std::process::id()) {
@@ -102,6 +102,6 @@ pub(crate) fn close(py: Python<'_>) {
     let Some(studio) = studio.filter(|studio| studio.process == std::process::id()) else { return };
     let Studio { jobs, thread, .. } = studio;
     drop(jobs);
-    // A job that panicked has said so.
+    // A panicked job has printed its message.
     py.detach(|| drop(thread.join()));
 }

@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::Duration;
 use tinta::Result;
 
-/// How often a waiting thread asks Python for signals.
+/// How often a waiting thread checks Python's signals.
 const GLANCE: Duration = Duration::from_millis(50);
 
 /// Does the work and returns its result. If a signal raises an exception, this function raises it at once: `cancel` asks the work
@@ -25,7 +25,7 @@ pub(crate) fn done<T: Send + 'static>(
     wait(py, receiver, cancel)
 }
 
-/// Waits for what another thread sends.
+/// Waits for another thread's result.
 pub(crate) fn wait<T: Send>(py: Python<'_>, receiver: Receiver<Result<T>>, cancel: impl Fn()) -> PyResult<T> {
     let mut receiver = receiver;
     loop {

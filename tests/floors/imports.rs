@@ -1,4 +1,4 @@
-//! Which files of a crate use which, by the crate's texts alone: imports and paths, resolved to the file that defines each name.
+//! The uses among a crate's files, from the texts alone: imports and paths, resolved to the file that defines each name.
 //!
 //! Takes a crate's texts and returns, for each file, the files it uses, with the names. Re-exports are followed: a file that only
 //! declares and re-exports its children uses none of them. Comments, literals and tests do not count. Names of standard or
@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// For each file the files that it uses, and the names it takes from each.
 pub type Uses = BTreeMap<String, BTreeMap<String, BTreeSet<String>>>;
 
-/// The uses of a crate whose root is `lib.rs` and whose texts `read` knows by their paths below it; and how many there are.
+/// The uses of a crate with the root `lib.rs`, whose texts `read` returns by their paths below it; and their number.
 pub fn uses(read: &dyn Fn(&str) -> Option<String>) -> (Uses, usize) {
     let mut modules = Modules(Vec::new());
     modules.add("lib.rs", "", None, read);
@@ -68,7 +68,7 @@ struct Module {
     children: BTreeMap<String, usize>,
     definitions: BTreeSet<String>,
     imports: Vec<Import>,
-    /// Everything else, as tokens.
+    /// All other text, as tokens.
     code: Vec<String>,
 }
 
@@ -228,7 +228,7 @@ fn tokens(text: &str) -> Vec<String> {
             }
         }
     }
-    // `pub(in crate::lines)` is no use of it.
+    // `pub(in crate::lines)` does not use that module.
     let mut plain: Vec<String> = Vec::with_capacity(tokens.len());
     let mut rest = tokens.as_slice();
     while let [token, after @ ..] = rest {

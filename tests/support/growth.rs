@@ -17,20 +17,20 @@ pub struct Shape {
 /// A family of scenes.
 #[derive(Clone, Copy)]
 pub struct Family {
-    /// A word for tables and plots.
+    /// A short name for tables and plots.
     pub name: &'static str,
     /// A description of the family.
     pub what: &'static str,
     /// One of about so many triangles.
     pub make: fn(usize) -> Shape,
-    /// From where it is seen.
+    /// The view.
     pub seen: Seen,
 }
 
 /// From where a family is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Seen {
-    /// As by default.
+    /// The default view.
     Aslant,
     /// Along the z axis in parallel projection, where equal parts lie on one another.
     Along,
@@ -127,7 +127,7 @@ impl Shape {
         self.turned_cuboid(low, high, |corner| corner);
     }
 
-    /// One whose corners are moved.
+    /// A cuboid with moved corners.
     fn turned_cuboid(&mut self, low: DVec3, high: DVec3, moved: impl FnMut(DVec3) -> DVec3) {
         let corner = |i: u32| {
             let pick = |bit: u32, low: f64, high: f64| if i >> bit & 1 == 1 { high } else { low };

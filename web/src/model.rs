@@ -13,7 +13,7 @@ use tinta_lab::measure::{Ink, Reference};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Distance within which ink lies on a line, pixels: that of `tinta measure`.
+/// Distance within which ink lies on a line, pixels: the default of `tinta measure`.
 const TOLERANCE_PX: f64 = 2.0;
 
 /// A model, with its remarks from reading.
@@ -26,14 +26,14 @@ pub struct Model {
     files: Vec<FileRecord>,
 }
 
-/// Files that lie beside a model, by their names.
+/// Files beside a model, by their names.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct Files(Vec<(String, Vec<u8>)>);
 
 #[wasm_bindgen]
 impl Files {
-    /// None yet.
+    /// Without files.
     #[wasm_bindgen(constructor)]
     pub fn new() -> Files {
         Self::default()
@@ -139,7 +139,7 @@ impl Model {
     }
 }
 
-/// What options of the page ask for, in this style where they name none.
+/// The request of the page's options, in this style if they name none.
 pub(crate) fn asked(style: StyleName, options: &str) -> Result<Request, JsError> {
     let options: Options = serde_json::from_str(options).map_err(unreadable)?;
     Ok(Request::from_layers(&[Layer::Style(style), Layer::Given(options)]).map_err(said)?.0)

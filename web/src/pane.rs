@@ -31,14 +31,14 @@ impl Pane {
     ///
     /// # Errors
     ///
-    /// Where the browser has no WebGL, or too little of it.
+    /// If WebGL is missing or too limited.
     #[wasm_bindgen(constructor)]
     pub fn new(canvas: HtmlCanvasElement) -> Result<Pane, JsError> {
         let renderer = Renderer::on_canvas(canvas).map_err(said)?;
         Ok(Self { renderer, scene: None, orbit: Orbit::default(), drawn: None })
     }
 
-    /// What this browser draws with: JSON.
+    /// The browser's graphics context, as JSON.
     pub fn context(&self) -> String {
         json!(self.renderer.context()).to_string()
     }
@@ -47,7 +47,7 @@ impl Pane {
     ///
     /// # Errors
     ///
-    /// Where it is too large for a scene.
+    /// If it is too large for a scene.
     pub fn show(&mut self, model: &Model) -> Result<(), JsError> {
         self.scene = Some(model.scene(&SceneSettings::default())?);
         Ok(())
@@ -84,7 +84,7 @@ impl Pane {
         picture.png_bytes(recipe.note().as_ref()).map_err(said)
     }
 
-    /// The passes of what would be drawn, each with its programs' shaders: JSON.
+    /// The passes of the drawing, each with its programs' shaders, as JSON.
     ///
     /// # Errors
     ///
@@ -112,7 +112,7 @@ impl Pane {
         serde_json::to_string(&passes).map_err(unreadable)
     }
 
-    /// The ink of the lines that these options draw, how dark each pixel is; nothing for a style without lines.
+    /// The ink of these options' lines, as the darkness of each pixel; `None` for a style without lines.
     ///
     /// # Errors
     ///
@@ -151,7 +151,7 @@ impl Pane {
     ///
     /// # Errors
     ///
-    /// Where one of them is not understood.
+    /// If one of them is refused.
     pub fn replace_shaders(&mut self, shaders: &str) -> Result<(), JsError> {
         let shaders = serde_json::from_str(shaders).map_err(unreadable)?;
         self.renderer.replace_shaders(shaders).map_err(said)
@@ -182,7 +182,7 @@ impl Pane {
     ///
     /// # Errors
     ///
-    /// Where there is no such view.
+    /// If the view is unknown.
     pub fn look(&mut self, view: &str) -> Result<(), JsError> {
         let view: View = view.parse().map_err(|error| JsError::new(&format!("{error}")))?;
         self.orbit.look_from(view);
@@ -228,7 +228,7 @@ impl Pane {
     }
 }
 
-/// What options ask for, and which of the style's pictures.
+/// The request of the options, with one of the style's pictures.
 fn picture_asked(options: &str, show: &str) -> Result<Request, JsError> {
     let mut request = asked(StyleName::ThreePass, options)?;
     request.show = show.parse().map_err(|error| JsError::new(&format!("{error}")))?;

@@ -43,7 +43,7 @@ pub fn tables() -> String {
 ///
 /// # Errors
 ///
-/// A sentence where there is no such look.
+/// A sentence for an unknown look.
 #[wasm_bindgen]
 pub fn look(name: &str) -> Result<String, JsError> {
     let look = Look::of_name(name).map_err(|error| JsError::new(&format!("{error}")))?;
@@ -53,10 +53,10 @@ pub fn look(name: &str) -> Result<String, JsError> {
         options.by_ref().map(|(name, value)| (name.clone(), text(value))).collect()
     };
     let settings = of(&|name| Style::table().has(name));
-    // The page says how large the picture is, and the hand from where it is seen.
+    // The page sets the picture's size, and the mouse its view.
     let is_of_scene = |name: &str| !["size", "view"].contains(&name) && SceneSettings::table().has(name);
     let mut scene = of(&is_of_scene);
-    // What another look sets is as by default again.
+    // Settings of another look return to their defaults.
     for other in LOOKS {
         for name in other.preset().map_err(said)?.options.into_keys().filter(|name| is_of_scene(name)) {
             scene.entry(name).or_insert(Value::Null);
@@ -106,7 +106,7 @@ fn control<T: Clone + 'static>(setting: &Setting<T>, of: &T) -> Value {
 ///
 /// # Errors
 ///
-/// A sentence where there is no such shader.
+/// A sentence for an unknown shader.
 #[wasm_bindgen]
 pub fn listing(path: &str) -> Result<String, JsError> {
     let text = tinta::glsl::source(path).ok_or_else(|| JsError::new(&format!("there is no shader {path}")))?;
@@ -121,7 +121,7 @@ pub fn shaders() -> String {
     json!(tinta::glsl::SOURCES.iter().map(|(path, _)| path).collect::<Vec<_>>()).to_string()
 }
 
-/// The word that a text of a setting of a style is refused with; nothing where it is taken.
+/// The error for a setting's text, if the style refuses it.
 #[wasm_bindgen]
 pub fn refusal(style: &str, name: &str, text: &str) -> Option<String> {
     let style = Style::named(style.parse().ok()?);
