@@ -61,7 +61,7 @@ pub fn compare(name: &str, actual: &Picture, by: &str) -> Result<(), String> {
 
 /// How to accept a new picture of the test with this name.
 pub fn how_to_update(test: &str) -> String {
-    format!("if the change is wanted: TINTA_UPDATE_GOLDENS=1 cargo test {test}, and look at it")
+    format!("if you intended the change: TINTA_UPDATE_GOLDENS=1 cargo test {test}, and look at it")
 }
 
 /// Draws a model on both backends and compares each picture with the golden.

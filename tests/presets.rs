@@ -134,7 +134,7 @@ fn what_a_preset_gets_wrong_is_said_with_file_line_and_key() {
     refused("measure", "style = \"inking\"\nfilter = \"oil\"\n", &["line 2: filter oil: "]);
     refused_in_one_line(
         &["render", "builtin:ant", "-o", &out, "--preset", "paper:monet"],
-        &["paper:monet: there is no shipped preset of this name", "paper:dachsbacher-inking"],
+        &["paper:monet: no shipped preset has this name", "paper:dachsbacher-inking"],
     );
     refused_in_one_line(&["render", "builtin:ant", "-o", &out, "--preset", "none.toml"], &["none.toml: there is no"]);
     assert!(!std::path::Path::new(&out).exists());

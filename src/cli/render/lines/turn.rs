@@ -39,7 +39,7 @@ pub(super) fn run(
     let names = names(output, format)?;
     let style = request.line_style().unwrap_or_default();
     if request.options.contains_key("page") {
-        let problem = "each view would be scaled to fill the paper, so the model's size would change from frame to frame; leave it out, or say --width-mm";
+        let problem = "each view would be scaled to fill the paper, and the model change its size; leave it out, or say --width-mm";
         return Err(Error::setting("page", problem));
     }
     let ReadModels { meshes, ms: load_ms, .. } = request.models(&session.models)?;
