@@ -251,7 +251,7 @@ const MISTAKES: [(&str, &str); 88] = [
     ("measure triangle.obj", "--output is missing; name the folder to write into: -o results; see --help"),
     ("measure triangle.obj -o out --tolerance 0", "--tolerance 0: it is a number of pixels above 0 and at most 1000"),
     ("batch jobs.jsonl -o out", "jobs.jsonl: line 1: it has no command; write render, compare or measure"),
-    ("batch typo.jsonl -o out", "typo.jsonl: line 1: model: - is standard input, which jobs have not; name a file"),
+    ("batch typo.jsonl -o out", "typo.jsonl: line 1: model: - is standard input, which jobs lack; name a file"),
     ("batch none.jsonl -o out", "none.jsonl: there is no such file; check the name"),
     ("again notes.txt", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),
     ("again notes.txt -o out.png", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),

@@ -127,6 +127,6 @@ fn a_list_of_jobs_is_read_from_standard_input() {
     let nothing = piped(&["batch", "-", "-o", &done, "--resume"], b"");
     assert!(said(&nothing).contains("standard input: nothing came; pipe a list of jobs into it"), "{}", said(&nothing));
     let wrong = piped(&["batch", "-", "-o", &folder.path("x")], job.replace("builtin:open-box", "-").as_bytes());
-    let message = "tinta: standard input: line 1: model: - is standard input, which jobs have not; name a file\n";
+    let message = "tinta: standard input: line 1: model: - is standard input, which jobs lack; name a file\n";
     assert_eq!((wrong.status.code(), said(&wrong)), (Some(2), message.to_owned()));
 }

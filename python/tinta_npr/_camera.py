@@ -22,7 +22,7 @@ def settings_of(camera, settings, is_exact):
     if hasattr(camera, "items"):
         for key in camera:
             if key.replace("-", "_") not in _NAMES:
-                raise ValueError(f"camera: it has no {key}; choose of {', '.join(sorted(_NAMES))}")
+                raise ValueError(f"camera: it has no {key}; choose from {', '.join(sorted(_NAMES))}")
         return {key.replace("-", "_"): value for key, value in camera.items() if value is not None}, None
     if hasattr(camera, "get_proj") and hasattr(camera, "transData"):
         return {}, of_axes(camera, settings)

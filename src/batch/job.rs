@@ -148,7 +148,7 @@ impl Asked {
         });
         let options = options.collect::<Result<_, String>>()?;
         if models.iter().any(|model| model == "-") {
-            return Err("model: - is standard input, which jobs have not; name a file".to_owned());
+            return Err("model: - is standard input, which jobs lack; name a file".to_owned());
         }
         Ok(Self { id, command, models, options })
     }

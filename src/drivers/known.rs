@@ -28,7 +28,7 @@ pub const KNOWN: [KnownFault; 6] = [
         first_seen: "Mesa 22.3.6, llvmpipe",
         last_seen: "Mesa 22.3.6, llvmpipe",
         workaround: "contexts of one software screen take turns; a second thread draws on its own screen",
-        detected_by: "the renderer's name: every driver that draws on the processor is taken for one",
+        detected_by: "the renderer's name: every software driver counts as one",
         is_of: |info| info.renderer.starts_with("llvmpipe"),
     },
     KnownFault {

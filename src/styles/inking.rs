@@ -130,7 +130,7 @@ impl Inking {
                 "Draw edges whose faces both point away, on or off; closed models hide nearly all of them",
                 |inking: &mut Self| &mut inking.back_edges,
             )
-            .printed("D, Inking: the listing asks of no edge where its faces look"),
+            .printed("D, Inking: the listing ignores which way an edge's faces point"),
             Setting::field(
                 "line-drawing",
                 "HOW",
@@ -178,7 +178,7 @@ impl Inking {
                 "Gradient of the ramp: material (the one nearest to the material's colour), object (the next one for \
                  each object), 0 to 3, or own (made from each colour)",
                 |inking: &mut Self| &mut inking.ramp_row,
-            ).ours("D leaves it to who writes the program: texOffset"),
+            ).ours("D leaves it to the program's author: texOffset"),
             Setting::field(
                 "light",
                 "WHERE",

@@ -65,7 +65,7 @@ impl Suggestive {
                  lines",
                 |style: &mut Self| &mut style.radius_px,
             )
-            .ours("looked at on public models: lines of two to three pixels")
+            .ours("chosen by eye on public models: lines of two to three pixels")
             .range(1.0, f64::from(LARGEST_RADIUS), 0),
             Setting::field(
                 "valley-share",
@@ -81,7 +81,7 @@ impl Suggestive {
                 "Least difference between a valley and the brightest pixel around it; more leaves out shallow valleys",
                 |style: &mut Self| &mut style.least_depth,
             )
-            .ours("looked at on public models")
+            .ours("chosen by eye on public models")
             .range(0.0, 1.0, 2),
         ];
         under(ALL_STYLES, common)

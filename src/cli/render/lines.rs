@@ -139,12 +139,12 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Resu
     }
     refuse(&["animate"], problem)?;
     if run.explain && request.animation.turntable.is_some() {
-        return Err(Error::setting("explain", "a turn has many views and it tells of one; leave out --turntable"));
+        return Err(Error::setting("explain", "a turn has many views and this describes one; leave out --turntable"));
     }
     let holds_note =
         format != Format::Picture || output == "-" || PictureFormat::of(Path::new(output)) == Some(PictureFormat::Png);
     if run.partial && !holds_note {
-        let problem = "this format has no place to say that the drawing is a part; write a .svg, .pdf, .json or .png";
+        let problem = "this format cannot mark the drawing as partial; write a .svg, .pdf, .json or .png";
         return Err(Error::setting("partial", problem));
     }
     if output == "-" && run.is_told() {

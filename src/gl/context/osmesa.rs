@@ -66,7 +66,7 @@ fn load() -> Result<Functions, String> {
         }
     }
     Err(format!(
-        "the library is not installed ({}); Mesa has none since 25.1, and nothing needs it where another way works",
+        "the library is not installed ({}); Mesa dropped it in 25.1, and tinta needs it only if no other backend works",
         reasons[0]
     ))
 }

@@ -45,7 +45,7 @@ impl Charcoal {
                 "Random numbers: splitmix, or rand() as C libraries of the report's time had it: msvc, glibc",
                 |charcoal: &mut Self| &mut charcoal.random,
             )
-            .ours("V, section 5: rand(), without saying whose (V8)")
+            .ours("V, section 5: rand(), without naming the library (V8)")
             .labelled("random numbers"),
             Setting::field(
                 "density",

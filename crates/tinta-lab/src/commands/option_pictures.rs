@@ -110,7 +110,7 @@ fn drawn(renderer: &mut Renderer, words: &[String]) -> Picture {
             into("");
             Picture::read_png(&folder.path().join("lines.png")).unwrap()
         }
-        _ => panic!("{}: its picture is not known how to draw", words.join(" ")),
+        _ => panic!("{}: no known way to draw its picture", words.join(" ")),
     }
 }
 

@@ -44,7 +44,7 @@ pub(super) fn groups(
     let mut groups = Vec::new();
     let options = &request.read;
     if against == Against::Smooth && options.up_axis != LoadOptions::default().up_axis {
-        let problem = "with --against smooth surfaces stand as their formulas say; leave it out";
+        let problem = "with --against smooth the formulas place the surfaces; leave it out";
         return Err(Error::setting("up", problem));
     }
     for model in models {
@@ -66,7 +66,7 @@ fn surface_of(model: &str) -> Result<ClosedForm> {
     surface.ok_or_else(|| {
         let names: Vec<&str> = BUILTINS.iter().filter(|it| it.closed_form().is_some()).map(|it| it.name).collect();
         let problem = format!(
-            "only surfaces in closed form have a true contour to measure against; choose of builtin:{}, or leave out \
+            "only surfaces in closed form have a true contour to measure against; choose from builtin:{}, or leave out \
              --against",
             names.join(", builtin:")
         );
