@@ -1,8 +1,8 @@
-//! Many small pictures: `tinta batch` beside one process a picture, and what a job costs.
+//! Many small pictures: `tinta batch` against one process per picture, and the cost of a job.
 //!
-//! `cargo bench --bench batch` writes meshes of 1,000 triangles, every one another, and a job for each: 256x256 pixels, the
-//! default style. Contestants take turns. One process a picture draws a share of them, as many at once as there are jobs
-//! beside it. Raw values go to `target/bench/batch.json`; docs/results/scale.md has the command and the numbers.
+//! `cargo bench --bench batch` writes different meshes of 1,000 triangles, and a job for each: 256x256 pixels, the default style.
+//! Contestants take turns. One process per picture draws a share of them, as many in parallel as there are jobs of the batch. Raw
+//! values go to `target/bench/batch.json`; docs/results/scale.md has the command and the numbers.
 
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -88,7 +88,7 @@ fn main() {
     write_record("batch", &json!({ "jobs": settings.jobs, "alone": settings.alone, "contestants": rows }));
 }
 
-/// Writes the record to `target/bench/NAME.json` and says where.
+/// Writes the record to `target/bench/NAME.json` and prints its path.
 fn write_record(name: &str, record: &Value) {
     let path =
         Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join(format!("target/bench/{name}.json"));
@@ -161,7 +161,7 @@ fn run_batch(settings: &Settings, folder: &Path, list: &Path, jobs: usize) -> [f
     seconds
 }
 
-/// The same of single processes, so many of them at once.
+/// The same for single processes, so many in parallel.
 fn run_alone(settings: &Settings, folder: &Path, at_once: usize) -> [f64; 2] {
     let out = folder.join("alone");
     std::fs::create_dir_all(&out).expect("a folder");

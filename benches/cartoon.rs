@@ -1,7 +1,7 @@
-//! The cartoon's frame and cold start beside the programs people would otherwise take. docs/results/measuring.md has the command.
+//! The cartoon's frame and cold start compared with alternative programs. docs/results/measuring.md has the command.
 //!
-//! Rounds are interleaved: in each, every contestant runs once, so that a busy moment of the machine hits all of them.
-//! Reported are medians over all rounds and their ratios; all raw values go to `target/bench/cartoon.json`.
+//! Rounds are interleaved: each contestant runs once in each round, and a busy moment of the machine hits all of them. The report
+//! gives medians over all rounds and their ratios; all raw values go to `target/bench/cartoon.json`.
 
 mod report;
 
@@ -111,7 +111,7 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, (width, height): (u32, u32
     let pruning = renderer.pruning();
     for _ in 0..settings.rounds {
         for ((_, style, is_pruned), series) in styles.iter().zip(&mut series) {
-            // The plan of a view, and what can be left out of it, are part of its frame.
+            // A frame includes the plan of a view and its pruning.
             let mut frame = |scene: &Scene| {
                 let start = Instant::now();
                 let mut plan = style.plan(scene, Show::Final).expect("a plan");
@@ -170,7 +170,7 @@ fn cold_table(settings: &Settings, folder: &Path) -> Value {
     let tinta = env!("CARGO_BIN_EXE_tinta");
     let drawing = ["render", model, "-o", picture, "--size", "512x512"];
     let mut contestants: Vec<(String, Command)> = vec![
-        // What is drawn where nothing is asked for.
+        // The default picture.
         ("tinta, look print".to_owned(), command(tinta, &[&drawing[..], &["--look", "print"]].concat())),
         ("tinta three-pass".to_owned(), command(tinta, &[&drawing[..], &["--style", "three-pass"]].concat())),
         ("tinta phong".to_owned(), command(tinta, &[&drawing[..], &["--style", "phong"]].concat())),
@@ -190,7 +190,7 @@ fn cold_table(settings: &Settings, folder: &Path) -> Value {
         None => println!("  SKIPPED the empty EGL program: needs cc and the packages libegl-dev and libgl-dev"),
     }
     let mut series: Vec<Series> = contestants.iter().map(|(name, _)| Series::new(name)).collect();
-    // Once unmeasured, so that files and drivers' caches are warm for everybody.
+    // One unmeasured round warms files and drivers' caches for all contestants.
     for round in 0..settings.rounds * 2 + 1 {
         for ((name, command), series) in contestants.iter_mut().zip(&mut series) {
             let start = Instant::now();
@@ -220,7 +220,7 @@ fn runs(program: &str, argument: &str) -> bool {
     Command::new(program).arg(argument).stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
 }
 
-/// A virtual display for the length of the benchmark, so that starting it is nobody's time.
+/// A virtual display for the length of the benchmark; its start counts for no contestant.
 struct XDisplay(std::process::Child);
 
 impl XDisplay {
@@ -273,7 +273,7 @@ fn peak_memory_mib(model: &str, folder: &Path) -> f64 {
     peak_kib / 1024.0
 }
 
-/// Panda3D makes no normals of its own: the peer gets ours.
+/// Panda3D computes no normals: the peer gets ours.
 fn write_with_normals(mesh: &Mesh, path: &Path) {
     let mut text = String::new();
     for position in &mesh.positions {

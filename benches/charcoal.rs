@@ -1,7 +1,7 @@
-//! The charcoal drawing's frame beside the same model's in Phong shading. docs/results/measuring.md has the command.
+//! The charcoal drawing's frame compared with the same model's in Phong shading. docs/results/measuring.md has the command.
 //!
-//! Interleaved: in each round every contestant draws the same turning model, so that a busy moment hits all of them. Reported
-//! are medians and ratios; all raw values go to `target/bench/charcoal.json`.
+//! Interleaved: in each round every contestant draws the same turning model, and a busy moment hits all of them. The report gives
+//! medians and ratios; all raw values go to `target/bench/charcoal.json`.
 
 mod report;
 

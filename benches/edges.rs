@@ -1,4 +1,4 @@
-//! Edge lists, silhouettes and inked frames beside VTK, numpy and PyVista. docs/results/measuring.md has the command.
+//! Edge lists, silhouettes and inked frames compared with VTK, numpy and PyVista. docs/results/measuring.md has the command.
 //!
 //! Two meshes: the model, and the model with every triangle cut into sixteen. Rounds are interleaved: in each, every
 //! contestant runs once. All raw values go to `target/bench/edges.json`.
@@ -24,7 +24,7 @@ const USAGE: &str = "cargo bench --bench edges -- MODEL [--python PYTHON] [--rou
   --python PYTHON  a Python with VTK, numpy and PyVista (pip install pyvista); for its frames also xvfb-run
   --rounds N       interleaved rounds (default 7)";
 
-/// Repeats within a round, for a small and for a large mesh.
+/// Repeats within a round, for small meshes and for large ones.
 const REPEATS: [usize; 2] = [9, 3];
 
 /// Frames within a round.
@@ -188,7 +188,7 @@ fn edge_tables(settings: &Settings, mesh: &Mesh, repeats: usize, folder: &Path) 
         }
         let eyes: Vec<Eye> = (0..repeats * 5).map(|step| eye(mesh, round * repeats * 5 + step)).collect();
         let rule = SilhouetteRule::Exact;
-        // One way after the other, each with its data at hand, as in a window that turns the model.
+        // One method after the other, each with its data loaded, as in a window that turns the model.
         let mut all = |slot: usize, find: &dyn Fn(Eye) -> Vec<u32>| -> Vec<Vec<u32>> {
             let one = |eye: &Eye| {
                 let start = Instant::now();

@@ -1,4 +1,5 @@
-//! Exact visible lines beside Blender Freestyle's and larnt's, and how their time grows. docs/results/measuring.md has the command.
+//! Exact visible lines compared with Blender Freestyle's and larnt's, and the growth of their time. docs/results/measuring.md has
+//! the command.
 //!
 //! Rounds are interleaved: in each, every contestant runs once, the programs as cold processes. All raw values go to
 //! `target/bench/lines.json`, the growth as a plot to `target/bench/lines-growth.svg`.
@@ -120,7 +121,7 @@ fn lines_ms(mesh: &Arc<Mesh>) -> (f64, LineTimes) {
     (milliseconds_since(start), lines.times)
 }
 
-/// How long a process takes from its start to its end, and what it printed.
+/// Returns a process's time from start to end, and its output.
 fn process_ms(command: &mut Command) -> (f64, String) {
     let start = Instant::now();
     let output = command.stdin(Stdio::null()).output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
@@ -130,7 +131,7 @@ fn process_ms(command: &mut Command) -> (f64, String) {
     (milliseconds, text)
 }
 
-/// Freestyle's own times for edges, feature lines and view map: what its lines cost before they are drawn.
+/// Freestyle's own times for edges, feature lines and view map: the cost of its lines before they are drawn.
 fn freestyle_lines_ms(output: &str) -> f64 {
     let seconds = |stage: &str| {
         let line =
@@ -144,7 +145,7 @@ fn peer(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join("benches/peers").join(name)
 }
 
-/// Most memory the process ever held, by GNU time.
+/// The process's peak memory, by GNU time.
 fn peak_memory_kib(model: &str, svg: &Path) -> Option<f64> {
     let mut command = Command::new("/usr/bin/time");
     command.args(["-f", "%M", env!("CARGO_BIN_EXE_tinta"), "render", model, "-o"]).arg(svg);
@@ -152,7 +153,7 @@ fn peak_memory_kib(model: &str, svg: &Path) -> Option<f64> {
     String::from_utf8_lossy(&output.stderr).lines().last()?.trim().parse().ok()
 }
 
-/// Triangles of the meshes whose time is plotted, about.
+/// Approximate triangles of the plotted meshes.
 const SIZES: [usize; 6] = [1_000, 4_000, 16_000, 64_000, 256_000, 1_000_000];
 
 /// Repeats of each.
@@ -184,7 +185,7 @@ fn growth() -> Value {
     Value::Array(rows)
 }
 
-/// Times over triangles on logarithmic axes, with what n log n would be from the first one on.
+/// Times over triangles on logarithmic axes, with a curve of n log n through the first point.
 fn plot(points: &[(f64, f64)], path: &Path) -> Result<(), Box<dyn std::error::Error>> {
     let area = SVGBackend::new(path, (640, 400)).into_drawing_area();
     area.fill(&WHITE)?;

@@ -1,8 +1,8 @@
 //! How the exact lines' time grows with scenes that have made programs for hidden lines hang:
 //! `cargo bench --bench lines_growth -- [SIZE…] [--family NAME]… [--hidden] [--limit SECONDS]`.
 //!
-//! Prints for each family and size the time of the lines alone and of the SVG after them, and draws a plot of the sum. What takes
-//! longer than the limit is said, and larger ones of that family are left out.
+//! Prints for each family and size the time of the lines alone and of the SVG after them, and draws a plot of the sum. Reports a
+//! size beyond the time limit, and skips larger ones of that family.
 
 #[path = "../tests/support/growth.rs"]
 mod families;

@@ -1,8 +1,8 @@
-//! What leaving out saves, and how a frame's cost grows with triangles and with pixels, beside the limits: clearing, drawing
-//! the mesh once, one filter over the picture. docs/results/measuring.md has the command.
+//! The savings of pruning, and how a frame's cost grows with triangles and with pixels, compared with lower bounds: clearing,
+//! drawing the mesh once, one filter over the picture. docs/results/measuring.md has the command.
 //!
-//! Contestants take turns, round by round. The model turns by 3 degrees a round; making the plan and pruning it is part of
-//! every frame, finding out what holds for all views is not: it is timed by itself.
+//! Contestants take turns, round by round. The model turns by 3 degrees a round. Every frame includes making the plan and pruning
+//! it; the search for omissions that hold in all views is timed separately.
 
 #[path = "report/growth.rs"]
 mod growth;
@@ -74,7 +74,7 @@ fn main() {
     write_record("performance", &record);
 }
 
-/// What draws a frame.
+/// The contestants of a frame.
 enum Contestant {
     /// As published.
     Full(Style),
@@ -137,7 +137,7 @@ fn rows(series: &[Series]) -> Value {
     series.iter().map(|one| json!({ "name": one.name, "ms": one.times })).collect()
 }
 
-/// Styles in full and pruned: the bust as it is fitted, gear and open box on about a quarter of the picture.
+/// Styles in full and pruned: the bust filling the picture, gear and open box on about a quarter of it.
 fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
     let fitted = |model: &str| {
         let mesh = Arc::new(load(model, &LoadOptions::default()).expect("a model").mesh);
@@ -185,7 +185,7 @@ fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
     tables.collect()
 }
 
-/// Styles pruned over the same in full, at three sizes: whether having been looked at ever makes a frame slower.
+/// Pruned styles over full ones at three sizes: whether the pruning checks ever make a frame slower.
 fn by_sizes(renderer: &mut Renderer, rounds: usize) -> Value {
     const SIZES: [u32; 3] = [512, 1100, 2048];
     let mut tables = Vec::new();
@@ -262,7 +262,7 @@ fn add(curves: &mut Vec<Curve>, series: &[Series], size: f64) {
     }
 }
 
-/// Prints each curve's straight line and draws all of them.
+/// Prints each curve's fitted line and draws all curves.
 fn finish(curves: &[Curve], title: &str, sizes: &str, file: &str) {
     println!("\n  straight lines through them: start, and nanoseconds for each of the {sizes}; the worst miss");
     for curve in curves {

@@ -1,4 +1,4 @@
-//! How long the charcoal drawing's textures take, beside the goal of 50 ms for all three at 512 x 512.
+//! Time of the charcoal drawing's textures, compared with the goal of 50 ms for all three at 512 x 512.
 //!
 //! `cargo bench --bench textures` prints medians; all raw values go to `target/bench/textures.json`.
 

@@ -1,7 +1,7 @@
-//! The window under Xvfb: time to the first picture, pictures a second while the model turns, the longest frame while a large model is
-//! read, and processor time at rest. docs/guide/window.md has the command and what it gave.
+//! The window under Xvfb: time to the first picture, pictures a second while the model turns, the longest frame while a large
+//! model is read, and processor time at rest. docs/guide/window.md has the command and its results.
 //!
-//! Each round starts the program anew for each row. Raw values go to `target/bench/window.json`.
+//! Each round starts a new process for each row. Raw values go to `target/bench/window.json`.
 
 mod report;
 
@@ -24,7 +24,7 @@ const DRAG_FRAMES: usize = 150;
 /// Pictures at a drag's beginning that are not counted: shaders are compiled, a second thread started.
 const WARM_UP: usize = 30;
 
-/// What is turned: a name, and options.
+/// The turned models: a name, and options.
 const DRAGS: [(&str, &[&str]); 11] = [
     ("three-pass", &["--style", "three-pass"]),
     ("three-pass --cull back", &["--style", "three-pass", "--cull", "back"]),
@@ -67,7 +67,8 @@ fn main() {
     let display = Display::start();
     let mut first = Series::new("bust, first picture");
     let mut drags: Vec<Series> = DRAGS.iter().map(|(name, _)| Series::new(name)).collect();
-    // Two threads' pictures come in pairs, so that the middle time between two says little: how many there are a second is a round's.
+    // Two threads' pictures come in pairs, which makes the median interval useless: a round's result is its number of pictures a
+    // second.
     let mut rates: Vec<Vec<f64>> = vec![Vec::new(); DRAGS.len()];
     let mut longest = Series::new("large model, longest frame");
     let mut middle = Series::new("large model, middle frame");
@@ -107,7 +108,7 @@ fn main() {
     write_record("window", &json!({ "single": single, "drags": drags, "rates": rates }));
 }
 
-/// Writes a recording of a 512x512 area in which these events happen, one a frame.
+/// Writes a recording of a 512x512 area with these events, one a frame.
 fn recording(name: &str, events: impl Iterator<Item = Value>, flag: &str) -> String {
     let mut lines = vec![json!({ "frame": 0, "event": { "resize": [512, 512] } })];
     lines.extend(events.enumerate().map(|(index, event)| json!({ "frame": index + 1, "event": event, flag: true })));
@@ -148,14 +149,14 @@ impl Display {
         command
     }
 
-    /// Plays a recording; what it took.
+    /// Plays a recording and returns its measurements.
     fn play(&self, arguments: &[&str], recording: &str) -> Value {
         let output = self.view(arguments).args(["--replay", recording, "--json"]).output().expect("tinta view");
         assert!(output.status.success(), "{arguments:?}");
         serde_json::from_slice(&output.stdout).expect("a record")
     }
 
-    /// Processor time of five seconds in which nothing happens, milliseconds.
+    /// Processor time of five idle seconds, milliseconds.
     fn idle_ms(&self, model: &str) -> f64 {
         let mut window = self.view(&[model]).stdout(Stdio::null()).spawn().expect("tinta view");
         std::thread::sleep(Duration::from_secs(5));

@@ -33,7 +33,7 @@ pub fn draw(model: &str, output: &str) -> tinta::Result<(ClassCounts, usize)> {
     let eye = scene.eye(&scene.objects[0], SilhouetteRule::Exact);
     let silhouette = Silhouettes::new(&mesh, &edges).find(&mesh, &edges, eye, SilhouetteRule::Exact);
 
-    // The faces are painted in the background's colour, so that they hide what is behind them and show nothing.
+    // The faces are painted in the background's colour: they hide everything behind them and stay invisible.
     let ink = Inking { paint: PaintMode::None, silhouette: SilhouetteRule::Exact, ..Inking::default() };
     target.write(&Renderer::new(Backend::Auto)?.render(&scene, &Style::Inking(ink))?)?;
     Ok((classes.counts(), silhouette.len()))

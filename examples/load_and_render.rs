@@ -19,7 +19,7 @@ fn main() -> tinta::Result<()> {
 /// Draws a model in every style into this folder; the names of the files.
 pub fn draw(model: &str, folder: &Path) -> tinta::Result<Vec<String>> {
     let loaded = load(model, &LoadOptions::default())?;
-    // What is odd about the file: faces left out, materials not found.
+    // Remarks about the file: faces left out, materials not found.
     loaded.remarks.iter().for_each(|remark| eprintln!("{remark}"));
     let settings = SceneSettings { size: Size { width: 240, height: 240 }, ..SceneSettings::default() };
     let scene = Scene::new(vec![Arc::new(loaded.mesh)], &settings)?;
@@ -31,7 +31,7 @@ pub fn draw(model: &str, folder: &Path) -> tinta::Result<Vec<String>> {
             continue;
         }
         let file = folder.join(format!("{name}.png")).display().to_string();
-        // Checked before the work: a folder that is not there is said now.
+        // Checked before the work: a missing folder is reported now.
         let target = Target::check(&file, false)?;
         target.write(&renderer.render(&scene, &Style::named(style))?)?;
         written.push(file);

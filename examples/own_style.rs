@@ -1,4 +1,4 @@
-//! A style of one's own: a halftone of dots by two shaders beside this file, put together as a plan. No line of GL.
+//! A user-defined style: a halftone of dots by two shaders beside this file, combined in a plan. No line of GL.
 //!
 //! `cargo run --example own_style -- cow.obj halftone.png`
 
@@ -29,8 +29,8 @@ pub fn draw(model: &str, output: &str) -> tinta::Result<()> {
     target.write(&renderer.draw(&scene, &halftone(&scene, 8.0))?)
 }
 
-/// One pass: clear, then all objects through both shaders, dots this far apart. Both shaders keep vertices and pixels where they
-/// are, so what a view cannot show may be left out.
+/// One pass: clear, then all objects through both shaders, dots this far apart. Both shaders keep vertices and pixels in place:
+/// pruning may omit everything that a view cannot show.
 pub fn halftone(scene: &Scene, distance_px: f32) -> Plan {
     let program = Program { vertex: VERTEX.0, fragments: vec![FRAGMENT.0] };
     let uniforms = vec![Uniform { name: "distance", value: Value::Float(distance_px) }];

@@ -1,9 +1,9 @@
 //! Batches: the jobs of a list, the journal of their results, and the summary of all journals.
 //!
-//! A list of jobs comes in, a line of JSON each ([`List`]). A run, or one of N [`Slice`]s of it, appends an [`Entry`] to its
-//! own file for every job that has ended ([`Journal`]), whatever machine it runs on. All those files together give a
-//! [`Summary`], which is the same bytes however the list was sliced: what differs from run to run, times and drivers, stands
-//! in a file of its own. Nothing here draws; `src/cli/batch.rs` carries the jobs out. How it is used: docs/guide/batches.md.
+//! The input is a list of jobs, one line of JSON each ([`List`]). A run, or one of N [`Slice`]s of it, appends an [`Entry`] to
+//! its own file for every finished job ([`Journal`]), on any machine. All those files together give a [`Summary`], with the same
+//! bytes however the list was sliced. Times and drivers differ between runs and have a separate file. This module draws nothing;
+//! `src/cli/batch.rs` carries the jobs out. For use, see docs/guide/batches.md.
 //!
 //! ```
 //! use tinta::batch::{List, Slice};

@@ -11,21 +11,21 @@ use tinta_geometry::mesh::{LoadOptions, LoadStage, Loaded, read_bytes};
 pub struct Builtin {
     /// Its name behind `builtin:`.
     pub name: &'static str,
-    /// What it shows, for help pages.
+    /// A description of the model, for help pages.
     pub what: &'static str,
     source: Source,
 }
 
-/// What a built-in model is made of.
+/// The source of a built-in model's triangles.
 #[derive(Debug, Clone, Copy)]
 enum Source {
     /// The model's file, and those that it names.
     File(&'static [u8], &'static [(&'static str, &'static [u8])]),
-    /// A surface, of which any number of triangles can be had.
+    /// A surface that can be tessellated into any number of triangles.
     Surface(ClosedForm),
 }
 
-/// Triangles of a surface whose name says no number.
+/// Triangles of a surface named without a number.
 const TRIANGLES: usize = 10_000;
 
 /// Least and most triangles of a surface.
@@ -38,12 +38,12 @@ impl Builtin {
     }
 }
 
-/// A built-in model by the name a user gives: `builtin:NAME`, for a surface also `builtin:NAME:TRIANGLES`.
+/// A built-in model by the name a user gives: `builtin:NAME`, or `builtin:NAME:TRIANGLES` for a surface.
 #[derive(Debug, Clone, Copy)]
 pub struct Named {
-    /// Which.
+    /// The model.
     pub builtin: Builtin,
-    /// About so many triangles, for a surface.
+    /// The approximate number of triangles, for a surface.
     pub triangles: usize,
 }
 
@@ -106,11 +106,11 @@ pub const BUILTINS: [Builtin; 10] = [
     },
 ];
 
-/// The built-in model a name stands for; `None` if the name is a path.
+/// The built-in model of a name; `None` if the name is a path.
 ///
 /// # Errors
 ///
-/// [`Error::File`] if it names none, or a number of triangles that cannot be had.
+/// [`Error::File`] for an unknown model, or an impossible number of triangles.
 pub fn builtin(name: &str) -> Option<Result<Named>> {
     let short = name.strip_prefix("builtin:")?;
     let (short, count) = short.split_once(':').map_or((short, None), |(short, count)| (short, Some(count)));
@@ -146,7 +146,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
     load_watched(path, options, &|_| {})
 }
 
-/// As [`load`], for whoever shows how far it is: `watch` is told of each stage when it begins.
+/// Like [`load`], with progress: `watch` receives each stage when it begins.
 ///
 /// # Errors
 ///

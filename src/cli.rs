@@ -67,7 +67,7 @@ pub fn main(program: &Program) -> ExitCode {
     match run(program) {
         Ok(Verdict::Good) => ExitCode::SUCCESS,
         Ok(Verdict::Different) => ExitCode::FAILURE,
-        // As a shell says it of a program that a signal has ended.
+        // As a shell reports a program ended by a signal.
         Ok(Verdict::Stopped { signal }) => ExitCode::from(128 + signal),
         Err(error) => {
             say(&format!("tinta: {}", error.with_dashes()));
@@ -77,10 +77,10 @@ pub fn main(program: &Program) -> ExitCode {
     }
 }
 
-/// Lets a write beyond the limit on files' sizes (`ulimit -f`) fail like any other, whoever writes, the GL driver too: by
-/// default it ends the program by a signal. A handler that does nothing is the safe way to ignore it.
+/// Makes a write beyond the limit on file sizes (`ulimit -f`) fail like any other write, in the GL driver too. By default the
+/// limit ends the program by a signal. A handler that does nothing is the safe way to ignore that signal.
 fn outlive_the_limit_on_files() {
-    // Where it cannot be had the program is as it would be without.
+    // If registration fails, the default action remains.
     #[cfg(unix)]
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
 }

@@ -1,8 +1,8 @@
 //! Whether a driver draws as the ones that tinta was made with: `tinta info --check`.
 //!
-//! In: a backend. Out: for each of its contexts a [`Checked`]: pictures of small scenes in every style beside reference pictures, which are
-//! part of the program; answers to questions that the styles rest on; the known faults of such a driver. docs/dev/drivers.md has what was
-//! measured.
+//! Takes a backend and returns a [`Checked`] for each of its contexts: pictures of small scenes in every style beside reference
+//! pictures, which are part of the program; answers to questions that the styles rest on; the known faults of such a driver.
+//! docs/dev/drivers.md has the measurements.
 //!
 //! ```
 //! use tinta::drivers::check;
@@ -33,10 +33,12 @@ use std::sync::Arc;
 /// Width and height of the small scenes, pixels.
 const SIDE: u32 = 96;
 
-/// A shade of a channel counts as another beyond this: what a driver may round otherwise. As for goldens.
+/// The largest difference of a channel that counts as the same shade. Drivers may round differently. The goldens use the same
+/// limit.
 const OTHER_SHADE: u8 = 3;
 
-/// Share of pixels of other shades that a driver may have: edges fall on other pixels where it rasterises otherwise. As for goldens.
+/// Share of pixels of other shades that a driver may have: edges fall on other pixels if it rasterises differently. The goldens
+/// use the same limit.
 const OTHER_SHARE: f64 = 0.005;
 
 /// The reference pictures, drawn by llvmpipe of Mesa 22.3.6 on EGL and looked at once.
@@ -53,29 +55,29 @@ const REFERENCES: [(StyleName, &[u8]); 10] = [
     (StyleName::Sand, include_bytes!("drivers/sand.png")),
 ];
 
-/// One way to OpenGL, and what its driver draws.
+/// One backend, and its driver's drawings.
 #[derive(Debug, Clone, Serialize)]
 pub struct Checked {
-    /// The library, and the device where there is a choice.
+    /// The library, and the device if there are several.
     pub device: String,
-    /// What was found, if there is a context.
+    /// The check's findings, if a context opened.
     pub found: Option<Found>,
-    /// Else why there is none.
+    /// The reason why no context opened.
     pub error: Option<String>,
 }
 
-/// What a context draws and answers.
+/// The pictures and answers of a context.
 #[derive(Debug, Clone, Serialize)]
 pub struct Found {
-    /// What it says about itself.
+    /// The context's own description.
     pub context: ContextInfo,
     /// Its picture of each style, beside the reference.
     pub styles: Vec<Drawn>,
     /// The driver's answers.
     pub probes: Vec<Probe>,
-    /// Why it could not be asked, if so.
+    /// The reason why the probe failed, if it failed.
     pub not_probed: Option<String>,
-    /// What is known to be wrong with such drivers.
+    /// The known faults of such drivers.
     pub known_faults: Vec<KnownFault>,
 }
 
@@ -86,7 +88,7 @@ pub struct Drawn {
     pub style: &'static str,
     /// Pixels that are not the reference's, byte for byte; `None` where the style could not be drawn.
     pub differing: Option<usize>,
-    /// Of them, those of a shade that no rounding explains.
+    /// The number of these whose difference exceeds rounding.
     pub of_other_shades: usize,
     /// The largest difference of a channel, of 255.
     pub largest: u8,

@@ -82,7 +82,7 @@ impl Gl {
     fn immediate(&self) -> Result<&Immediate> {
         self.immediate.as_ref().map_err(|missing| {
             let problem = format!(
-                "{} has no {missing}, by which programs of 2001 drew; leave this out, buffers draw the same picture",
+                "{} has no {missing}, which programs of 2001 used to draw; leave this out, buffers draw the same picture",
                 self.info.renderer
             );
             Error::value("submission", Submission::Immediate, problem)

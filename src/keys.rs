@@ -1,4 +1,4 @@
-//! What keys do in the window of `tinta view` and on the page in a browser: one table for both, and for the sheets that list it.
+//! The keys in the window of `tinta view` and on the page in a browser: one table for both, and for the sheets that list it.
 //!
 //! ```
 //! use tinta::keys::{Action, action};
@@ -11,7 +11,7 @@
 use crate::styles::StyleName;
 use serde::Serialize;
 
-/// What a key does. Which side it does that to, and what follows, are the window's and the page's own.
+/// The effect of a key. The window and the page decide which side it affects and what follows.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Action {
@@ -27,7 +27,7 @@ pub enum Action {
     View(&'static str),
     /// Choose a style by its number in [`StyleName::ALL`].
     Style(usize),
-    /// Show exact lines by themselves.
+    /// Show exact lines alone.
     Lines,
     /// Lay exact lines over the picture, or not.
     Overlay,
@@ -59,23 +59,23 @@ pub enum Action {
     FullScreen,
     /// The sheet of keys.
     KeySheet,
-    /// Close what is open.
+    /// Close the sheet, times, panel or full screen.
     Close,
     /// Quit.
     Quit,
 }
 
-/// What is held down beside a key.
+/// A modifier held down with a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum With {
-    /// Nothing, or what has no meaning with this key.
+    /// No modifier, or one without a meaning for this key.
     Nothing,
     Shift,
-    /// Ctrl, or the command key where there is one.
+    /// Ctrl, or the command key on systems that have one.
     Ctrl,
 }
 
-/// A line of the sheet, and what its keys do. Keys have the names of `KeyboardEvent.key` in browsers.
+/// A line of the sheet, with its keys' actions. Keys have the names of `KeyboardEvent.key` in browsers.
 struct Row {
     keys: &'static str,
     what: &'static str,
@@ -84,16 +84,16 @@ struct Row {
     bindings: &'static [(&'static str, With, Action)],
 }
 
-/// What an arrow turns or moves by, shares of the picture's height.
+/// Turn or move of an arrow key, shares of the picture's height.
 const STEP: f64 = 1.0 / 24.0;
 
-/// What + and - bring nearer by.
+/// Zoom factor of + and -.
 const ZOOM: f64 = 1.25;
 
-/// What [ and ] move the divider by, share of the width.
+/// Move of the divider by [ and ], share of the width.
 const DIVIDE: f64 = 0.05;
 
-/// Stands for the styles' names.
+/// A placeholder for the styles' names.
 const STYLES: &str = "STYLES";
 
 /// A row that the page has too.
@@ -131,7 +131,7 @@ const ROWS: &[Row] = &[
             ("9", Nothing, Style(8)),
         ],
     ),
-    window("0", "lines: exact lines by themselves", &[("0", Nothing, Lines)]),
+    window("0", "lines: exact lines alone", &[("0", Nothing, Lines)]),
     window("E", "exact lines over the picture, or not", &[("E", Nothing, Overlay)]),
     window("S", "one style; two with a divider to drag; two and their difference", &[("S", Nothing, Layout)]),
     row("O", "the other side: its style by number, its settings in the panel", &[("O", Nothing, OtherSide)]),
@@ -176,26 +176,25 @@ const ROWS: &[Row] = &[
     window("drop a file", "show that model; a preset (.toml): its style and settings", &[]),
     window("F11", "full screen", &[("F11", Nothing, FullScreen)]),
     row("H", "this sheet", &[("H", Nothing, KeySheet)]),
-    window("Esc", "close what is open: sheet, times, panel, full screen", &[("Escape", Nothing, Close)]),
+    window("Esc", "close the sheet, times, panel or full screen", &[("Escape", Nothing, Close)]),
     window("Q", "quit", &[("Q", Nothing, Quit), ("Q", Ctrl, Quit)]),
 ];
 
-/// What a sheet of keys says, line by line: keys, and what they do; all that the window has, or what the page has of it.
+/// Returns the lines of the sheet of keys: keys and their effects, either all of the window's or those that the page has.
 pub fn sheet(is_page: bool) -> impl Iterator<Item = (&'static str, String)> {
-    // Those after the ninth have no key.
+    // Styles after the ninth have no key.
     let names: Vec<&str> = StyleName::ALL.iter().map(|(name, _)| *name).take(9).collect();
     let rows = ROWS.iter().filter(move |row| row.is_on_page || !is_page);
     rows.map(move |row| (row.keys, row.what.replace(STYLES, &names.join(", "))))
 }
 
-/// What the window's sheet says of the key that does something; nothing where no key does.
+/// Returns the window's sheet text for the key of an action, or `None` if it has no key.
 pub fn about(action: Action) -> Option<String> {
     let row = ROWS.iter().find(|row| row.bindings.iter().any(|(.., does)| *does == action))?;
     Some(format!("{}: {}", row.keys, row.what))
 }
 
-/// What the key does for which `is_key` is true of its name, as [`Action`]; `None` where that is nothing. Shift counts where it
-/// has a meaning with the key.
+/// Returns the [`Action`] of the key whose name satisfies `is_key`, or `None`. Shift counts where it has a meaning with the key.
 pub fn action(is_key: impl Fn(&str) -> bool, has_shift: bool, has_ctrl: bool) -> Option<Action> {
     let bindings = || ROWS.iter().flat_map(|row| row.bindings).filter(|(key, ..)| is_key(key));
     let of = |with: With| bindings().find(|binding| binding.1 == with).map(|(.., action)| *action);

@@ -1,7 +1,7 @@
 //! Draws 3D models as cartoons, ink, charcoal and exact line art, the way texts of 2001 to 2007 published it, on OpenGL 2.1.
 //!
-//! The published programs run as they were printed: the cartoon of Evangelista et al. 2005, ink and paint of Dachsbacher, charcoal
-//! of Valente 2007. Beside them are mended versions, exact visible lines without OpenGL, and the error of every style against its
+//! The published programs run as printed: the cartoon of Evangelista et al. 2005, ink and paint of Dachsbacher, charcoal of
+//! Valente 2007. The crate adds corrected versions, exact visible lines without OpenGL, and the error of every style against its
 //! run time.
 //!
 //! # A picture
@@ -83,9 +83,9 @@
 //!                                          └─► VisibleLines (exact, f64) ─► SVG, reference ──────────────┴─► Row ─► report
 //! ```
 //!
-//! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in [`gl`], but for
-//! a look at standard output before `main` (cargo feature `cli`). Everything
-//! else is tested without a context, a window or a clock.
+//! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in [`gl`], except a
+//! check of standard output before `main` (cargo feature `cli`). Everything else is tested without a context, a window or a
+//! clock.
 //!
 //! # Cargo features
 //!
@@ -95,9 +95,9 @@
 
 #![deny(unreachable_pub)]
 
-// Floors, from the ground up: a module uses those above it in this list and none below (`tests/floors.rs`).
+// Floors, from the ground up: a module uses only those above it in this list (`tests/floors.rs`).
 
-// Geometry, without GL: from a file to the lines that are seen. A crate of its own, with its floors in its own list.
+// Geometry without GL: from a file to visible lines. A separate crate with its own list of floors.
 #[cfg(any(feature = "cli", feature = "recipes"))]
 use tinta_geometry::markup;
 #[cfg(feature = "window")]
@@ -127,7 +127,7 @@ pub mod keys;
 #[cfg(feature = "animation")]
 pub mod animation;
 
-// How a picture is asked for again.
+// Presets, which reproduce the settings of a picture.
 #[cfg(feature = "presets")]
 pub mod preset;
 pub mod shell;

@@ -1,7 +1,7 @@
-//! Where the viewer's eye is: turned, moved and brought nearer by hand, and the camera settings that says so to a renderer.
+//! The viewer's camera: turned, moved and zoomed by hand, and converted to camera settings.
 //!
-//! In: degrees, shares of the picture's height and a zoom. Out: [`CameraSettings`], the same that `tinta render` is given by
-//! `--view`, or once the view was moved or zoomed by `--eye`, `--target`, `--up` and `--height`.
+//! Takes degrees, shares of the picture's height and a zoom; returns [`CameraSettings`], the same as those of `--view`, or after
+//! a move or zoom those of `--eye`, `--target`, `--up` and `--height`.
 //!
 //! ```
 //! use tinta::orbit::Orbit;
@@ -79,7 +79,7 @@ impl Orbit {
         self.zoom == 1.0 && self.pan == [0.0; 2]
     }
 
-    /// As fitted to any scene, not moved, not zoomed; what an orbit does not say is as in `other`.
+    /// As fitted to any scene, without move and zoom; settings that an orbit lacks come from `other`.
     pub(crate) fn fitted(&self, other: &CameraSettings) -> CameraSettings {
         let Self { view, parallel, fov_y_degrees, .. } = *self;
         CameraSettings { view, parallel, fov_y_degrees, ..other.clone() }
@@ -118,11 +118,11 @@ impl Orbit {
     }
 }
 
-/// Angles are multiples of this, degrees: less is seen by nobody, and three decimals can be read.
+/// Angles are multiples of this, degrees. Smaller steps are invisible, and three decimals are readable.
 const ANGLE_STEP: f64 = 0.001;
 
-/// A camera whose numbers have few digits: places are multiples of a power of ten that is less than a hundred-thousandth of the distance
-/// from eye to target, far below a pixel.
+/// A camera with few digits: places are multiples of a power of ten below a hundred-thousandth of the distance from eye to
+/// target, far below a pixel.
 fn readable(settings: CameraSettings) -> CameraSettings {
     let (Some(eye), Some(target)) = (settings.eye, settings.target) else { return settings };
     let step = |length: f64| 10f64.powf((length * 1e-5).log10().floor());
@@ -142,7 +142,7 @@ fn rounded(value: f64, step: f64) -> f64 {
     // Divided by a whole number a decimal has the nearest of all texts; multiplied by 0.001 it has not.
     let rounded =
         if step < 1.0 { (value / step).round() / (1.0 / step).round() } else { (value / step).round() * step };
-    // No sign on nothing.
+    // Zero without a sign.
     rounded + 0.0
 }
 
@@ -201,7 +201,7 @@ mod tests {
                     clip.project_point3(before.target)
                 };
                 let [before, after] = [place(&before), place(&after)];
-                // A picture is 2 clip units high; perspective changes nothing in the plane of the target.
+                // A picture is 2 clip units high; in the plane of the target, perspective has no effect.
                 assert!((after.x - before.x - 0.5).abs() < 1e-9, "{parallel} {zoom}: {before} {after}");
                 assert!((after.y - before.y + 0.2).abs() < 1e-9, "{parallel} {zoom}: {before} {after}");
             }

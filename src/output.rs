@@ -216,7 +216,7 @@ fn cannot_write(path: &Path, error: &std::io::Error) -> String {
             format!("the folder {} does not exist; create it first", folder.display())
         }
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
-            format!("there is no permission to write into the folder {}; choose another", folder.display())
+            format!("no permission to write into the folder {}; choose another", folder.display())
         }
         ErrorKind::StorageFull => "the disk is full; free some space".to_owned(),
         ErrorKind::QuotaExceeded => "your disk quota is used up; free some space".to_owned(),

@@ -1,4 +1,4 @@
-//! What all pages share: how they begin, and their one style sheet, light and dark.
+//! Shared parts of all pages: their head, and the style sheet, light and dark.
 //!
 //! ```
 //! use tinta::page::{Pictures, beginning};
@@ -14,9 +14,9 @@ pub const STYLE_SHEET: &str = include_str!("page.css");
 /// Where a page's pictures are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pictures {
-    /// In the page, which forbids itself all else.
+    /// Inside the page, which forbids everything else.
     Within,
-    /// Files beside it.
+    /// In separate files.
     Beside,
 }
 
@@ -96,7 +96,7 @@ mod tests {
             assert!(text.is_none_or(|text| name(text).is_some()), "a text's colour has a name: {text:?}");
             match (text.and_then(name), background.and_then(name)) {
                 (Some(text), Some(background)) => pairs.push((text, background)),
-                // What has no background of its own may stand on the page or on a band.
+                // An element without a background may stand on the page or on a band.
                 (Some(text), None) => pairs.extend([(text, "--paper"), (text, "--band")]),
                 (None, Some(background)) => pairs.extend([("--ink", background), ("--soft", background)]),
                 (None, None) => {}

@@ -1,7 +1,7 @@
 //! Presets: settings kept in a TOML file under the long names of the command line's options, and those that ship.
 //!
-//! A preset is exactly a command line kept in a file: `line-width = 3` is `--line-width 3`. What names and values there are
-//! is declared beside the structs they set, see [`crate::settings`]; this module reads and writes the file.
+//! A preset is exactly a command line kept in a file: `line-width = 3` is `--line-width 3`. The structs' settings declare names
+//! and values, see [`crate::settings`]; this module reads and writes the file.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -31,7 +31,7 @@ use std::io::Read;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
-/// The longest preset read, bytes: some hundred times what all options need.
+/// The longest preset read, bytes: some hundred times the size of all options.
 pub const LARGEST_BYTES: u64 = 64 << 10;
 
 /// Rules that `keep` of earlier versions named; the picture is the same without them.
@@ -40,12 +40,12 @@ const FORMER_RULES: [&str; 1] = ["hidden-faces"];
 /// How the names of presets that ship begin.
 pub const PREFIX: &str = "paper:";
 
-/// A preset: the options it sets, and where each stands.
+/// A preset: the options it sets, with their lines.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Preset {
     /// The file as the user named it, or `paper:…`.
     pub name: String,
-    /// What it sets.
+    /// The options it sets.
     pub options: Options,
     lines: BTreeMap<String, u64>,
 }
@@ -69,7 +69,7 @@ impl Preset {
                         Some(meant) => format!("did you mean {PREFIX}{meant}?"),
                         None => format!("there are {}", shipped_names()),
                     };
-                    Err(refused(name, format!("there is no shipped preset of this name; {choice}")))
+                    Err(refused(name, format!("no shipped preset has this name; {choice}")))
                 }
             };
         }
@@ -100,11 +100,11 @@ impl Preset {
         Self::parse(name, &text)
     }
 
-    /// Reads a preset's text; `name` is what errors call it.
+    /// Reads a preset's text; `name` is its name in errors.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] with the line when it is no TOML, has a table within a table, or a value that no option takes.
+    /// [`Error::File`] with the line for invalid TOML, a table within a table, or a value that no option takes.
     pub fn parse(name: &str, text: &str) -> Result<Self> {
         let line_of = |offset: usize| {
             let before = text.as_bytes().iter().take(offset);
@@ -130,7 +130,7 @@ impl Preset {
         Ok(preset)
     }
 
-    /// Options that come from somewhere else; `name` is what errors call it.
+    /// Options from another source; `name` is its name in errors.
     pub fn of_options(name: &str, options: Options) -> Self {
         Self { name: name.to_owned(), options, lines: BTreeMap::new() }
     }
@@ -142,7 +142,7 @@ impl Preset {
         self
     }
 
-    /// Where an option stands, 1-based.
+    /// The line of an option, 1-based.
     pub fn line_of(&self, option: &str) -> Option<u64> {
         self.lines.get(option).copied()
     }
@@ -168,7 +168,7 @@ pub(crate) fn forget_former_rules(options: &mut Options) {
     }
 }
 
-/// A preset's text: a line for each option, the style first; `comment` stands above them.
+/// A preset's text: a line for each option, the style first, with `comment` above them.
 pub fn to_toml(options: &Options, comment: &str) -> String {
     let mut text = String::new();
     comment.lines().for_each(|line| {

@@ -1,5 +1,5 @@
 //! Random numbers that are the same everywhere: SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number
-//! generators", 2014). Ten lines instead of a crate, whose next version could give other numbers.
+//! generators", 2014). Ten lines replace a crate whose next version could give other numbers.
 //!
 //! ```
 //! use tinta::random::Random;

@@ -1,7 +1,7 @@
 //! A picture's recipe: all that is needed to make it again, carried in the picture itself.
 //!
-//! In PNG it is a `tEXt` chunk, in SVG an element of `<metadata>`; both hold the same JSON in ASCII. There is no date in it, nor
-//! where the picture was written: the same drawing is the same bytes.
+//! PNG stores it in a `tEXt` chunk, SVG in an element of `<metadata>`; both hold the same JSON in ASCII. It contains neither a
+//! date nor the output path: the same drawing is the same bytes.
 //!
 //! ```
 //! use tinta::Recipe;
@@ -41,10 +41,10 @@ pub const KEYWORD: &str = "tinta-recipe";
 /// The longest recipe written or read, bytes of JSON.
 pub const LARGEST_BYTES: usize = 256 << 10;
 
-/// How much of an SVG is looked through: its metadata stands at its head.
+/// How much of an SVG is searched: its metadata is near its beginning.
 const HEAD_BYTES: u64 = 2 << 20;
 
-/// What a picture was made of.
+/// Everything needed to make a picture again.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Recipe {
     /// tinta's version.
@@ -65,10 +65,10 @@ pub struct Recipe {
     pub gl: Option<Driver>,
 }
 
-/// A file as it was when it was read.
+/// A file's state when it was read.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRecord {
-    /// As the user, or a model, named it.
+    /// As named by the user or a model.
     pub path: String,
     /// Its length.
     pub bytes: u64,
@@ -81,7 +81,7 @@ pub struct FileRecord {
 pub struct Driver {
     /// `egl`, `wgl`, `osmesa`, …
     pub backend: String,
-    /// The library, and the device where there is a choice.
+    /// The library, and the device if there are several.
     pub device: String,
     /// GL_VENDOR
     pub vendor: String,
@@ -109,12 +109,12 @@ impl FileRecord {
     ///
     /// # Errors
     ///
-    /// What reading it gives.
+    /// Reads a file's record.
     pub fn of(path: &Path) -> std::io::Result<Self> {
         Self::of_reader(&path.to_string_lossy(), File::open(path)?)
     }
 
-    /// Of bytes that were read already; `path` is where they came from.
+    /// The record of bytes already read from `path`.
     pub fn of_bytes(path: &str, bytes: &[u8]) -> Self {
         let sha256 = in_hexadecimal(Sha256::digest(bytes).as_slice());
         Self { path: path.to_owned(), bytes: bytes.len() as u64, sha256 }
@@ -161,8 +161,8 @@ pub fn draws_with_textures(style: &Style, scene: &Scene) -> bool {
     }
 }
 
-/// The files that a picture was made of, each once: the models, what they brought with them, and where a style drew it what that
-/// draws with. `scene` begins with the models; built-in ones are no files.
+/// Returns the files that a picture was made from, each once: the models, the files they refer to, and the files of the style, if
+/// one drew the picture. `scene` begins with the models; built-in models are not files.
 pub fn files_read(models: &[String], beside: &[PathBuf], scene: &Scene, style: Option<&Style>) -> Vec<PathBuf> {
     let mut paths: Vec<PathBuf> =
         models.iter().filter(|model| !model.starts_with("builtin:")).map(PathBuf::from).collect();
@@ -205,7 +205,7 @@ impl Recipe {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] when the file cannot be read, is of another kind, or has no recipe that can be understood.
+    /// [`Error::File`] when the file cannot be read, is of another kind, or has no valid recipe.
     pub fn read(path: &Path) -> Result<Self> {
         let failed = |problem: String| Error::picture(path, problem);
         let cannot_read =
@@ -219,11 +219,11 @@ impl Recipe {
         Self::in_bytes(&head).map_err(failed)
     }
 
-    /// Finds the recipe in a picture's bytes; `name` is what errors call it.
+    /// Finds the recipe in a picture's bytes; `name` is its name in errors.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] when it is of another kind, or has no recipe that can be understood.
+    /// [`Error::File`] when it is of another kind, or has no valid recipe.
     pub fn of_bytes(bytes: &[u8], name: &str) -> Result<Self> {
         let head = &bytes[..bytes.len().min(HEAD_BYTES as usize)];
         Self::in_bytes(head).map_err(|problem| Error::picture(Path::new(name), problem))
@@ -247,7 +247,7 @@ impl Recipe {
         Ok(recipe)
     }
 
-    /// The command line that makes the picture, for a shell.
+    /// Returns a shell command line that makes the picture.
     pub fn command_line(&self, output: &str) -> String {
         let mut words = vec![self.command.clone()];
         // A name that begins with a dash would be taken for an option.
@@ -263,7 +263,7 @@ impl Recipe {
         shell::command_line(words.into_iter())
     }
 
-    /// What is not as it was when `self` was made: version, files, driver, size; a sentence each.
+    /// Returns one sentence for each difference from `self`: version, files, driver, size.
     pub fn differences(&self, now: &Self) -> Vec<String> {
         let mut all = Vec::new();
         let mut say = |what: &str, then: &dyn std::fmt::Display, now: &dyn std::fmt::Display| {
@@ -310,12 +310,12 @@ impl Recipe {
     }
 }
 
-/// The words that give an option on the command line; none for a switch that is off.
+/// The words that give an option on the command line; empty for a switch that is off.
 pub fn option_words(name: &str, value: &OptionValue) -> Vec<String> {
     match value {
         OptionValue::Switch(false) => Vec::new(),
         OptionValue::Switch(true) => vec![format!("--{name}")],
-        // Beside its name it would be taken for an option.
+        // As a separate word it would be parsed as an option.
         OptionValue::Texts(values) => option_words(name, &OptionValue::Text(values.join(","))),
         OptionValue::Text(value) if value.starts_with('-') => vec![format!("--{name}={value}")],
         OptionValue::Text(value) => vec![format!("--{name}"), value.clone()],

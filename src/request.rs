@@ -1,4 +1,4 @@
-//! One drawing as it is asked for: models, how they are read, scene and camera, style, and what is made of it.
+//! One requested drawing: models, how to read them, scene and camera, style, and output.
 //!
 //! Every door makes a [`Request`] of layers of options, each beating those below it, and hands it to a [`Session`]: the command
 //! line, a batch, a recipe, the window, Python and the browser differ in where the options come from and where the drawing goes.
@@ -42,38 +42,38 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// What is asked for.
+/// A requested drawing.
 #[derive(Debug, Clone)]
 pub struct Request {
-    /// The models, as the user named them. Default none.
+    /// The models, as the user named them. Default empty.
     pub models: Vec<String>,
     /// How they are read.
     pub read: LoadOptions,
-    /// What is put together of them, from where it is seen, how large the picture is.
+    /// How the models are arranged, the camera, and the picture's size.
     pub scene: SceneSettings,
     /// The style with its settings. Default three-pass as published.
     pub style: Style,
-    /// Which of its pictures. Default the finished one.
+    /// The style's picture to draw. Default the finished one.
     pub show: Show,
-    /// Which views or frames, where there are several.
+    /// The views or frames to draw.
     pub animation: AnimationSettings,
     /// The way to OpenGL. Default the first that works.
     pub backend: Backend,
-    /// What is left out of the published plan.
+    /// What to leave out of the published plan.
     pub pruning: PruneSettings,
-    /// Whether all pieces of exact lines are found, whatever the drawing shows of them, and none is left out for being short. Default no.
+    /// Whether to find all pieces of exact lines, including those that the drawing does not show and short ones. Default no.
     pub tells_all: bool,
     /// Whether hidden lines are found though the drawing does not show them, and it is counted where smooth silhouettes break. Default no.
     pub tells_hidden: bool,
-    /// The options that it was made of: what a recipe and a preset keep.
+    /// The options that the request was made from. Recipes and presets keep them.
     pub options: Options,
     /// Where options that come from a look or a file stand.
     sources: BTreeMap<String, Source>,
-    /// Files of options whose paths are no text.
+    /// Files of options whose paths are not valid text.
     paths: Vec<(String, PathBuf)>,
 }
 
-/// Where an option stands.
+/// The source of an option.
 #[derive(Debug, Clone)]
 struct Source {
     name: String,
@@ -86,28 +86,28 @@ impl Source {
     }
 }
 
-/// Which views of a turn, or frames of a model, are drawn.
+/// The views of a turn, or the frames of a model, to draw.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct AnimationSettings {
-    /// Views of a full turn. Default none: one picture.
+    /// Views of a full turn. Default `None`: one picture.
     pub turntable: Option<u32>,
-    /// Frames whose names begin so, all for an empty text. Default none: one picture.
+    /// The prefix of the frames' names; an empty text selects all. Default `None`: one picture.
     pub animate: Option<String>,
     /// How long each is shown, milliseconds. Default 100 for an animated model; for a turn 2500 shared by all pictures, at most 200 each.
     pub frame_delay_ms: Option<u32>,
 }
 
-/// What is left out of a plan.
+/// What to leave out of a plan.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PruneSettings {
-    /// Nothing. Default no.
+    /// Whether to prune nothing. Default no.
     pub is_full: bool,
-    /// What these rules would leave out is drawn. Default none.
+    /// Rules to skip. Default none.
     pub keep: Vec<Rule>,
 }
 
 impl PruneSettings {
-    /// How to prune what this renderer draws; `None` for not at all.
+    /// The pruning for this renderer; `None` to prune nothing.
     pub fn pruning(&self, renderer: &Renderer) -> Option<Pruning> {
         (!self.is_full).then(|| Pruning { keep: self.keep.clone(), ..renderer.pruning() })
     }
@@ -129,7 +129,7 @@ impl HasSettings for Request {
     }
 }
 
-/// What options about the animation are listed under.
+/// The heading of options for animations.
 const ANIMATION: &str =
     "Animation, into FILE.gif, FILE.apng or numbered files such as frame-%04d.png; lines: frame-%04d.svg";
 
@@ -178,7 +178,7 @@ fn style_help() -> &'static str {
     &HELP
 }
 
-/// What an option is called that is not used.
+/// The value that turns an option off.
 const OFF: &str = "off";
 
 fn of_animation() -> Vec<Setting<Request>> {
@@ -255,7 +255,7 @@ fn backend() -> Setting<Request> {
 }
 
 impl Request {
-    /// With every setting as by default, in this style as published.
+    /// All settings at their defaults, in this style as published.
     pub fn of_style(style: StyleName) -> Self {
         Self {
             models: Vec::new(),
@@ -279,13 +279,13 @@ impl Request {
         Self { style: style.clone(), show, ..Self::default() }
     }
 
-    /// Of these models.
+    /// With these models.
     #[must_use]
     pub fn with_models(self, models: Vec<String>) -> Self {
         Self { models, ..self }
     }
 
-    /// The models' names without their folders: what a drawing of them is titled.
+    /// Returns the models' names without their folders, the title of a drawing of them.
     pub fn title(&self) -> String {
         let names = self.models.iter().map(|model| match Path::new(model).file_name() {
             Some(name) => name.to_string_lossy(),
@@ -299,7 +299,7 @@ impl Request {
         self.scene.background == crate::scene::Background::Transparent
     }
 
-    /// The same in another style, with what the options say of it.
+    /// Returns the same request in another style, with the options that apply to it.
     ///
     /// # Errors
     ///
@@ -310,11 +310,11 @@ impl Request {
         Ok(other)
     }
 
-    /// Reads the file of an option whose path is no text, which options cannot hold.
+    /// Reads the file of an option whose path is not valid text, which options cannot hold.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] where it cannot be read.
+    /// [`Error::File`] if it cannot be read.
     pub fn set_path(&mut self, option: &str, path: &Path) -> Result<()> {
         self.paths.push((option.to_owned(), path.to_owned()));
         match (&mut self.style, option) {
@@ -334,7 +334,7 @@ impl Request {
         Ok(())
     }
 
-    /// The style as whoever asked calls it: by the look that brought it, or by its name.
+    /// The style's name for messages: its look, or its own name.
     pub fn style_said(&self) -> String {
         match self.sources.get("style") {
             Some(source) if source.name.starts_with("look ") => source.name.clone(),
@@ -356,7 +356,7 @@ impl Request {
     }
 }
 
-/// The options whose value is a file that is read.
+/// The options that name a file to read.
 pub fn file_options() -> Vec<&'static str> {
     let settings = Request::table().of(None).into_iter();
     settings.filter(|setting| setting.kind == Kind::File).map(|setting| setting.name).collect()

@@ -5,12 +5,12 @@
 //! assert_eq!(tinta::shell::quoted("cow.obj"), "cow.obj");
 //! ```
 
-/// The program's name and its words, quoted where that is needed.
+/// The program's name and its words, quoted where needed.
 pub fn command_line(words: impl Iterator<Item = String>) -> String {
     words.fold("tinta".to_owned(), |text, word| text + " " + &quoted(&word))
 }
 
-/// A word as a shell takes it.
+/// A word, quoted for a shell.
 pub fn quoted(word: &str) -> String {
     let is_plain = |letter: char| letter.is_alphanumeric() || "-_=+,.:/@%".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {

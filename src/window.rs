@@ -1,9 +1,8 @@
 //! The window: models turn under the mouse, two styles side by side, every setting a control, every buffer visible.
 //!
-//! In: models and a first state. Out: pictures on a screen, and files. The pictures are those of the headless
-//! [`crate::Renderer`], drawn on threads of their own and shown as textures: the same bytes as `tinta render` writes.
-//! Everything that decides what is shown is in [`ViewerState`], a plain value that events change; winit and egui are known
-//! here only.
+//! Models and a first state come in; pictures on a screen and files go out. The pictures are those of the headless
+//! [`crate::Renderer`], drawn on separate threads and shown as textures: the same bytes as `tinta render` writes.
+//! [`ViewerState`], a plain value that events change, decides what the window shows; only this module uses winit and egui.
 //!
 //! | file | what |
 //! |---|---|

@@ -1,5 +1,5 @@
-//! `docs/dev/adding-a-style.md` holds: its blocks, put where it says into a copy of the sources, make a style, and its one setting is
-//! found at every door.
+//! `docs/dev/adding-a-style.md` holds: its blocks, put at the stated places into a copy of the sources, make a style, and every
+//! interface has its one setting.
 
 use crate::support::root;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 /// A block of code that belongs into a file.
 struct Block {
     path: String,
-    /// The line it stands before; `None` for a new file.
+    /// The line before which it is inserted; `None` for a new file.
     before: Option<String>,
     text: String,
 }
@@ -50,7 +50,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// A copy of what the program is built of, always in the same folder: in another one cargo would build all of it again.
+/// A copy of the program's sources, always in the same folder: in another one cargo would build all of it again.
 fn copy_of_the_sources() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("adding-a-style/sources");
     let _ = std::fs::remove_dir_all(&folder);
@@ -88,7 +88,7 @@ impl Block {
     }
 }
 
-/// A style that draws exact lines, which is nothing but a row.
+/// A style that draws exact lines, which is only a row.
 fn lines_style() -> Block {
     let text = r#"    /// Exact lines by another name.
     Hatches(LineStyle) {
@@ -143,7 +143,7 @@ fn the_page_adds_a_style_whose_setting_is_found_at_every_door() {
     tinta("man -o manuals");
     assert!(std::fs::read_to_string(folder.join("manuals/tinta-render.1")).unwrap().contains("stripe\\-distance"));
 
-    // An option, a preset, a job, and a picture that says how it was made draw the same.
+    // An option, a preset, a job, and a picture's recipe draw the same.
     let record = tinta("render builtin:bust --size 96 -o option.png --style stripes --stripe-distance 12 --json");
     let record: serde_json::Value = serde_json::from_str(&record).unwrap();
     assert_eq!((&record["style"]["name"], &record["style"]["stripe-distance"]), (&"stripes".into(), &12.into()));
@@ -159,7 +159,7 @@ fn the_page_adds_a_style_whose_setting_is_found_at_every_door() {
     }
     assert!(pixels("default.png") != pixels("option.png"));
 
-    // A style that draws lines is its row: it has the settings of lines, writes what they write, and is drawn again.
+    // A style that draws lines needs only its row: it gets the settings of lines, writes their formats, and can be drawn again.
     let drawn = |name: &str| {
         let text = std::fs::read_to_string(folder.join(name)).unwrap();
         text.lines().filter(|line| line.contains("<path")).map(str::to_owned).collect::<Vec<_>>()
@@ -173,7 +173,7 @@ fn the_page_adds_a_style_whose_setting_is_found_at_every_door() {
     tinta("render builtin:gear --size 96 -o lines.png --style lines");
     assert!(pixels("hatches.png") == pixels("lines.png"));
 
-    // It is measured as it is by default.
+    // The measurement uses the default settings.
     tinta("measure builtin:open-box --styles stripes --quick --size 64 -o measured");
     let rows = std::fs::read_to_string(folder.join("measured/results.csv")).unwrap();
     assert!(rows.contains("--style stripes"), "{rows}");

@@ -81,7 +81,7 @@ fn a_gif_of_few_colours_is_exact_and_loops_with_its_delays() {
     write(&name, &pictures, false, 44);
     let frames = frames_of_gif(&name);
     assert_same(&frames, &pictures);
-    // 44 ms in hundredths of a second: as many of 40 as of 50 so that nine take 396, to the nearest hundredth.
+    // 44 ms in hundredths of a second: as many of 40 as of 50, and nine take 396 to the nearest hundredth.
     let delays = delays_ms(&frames);
     assert!(delays.iter().all(|delay| [40, 50].contains(delay)) && delays.iter().sum::<u32>() == 400, "{delays:?}");
     let bytes = std::fs::read(&name).unwrap();
@@ -111,7 +111,7 @@ fn a_transparent_gif_keeps_ink_to_its_edge_and_no_fringe() {
     let name = folder.path("disc.gif");
     let pictures = moving_disc(6, 0);
     write(&name, &pictures, true, 50);
-    // From half the alpha on a pixel is kept, opaque, in its own colour; the others are nothing.
+    // A pixel with at least half the alpha becomes opaque, in its own colour; the others become transparent.
     let expected: Vec<Picture> = pictures
         .into_iter()
         .map(|mut picture| {
@@ -125,7 +125,7 @@ fn a_transparent_gif_keeps_ink_to_its_edge_and_no_fringe() {
     let frames = frames_of_gif(&name);
     for (number, (frame, picture)) in frames.iter().zip(&expected).enumerate() {
         for (found, wanted) in frame.buffer().pixels().zip(picture.pixels.chunks_exact(4)) {
-            // Of a pixel that is not there the colour says nothing.
+            // The colour of a fully transparent pixel has no meaning.
             assert!(found.0 == wanted || (found.0[3] == 0 && wanted[3] == 0), "frame {number}: {found:?} {wanted:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! What a program that uses the library counts on: values that go from thread to thread, errors that `?` takes.
+//! Guarantees for programs that use the library: values that go from thread to thread, errors that `?` takes.
 
 use std::error::Error as _;
 use tinta::animation::AnimationWriter;

@@ -1,5 +1,5 @@
-//! Batches that are killed, workers that are, folders that change: nothing is done twice and nothing is lost. Killed by what
-//! is seen to be done, never by the clock.
+//! Killed batches, killed workers, changing folders: no job runs twice and none is lost. The tests kill after an observed event,
+//! never by the clock.
 
 #![cfg(target_os = "linux")]
 
@@ -78,11 +78,11 @@ fn a_killed_run_goes_on_and_does_nothing_twice() {
         wait_for_lines(&child, &journal, known + 4);
         signal(name, child.id());
         let status = child.wait().unwrap();
-        // What was written down before is not written again.
+        // Earlier entries are not written again.
         let now = written(&out);
         let ids: Vec<String> = rows(&journal).iter().map(|row| row["id"].as_str().unwrap().to_owned()).collect();
         if name == "TERM" && ids.len() < JOBS {
-            // It ends what it has begun, writes it down and says that it is not through.
+            // It finishes the current jobs, records them and reports that the list is incomplete.
             assert_eq!(status.code(), Some(128 + 15), "{status}");
         }
         interrupted += usize::from(ids.len() < JOBS);
@@ -140,7 +140,7 @@ fn a_killed_run_goes_on_and_does_nothing_twice() {
 #[test]
 fn a_worker_that_is_killed_fails_its_job_alone_and_another_takes_its_place() {
     let folder = Folder::new();
-    // The second never ends by itself in the time of this test.
+    // The second outlasts this test.
     let endless = r#"{"id":"endless","command":"render","model":"builtin:bust","output":"endless.gif","size":1024,"turntable":10000}"#;
     let jobs = [render("before", ""), endless.to_owned(), render("after", "")];
     let (out, journal) = (folder.path("out"), folder.path("out/batch-1-of-1.jsonl"));

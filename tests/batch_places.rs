@@ -25,7 +25,7 @@ fn lists_whose_jobs_write_the_same_by_a_number_or_in_a_folder_are_refused_before
     );
     refuse(
         &[one("b", "a-3.png"), one("c", "c.png"), turn("a", "a-%d.png", 3)],
-        "line 3: output: a-%d.png writes a-3.png, and so does line 1 by a-3.png; name another",
+        "line 3: output: a-%d.png writes a-3.png, as does line 1 by a-3.png; name another",
     );
     refuse(
         &[turn("a", "x/%02d.png", 12), turn("b", "x/1%d.png", 2)],
@@ -87,7 +87,7 @@ fn names_that_only_look_alike_are_no_reason_to_refuse() {
 #[test]
 fn a_job_that_finds_the_disk_full_stops_the_batch_and_is_done_when_there_is_room() {
     let folder = Folder::new();
-    // A picture takes four pages. Two fit beside the list and the record, which has room for all jobs even then.
+    // A picture takes four pages. Two pictures fit, besides the list and the record, which still has room for all jobs.
     let ppm = |id: usize| render(&format!("p{id}"), "").replace(".png", ".ppm").replace("\"size\":32", "\"size\":64");
     let jobs: Vec<String> = (0..12).map(ppm).collect();
     let list = list(&folder, &jobs);

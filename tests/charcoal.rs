@@ -1,4 +1,4 @@
-//! The styles charcoal and sand, drawn: in every setting's direction, by closed forms, refused where they cannot draw.
+//! The styles charcoal and sand, drawn: the direction of every setting, closed forms, and refusals.
 
 use crate::charcoal_twin::{ball, draw, variants};
 use crate::cli::{Folder, refused_in_one_line, tinta};
@@ -21,8 +21,8 @@ fn channels(picture: &Picture) -> impl Iterator<Item = u8> + '_ {
     picture.pixels.chunks_exact(4).flat_map(|pixel| pixel[..3].iter().copied())
 }
 
-/// As published, on textures this many texels wide and high, which are made sooner; of the published size where full sizes are
-/// asked for.
+/// As published, on textures this many texels wide and high, which are quicker to make; of the published size with
+/// `TINTA_FULL_SIZES`.
 fn with_textures(side: u32) -> Charcoal {
     let published = Charcoal::default();
     let small = Size { width: side, height: side };
@@ -66,7 +66,7 @@ fn smudging_never_lightens_saturation_never_darkens_and_density_darkens_on_avera
 
 #[test]
 fn the_listing_and_its_parts_draw_the_same_picture() {
-    // Luminance is sand's, so that charcoal with it runs the parts and none of them is an improved one.
+    // Luminance belongs to sand, which makes charcoal run in parts without any improved part.
     let improve = Improvements { luminance: true, ..Improvements::default() };
     for backend in *BACKENDS {
         let mut renderer = renderer(backend);

@@ -1,4 +1,4 @@
-//! What charcoal draws beyond the report: even textures, the paper's tooth, both sides of a face, strokes; and `rand()`.
+//! The charcoal improvements beyond the report: even textures, the paper's tooth, both sides of a face, strokes; and `rand()`.
 
 use crate::charcoal_twin::{ball, draw};
 use crate::cli::{Folder, tinta};
@@ -42,7 +42,7 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 fn paper_and_noise_keep_their_proportion_and_in_a_square_picture_nothing_changes() {
     let mut renderer = renderer(BACKENDS[0]);
     let wide = scene("builtin:gear", 192, 64);
-    // How much neighbours differ beside each other, as a multiple of how much they differ above each other.
+    // The difference of horizontal neighbours, as a multiple of that of vertical ones.
     let mut stretch = |names: &str| {
         let picture = draw(&mut renderer, &wide, &improved(names, 192), Show::Paper);
         let step = |dx: i64, dy: i64| -> f64 {
@@ -54,7 +54,7 @@ fn paper_and_noise_keep_their_proportion_and_in_a_square_picture_nothing_changes
     let (published, even) = (stretch("none"), stretch("proportion"));
     assert!(published < 0.8 && (even - 1.0).abs() < 0.1, "{published} {even}");
     let square = scene("builtin:gear", 96, 96);
-    // Luminance is sand's, so that both run the shaders in parts.
+    // Luminance belongs to sand, which makes both run the shaders in parts.
     let [before, after] = ["luminance", "luminance,proportion"]
         .map(|names| draw(&mut renderer, &square, &improved(names, 96), Show::Final));
     assert_eq!(before.difference(&after), Some(EQUAL));
@@ -92,7 +92,7 @@ fn a_paper_of_ones_own_has_a_tooth_too_and_a_blank_one_has_none() {
     assert!((mean(&heights) - 128.0).abs() < 2.0 && correlation(&heights, &greens(&paper)) > 0.8);
 }
 
-/// A leaf of two triangles whose front is towards +z, in the order asked for: its front, its back, or both.
+/// A leaf of two triangles with its front towards +z, with the requested sides in order: its front, its back, or both.
 fn leaf(sides: &[bool]) -> Scene {
     let corners = vec![DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.2), DVec3::Y];
     let side = |is_front: &bool| if *is_front { [[0, 1, 2], [0, 2, 3]] } else { [[2, 1, 0], [3, 2, 0]] };
@@ -143,7 +143,7 @@ fn strokes_change_middle_tones_and_neither_the_mean_nor_what_is_black_or_blank()
     let mut light = |names: &str| greens(&draw(&mut renderer, &scene, &improved(names, 120), Show::Diffuse));
     let (even, hand) = (light("luminance"), light("luminance,strokes"));
     let pairs: Vec<(f64, f64)> = even.into_iter().zip(hand).collect();
-    // What was rounded to black or to the full light may have a step or two of another.
+    // A value rounded to black or to full light may differ by a step or two.
     let ends = pairs.iter().filter(|(even, _)| *even == 0.0 || *even == 255.0);
     assert!(ends.map(|(even, hand)| (even - hand).abs()).fold(0.0, f64::max) <= 2.0);
     let middle: Vec<f64> =
@@ -185,8 +185,8 @@ fn all_is_the_texts_flaws_and_everything_is_more() {
     }
 }
 
-/// By how much two pictures of one scene differ where the model is: share of pixels beyond 3 of 255, mean difference of a
-/// channel, and difference of the means.
+/// The difference of two pictures of one scene on the model: share of pixels beyond 3 of 255, mean difference of a channel, and
+/// difference of the means.
 fn change(before: &Picture, after: &Picture, is_model: &[bool]) -> [f64; 3] {
     let (mut count, mut differing, mut sum, mut signed) = (0.0, 0.0, 0.0, 0.0);
     let pixels = before.pixels.chunks_exact(4).zip(after.pixels.chunks_exact(4)).zip(is_model);

@@ -16,7 +16,7 @@ pub fn draw(renderer: &mut Renderer, scene: &Scene, charcoal: &Charcoal, show: S
     renderer.draw(scene, &Style::Charcoal(charcoal.clone()).plan(scene, show).unwrap()).unwrap()
 }
 
-/// What a ray through the middle of a pixel meets first: the triangle and the corners' shares in the point.
+/// Returns the first hit of a ray through the middle of a pixel: the triangle and the barycentric coordinates of the point.
 fn hit(mesh: &Mesh, origin: DVec3, direction: DVec3) -> Option<(usize, DVec3)> {
     let mut nearest: Option<(f64, usize, DVec3)> = None;
     for (number, triangle) in mesh.triangles.iter().enumerate() {
@@ -112,7 +112,7 @@ fn tones(charcoal: &Charcoal, textures: &Textures, normal_view: DVec3, place: DV
     Tones { light, cem, drawing }
 }
 
-/// Normals in eye space and triangles met, for the middle of every pixel.
+/// Normals in eye space and the triangles hit, for the middle of every pixel.
 fn cast(scene: &Scene) -> Vec<Option<(usize, DVec3)>> {
     let Size { width, height } = scene.size;
     let mesh = &scene.objects[0].mesh;
@@ -148,7 +148,7 @@ fn against_the_twin(
     for y in 1..height - 1 {
         for x in 1..width - 1 {
             let Some((_, normal)) = met[y * width + x] else { continue };
-            // Beside a silhouette or a crease GL may have chosen another triangle for the pixel.
+            // Next to a silhouette or a crease GL may have chosen another triangle for the pixel.
             let is_smooth = |(dx, dy): (usize, usize)| {
                 met[(y + dy - 1) * width + x + dx - 1]
                     .is_some_and(|(_, other)| other.normalize().dot(normal.normalize()) > 0.7)
@@ -209,7 +209,7 @@ fn the_twin_notices_another_exponent_and_the_paper_that_swims() {
     let other = draw(&mut renderer, &scene, &Charcoal { contrast_exponent: 1.6, ..charcoal.clone() }, Show::Final);
     let expected = |normal, place| tones(&charcoal, &textures, normal, place).drawing;
     assert!(against_the_twin(&scene, &met, &other, expected).0 > 2.0);
-    // Errata V4: in perspective the coordinate of the vertex program is off within each large triangle.
+    // Errata V4: in perspective the vertex program's coordinate is off within each large triangle.
     let mut settings = SceneSettings { size: Size { width: 120, height: 120 }, ..SceneSettings::default() };
     (settings.camera.fov_y_degrees, settings.camera.view) = (70.0, "20,60".parse().unwrap());
     let box_scene = scene_with("builtin:open-box", settings);

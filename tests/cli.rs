@@ -91,10 +91,7 @@ fn a_model_without_permission_is_refused() {
         skip("a model without permission: the super-user may read everything");
         return;
     }
-    refused_in_one_line(
-        &["render", &model, "-o", &folder.path("out.png")],
-        &["secret.obj: there is no permission to read it"],
-    );
+    refused_in_one_line(&["render", &model, "-o", &folder.path("out.png")], &["secret.obj: no permission to read it"]);
 }
 
 #[test]
@@ -179,7 +176,7 @@ fn command_lines_that_are_not_understood_are_answered_in_one_line() {
 #[test]
 fn outputs_are_checked_before_the_work_and_kept_when_it_fails() {
     let folder = Folder::new();
-    refused_in_one_line(&["render", "no-such.obj", "-o", "drawing.xyz"], &["drawing.xyz: nothing is written as .xyz"]);
+    refused_in_one_line(&["render", "no-such.obj", "-o", "drawing.xyz"], &["drawing.xyz: tinta writes no .xyz"]);
     refused_in_one_line(
         &["render", "builtin:ant", "-o", "no/such/a.png"],
         &["no/such/a.png: the folder no/such does not exist"],

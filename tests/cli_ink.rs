@@ -28,7 +28,7 @@ fn edges_are_counted_by_class_and_timed_as_often_as_asked() {
 #[test]
 fn a_record_of_lines_counts_every_class_by_the_name_that_the_lines_and_the_options_have() {
     let folder = Folder::new();
-    // Three pages around one edge, which pass through nothing.
+    // Three pages around one edge that intersect nothing.
     let book = folder.file("book.obj", b"v 0 0 0\nv 0 1 0\nv 1 0 0\nv -1 0 1\nv -1 0 -1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
     let (svg, json) = (folder.path("book.svg"), folder.path("book.json"));
     let record = |arguments: &[&str]| -> serde_json::Value {

@@ -349,7 +349,7 @@ fn explained_lines_are_a_text_of_what_there_is() {
     }
 }
 
-/// A model whose lines take a while, as an OBJ file's text.
+/// A model with slow lines, as an OBJ file's text.
 fn slow_model(triangles: usize) -> String {
     let hair = FAMILIES.iter().find(|family| family.name == "hair").unwrap();
     let shape = (hair.make)(triangles);

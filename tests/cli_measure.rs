@@ -50,7 +50,7 @@ fn an_interrupted_run_goes_on_and_a_finished_one_is_not_overwritten() {
         &["measure", "builtin:open-box", "-o", &out, "--quick", "--size", "64"],
         &["results.jsonl", "--resume"],
     );
-    // As an interruption leaves it: a whole row, and half of the next.
+    // As after an interruption: a whole row, and half of the next.
     let path = format!("{out}/results.jsonl");
     let text = std::fs::read_to_string(&path).unwrap();
     let first_line = text.lines().next().unwrap();
@@ -112,7 +112,7 @@ fn what_cannot_be_measured_is_refused() {
     ] {
         refused_in_one_line(arguments, words);
     }
-    // Nothing could be drawn, so nothing is left that a second try would have to respect.
+    // Without a drawing, no file is left that a second try would have to respect.
     for _ in 0..2 {
         let output = tinta(&["measure", "builtin:gear", "--styles", "sand", "-o", &folder.path("sand")]);
         let said = String::from_utf8_lossy(&output.stderr);

@@ -1,4 +1,4 @@
-//! What somebody types wrong, each with its whole sentence: exit code 2, nothing on standard output, no file left.
+//! Typing mistakes, each with its whole error: exit code 2, empty standard output, no file left.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -25,7 +25,7 @@ const FILES: [(&str, &str); 15] = [
     ("typo.jsonl", "{\"id\": \"a\", \"command\": \"render\", \"model\": \"-\", \"output\": \"a.png\"}\n"),
 ];
 
-/// Command lines, and what they are answered.
+/// Command lines and their errors.
 const MISTAKES: [(&str, &str); 88] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
@@ -144,7 +144,7 @@ const MISTAKES: [(&str, &str); 88] = [
     ),
     (
         "render triangle.obj -o out.xyz",
-        "out.xyz: nothing is written as .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for lines, .gif or .apng for an animation",
+        "out.xyz: tinta writes no .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for lines, .gif or .apng for an animation",
     ),
     ("render triangle.obj -o nowhere/out.png", "nowhere/out.png: the folder nowhere does not exist; create it first"),
     ("render triangle.obj -o dir", "dir: this is a directory; name a file in it"),
@@ -189,7 +189,7 @@ const MISTAKES: [(&str, &str); 88] = [
     ),
     (
         "render triangle.obj -o out.png --preset paper:evangelista-tree-pass",
-        "paper:evangelista-tree-pass: there is no shipped preset of this name; did you mean paper:evangelista-three-pass?",
+        "paper:evangelista-tree-pass: no shipped preset has this name; did you mean paper:evangelista-three-pass?",
     ),
     (
         "render triangle.obj -o out.png --preset unknown.toml",
@@ -251,7 +251,7 @@ const MISTAKES: [(&str, &str); 88] = [
     ("measure triangle.obj", "--output is missing; name the folder to write into: -o results; see --help"),
     ("measure triangle.obj -o out --tolerance 0", "--tolerance 0: it is a number of pixels above 0 and at most 1000"),
     ("batch jobs.jsonl -o out", "jobs.jsonl: line 1: it has no command; write render, compare or measure"),
-    ("batch typo.jsonl -o out", "typo.jsonl: line 1: model: - is standard input, which jobs have not; name a file"),
+    ("batch typo.jsonl -o out", "typo.jsonl: line 1: model: - is standard input, which jobs lack; name a file"),
     ("batch none.jsonl -o out", "none.jsonl: there is no such file; check the name"),
     ("again notes.txt", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),
     ("again notes.txt -o out.png", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),

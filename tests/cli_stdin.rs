@@ -10,7 +10,7 @@ fn piped(arguments: &[&str], bytes: &[u8]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tinta"));
     let command = command.args(arguments).current_dir(root());
     let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    // Whoever does not read it has refused it before.
+    // A program that does not read it has already refused it.
     let _ = child.stdin.take().unwrap().write_all(bytes);
     child.wait_with_output().unwrap()
 }
@@ -27,7 +27,7 @@ const STL: &str = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex
 fn binary_stl() -> Vec<u8> {
     let corners: Vec<u8> =
         [0.0f32, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat();
-    // It begins like text, and its length says that it is none.
+    // It begins like text, but its length shows a binary file.
     let header = [b"solid".as_slice(), &[b' '; 75]].concat();
     [header.as_slice(), &1u32.to_le_bytes(), &corners, &[0, 0]].concat()
 }
@@ -127,6 +127,6 @@ fn a_list_of_jobs_is_read_from_standard_input() {
     let nothing = piped(&["batch", "-", "-o", &done, "--resume"], b"");
     assert!(said(&nothing).contains("standard input: nothing came; pipe a list of jobs into it"), "{}", said(&nothing));
     let wrong = piped(&["batch", "-", "-o", &folder.path("x")], job.replace("builtin:open-box", "-").as_bytes());
-    let message = "tinta: standard input: line 1: model: - is standard input, which jobs have not; name a file\n";
+    let message = "tinta: standard input: line 1: model: - is standard input, which jobs lack; name a file\n";
     assert_eq!((wrong.status.code(), said(&wrong)), (Some(2), message.to_owned()));
 }

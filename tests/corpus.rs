@@ -7,7 +7,7 @@ mod words;
 
 use crate::support::root;
 
-/// What a target does with any bytes.
+/// A target's function of any bytes.
 type Target = fn(&[u8]);
 
 #[test]

@@ -1,6 +1,6 @@
-//! What the documents name exists: files, folders, headings, options and commands; what they say is printed is printed.
+//! The documents name only existing files, folders, headings, options and commands; quoted output is real output.
 //!
-//! That each `tinta` command parses is checked beside the parser: `crates/tinta-lab/src/commands/documents.rs`.
+//! A test beside the parser checks that each `tinta` command parses: `crates/tinta-lab/src/commands/documents.rs`.
 
 use crate::support::root;
 use std::path::PathBuf;
@@ -45,7 +45,7 @@ const FOLDERS: [&str; 20] = [
     "valente/",
 ];
 
-/// The words of a line that begin like a path of this project, quoted or not; patterns and placeholders are none.
+/// The words of a line that begin like a path of this project, quoted or not, except patterns and placeholders.
 fn named_paths(line: &str) -> impl Iterator<Item = &str> {
     let is_end =
         |letter: char| letter.is_whitespace() || matches!(letter, '`' | '(' | ')' | '[' | ']' | '"' | ',' | ';' | ':');
@@ -63,7 +63,7 @@ fn link_targets(line: &str) -> impl Iterator<Item = &str> {
     targets.filter(|target| !target.is_empty() && !target.contains("://"))
 }
 
-/// What a heading is linked by: its letters and digits in lower case, with - for blanks.
+/// The anchors of headings: letters and digits in lower case, with - for blanks.
 fn anchors(text: &str) -> Vec<String> {
     let headings = text.lines().filter(|line| line.starts_with('#')).map(|line| line.trim_start_matches('#').trim());
     let letter = |letter: char| match letter {
@@ -140,7 +140,7 @@ fn every_page_and_every_picture_is_reached_from_somewhere() {
     fail_with(lost.map(|path| format!("{}: no document links to it", path.display())).collect());
 }
 
-/// The words of a document that are commands, each with its line: blocks of code, and what stands in backquotes.
+/// The commands in a document, each with its line, from blocks of code and backquotes.
 fn commands(text: &str) -> Vec<(usize, String)> {
     let mut all = Vec::new();
     let mut is_fenced = false;
@@ -156,7 +156,7 @@ fn commands(text: &str) -> Vec<(usize, String)> {
         };
         for span in spans {
             let command = span.trim().trim_start_matches("$ ").split("  ").next().unwrap().split(" #").next().unwrap();
-            // Variables before a command are no part of it.
+            // Variables before a command do not belong to it.
             let mut words = command.trim().split(' ').skip_while(|word| {
                 word.split_once('=').is_some_and(|(name, _)| {
                     name.chars().all(|c| c.is_ascii_uppercase() || c == '_' || c.is_ascii_digit())
@@ -189,7 +189,7 @@ const CARGO: [&str; 16] = [
     "uninstall",
 ];
 
-/// What is wrong with a cargo command; `None` for nothing.
+/// The error in a cargo command, if any.
 fn cargo_fault(words: &[&str], manifest: &str, sources: &str) -> Option<String> {
     let words: Vec<&str> = words.iter().copied().filter(|word| !word.starts_with('+')).collect();
     let subcommand = words.get(1)?;
@@ -218,7 +218,7 @@ fn cargo_fault(words: &[&str], manifest: &str, sources: &str) -> Option<String> 
             return Some(format!("there is no {option} {name}"));
         }
     }
-    // What `cargo test` is given besides is part of the names of tests.
+    // The other arguments of `cargo test` are parts of test names.
     let takes_value = ["-p", "--bench", "--example", "--test", "--bin", "--features"];
     let filter = own.iter().enumerate().find(|(at, word)| {
         !word.starts_with('-') && *subcommand == "test" && (*at == 0 || !takes_value.contains(&own[at - 1]))
@@ -254,7 +254,7 @@ fn every_cargo_and_script_command_in_the_documents_names_what_is_there() {
     let mut wrong = Vec::new();
     for (document, text) in documents() {
         for (line, command) in commands(&text) {
-            // What stands before a command sets its environment.
+            // Words with = before a command set its environment.
             let is_variable = |word: &&str| word.split_once('=').is_some_and(|(name, _)| name.starts_with("TINTA_"));
             let words: Vec<&str> = command.split(' ').skip_while(is_variable).collect();
             let fault = match words.first().copied().unwrap_or_default() {
@@ -292,7 +292,7 @@ fn every_option_named_in_the_documents_exists() {
         String::from_utf8(output.stdout).unwrap()
     };
     let all = help(&[]);
-    // A command stands two blanks from the margin, what it does goes on farther right.
+    // A command starts two blanks from the margin; its description continues farther right.
     let lines = all.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
     let commands = lines.filter_map(|line| line.strip_prefix("  ")?.split(' ').next()).filter(|word| !word.is_empty());
     let known: String = commands.map(|command| help(&[command])).collect();

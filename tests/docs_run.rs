@@ -1,4 +1,4 @@
-//! What the documents say is done and said: the first ten minutes run as written, and every sentence quoted is printed.
+//! The documents' examples run: the first ten minutes as written, and every quoted sentence is printed.
 
 use crate::support::{root, skip};
 use std::process::Command;
@@ -50,7 +50,7 @@ fn every_sentence_quoted_in_troubleshooting_is_said() {
         skip("the window's sentence: built without the window");
         all.push_str("tinta: no window can be opened (neither WAYLAND_DISPLAY nor WAYLAND_SOCKET nor DISPLAY is set)");
     }
-    // One driver's library is enough to draw with, so that both must fail.
+    // One driver's library is enough to draw with; both must fail.
     all.push_str(&said(&[("GALLIUM_DRIVER", "none"), ("LIBGL_DRIVERS_PATH", &nowhere)], "info"));
     if witnesses()[1] != Backend::OsMesa {
         skip("OSMesa's sentence: there is no OSMesa");

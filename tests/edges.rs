@@ -70,7 +70,7 @@ fn which_creases_are_convex_follows_from_the_outside_and_not_from_the_winding() 
         let which: Vec<bool> = iron.triangles.iter().map(|_| random.number() < 0.5).collect();
         assert_eq!(turns(&turned(&iron, |face| which[face])), (17, 1), "round {round}");
     }
-    // A hollow of the same shape: what is convex outside is concave inside, whichever way either is wound.
+    // A hollow of the same shape: a convex outside is a concave inside, whichever way either is wound.
     for (outer, inner) in [(false, false), (false, true), (true, false), (true, true)] {
         let hollow = joined(&[turned(&iron, |_| outer), turned(&angle_iron(0.1), |_| inner)]);
         assert_eq!(turns(&hollow), (18, 18), "{outer} {inner}");
@@ -165,7 +165,7 @@ fn inner_edges_between_materials_texture_coordinates_and_normals_are_seams() {
     quad.normals = vec![glam::Vec3::Z, glam::Vec3::X];
     quad.triangle_normals = vec![[0, 0, 0], [0, 1, 0]];
     let counts_of = |quad: &Mesh| counts(quad).1;
-    // Equal values under different numbers are no seam.
+    // Equal values under different numbers form no seam.
     let expected = ClassCounts { boundary: 4, material: 1, normal: 1, ..ClassCounts::default() };
     assert_eq!(counts_of(&quad), expected);
     quad.texture_coordinates[4] = glam::Vec2::new(0.5, 0.0);
@@ -257,8 +257,8 @@ proptest! {
 
 #[test]
 fn counts_agree_with_other_libraries_on_public_models() {
-    // By vtkFeatureEdges (VTK 9.7) and trimesh 5.2 after joining equal positions: edges, boundary, non-manifold, and
-    // creases whose cosine is below 0.4.
+    // By vtkFeatureEdges (VTK 9.7) and trimesh 5.2 after joining equal positions: edges, boundary, non-manifold, and creases with
+    // a cosine below 0.4.
     let expected = [
         ("ant.ply", [1368, 0, 0, 299]),
         ("beethoven.obj", [31_326, 0, 0, 174]),

@@ -1,4 +1,4 @@
-//! The programs in examples/, run as they are; what a style of one's own may rely on.
+//! The programs in examples/ run unchanged, and the guarantees for a user's style hold.
 
 #[expect(dead_code, reason = "the program's own main is not run here")]
 #[path = "../examples/edges_only.rs"]

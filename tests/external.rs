@@ -1,4 +1,4 @@
-//! What a model names outside its folder is followed only when asked to.
+//! Files that a model names outside its folder are read only with permission.
 
 use crate::cli::{Folder, tinta};
 use crate::hostile::{SQUARE, one_line, refused, scene};

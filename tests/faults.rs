@@ -143,7 +143,7 @@ fn a_lost_context_is_named_whenever_it_is_lost_and_for_ever_and_a_new_renderer_d
 fn a_context_lost_while_a_shader_compiles_is_not_blamed_on_the_shader() {
     for backend in *BACKENDS {
         let mut renderer = Renderer::with_fault(backend, Fault::ContextLost { after: 0 }).unwrap();
-        // The first call that counts; the fault is in effect from then on.
+        // The first call that counts; the fault is active afterwards.
         let scene = small();
         assert!(matches!(draw(&mut renderer, &scene, &Style::named(StyleName::Phong)), Err(Error::ContextLost { .. })));
         assert!(matches!(renderer.compile_shader("evangelista/map.vert"), Err(Error::ContextLost { .. })));
@@ -185,7 +185,7 @@ fn fails(environment: &[(&str, &Path)], backend: &str, words: &[&str]) {
         let said = String::from_utf8_lossy(&output.stderr);
         let what = format!("{environment:?} {arguments:?}: {:?}: {said}", output.status);
         assert_eq!(output.status.code(), Some(2), "{what}");
-        // The driver may say things of its own.
+        // The driver may print messages too.
         assert_eq!(said.lines().filter(|line| line.starts_with("tinta: ")).count(), 1, "{what}");
         assert!(said.contains("tinta: no OpenGL 2.1 context could be made (tried "), "{what}");
         assert!(words.iter().all(|word| said.contains(word)) && !said.contains("panicked"), "{words:?}: {what}");
@@ -193,7 +193,7 @@ fn fails(environment: &[(&str, &Path)], backend: &str, words: &[&str]) {
     }
 }
 
-/// Whether a backend is Mesa, whose environment variables these tests turn.
+/// Whether a backend is Mesa, which reads the environment variables of these tests.
 fn is_mesa(backend: &str) -> bool {
     let text = String::from_utf8(tinta(&[], &["info", "--backend", backend]).stdout).unwrap();
     let is_mesa = text.lines().any(|line| line.contains("GL version") && line.contains("Mesa"));
@@ -223,7 +223,7 @@ fn without_a_driver_the_error_names_what_was_missing() {
     assert_eq!(image::load_from_memory(&output.stdout).unwrap().width(), 32);
 }
 
-/// A shared library of this machine that is no driver.
+/// A shared library of this machine other than a driver.
 #[cfg(target_os = "linux")]
 fn some_library() -> Option<PathBuf> {
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap();
@@ -288,7 +288,7 @@ fn a_shader_the_driver_refuses_ends_the_program_with_its_name_and_the_drivers_re
         if !is_mesa(backend) {
             continue;
         }
-        // Mesa writes down the shaders it is given, and can be told to compile others in their place.
+        // Mesa saves the shaders it receives, and can be told to compile others in their place.
         let shaders = Folder::new();
         let place = PathBuf::from(shaders.path(""));
         let out = shaders.path("a.png");

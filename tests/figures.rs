@@ -1,4 +1,4 @@
-//! `tinta figures`: the list, the files, the page, the record, the claims, and that each command draws what its picture shows.
+//! `tinta figures`: the list, the files, the page, the record, the claims, and each command's picture.
 
 use crate::cli::{Folder, refused_in_one_line, tinta};
 use roxmltree::{Document, ParsingOptions};
@@ -14,7 +14,7 @@ use tinta_lab::figures::{
 
 const SIZE: Size = Size { width: 48, height: 48 };
 
-/// Every figure of the texts, and what stands beside them.
+/// Every figure of the texts, and the additional ones.
 const IDS: [&str; 36] = [
     "evangelista-1",
     "evangelista-2",
@@ -69,7 +69,7 @@ fn run(arguments: &[&str]) -> String {
     said
 }
 
-/// The page's pictures, after checking that it is sound and asks for nothing elsewhere.
+/// The page's pictures, after checking that it is valid and loads nothing from elsewhere.
 fn pictures_of_page(folder: &Folder) -> Vec<String> {
     let text = std::fs::read_to_string(folder.path("index.html")).unwrap();
     let page =
@@ -90,7 +90,7 @@ fn pictures_of_page(folder: &Folder) -> Vec<String> {
     files.collect()
 }
 
-/// Every number in a value, and nothing where a number should be but where it is allowed.
+/// Checks every number in a value, and that null appears only where allowed.
 fn check_numbers(value: &Value, name: &str, count: &mut usize) {
     match value {
         Value::Number(number) => {
@@ -252,7 +252,7 @@ fn matrices_are_what_the_filters_compute() {
         for kernel in kernels(filter) {
             let cells = (0..3).flat_map(|row| (0..3).map(move |column| (row, column)));
             let sum: f64 = cells.map(|(row, column)| kernel.weight(row, column)).sum();
-            // Of Mitchell's five reads the pattern is printed, no weights.
+            // The text prints the pattern of Mitchell's five reads, without weights.
             let expected = if name.starts_with("mitchell") { 5.0 } else { 0.0 };
             assert!((sum - expected).abs() < 1e-12, "{name}: {sum}");
         }

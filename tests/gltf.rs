@@ -1,4 +1,4 @@
-//! Every way to store a box in glTF, and what a reader must make of each, worked out by hand.
+//! Every way to store a box in glTF, and the expected mesh of each, worked out by hand.
 
 use crate::cli::Folder;
 use crate::gltf_files::*;
@@ -56,7 +56,7 @@ fn a_box_draws_the_same_picture_as_the_same_box_in_obj() {
     folder.file("skin.png", &picture());
     folder.file("box.mtl", b"newmtl a\nKd 0.5 0.25 1\nmap_Kd skin.png\n");
     let obj = load(&folder.file("box.obj", box_obj().as_bytes()), &LoadOptions::default()).unwrap().mesh;
-    // What a screen shows as these shares is less light than they.
+    // The screen's values for these shares; the light is less.
     let linear = |share: f64| ((share + 0.055) / 1.055).powf(2.4);
     let mut renderer = renderer(Backend::Auto);
     let mut seen = Vec::new();
@@ -226,7 +226,7 @@ fn triangles_strips_and_fans_of_indices_of_every_size_or_of_none() {
         (4, [0, 1, 2, 3], &[0, 1, 2, 0, 2, 3], 2),
         (4, [0, 1, 2, 3], &[0, 1, 2, 0, 2, 3], 4),
         (5, [0, 1, 3, 2], &[], 0),
-        // A strip that stands still for two triangles, and a fan.
+        // A strip with two degenerate triangles, and a fan.
         (5, [0, 1, 3, 2], &[0, 0, 0, 1, 3, 2], 1),
         (6, [0, 1, 2, 3], &[1, 2, 3, 0], 1),
     ];
@@ -245,7 +245,7 @@ fn triangles_strips_and_fans_of_indices_of_every_size_or_of_none() {
         assert_eq!((mesh.triangles.len(), area(&mesh)), (2, 1.0), "mode {mode}, {size} bytes");
         assert!(mesh.defects.is_empty(), "{}", mesh.defects);
     }
-    // Points and lines beside it are said, not drawn.
+    // Points and lines beside it are reported, not drawn.
     let mut file = box_file();
     let primitives = file.json["meshes"][0]["primitives"].as_array_mut().unwrap();
     for mode in 0..4 {
@@ -259,7 +259,7 @@ fn triangles_strips_and_fans_of_indices_of_every_size_or_of_none() {
 #[test]
 fn sparse_strided_and_quantised_positions_come_out_where_they_should() {
     let square = [DVec3::ZERO, DVec3::X, DVec3::Y];
-    // Sparse over nothing: zeros but for two of three.
+    // Sparse over nothing: zeros except two of three.
     let mut file = File::new();
     let (places, values) = (file.view(&[1, 0, 2, 0]), file.view(&bytes_of(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0])));
     let sparse =
@@ -308,7 +308,7 @@ fn skins_stand_in_their_joints_and_morphs_as_far_as_their_weights_say() {
     // The third vertex follows both, one three times as much as the other.
     let weights = file.floats("VEC4", &[1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.25, 0.75, 0.0, 0.0]);
     square_file(positions, json!({"attributes": {"JOINTS_0": joints, "WEIGHTS_0": weights}}), &mut file);
-    // What the mesh's node says does not count; the joints lie at (0, 0, 8) and (0, 4, 8), bound at (0, 0, 0) and (0, 4, 0).
+    // The mesh node's transform does not count; the joints lie at (0, 0, 8) and (0, 4, 8), bound at (0, 0, 0) and (0, 4, 0).
     file.json["nodes"][0]["translation"] = json!([100, 100, 100]);
     file.json["nodes"][0]["skin"] = json!(0);
     file.push("nodes", json!({"children": [2], "translation": [0, 0, 8]}));

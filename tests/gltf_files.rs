@@ -1,4 +1,4 @@
-//! glTF files written here, for the tests that read them.
+//! glTF files written here, for tests that read them.
 
 use base64::Engine;
 use glam::DVec3;
@@ -137,7 +137,7 @@ pub fn box_file() -> File {
     file
 }
 
-/// A square in z = 0 with these attributes besides and this in its primitive.
+/// A square in z = 0 with these additional attributes and this in its primitive.
 pub fn square_file(positions: usize, more: Value, file: &mut File) {
     let mut primitive = json!({"attributes": {"POSITION": positions}});
     more.as_object().unwrap().iter().for_each(|(key, value)| match key.as_str() {

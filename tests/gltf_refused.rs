@@ -1,4 +1,4 @@
-//! glTF files that are refused, or read only when asked to, each with a sentence that says what to do.
+//! glTF files that are refused, or need permission to be read, each with a sentence that gives the remedy.
 
 use crate::cli::{Folder, tinta};
 use crate::gltf_files::*;
@@ -36,7 +36,7 @@ fn data_and_pictures_outside_the_models_folder_are_followed_only_when_asked_to()
     ] {
         refused(&tinta(&["edges", &folder.file("model/box.gltf", &file.with_buffer(Some(uri)))]), &[sentence]);
     }
-    // Out of memory no file is read at all.
+    // From memory no file is read at all.
     let bytes = file.with_buffer(Some(&absolute));
     let message = read_bytes(&bytes, "m.gltf", &[], &LoadOptions { allow_external: true, ..LoadOptions::default() });
     assert!(message.unwrap_err().to_string().contains("which is not read; export it as GLB"));

@@ -1,7 +1,7 @@
-//! Pictures that were looked at once and must stay as they are: one test for each, its name the picture's.
+//! Approved pictures that must not change: one test for each, named after the picture.
 //!
-//! `TINTA_UPDATE_GOLDENS=1 cargo test goldens::bust_phong` draws that one anew and then fails, so that nobody does so
-//! unnoticed; with `goldens` alone it draws them all.
+//! `TINTA_UPDATE_GOLDENS=1 cargo test goldens::bust_phong` draws that one anew and then fails, to make every update deliberate;
+//! with `goldens` alone it draws them all.
 
 use crate::support::{BACKENDS, failure_folder, renderer, root, scene_with, side_by_side};
 use tinta::edges::SilhouetteRule;
@@ -12,10 +12,10 @@ use tinta::styles::{
 };
 use tinta::{Picture, SceneSettings, Show, Size, Style, StyleName};
 
-/// Of borders.
+/// Width of borders.
 const WIDE: LineWidth = LineWidth::Pixels(5);
 
-/// A pixel counts as different beyond this, in 1/255: what another version of Mesa may round differently.
+/// A pixel counts as different beyond this, in 1/255: the rounding of another version of Mesa.
 const LARGEST_DIFFERENCE: u8 = 3;
 
 /// Share of pixels that may be different: edges fall on other pixels where another driver rasterises differently.
@@ -36,7 +36,7 @@ fn different_share(expected: &Picture, actual: &Picture) -> f64 {
     different as f64 / expected.size.pixel_count() as f64
 }
 
-/// Compares a picture with the golden of this name, or writes it; what is wrong, or nothing. `by` says what drew it.
+/// Compares a picture with the golden of this name, or writes it; returns the difference as an error. `by` names the backend.
 pub fn compare(name: &str, actual: &Picture, by: &str) -> Result<(), String> {
     let path = root().join("tests/goldens").join(format!("{name}.png"));
     if std::env::var_os("TINTA_UPDATE_GOLDENS").is_some() {
@@ -59,9 +59,9 @@ pub fn compare(name: &str, actual: &Picture, by: &str) -> Result<(), String> {
     ))
 }
 
-/// How to accept what a test of this name has drawn.
+/// How to accept a new picture of the test with this name.
 pub fn how_to_update(test: &str) -> String {
-    format!("if the change is wanted: TINTA_UPDATE_GOLDENS=1 cargo test {test}, and look at it")
+    format!("if you intended the change: TINTA_UPDATE_GOLDENS=1 cargo test {test}, and look at it")
 }
 
 /// Draws a model on both backends and compares each picture with the golden.
@@ -100,7 +100,7 @@ fn encoded(map_encoding: MapEncoding, slope_threshold: bool) -> Style {
 }
 
 fn charcoal(recipe: CharcoalRecipe) -> Style {
-    // As large as the picture, so that every driver reads noise and paper in the middle of their texels.
+    // As large as the picture, to make every driver read noise and paper in the middle of their texels.
     let texture_size = Size { width: 160, height: 160 };
     Style::Charcoal(Charcoal { texture_size, ..Charcoal::recipe(recipe) })
 }
@@ -289,14 +289,14 @@ fn bust_dietrich() {
     golden("bust-dietrich", BUST, &Style::named(StyleName::Dietrich), Show::Final);
 }
 
-/// Whose pictures goldens are, by how their names begin.
+/// Groups of goldens, by the beginning of their names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Goldens {
-    /// Of styles.
+    /// Styles.
     Styles,
-    /// Of looks.
+    /// Looks.
     Looks,
-    /// Of the window.
+    /// The window.
     Window,
 }
 

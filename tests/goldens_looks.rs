@@ -1,4 +1,4 @@
-//! Small pictures of each look, drawn by the finished program, that were looked at once.
+//! Small approved pictures of each look, drawn by the finished program.
 //!
 //! `TINTA_UPDATE_GOLDENS=1 cargo test goldens_looks` draws them anew and then fails.
 

@@ -1,5 +1,5 @@
-//! The goldens of the window: what it shows after the events of a recording. One run of a recording draws all of its pictures, one
-//! test compares each. `tour.jsonl` is played in panes of its own sizes, `sizes.jsonl` in windows of several.
+//! The goldens of the window: its picture after the events of a recording. One run of a recording draws all of its pictures, one
+//! test compares each. `tour.jsonl` sets the sizes of its panes, `sizes.jsonl` uses windows of several sizes.
 //!
 //! `TINTA_UPDATE_GOLDENS=1 cargo test goldens_window::split` draws that one anew and then fails.
 
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 use tinta::{Picture, Size};
 
-/// The recording's pictures by name; none where no window can be opened, which is said.
+/// The recording's pictures by name; `None`, with a message, where no window can be opened.
 fn tour() -> Option<&'static BTreeMap<String, Picture>> {
     static PICTURES: OnceLock<Option<BTreeMap<String, Picture>>> = OnceLock::new();
     PICTURES.get_or_init(replay).as_ref()
@@ -25,7 +25,7 @@ fn replay() -> Option<BTreeMap<String, Picture>> {
 const WINDOWS: [(&str, &str, u32); 3] =
     [("1280x720", "1280x720", 1), ("640x480", "640x480", 1), ("double", "640x480", 2)];
 
-/// The line below the panes, points: it says how long pictures took.
+/// The line below the panes, points: it shows the pictures' times.
 const STATUS_HEIGHT: u32 = 24;
 
 /// The pictures of the other recording by window and name.
@@ -45,7 +45,7 @@ fn sizes() -> Option<&'static BTreeMap<String, Picture>> {
     PICTURES.get_or_init(play).as_ref()
 }
 
-/// A window's picture without what differs from run to run.
+/// A window's picture without the parts that differ from run to run.
 fn without_status(picture: Picture, scale: u32) -> Picture {
     let size = Size { width: picture.size.width, height: picture.size.height - STATUS_HEIGHT * scale };
     Picture { size, pixels: picture.pixels[..size.pixel_count() * 4].to_vec() }

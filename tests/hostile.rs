@@ -1,4 +1,5 @@
-//! Files made to harm: counts that lie, pictures that unfold, names that break lines, files that are none, faces without end.
+//! Files made to harm: false counts, pictures that decompress to huge sizes, names that break lines, invalid files, endless
+//! faces.
 
 use crate::cli::{Folder, tinta};
 use crate::support::root;
@@ -11,7 +12,7 @@ use tinta::{LoadOptions, Mesh, Scene, SceneSettings, load};
 
 pub const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\n";
 
-/// Runs the program with so many MiB of address space: whoever asks for more is killed and does not exit with code 2.
+/// Runs the program with so many MiB of address space: a program that exceeds it is killed and does not exit with code 2.
 #[cfg(unix)]
 fn tinta_within(mebibytes: usize, arguments: &[&str]) -> Output {
     let script = format!("ulimit -v {}; exec \"$@\"", mebibytes << 10);
@@ -20,7 +21,7 @@ fn tinta_within(mebibytes: usize, arguments: &[&str]) -> Output {
     command.output().unwrap()
 }
 
-/// Asserts exit code 2 and one line that contains `words` and nothing that commands a terminal.
+/// Asserts exit code 2 and one line that contains `words` and no terminal control characters.
 pub fn refused(output: &Output, words: &[&str]) {
     let message = String::from_utf8(output.stderr.clone()).unwrap();
     assert_eq!(output.status.code(), Some(2), "{message}");
@@ -46,7 +47,7 @@ fn png_chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
     [(data.len() as u32).to_be_bytes().as_slice(), &body, &(!remainder).to_be_bytes()].concat()
 }
 
-/// A PNG file of 200 bytes that says it has so many pixels.
+/// A PNG file of 200 bytes that declares so many pixels.
 fn bomb(width: u32, height: u32) -> Vec<u8> {
     let header = [width.to_be_bytes().as_slice(), &height.to_be_bytes(), &[8, 2, 0, 0, 0]].concat();
     let data = [0x78, 0x01].into_iter().chain([0; 120]).collect::<Vec<u8>>();
@@ -139,7 +140,7 @@ fn pictures_that_unfold_are_refused_before_they_do() {
         ("lie.png", bomb(16_384, 16_384), "bytes cannot hold 16384 x 16384 pixels"),
         ("lie.pcx", pcx, "bytes cannot hold 16384 x 16384 pixels"),
         ("lie.ppm", b"P6\n16384 16384\n255\n".to_vec(), "bytes cannot hold"),
-        // Long enough for its pixels if they were white, but not worth a gibibyte.
+        // Long enough for white pixels, but too short to justify a gibibyte.
         ("large.png", [bomb(16_384, 16_384), vec![0; 50_000]].concat(), "take 1024 MiB of memory"),
     ];
     for (name, bytes, sentence) in files {
@@ -147,7 +148,7 @@ fn pictures_that_unfold_are_refused_before_they_do() {
         let arguments = ["render", "builtin:ant", "-o", &out, "--style", "inking", "--ramp", &file];
         refused(&tinta_within(700, &arguments), &[name, sentence]);
     }
-    // As a model's texture it waits until a style asks for it.
+    // As a model's texture it is read only when a style needs it.
     folder.file("a.mtl", b"newmtl a\nmap_Kd bomb.png\n");
     let model = folder.file("a.obj", format!("mtllib a.mtl\n{SQUARE}usemtl a\nf 1/1 2/1 3/2\n").as_bytes());
     let scene = scene(load(&model, &LoadOptions::default()).unwrap().mesh);
@@ -241,7 +242,7 @@ fn pipes_and_folders_are_refused_wherever_a_file_is_read_and_nobody_waits_for_th
     one_line(&String::from_utf8(output.stderr).unwrap(), &["the material file results.jsonl is missing"]);
 }
 
-/// Cuts faces of so many corners, of which every other lies so deep, into so many triangles.
+/// Cuts faces of so many corners, every other one recessed by such a depth, into so many triangles.
 fn check_many_corners(faces: &[(u32, f64, usize)]) {
     for &(corners, depth, made) in faces {
         let mut text = String::new();
@@ -252,12 +253,12 @@ fn check_many_corners(faces: &[(u32, f64, usize)]) {
         }
         text.push('f');
         (1..=corners).for_each(|i| text.push_str(&format!(" {i}")));
-        // One triangle more, so that something is left to draw.
+        // One triangle more, to leave one to draw.
         text.push_str("\nv 0 0 1\nv 1 0 1\nv 0 1 1\nf -3 -2 -1\n");
         let options = LoadOptions { weld: 0.0, ..LoadOptions::default() };
         let mesh = read_bytes(text.as_bytes(), "face.obj", &[], &options).unwrap().mesh;
         let lost = mesh.defects.degenerate_triangles;
-        // One that is too long is said as a whole.
+        // A face with too many corners is reported as a whole.
         let is_left_out = made == 0;
         assert_eq!(mesh.defects.long_polygons, usize::from(is_left_out), "{corners} {depth}");
         let whole = if is_left_out { 1 } else { corners as usize - 1 };
@@ -308,7 +309,7 @@ fn corners_of_two_bytes_each_are_refused_before_they_take_more_than_twenty_times
     let bytes = file.stream_position().unwrap() as usize;
     drop(file);
     assert_eq!(bytes >> 20, 19);
-    // 20 times the file, the slack of docs/dev/limits.md, and what any process takes of its address space.
+    // 20 times the file, the slack of docs/dev/limits.md, and the basic address space of a process.
     let sentence =
         "corners.obj: its 4 vertices and 9999998 triangles take more than 20 times the file's size in memory";
     refused(&tinta_within(20 * 20 + 64 + 300, &["edges", &model]), &[sentence]);
@@ -355,7 +356,7 @@ fn lines_of_a_hundred_megabytes_are_read() {
 
 #[test]
 fn numbers_that_many_names_are_looked_up_by_do_not_multiply() {
-    // 16,000 materials, each used 20 times, by names of which every other is in no file.
+    // 16,000 materials, each used 20 times; every other name is in no file.
     let materials: String = (0..16_000).map(|i| format!("newmtl m{i}\n")).collect();
     let uses: String = (0..320_000).map(|i| format!("usemtl m{}\nf 1 2 3\n", i % 32_000)).collect();
     let text = format!("{SQUARE}mtllib a.mtl\n{uses}f 1 3 4\n");

@@ -1,4 +1,4 @@
-//! The improved variants of image-space ink: each does what its option says, and nothing else changes.
+//! The improved variants of image-space ink: each has its option's effect and no other.
 
 use crate::support::{BACKENDS, renderer, scene, scene_with};
 use glam::DVec3;

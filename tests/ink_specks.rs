@@ -1,4 +1,4 @@
-//! Ink without specks: what is left out, what stays, and that it measures no worse.
+//! Ink without specks: the removed ink, the kept ink, and measurements that do not get worse.
 
 use crate::support::{BACKENDS, public_models, renderer, scene, scene_with};
 use std::fmt::Write as _;
@@ -13,12 +13,12 @@ fn best(removes_specks: Option<bool>) -> Style {
     Style::Ink(Ink { quality: Quality::Best, removes_specks, ..Ink::default() })
 }
 
-/// Whether a pixel lies in a rectangle of sides up to this around which there is no ink: a speck, found another way than the
-/// shader's.
+/// Whether a pixel lies in a rectangle with sides up to this length and an empty frame: a speck, found independently of the
+/// shader's method.
 fn is_in_an_empty_frame(mask: &Picture, x: i64, y: i64, side: i64) -> bool {
     let is_ink = |x: i64, y: i64| {
         let Size { width, height } = mask.size;
-        // Ink at the edge goes on beyond it.
+        // Ink at the edge continues beyond it.
         let inside = |at: i64, length: u32| at.clamp(0, i64::from(length) - 1);
         mask.pixel(inside(x, width), inside(y, height))[3] > 0
     };
@@ -81,7 +81,7 @@ fn error(renderer: &mut Renderer, scene: &Scene, reference: &Reference, style: &
     Drawn::of_style(renderer, scene, style).unwrap().unwrap().error(reference, 2.0)
 }
 
-/// A prism of so many sides, and a cube whose edges are cut off at 45 degrees.
+/// A prism of so many sides, and a cube with edges cut off at 45 degrees.
 fn solids() -> [(&'static str, String); 2] {
     let mut prism = String::new();
     for (x, z) in (0..6).map(|corner| (f64::from(corner) * 60.0 + 15.0).to_radians().sin_cos()) {

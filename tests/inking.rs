@@ -91,7 +91,7 @@ fn ink_paint_and_both_are_the_texts_three_options() {
     let ink = draw(&mut renderer, &scene, style(true, PaintMode::None), Show::Final);
     assert_eq!(draw(&mut renderer, &scene, style(true, PaintMode::Ramp), Show::Tones).difference(&paint), Some(EQUAL));
     assert_eq!(draw(&mut renderer, &scene, style(true, PaintMode::Ramp), Show::Borders).difference(&ink), Some(EQUAL));
-    // Where there is no ink both is the paint, and where ink covers a pixel wholly both is the ink.
+    // Without ink, `both` is the paint; where ink covers a pixel wholly, `both` is the ink.
     let triples = both.pixels.chunks_exact(4).zip(paint.pixels.chunks_exact(4)).zip(ink.pixels.chunks_exact(4));
     let (mut painted, mut inked) = (0, 0);
     for ((both, paint), ink) in triples {
@@ -223,7 +223,7 @@ fn flat_shading_gives_each_side_of_a_box_the_tone_of_its_light() {
         let light = scene.camera.view_from_world().transpose().transform_vector3(DVec3::new(0.0, 1.0, 1.0).normalize());
         let (low, high) = mesh.bounds();
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
-            // With its own corners' normals Gouraud's mixes equal colours.
+            // With its own corners' normals Gouraud interpolation mixes equal colours.
             let middle = (low + high) * 0.5 + axis * (high - low) * 0.5;
             let (x, y) = pixel(&scene, middle);
             let bright = axis.dot(light).clamp(0.1, 0.9);
@@ -314,7 +314,7 @@ fn the_open_box_of_figure_6_has_red_outer_and_blue_inner_lines() {
 
 #[test]
 fn the_plan_says_what_the_text_does() {
-    // Two sides are seen: two upright edges and two at the bottom separate them from what is not.
+    // Two sides are visible: two upright edges and two at the bottom separate them from the hidden ones.
     let scene = scene("builtin:open-box", 100, 100);
     let text = Style::Inking(Inking { paint: PaintMode::None, ..Inking::default() }).plan(&scene, Show::Final).unwrap();
     let expected = "\
@@ -384,7 +384,7 @@ fn the_models_own_picture_is_multiplied_into_the_paint() {
         let flat = Inking { paint: PaintMode::Flat, has_texture: true, is_inked: false, ..Inking::default() };
         let picture = draw(&mut renderer, &scene, flat.clone(), Show::Final);
         let quarter = |x, y| picture.pixel(x, y)[..3].to_vec();
-        // In the middle of each texel the picture's colour times the object's.
+        // In the middle of each texel the picture's colour multiplied by the object's.
         let expected = [[255, 0, 0], [0, 255, 0], [0, 0, 128], [255, 255, 128]];
         for ((x, y), expected) in [(27, 27), (73, 27), (27, 73), (73, 73)].into_iter().zip(expected) {
             let close = quarter(x, y).iter().zip(expected).all(|(a, b)| a.abs_diff(b) <= 8);

@@ -1,5 +1,5 @@
-//! What comes with the program: completions tried in the shells themselves, manual pages by man's own checks, and the
-//! Debian package's list of files and of packages it needs.
+//! Files shipped with the program: completions tried in the shells themselves, manual pages by man's own checks, and the Debian
+//! package's list of files and of packages it needs.
 
 use crate::support::{root, skip};
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ fn lines(program: &str, words: &[&str], folder: &Path) -> Vec<String> {
     String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect()
 }
 
-/// Words as they are typed before the tab, and what must be among the answers. Some is not to be among them.
+/// Words typed before the tab, the expected answers, and one that must be absent.
 const TYPED: [(&str, &[&str], &str); 8] = [
     ("tinta ren", &["render"], "measure"),
     ("tinta render --st", &["--style"], "--filter"),
@@ -45,7 +45,7 @@ const TYPED: [(&str, &[&str], &str); 8] = [
     ("tinta completions ", &["bash", "zsh", "fish"], "cow.obj"),
 ];
 
-/// Checks answers, of which some shells leave out what stands on the line already.
+/// Checks answers; some shells omit the part already on the line.
 fn check(shell: &str, typed: &str, answers: &[String], expected: &[&str], not: &str) {
     let word = typed.rsplit([' ', '=']).next().unwrap();
     let answers: Vec<&str> = answers.iter().map(|line| line.split('\t').next().unwrap().trim_end()).collect();
@@ -68,7 +68,7 @@ fn bash_completes_commands_options_names_models_and_files() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("cow.obj"), "").unwrap();
     script(folder.path(), "bash");
-    // As readline does: words are taken apart at blanks, : and =; where nothing is answered, files are offered.
+    // Like readline: it splits words at blanks, : and =; without an answer it offers files.
     let complete = r#"
         source ./bash 2>/dev/null
         read -r _ function _ < <(complete -p tinta | sed 's/.*-F \([^ ]*\).*/x \1 x/')
@@ -154,7 +154,7 @@ fn the_debian_package_holds_what_there_is() {
     let mut targets = Vec::new();
     for asset in deb.lines().filter_map(|line| line.strip_prefix("    [\"")) {
         let [from, to] = [0, 2].map(|place| asset.split('"').nth(place).unwrap());
-        // What is built, what scripts/package makes, or what lies here.
+        // The file is built, made by scripts/package, or present here.
         let is_made = from.strip_prefix("target/deb/").is_some_and(|name| {
             let name = name.trim_end_matches("/*.1");
             package.contains(&format!("\"$made/{name}\""))
@@ -191,7 +191,7 @@ fn the_debian_package_needs_what_the_scripts_set_up() {
         .collect();
     let mut named: Vec<&str> = depended[1..].iter().chain(&recommended).map(String::as_str).collect();
     needed.sort_unstable();
-    // That of OSMesa is asked after before it is installed.
+    // OSMesa's package is checked before it is installed.
     needed.dedup();
     named.sort_unstable();
     assert_eq!(named, needed);

@@ -1,4 +1,4 @@
-//! Drawings whose faults are known are judged by them.
+//! Drawings with known faults are judged by them.
 
 use crate::cli::{Folder, refused_in_one_line, tinta};
 use crate::support::{renderer, scene};
@@ -46,7 +46,7 @@ fn the_exact_lines_are_right_and_what_is_done_to_them_shows_in_the_number_it_bel
     assert!(right.one_to_one.iter().all(|one| one.best_f1 > 0.98), "{:?}", right.one_to_one);
     assert!(right.hausdorff_95_px.unwrap() < 1.2 && right.hidden.drawn_px == 0.0);
 
-    // Moved by 3 px: nothing is where it should be within 1, and all of it within 4.
+    // Moved by 3 px: no line is within 1 of its place, and every line is within 4.
     let moved = picture(&within(&whole, "<g transform=\"translate(3 0)\">", "</g>"));
     let moved = judged(&moved, &reference, false);
     assert!(moved.lines.f1 < 0.85 && moved.one_to_one[0].f1 < 0.5, "{moved:?}");
@@ -63,14 +63,14 @@ fn the_exact_lines_are_right_and_what_is_done_to_them_shows_in_the_number_it_bel
     assert!((half.lines.recall - left / reference.length_px()).abs() < 0.02, "{half:?}");
     assert!(half.lines.precision > 0.999);
 
-    // With hidden lines as well.
+    // With hidden lines.
     let mut all = reference.lines.clone();
     all.segments.iter_mut().for_each(|segment| segment.is_visible = true);
     let hidden = judged(&picture(&lines::svg(&all, &DrawingSettings::default()).unwrap()), &reference, false);
     assert!(hidden.hidden.length_px > 50.0 && hidden.hidden.drawn_px > 0.9 * hidden.hidden.length_px, "{hidden:?}");
     assert!(hidden.lines.recall > 0.9999 && hidden.lines.precision < 0.8);
 
-    // Nothing, and everything.
+    // An empty picture, and a full one.
     let blank = |value: u8| Picture {
         size: Size { width: SIDE, height: SIDE },
         pixels: [value, value, value, 255].repeat(14_400),
@@ -79,7 +79,7 @@ fn the_exact_lines_are_right_and_what_is_done_to_them_shows_in_the_number_it_bel
     assert_eq!((empty.lines.recall, empty.lines.f1, empty.chamfer_px, empty.hidden.drawn_px), (0.0, 0.0, None, 0.0));
     let black = judged(&blank(0), &reference, false);
     assert_eq!((black.lines.recall, black.hidden.drawn_px), (1.0, black.hidden.length_px));
-    // As much of the picture as lies beside a line, those pixels left out that lie beside a soft crease alone.
+    // The share of the picture near a line, without pixels near a soft crease alone.
     let middles =
         (0..SIDE * SIDE).map(|index| DVec2::new(f64::from(index % SIDE) + 0.5, f64::from(index / SIDE) + 0.5));
     let (mut near, mut counted) = (0.0, 0.0);
@@ -202,7 +202,7 @@ fn a_camera_of_another_program_is_read_from_its_file() {
     assert!(right > 0.99 && judged(&[], 1) < 0.8, "from another camera it is not scored");
     for file in [&record, &matrix, &picture] {
         assert!((f1(&["--camera", file]) - right).abs() < 1e-6, "{file}");
-        // A drawing from it, in a look that has a view of its own.
+        // A drawing from it, in a look with another view.
         let again = folder.path("again.png");
         let words = ["render", "builtin:gear", "-o", &again, "--camera", file, "--size", "150x100", "--look", "print"];
         let output = tinta(&words);
@@ -218,7 +218,7 @@ fn whatever_an_svg_holds_is_drawn_or_refused() {
     let (_, reference) = subject("builtin:open-box");
     let whole = svg(&reference);
     let right = judged(&picture(&whole), &reference, false).lines.f1;
-    // Other elements around and beside the lines change nothing of them.
+    // Other elements around and beside the lines do not affect them.
     for (before, after) in [
         ("<text x=\"9\" y=\"9\">words</text>", ""),
         ("<g transform=\"translate(50 50) scale(2)\"><g transform=\"scale(0.5) translate(-50 -50)\">", "</g></g>"),
@@ -323,7 +323,7 @@ fn a_shaded_picture_and_one_from_elsewhere_are_said_to_be_so_instead_of_scored()
     let shaded = drawn("shaded.png", &["--style", "phong"]);
     let elsewhere = drawn("elsewhere.png", &["--style", "lines", "--view", "140,-20"]);
     let right = drawn("right.png", &["--style", "lines"]);
-    // Another view's lines cross those of this one here and there, so that numbers without the doubt mislead.
+    // Another view's lines cross the lines of this one here and there: numbers without the doubt mislead.
     for (drawing, sentence) in [
         (&shaded, "shaded.png: this looks like a shaded picture, with "),
         (&elsewhere, "elsewhere.png: this looks like another camera or model, as lines and ink agree by "),

@@ -1,4 +1,4 @@
-//! Memory and GL objects over many frames; in a process of its own, because other tests' memory would count too.
+//! Memory and GL objects over many frames; in a separate process, because other tests' memory would count too.
 
 use std::sync::{Arc, Mutex};
 use tinta::gl::context::witnesses;
@@ -9,8 +9,8 @@ use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, St
 /// 1,000 frames as after 6,000; a frame of one style that leaked a 64 x 64 RGBA picture would need 4,800.
 const ALLOWED_KIB: u64 = 2048;
 
-/// By how much memory grows from one equal span of work to the next, KiB, where it grows in three of them one after another:
-/// what leaks does, the allocator's level moves once.
+/// The growth of memory between equal spans of work, KiB, if it grows in three consecutive spans: a leak does, while the
+/// allocator's level moves once.
 fn growth(mut memory_after_a_span: impl FnMut() -> u64) -> u64 {
     let (mut before, mut least) = (memory_after_a_span(), u64::MAX);
     for _ in 0..3 {
@@ -35,7 +35,7 @@ fn growth_is_what_goes_on_and_not_what_moves_once() {
     assert_eq!(of(&[5_000, 4_000]), 0);
 }
 
-/// Held by each test here, so that none counts another's memory.
+/// Held by each test here, to keep one from counting another's memory.
 static ALONE: Mutex<()> = Mutex::new(());
 
 /// Draws so many frames of each style at a time, and looks at memory so often before and after.
@@ -45,7 +45,7 @@ fn check_frames(frames_at_once: usize, looks: usize) {
     let settings = SceneSettings { size: Size { width: 64, height: 64 }, ..SceneSettings::default() };
     let scene = Scene::new(vec![Arc::new(mesh)], &settings).unwrap();
     // Sand needs a model with a texture. Charcoal's textures, 3 MiB uploaded anew after every other style, find another place in
-    // the allocator each time, so it is looked at alone; made once, as an animation does, for it keeps its textures.
+    // the allocator each time: charcoal is tested alone, with its textures made once as in an animation.
     let names = StyleName::of_passes().map(|(_, name)| name);
     let others = names.filter(|name| ![StyleName::Sand, StyleName::Charcoal].contains(name)).map(Style::named);
     let groups = [others.chain(improved()).collect::<Vec<_>>(), vec![Style::named(StyleName::Charcoal)]];
@@ -65,7 +65,7 @@ fn check_frames(frames_at_once: usize, looks: usize) {
         });
         let objects = frames(5);
         assert!(objects > 0);
-        // The least of many looks is what is held.
+        // The minimum of many samples is the memory held.
         let least = || {
             let look = |_| {
                 assert_eq!(frames(frames_at_once), objects);
@@ -162,7 +162,7 @@ fn check_switches(at_once: usize, looks: usize) {
     });
     let objects = switches(at_once);
     assert!(objects > 0);
-    // Charcoal's textures find another place in the allocator each time: the least of many looks is what is held.
+    // Charcoal's textures find another place in the allocator each time: the minimum of many samples is the memory held.
     let least = || {
         let look = |_| {
             assert_eq!(switches(at_once), objects);
@@ -221,7 +221,7 @@ fn check_worker(looks: usize, has_charcoal: bool) {
         }
         resident_kib_of(&worker.id().to_string())
     };
-    // Charcoal's textures, 3 MiB, find another place in the allocator each time: the least of many looks is what is held.
+    // Charcoal's textures, 3 MiB, find another place in the allocator each time: the minimum of many samples is the memory held.
     let mut least = || (0..looks).map(|_| work(18)).min().unwrap();
     // Until the driver has compiled all.
     least();
@@ -245,7 +245,7 @@ fn a_worker_of_a_batch_does_hundreds_of_jobs_in_the_memory_of_the_first() {
     check_worker(8, true);
 }
 
-/// What needs objects of its own: drawn textures, a copy of the depth, a larger surface.
+/// Styles with additional objects: drawn textures, a copy of the depth, a larger surface.
 fn improved() -> [Style; 5] {
     let cartoon = |map_encoding| Style::ThreePass(Cartoon { map_encoding, ..Cartoon::default() });
     let best = Style::Ink(Ink { quality: Quality::Best, ..Ink::default() });

@@ -1,9 +1,9 @@
-//! Every crate that goes into tinta has a licence its users can live with: what deny.toml allows, checked without cargo deny.
+//! The licence of every crate in tinta is acceptable to its users: the list in deny.toml, checked without cargo deny.
 
 use crate::support::root;
 use std::process::Command;
 
-/// The allowed licences, read from deny.toml so that there is one list.
+/// The allowed licences, read from deny.toml to keep a single list.
 fn allowed() -> Vec<String> {
     let text = std::fs::read_to_string(root().join("deny.toml")).unwrap();
     let list = text.split("allow = [").nth(1).and_then(|rest| rest.split(']').next()).unwrap();
@@ -45,7 +45,7 @@ fn every_dependency_has_an_allowed_licence_and_comes_from_the_registry() {
     for package in packages {
         let (name, licence) = package.split_once('|').unwrap();
         assert!(is_satisfied(licence, &allowed), "{name} has the licence {licence:?}");
-        // A crate from the registry is named with its version only, any other with where it comes from.
+        // A crate from the registry is named with its version only, any other with its source.
         let elsewhere = name.contains("(/") || name.contains("://");
         let own = ["tinta ", "tinta-geometry ", "tinta-cli ", "tinta-lab ", "tinta-npr ", "tinta-web "]
             .iter()

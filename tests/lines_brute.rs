@@ -1,5 +1,5 @@
-//! Visible lines of random scenes against brute force: every edge classified, clipped and looked at point by point, with
-//! formulas of their own in world space.
+//! Visible lines of random scenes against brute force: every edge classified, clipped and tested point by point, with separate
+//! formulas in world space.
 
 use crate::lines_random::random_scene;
 use crate::lines_support::{length, pierce, published_lines, scene_of, scenes_wanted};
@@ -26,7 +26,7 @@ struct Brute<'a> {
     /// Object and position numbers of each corner.
     numbers: Vec<(u32, [u32; 3])>,
     edges: BTreeMap<EdgeKey, Vec<usize>>,
-    /// The ends of the pieces that are said to be seen.
+    /// The ends of the pieces reported as visible.
     seen: Vec<[DVec2; 2]>,
 }
 
@@ -34,11 +34,11 @@ struct Brute<'a> {
 struct Cut {
     faces: [usize; 2],
     ends: [DVec3; 2],
-    /// Whether a corner of either touches the other, so that by the rule there may be no line, or one that ends there.
+    /// Whether a corner of either touches the other; by the rule there may be no line, or one that ends there.
     touches: bool,
 }
 
-/// What the comparison found.
+/// The comparison's results.
 #[derive(Debug, Default, Clone, Copy)]
 struct Agreement {
     length_px: f64,
@@ -72,15 +72,15 @@ impl<'a> Brute<'a> {
         matches!(self.scene.camera.projection, Projection::Parallel { .. })
     }
 
-    /// From a point to the eye, with a length beyond which nothing hides it.
+    /// The ray from a point to the eye, limited to the length that can hide it.
     fn to_eye(&self, point: DVec3) -> DVec3 {
         let backward = self.scene.camera.backward();
         let from_point = self.scene.camera.eye - point;
         if self.is_parallel() { backward * from_point.dot(backward) } else { from_point }
     }
 
-    /// Whether anything lies between a point and the eye, behind the near plane, but for some faces; `None` where only a
-    /// face does that the point touches.
+    /// Whether anything lies between a point and the eye, behind the near plane, ignoring some faces; `None` where only a face
+    /// that the point touches does.
     fn is_blocked(&self, point: DVec3, line_length: f64, skip: impl Fn(usize) -> bool) -> Option<bool> {
         let mut touches = false;
         let camera = &self.scene.camera;
@@ -95,7 +95,7 @@ impl<'a> Brute<'a> {
                 let [a, b, c] = *corners;
                 let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
                 let distance = (b - a).cross(c - a).normalize().dot(point - a).abs();
-                // A piece is judged in its middle: what touches there may be twice as far at its end.
+                // A piece is judged in its middle: the distance at a contact may be twice as large at its end.
                 if share > nearest && distance > 2.01 * CONTACT * longest.min(line_length) {
                     return Some(true);
                 }
@@ -105,7 +105,7 @@ impl<'a> Brute<'a> {
         (!touches).then_some(false)
     }
 
-    /// The class of an edge by the default settings, if it is wanted.
+    /// The class of an edge by the default settings, if drawings include that class.
     fn class(&self, faces: &[usize], [a, b]: [u32; 2]) -> Option<Class> {
         let &[first, second] = faces else {
             return Some(if faces.len() == 1 { Class::Boundary } else { Class::NonManifold });
@@ -142,7 +142,7 @@ impl<'a> Brute<'a> {
         DVec2::new(1.0 + clip.x / clip.w, 1.0 - clip.y / clip.w) * 0.5 * size
     }
 
-    /// The ends, in pixels, of what of a line is in the picture and between the planes.
+    /// The ends, in pixels, of the part of a line inside the picture and between the planes.
     fn clipped(&self, ends: [DVec3; 2]) -> Option<[DVec2; 2]> {
         let [a, b] = ends.map(|end| self.clip(end));
         let (mut from, mut to) = (0.0f64, 1.0f64);
@@ -197,7 +197,7 @@ impl<'a> Brute<'a> {
                     let touches = touch(f, g, &shared) || touch(g, f, &shared) || a.distance(b) < 2.0 * CONTACT;
                     cuts.push(Cut { faces: [first, second], ends: [a, b], touches });
                 } else if touch(f, g, &shared) || touch(g, f, &shared) {
-                    // Whatever line there may be lies within the smaller's reach.
+                    // Any such line lies within the smaller's reach.
                     cuts.push(Cut { faces: [first, second], ends: [f[0], f[1]], touches: true });
                 }
             }
@@ -243,7 +243,7 @@ impl<'a> Brute<'a> {
             };
             of_end(ends[0]).max(of_end(ends[1]))
         };
-        // Of lines that cannot be told apart in the picture one is drawn.
+        // Of overlapping lines in the picture one is drawn.
         let covers = |cover: usize, cut: usize| {
             let pair = images[cover].zip(images[cut]);
             pair.is_some_and(|(cover, cut)| lies_on(cut, &cover) < SAME_LINE_PX)
@@ -265,7 +265,7 @@ impl<'a> Brute<'a> {
         for piece in intersections {
             let places = (0..cuts.len()).filter_map(|cut| Some((lies_on(piece.ends_px, &images[cut]?), cut)));
             let places: Vec<(f64, usize)> = places.filter(|(distance, _)| *distance < SAME_LINE_PX).collect();
-            // Where it lies on several it is one of them.
+            // A point on several lines belongs to one of them.
             let looks = places.iter().map(|(_, cut)| {
                 let (faces, mut look) = (cuts[*cut].faces, agreement);
                 self.look(piece, cuts[*cut].ends, |face| faces.contains(&face), random, &mut look);
@@ -279,7 +279,7 @@ impl<'a> Brute<'a> {
         agreement
     }
 
-    /// Whether a piece that is seen runs through a pixel, as well as two lines on one another can be told apart.
+    /// Whether a visible piece runs through a pixel, within the tolerance of overlapping lines.
     fn is_drawn_over(&self, px: DVec2) -> bool {
         let touch_px = 2.0 * TOUCH * f64::from(self.scene.size.width);
         self.seen.iter().any(|[a, b]| {
@@ -303,7 +303,7 @@ impl<'a> Brute<'a> {
             let at = from + (to - from) * (place_px / length_px);
             let point = self.point_at(ends, at);
             self.is_blocked(point, ends[0].distance(ends[1]), &is_own) == Some(piece.is_visible)
-                // By the rule for lines on one another the nearest one is drawn.
+                // By the rule for overlapping lines the nearest one is drawn.
                 && (piece.is_visible || !self.is_drawn_over(at))
         };
         let count = (length_px * 0.7).clamp(6.0, 100.0).ceil();
@@ -341,7 +341,7 @@ fn touch(one: [DVec3; 3], [a, b, c]: [DVec3; 3], shared: &[DVec3]) -> bool {
     one.iter().any(near)
 }
 
-/// Asserts that what is said to be seen of a scene is what rays see.
+/// Asserts that a scene's visible pieces agree with rays.
 pub fn assert_as_rays_see(scene: &Scene, what: &str) {
     let found = published_lines(scene);
     let agreement = Brute::new(scene, &found).compare(&found, &mut Random::seeded(1));
@@ -367,7 +367,7 @@ fn check(kind: u32, seed: u64) -> Agreement {
 /// How many random scenes the quick tests draw of each kind.
 const FEW: u64 = 8;
 
-/// How many the exhaustive ones draw, or as many as `TINTA_LINE_SCENES` says.
+/// The number of scenes of the exhaustive tests: the default, or `TINTA_LINE_SCENES`.
 fn many() -> u64 {
     scenes_wanted().unwrap_or(70)
 }
@@ -476,7 +476,7 @@ fn what_is_seen_of_the_ant_and_the_gear_is_what_rays_see() {
 
 #[test]
 fn lines_that_cannot_be_told_apart_in_the_picture_are_drawn_once() {
-    // Of 20,000 random scenes the two with cuts that near to one another.
+    // Two of 20,000 random scenes have cuts that close to one another.
     check(3, 287_756_342_340_050_861);
     check(3, 7_113_230_251_776_330_223);
 }

@@ -1,4 +1,4 @@
-//! Visible lines of scenes that are hardly any: no panic, no number that is none, no endless work.
+//! Visible lines of degenerate scenes: no panic, no NaN, no endless work.
 
 use crate::lines_support::{lines, lines_with, only, scene_of, total, view};
 use crate::shapes::{Random, cuboid, icosphere, joined, mesh};
@@ -104,7 +104,7 @@ fn an_eye_in_the_plane_of_a_face_or_on_the_line_of_an_edge_sees_lines_all_the_sa
                 ..CameraSettings::default()
             };
             let settings = SceneSettings { camera, ..SceneSettings::default() };
-            // Straight up or down, or no distance at all: refused by the camera.
+            // Straight up or down, or zero distance: refused by the camera.
             let Ok(scene) = Scene::new(vec![Arc::new(solid.clone())], &settings) else { continue };
             lines(&scene);
         }
@@ -121,7 +121,7 @@ fn check_boxes_in_boxes(count: i32, factors: &[f64]) {
                 })
                 .collect();
             let found = lines(&scene_of(vec![joined(&boxes)], view("iso", parallel)));
-            // Nine edges of the outermost; whatever is not a point within it is hidden.
+            // Nine edges of the outermost; inside it everything except points is hidden.
             assert_eq!(found.segments.iter().filter(|segment| segment.is_visible).count(), 9, "{factor} {parallel}");
         }
     }

@@ -67,7 +67,7 @@ pub fn extruded(polygon: &[(f64, f64)], from: f64, to: f64) -> Mesh {
     mesh(ring(from).chain(ring(to)).collect(), triangles)
 }
 
-/// The axes in another order, so that what is made along x lies along any.
+/// The axes in another order, to let shapes made along x lie along any axis.
 fn with_axes(random: &mut Random, meshes: Vec<Mesh>) -> Vec<Mesh> {
     let turn = random.one_of(&[
         DMat3::IDENTITY,
@@ -78,7 +78,7 @@ fn with_axes(random: &mut Random, meshes: Vec<Mesh>) -> Vec<Mesh> {
     meshes.into_iter().map(turned).collect()
 }
 
-/// Several meshes as objects of their own, or as one, its corners welded; some of them turned inside out.
+/// Several meshes as separate objects, or as one, its corners welded; some of them turned inside out.
 fn together(random: &mut Random, meshes: Vec<Mesh>) -> Vec<Mesh> {
     let mut meshes = with_axes(random, meshes);
     if random.number() < 0.2 {
@@ -191,7 +191,7 @@ fn sheets(random: &mut Random) -> Scene {
     scene_of(sheets, camera)
 }
 
-/// Steps of which one is seen edge-on from some side: one solid whose faces go up and down.
+/// Steps, one of them seen edge-on from some side: one solid whose faces go up and down.
 fn stairs(random: &mut Random) -> Scene {
     let mut profile = vec![(0.0, 0.0)];
     for _ in 0..random.whole(2, 7) {
@@ -199,7 +199,7 @@ fn stairs(random: &mut Random) -> Scene {
         let (rise, run) = random.one_of(&[(0, 1), (1, 0), (1, 1), (2, 1), (-1, 1), (0, 2), (1, 2)]);
         profile.push((y + f64::from(rise), z + f64::from(run)));
     }
-    // A strip of that profile, closed below by as many boxes' worth of quads.
+    // A strip of that profile, closed below by the corresponding quads.
     let count = profile.len() as u32;
     let floor = profile.iter().map(|(y, _)| *y).fold(f64::INFINITY, f64::min) - 1.0;
     let mut positions = Vec::new();

@@ -29,7 +29,7 @@ fn family(name: &str) -> &'static Family {
     FAMILIES.iter().find(|family| family.name == name).unwrap()
 }
 
-/// Only what is seen, which is what most drawings ask for.
+/// Only the visible lines, the usual request of a drawing.
 fn seen(scene: &Scene) -> VisibleLines {
     lines_with(scene, &LineSettings { finds_hidden: false, ..LineSettings::default() })
 }
@@ -56,7 +56,8 @@ fn every_family_has_about_as_many_triangles_as_asked_and_corners_that_there_are(
 fn what_any_side_of_a_line_shows_is_drawn_of_every_family() {
     let mut random = Random::seeded(26);
     let mut failures = Vec::new();
-    // Of twins a part of an edge lies so near to another's face for so long that it touches it, and is hidden with what is behind.
+    // In `twins`, a part of an edge lies so close to another's face for so long that it touches it, and is hidden with the parts
+    // behind.
     for family in FAMILIES.iter().filter(|family| family.name != "twins") {
         let scene = scene(family, 200);
         for found in [published_lines(&scene), seen_as_published(&scene)] {
@@ -125,7 +126,7 @@ fn the_same_boxes_are_looked_at_every_time() {
     assert_eq!(compared(), compared());
 }
 
-/// Lines of a scene that takes a while, a part of them.
+/// A scene's lines, interrupted after a part of them.
 fn part(scene: &Scene, settings: &LineSettings) -> VisibleLines {
     // However fast the machine is, one of these times is over in the midst of it.
     let mut milliseconds = 1.0;
@@ -140,12 +141,12 @@ fn part(scene: &Scene, settings: &LineSettings) -> VisibleLines {
     }
 }
 
-/// What a piece is of: a mesh edge, or an intersection by where its line runs.
+/// The source of a piece: a mesh edge, or an intersection by the place of its line.
 fn line_of(segment: &LineSegment) -> Option<(u32, [u32; 2])> {
     segment.edge.map(|edge| (segment.object, edge))
 }
 
-/// Hidden pieces as they were before other lines were drawn in place of parts of them.
+/// Hidden pieces before parts of them were replaced by other lines.
 fn uncut(segments: Vec<LineSegment>) -> Vec<LineSegment> {
     let mut uncut: Vec<LineSegment> = Vec::new();
     let mut was_covered = false;
@@ -272,7 +273,7 @@ fn leaving_out_specks_ends_when_asked_and_goes_on_a_little_where_a_part_is_wante
     assert!(matches!(ended(&Progress::within(Duration::ZERO)), Err(Error::OutOfTime { .. })));
     let whole = found.without_specks(&settings).unwrap();
     assert!(whole.segments.len() < found.segments.len(), "nothing to leave out");
-    // Whether a tenth of the time more is enough depends on the machine; what there is then does not.
+    // Whether a tenth more time suffices depends on the machine; the number of lines found by then does not.
     let part = ended(&Progress::within_or_part(Duration::from_secs(3_600))).unwrap();
     assert_eq!((part.segments, part.has_specks), (whole.segments, false));
     let partly = Progress::within_or_part(Duration::ZERO);
@@ -280,7 +281,7 @@ fn leaving_out_specks_ends_when_asked_and_goes_on_a_little_where_a_part_is_wante
     assert!(matches!(ended(&partly), Err(Error::Cancelled)));
 }
 
-/// A square lattice of so many lines each way through the whole picture, cut where they cross, and as many long lines across it.
+/// A square lattice of so many lines each way through the whole picture, cut at the crossings, and as many long lines across it.
 fn lattice_with_long_lines(count: usize) -> VisibleLines {
     let at = |number: usize| 10.0 + 480.0 * number as f64 / count as f64;
     let mut segments = Vec::new();
@@ -312,8 +313,8 @@ fn specks_are_looked_for_in_time_that_follows_the_lines() {
     assert!(many <= 4.0 * few.max(50.0), "{few} boxes for each line, then {many}");
 }
 
-/// While a phase of the lines of a scene lasts: which share of its steps is done, and which share of the boxes is looked at that the whole
-/// phase will have. Empty where it is over before it is seen.
+/// During a phase of a scene's lines: the share of its steps done, and the share of the phase's boxes tested. Empty if the phase
+/// ends before a sample.
 fn shares_on_the_way(scene: &Scene, phase: Phase) -> Vec<[f64; 2]> {
     let progress = Progress::default();
     let mut seen: Vec<(usize, usize, u64)> = Vec::new();
@@ -330,7 +331,7 @@ fn shares_on_the_way(scene: &Scene, phase: Phase) -> Vec<[f64; 2]> {
             std::thread::yield_now();
         }
     });
-    // Where nothing is compared it takes no time.
+    // A phase without comparisons takes no time.
     let is_whole = |(done, total, all): &&(usize, usize, u64)| done == total && *all > 0;
     let Some(&(_, _, all)) = seen.last().filter(is_whole) else { return Vec::new() };
     let share =
@@ -346,7 +347,7 @@ fn the_time_left_follows_from_what_is_done() {
         for phase in [Phase::Intersections, Phase::Lines] {
             for [done, compared] in shares_on_the_way(&scene, phase) {
                 if (0.25..=0.9).contains(&done) {
-                    // What remains as it looks from there, and as it is: boxes stand for time.
+                    // The remaining work as estimated there, against the actual one: boxes stand for time.
                     let ratio = compared * (1.0 - done) / done / (1.0 - compared).max(1e-9);
                     assert!((0.5..=2.0).contains(&ratio), "{name} {phase:?}: {ratio} times what remains at {done}");
                     places += 1;
@@ -354,7 +355,7 @@ fn the_time_left_follows_from_what_is_done() {
             }
         }
     }
-    // Of the soup alone there are some thousand lines, and looking at them takes no time beside that of a line.
+    // The soup alone has some thousand lines, and sampling them takes no time compared with computing one.
     assert!(places > 20, "{places}");
 }
 
@@ -381,7 +382,7 @@ fn triangles_of_one_plane_seen_edge_on_are_one_line_whose_cuts_are_those_of_what
     assert!(extent > 400.0 && extent - drawn < 0.01, "{drawn} px of {extent}");
     let twice = ranges.iter().map(|[from, to]| to - from).sum::<f64>() - drawn;
     assert!(twice < 0.05, "{twice} px are drawn twice");
-    // All 900 edges lie on one another: each is asked once for all, not once for each of their ends.
+    // All 900 edges overlap: each is tested once for all, not once for each of their ends.
     let each = found.times.compared as f64 / 900.0;
     println!("{each:.0} boxes for each edge, {} pieces", found.segments.len());
     assert!(each < 600.0, "{each:.0} boxes for each edge");

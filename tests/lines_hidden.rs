@@ -1,4 +1,4 @@
-//! Hidden lines as drawings have them: none under a visible line, and each once; the same whichever way a scene is written.
+//! Hidden lines as drawn: never under a visible line, and each once; independent of the order in which a scene is written.
 
 use crate::lines_support::{assert_near, length, lines, px, scene_of, shuffled, view};
 use crate::shapes::{Random, cuboid, joined, mesh};
@@ -10,7 +10,7 @@ use tinta::{DrawingSettings, Mesh, Scene};
 
 const NEAR: f64 = 1e-6;
 
-/// The length of the hidden lines that are drawn, and of those in whose place others are.
+/// The length of the hidden lines drawn, and of those replaced by others.
 fn hidden(lines: &VisibleLines) -> [f64; 2] {
     [false, true].map(|is_covered| {
         let of_it = lines.segments.iter().filter(|segment| !segment.is_visible && segment.is_covered == is_covered);
@@ -42,26 +42,26 @@ fn no_hidden_line_is_drawn_under_a_visible_one() {
     assert_hidden(&from(cube(), "front"), [0.0, 4.0], "the back of a cube lies under its front");
     let sheet = |z: f64| mesh([[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]].map(DVec3::from).into(), vec![[0, 1, 2]]);
     assert_hidden(&from(vec![sheet(0.0), sheet(-1.0)], "front"), [0.0, 2.0 + 2f64.sqrt()], "one sheet behind another");
-    // A beam under a slab: of its eight long and short edges and four upright ones only the rectangle is drawn.
+    // A beam under a slab: of its eight long and short edges and four upright ones the drawing has only the rectangle.
     let slab = bar([0.0, 1.0, 0.0], [4.0, 1.2, 4.0]);
     let beam = bar([0.5, 0.5, 1.9], [3.5, 0.7, 2.1]);
     assert_hidden(&from(vec![slab.clone(), beam.clone()], "top"), [6.4, 16.0 + 6.4], "a beam under a slab");
-    // A second one below, shorter at one end: what of it does not lie under the first.
+    // A second one below, shorter at one end: the part that does not lie under the first.
     let lower = bar([0.53, 0.0, 1.9], [3.5, 0.2, 2.1]);
     assert_hidden(&from(vec![slab, beam, lower], "top"), [6.4 + 0.2, 16.0 + 6.4 + 6.34 * 2.0 - 0.2], "two beams");
 }
 
 #[test]
 fn a_hidden_line_is_drawn_from_where_no_other_lies_on_it() {
-    // A wide sheet behind a narrow one: their lower rims lie on one another, then the wide one's goes on.
+    // A wide sheet behind a narrow one: their lower rims overlap, then the wide one's continues.
     let sheet = |x: f64, y: f64, z: f64| {
         mesh([[0.0, 0.0, z], [x, 0.0, z], [x, y, z], [0.0, y, z]].map(DVec3::from).into(), vec![[0, 1, 2], [0, 2, 3]])
     };
     let before = sheet(6.0, 6.0, 2.0);
     let scene = scene_of(vec![before, sheet(2.0, 3.0, 1.0), sheet(5.0, 2.0, 0.0)], view("front", true));
     let found = lines(&scene);
-    // Of both the left and the lower rim lie under the first one's. What is left of the narrow one are its right and upper rim,
-    // of the wide one likewise; they cross, and neither lies on the other.
+    // The left and the lower rim of both lie under the first one's. The right and upper rim remain of each; they cross without
+    // overlapping.
     let unit = unit(&scene, DVec3::X);
     assert_near(hidden(&found)[0], (3.0 + 2.0 + 2.0 + 5.0) * unit, NEAR, "drawn");
     let drawn: f64 = drawn_layers(&found, &DrawingSettings { hidden: Hidden::Dashed, ..DrawingSettings::default() })
@@ -116,7 +116,7 @@ fn what_is_covered_is_in_no_path_and_no_file() {
     }
 }
 
-/// Length of what is drawn hidden by class.
+/// Length of the hidden lines drawn, by class.
 fn drawn_by_class(lines: &VisibleLines) -> BTreeMap<Class, f64> {
     let mut sums = BTreeMap::new();
     for segment in lines.segments.iter().filter(|segment| !segment.is_visible && !segment.is_covered) {
@@ -141,7 +141,7 @@ fn blocks(random: &mut Random) -> Vec<Mesh> {
 fn cut_otherwise(block: &Mesh) -> Mesh {
     let pairs = block.triangles.chunks(2);
     let cut = pairs.flat_map(|pair| {
-        // Of the faces 0 1 2 and 0 2 3 the diagonal is 0 to 2; of 0 1 3 and 1 2 3 it is the other.
+        // In the faces 0 1 2 and 0 2 3 the diagonal is 0 to 2; in 0 1 3 and 1 2 3 it is the other.
         let [first, second] = [pair[0], pair[1]];
         let common: Vec<u32> = first.into_iter().filter(|corner| second.contains(corner)).collect();
         let apex = |of: [u32; 3]| of.iter().position(|corner| !common.contains(corner)).unwrap();
@@ -192,7 +192,7 @@ fn the_hidden_lines_that_are_drawn_do_not_change_with_how_a_scene_is_written() {
 
 #[test]
 fn one_object_or_several_have_the_same_hidden_lines() {
-    // Apart, so that no edge gets a third face when corners are joined.
+    // Apart, to prevent a third face on an edge when corners are joined.
     let parts = [
         bar([0.0, 0.0, 0.0], [4.0, 3.0, 1.0]),
         bar([1.0, 1.0, -2.0], [3.0, 2.0, -1.0]),

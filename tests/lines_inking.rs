@@ -21,7 +21,7 @@ const SHARE: f64 = 0.99;
 
 const TOLERANCE_PX: u32 = 2;
 
-/// What GL draws knows no intersections, and the exact lines are asked for none.
+/// GL draws no intersections, and this test excludes them from the exact lines.
 const CLASSES: ClassSet = ClassSet::of(&[Class::Boundary, Class::NonManifold, Class::Silhouette, Class::Crease]);
 
 #[test]
@@ -54,7 +54,7 @@ fn the_svg_of_public_models_has_the_ink_that_gl_draws() {
     assert!(failures.is_empty(), "below {SHARE}; see {}: {failures:#?}", failure_folder().display());
 }
 
-/// Of scenes without T-junctions, which GL draws as they are.
+/// Scenes without T-junctions, which GL draws unchanged.
 fn check_outlines(seeds: u64) {
     let mut renderer = renderer(BACKENDS[0]);
     let mut failures = Vec::new();
@@ -124,7 +124,7 @@ fn shares_by(renderer: &mut Renderer, scene: &Scene, name: &str, silhouette: Sil
     let of_gl = renderer.render(scene, &Style::Inking(inking)).unwrap();
     let settings = LineSettings { classes: CLASSES, silhouette, ..LineSettings::as_published() };
     let lines = VisibleLines::of(scene, &settings).unwrap();
-    // GL leaves nothing out.
+    // GL draws short lines too.
     let all = DrawingSettings { min_length: Some(Length::Px(0.0)), ..DrawingSettings::default() };
     let pixels = rendered(&svg(&lines, &all).unwrap());
     let size = Size { width: pixels.width(), height: pixels.height() };

@@ -1,4 +1,4 @@
-//! The visible lines do not change with what does not change the picture.
+//! The visible lines stay the same under changes that leave the picture the same.
 
 use crate::lines_support::{explicit, length, lines, scene_of, shuffled, view};
 use crate::shapes::{Random, cuboid, icosphere};
@@ -10,7 +10,7 @@ use tinta::edges::Class;
 use tinta::lines::VisibleLines;
 use tinta::{CameraSettings, LoadOptions, Mesh, Scene, SceneSettings, load};
 
-/// The scene of a model, with the camera given in numbers so that it can be moved with it.
+/// The scene of a model, with the camera given in numbers to move it with the model.
 fn seen(mesh: &Mesh, camera: &CameraSettings) -> Scene {
     scene_of(vec![mesh.clone()], camera.clone())
 }
@@ -107,7 +107,7 @@ fn rolling_the_camera_in_an_axis_view_of_flat_faces_changes_no_line() {
         for direction in ["front", "right", "top"] {
             for parallel in [false, true] {
                 let scene = seen(&mesh, &view(direction, parallel));
-                // From farther away, so that the corners stay in the picture.
+                // From farther away, to keep the corners in the picture.
                 let mut camera = explicit(&scene, parallel);
                 let away = scene.camera.eye - scene.camera.target;
                 camera.eye = Some(scene.camera.target + away * 2.0);
@@ -151,7 +151,7 @@ fn lines_of_any_size_are_the_same() {
 fn lines_a_million_units_away_are_the_same_as_far_as_numbers_reach() {
     for (name, mesh) in models() {
         for parallel in [false, true] {
-            // Rounded so that the way there loses nothing.
+            // Rounded to make the conversion exact.
             let positions = mesh.positions.iter().map(|p| (*p * 65536.0).round() / 65536.0).collect();
             let mesh = Mesh { positions, ..mesh.clone() };
             let expected = lines(&seen(&mesh, &view("33,17", parallel)));

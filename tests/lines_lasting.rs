@@ -7,7 +7,7 @@ use tinta::edges::Class;
 use tinta::lines::LineSettings;
 use tinta::{LoadOptions, Mesh, load};
 
-/// The length of the visible creases, all of them and those that last.
+/// The length of the visible creases, of all and of the lasting ones.
 fn creases(mesh: Mesh) -> [f64; 2] {
     let scene = scene_of(vec![mesh], view("33,17", true));
     [false, true].map(|lasting_creases| {
@@ -28,7 +28,7 @@ fn all_creases_of_parts_last_and_the_folds_of_a_bumpy_ball_do_not() {
     let steps = cuboid(DVec3::new(0.0, 0.1, 0.0), DVec3::splat(1.0));
     let [all, lasting] = creases(joined(&[plate, steps]));
     assert_eq!(all, lasting, "a step");
-    // Every vertex of a fine ball moved by chance: folds everywhere, none of which goes on.
+    // Every vertex of a fine ball moved at random: folds everywhere, none of them continuous.
     let mut random = Random(31 << 40 | 5);
     let ball = icosphere(4);
     let positions = ball.positions.iter().map(|point| *point * (1.0 + 0.03 * random.number())).collect();

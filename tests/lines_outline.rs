@@ -1,5 +1,5 @@
-//! Outlines: the pieces of visible lines beyond which there is only background, on shapes whose outline is known and against a
-//! twin that casts rays beside points of lines.
+//! Outlines: the pieces of visible lines with only background on one side, on shapes with a known outline and against a twin that
+//! casts rays beside points of lines.
 
 use crate::lines_support::{assert_near, length, lines, lines_with, pierce, px, scene_of, shuffled, total, view};
 use crate::shapes::{Random, cuboid, icosphere, joined, mesh};
@@ -78,8 +78,8 @@ fn what_is_in_front_of_something_else_is_no_outline_there_whatever_the_order() {
         let found = outlined(&seen);
         assert_eq!(outline_of(&found, Some(number(1))), 0.0, "the small one is in front of the big one");
         assert_near(outline_of(&found, Some(number(0))), 8.0 * unit, NEAR, "the big one's");
-        // A bar that sticks out at the right, in front of the big one or behind it: its own outline is what sticks out, and
-        // the big one's has a gap there, also where its edge is seen.
+        // A bar that sticks out at the right, in front of the big one or behind it: its own outline is the part outside, and the
+        // big one's has a gap there, even where its edge is visible.
         for z in [2.0, -2.0] {
             let seen = scene(&bar(z));
             let unit = px(&seen, DVec3::X).x - px(&seen, DVec3::ZERO).x;
@@ -87,7 +87,7 @@ fn what_is_in_front_of_something_else_is_no_outline_there_whatever_the_order() {
             assert_near(outline_of(&found, Some(number(1))), 1.4 * unit, NEAR, &format!("the bar at {z}"));
             assert_near(outline_of(&found, Some(number(0))), 7.6 * unit, NEAR, &format!("beside a bar at {z}"));
             let beyond = found.segments.iter().filter(|s| s.is_visible && !s.is_outline).map(length).sum::<f64>();
-            // In front the bar's other half and its end are drawn, behind the big one's edge is.
+            // In front, the bar's other half and its end are drawn; behind, the big one's edge is.
             assert_near(beyond, if z > 0.0 { 1.4 } else { 0.4 } * unit, NEAR, &format!("inner lines at {z}"));
         }
     }
@@ -117,7 +117,7 @@ fn the_hole_of_a_torus_has_an_outline_too() {
     let found = outlined(&scene);
     let polygon = |radius: f64| f64::from(around) * 2.0 * radius * (TAU / f64::from(around) * 0.5).sin() * unit;
     assert_near(outline_of(&found, None), polygon(large + small) + polygon(large - small), 1e-5, "both circles");
-    // From the side there is no hole.
+    // From the side the hole is hidden.
     let scene = scene_of(vec![torus(large, small, around, 24)], view("90,0", true));
     let found = outlined(&scene);
     let hull = hull_length(torus(large, small, around, 24).positions.iter().map(|p| px(&scene, *p)).collect());
@@ -161,9 +161,10 @@ fn rays_beside_points_of_lines_find_the_same_outline() {
         let world_from_clip = camera.inverse();
         for segment in outlined(&scene).segments.iter().filter(|segment| segment.is_visible && length(segment) > 0.01) {
             let [a, b] = segment.ends_px;
-            // As far beside as background counts.
+            // The distance beside a line that counts as background.
             let aside = (b - a).perp().normalize() * 512.0 * tinta::tolerances::BESIDE;
-            // Near both ends too: a cut at the wrong place is seen there. Parts shorter than five times that distance are none.
+            // Near both ends too: a cut at the wrong place is visible there. Parts shorter than five times that distance are
+            // ignored.
             let end = 6.0 * aside.length() / length(segment);
             for share in [end, 0.37, 1.0 - end].into_iter().filter(|_| end < 0.37) {
                 let at = a.lerp(b, share);
@@ -258,7 +259,7 @@ fn a_rim_is_outline_also_where_a_face_beside_it_is_edge_on_but_for_rounding() {
                 let around = hull(corners.iter().map(|corner| px(&scene, *corner)).collect());
                 let sides: Vec<[DVec2; 2]> =
                     (0..around.len()).map(|k| [around[k], around[(k + 1) % around.len()]]).collect();
-                // Two rims may lie beside one another, nearer than background has to be.
+                // Two rims may be closer together than the distance of background.
                 let what = format!("{sides_count} sides from {name}, parallel {parallel}");
                 for (of, others) in [(&sides, &outline), (&outline, &sides)] {
                     for at in of.iter().flat_map(|[a, b]| (0..=50).map(|k| a.lerp(*b, f64::from(k) / 50.0))) {
@@ -277,7 +278,7 @@ fn distance(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     point.distance(a.lerp(b, share.clamp(0.0, 1.0)))
 }
 
-/// The lines as they are drawn with an outline so many pixels wide, nothing else left out.
+/// The drawn lines with an outline so many pixels wide, otherwise complete.
 fn drawn(lines: &VisibleLines, width: &str) -> VisibleLines {
     let class_widths: ClassWidths = format!("outline={width}").parse().unwrap();
     let min_length = Some("0".parse().unwrap());
@@ -350,9 +351,9 @@ fn a_run_shorter_than_four_widths_is_what_those_on_either_side_are() {
     near(outline(&[(50.0, true), (13.0, false), (37.0, true)], false), 0.87);
     near(outline(&[(50.0, false), (11.0, true), (39.0, false)], false), 0.0);
     near(outline(&[(50.0, false), (13.0, true), (37.0, false)], false), 0.13);
-    // The shortest first: what is left after that is long enough.
+    // The shortest first: the rest is then long enough.
     near(outline(&[(40.0, true), (10.0, false), (5.0, true), (10.0, false), (35.0, true)], false), 0.75);
-    // At an end nothing says what it should be.
+    // An end has no neighbour that decides its width.
     near(outline(&[(5.0, true), (95.0, false)], false), 0.05);
     // Around the end of a ring, too.
     near(outline(&[(3.0, true), (90.0, false), (7.0, true)], true), 0.0);
@@ -420,7 +421,7 @@ fn the_outline_does_not_change_with_how_a_scene_is_written() {
         let count = 2 + (random.number() * 3.0) as usize;
         let mut parts: Vec<Mesh> = Vec::new();
         for k in 0..count {
-            // Apart, so that no edge gets a third face when parts become one object.
+            // Apart, to prevent a third face on an edge when parts become one object.
             let low = DVec3::new(random.number() * 4.0, random.number() * 4.0, 3.0 * k as f64);
             let one = match (number + k) % 2 {
                 0 => cuboid(DVec3::ZERO, DVec3::new(1.0 + random.number() * 3.0, 2.0, 2.0)),

@@ -1,4 +1,4 @@
-//! What the defaults of drawings find of shapes of which it is known which edges a draughtsman draws: parts as from CAD.
+//! The drawings' default lines on shapes with a known draughtsman's answer: parts as from CAD.
 
 use crate::lines_support::{length, lines_with, scene_of, view};
 use crate::shapes::mesh;
@@ -15,7 +15,7 @@ struct Solid {
     drawn: HashSet<[u32; 2]>,
 }
 
-/// A ring of points at a height and whether its own edges are drawn; which of the edges from it to the next ring are.
+/// A ring of points at a height, whether its own edges are drawn, and which of the edges to the next ring are.
 struct Ring {
     points: Vec<DVec2>,
     z: f64,
@@ -27,7 +27,7 @@ fn edge(a: usize, b: usize) -> [u32; 2] {
     [a.min(b) as u32, a.max(b) as u32]
 }
 
-/// Rings from the lowest outside up, over, and where they are `closed` back down inside; else the first and last are capped.
+/// Rings from the lowest outside up, over, and, if `closed`, back down inside; otherwise the first and last are capped.
 fn solid(rings: &[Ring], closed: bool) -> Solid {
     let count = rings[0].points.len();
     let mut positions: Vec<DVec3> =
@@ -108,7 +108,7 @@ fn solids() -> Vec<(String, Solid)> {
             vec![[-1.0, 1.0], [-1.0, 0.7], [-0.2, 0.7], [-0.2, -1.0], [0.2, -1.0], [0.2, 0.7], [1.0, 0.7], [1.0, 1.0]],
         ),
     ] {
-        // Capped towards its middle: moved so that all of it is seen from there.
+        // Capped towards its middle: moved to be wholly visible from there.
         let points: Vec<DVec2> = shape.into_iter().map(DVec2::from_array).collect();
         let middle = if name.starts_with("an") { DVec2::splat(0.2) } else { DVec2::new(0.0, 0.85) };
         let points: Vec<DVec2> = points.into_iter().map(|point| point - middle).collect();
@@ -140,7 +140,7 @@ fn solids() -> Vec<(String, Solid)> {
     all
 }
 
-/// Length of visible lines by their mesh edges: what each file edge shows, silhouettes or not.
+/// Length of visible lines by their mesh edges: the visible part of each file edge, silhouette or not.
 fn by_edge(lines: &VisibleLines, is_meant: impl Fn(&LineSegment) -> bool) -> BTreeMap<[u32; 2], f64> {
     let mut lengths = BTreeMap::new();
     for segment in lines.segments.iter().filter(|segment| segment.is_visible && is_meant(segment)) {

@@ -9,7 +9,7 @@ fn vector(random: &mut Random) -> DVec3 {
     DVec3::new(random.number(), random.number(), random.number()) * 2.0 - DVec3::ONE
 }
 
-/// A mesh turned anyhow, scaled and put somewhere.
+/// A mesh randomly turned, scaled and placed.
 fn placed(mesh: Mesh, random: &mut Random) -> Mesh {
     let turn = DMat3::from_axis_angle(random.direction(), random.number() * 6.0);
     let (size, place) = (0.15 + 0.6 * random.number(), vector(random) * 0.7);
@@ -18,7 +18,7 @@ fn placed(mesh: Mesh, random: &mut Random) -> Mesh {
 
 fn random_meshes(kind: u32, random: &mut Random) -> Vec<Mesh> {
     match kind {
-        // Triangles by themselves, of all sizes, every third a needle.
+        // Separate triangles of all sizes, every third a needle.
         0 => {
             let count = 10 + (random.number() * 70.0) as u32;
             let triangle = |number: u32| {

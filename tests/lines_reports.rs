@@ -72,7 +72,7 @@ fn drawn(mesh: Mesh, from: &str, settings: &LineSettings) -> (VisibleLines, f64)
     (lines_with(&scene, settings), height / 512.0)
 }
 
-/// What is seen of some solids, units.
+/// The visible length of some solids, units.
 fn seen(solids: &[Solid], from: &str) -> f64 {
     let (found, unit) = drawn(mesh(solids), from, &LineSettings::default());
     total(&found, true) * unit
@@ -315,7 +315,7 @@ fn a_disc_whose_last_corner_is_not_quite_the_first_has_no_spoke() {
 #[test]
 fn what_is_only_written_otherwise_is_drawn_alike() {
     let cube = seen(&[cuboid([0.0; 3], [10.0; 3])], "30,20");
-    // SketchUp's api-issue-tracker 611: mixed windings, a long edge beside two short ones.
+    // SketchUp's api-issue-tracker 611: mixed windings, a long edge along two short ones.
     let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     let sides = [
         [at(5.0, 0.0, 10.0), at(5.0, 10.0, 10.0), at(0.0, 10.0, 10.0), at(0.0, 0.0, 10.0)],
@@ -349,7 +349,7 @@ fn what_is_only_written_otherwise_is_drawn_alike() {
     // FreeCAD 9572: a view that is off the axis by 1e-7 degrees.
     let box_of_three = [cuboid([0.0; 3], [3.0, 2.0, 1.0])];
     assert!((seen(&box_of_three, "1e-7,1e-7") - 8.0).abs() < 1e-6);
-    // three.js 22094: a tetrahedron of four triangles of their own.
+    // three.js 22094: a tetrahedron of four separate triangles.
     let corners = [at(0.0, 0.0, 0.0), at(2.0, 0.0, 0.0), at(0.0, 2.0, 0.0), at(0.0, 0.0, 2.0)];
     let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
     let shared = (corners.to_vec(), faces.map(|face| face.map(|corner| corner as u32).to_vec()).to_vec());

@@ -19,7 +19,7 @@ fn unit_box() -> Mesh {
     cuboid(DVec3::ZERO, DVec3::ONE)
 }
 
-/// Turned anyhow, so that nothing lies on an axis.
+/// Turned arbitrarily, off every axis.
 fn turned(mesh: Mesh) -> Mesh {
     let turn = glam::DMat3::from_axis_angle(vec3(0.3, -0.8, 0.52).normalize(), 0.777);
     Mesh { positions: mesh.positions.iter().map(|point| turn * *point).collect(), ..mesh }
@@ -102,7 +102,7 @@ fn the_common_edges_of_touching_boxes_are_drawn_once() {
 
 #[test]
 fn an_edge_that_lies_on_a_longer_one_from_the_same_vertex_is_drawn_once() {
-    // In one mesh, welded: a low box beside a high one, flush at the front, so that they share corners.
+    // In one mesh, welded: a low box beside a high one, flush at the front, with shared corners.
     let (low, high) = (unit_box(), cuboid(DVec3::X, vec3(2.0, 2.0, 1.0)));
     for meshes in [vec![low.clone(), high.clone()], vec![joined(&[low, high])]] {
         let scene = scene_of(meshes, view("front", true));
@@ -191,7 +191,7 @@ fn a_face_split_at_a_t_junction_gets_no_seam_within() {
     let scene = scene_of(vec![sheet], view("20,10", false));
     let settings = LineSettings { classes: ClassSet::ALL, ..LineSettings::default() };
     let found = lines_with(&scene, &settings);
-    // Across the split face's old side the texture does differ: nobody gave the vertex on it a coordinate there.
+    // Across the split face's old side the texture does differ: its middle vertex has no coordinate there.
     let within = found.segments.iter().filter(|s| {
         s.class == Class::Texture
             && !s.ends_px.iter().all(|end| {
@@ -231,7 +231,7 @@ fn of_faces_with_the_same_corners_only_the_first_counts() {
 }
 
 fn before_a_wall(near: f64, far: f64) -> (Scene, VisibleLines) {
-    // A wall with a line of two materials across its middle is what is looked at; before it a board from 2 to 4, slanting.
+    // The test examines a wall with a line of two materials across its middle; before it is a board from 2 to 4, slanting.
     let wall = mesh(
         vec![vec3(-3.0, -1.0, 0.0), vec3(3.0, -1.0, 0.0), vec3(3.0, 1.0, 0.0), vec3(-3.0, 1.0, 0.0)],
         vec![[0, 1, 2], [0, 2, 3]],
@@ -267,9 +267,9 @@ fn what_is_nearer_than_the_near_plane_hides_nothing_and_what_it_cuts_hides_behin
         [of(0, true), of(0, false), of(1, true)]
     };
     for (near, far, expected) in [
-        // All of the board is there: of the wall's 16 units two pieces of 4 are hidden.
+        // The whole board is in view: two pieces of 4 of the wall's 16 units are hidden.
         (1.0, 20.0, [8.0, 8.0, 16.0]),
-        // None of it is.
+        // The board is out of view.
         (8.5, 20.0, [16.0, 0.0, 0.0]),
         // Up to z = 3, which is its left half.
         (7.0, 20.0, [12.0, 4.0, 8.0]),
@@ -295,7 +295,7 @@ fn a_prism_seen_along_two_of_its_sides_keeps_both_ends_of_its_outline() {
             for end in found.segments.iter().filter(|segment| segment.is_visible).flat_map(|segment| segment.ends_px) {
                 (low, high) = (low.min(end.y), high.max(end.y));
             }
-            // Along x, whose lines are horizontal from here: the uppermost and the lowest are whole.
+            // Along x, with horizontal lines in this view: the uppermost and the lowest are whole.
             for limit in [low, high] {
                 let on_it = |segment: &&LineSegment| {
                     segment.is_visible && segment.ends_px.iter().all(|end| (end.y - limit).abs() < NEAR)

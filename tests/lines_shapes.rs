@@ -1,4 +1,4 @@
-//! Visible lines of shapes whose lines can be told by hand.
+//! Visible lines of shapes with lines known by hand.
 
 use crate::lines_support::{
     assert_near, length, lines, lines_with, of_class, only, px, px_between, scene_of, total, view,
@@ -153,7 +153,7 @@ fn a_box_half_through_a_box_is_cut_by_four_lines_in_the_place_where_it_enters() 
         let sides: Vec<[DVec2; 2]> =
             (0..4).map(|side| [px(&scene, rim[side]), px(&scene, rim[(side + 1) % 4])]).collect();
         let side_length = |side: usize| sides[side][0].distance(sides[side][1]);
-        // Seen: above the entering box and before it; not seen: under it and behind it.
+        // Visible above the entering box and in front of it; hidden under it and behind it.
         let (visible, hidden) = (side_length(1) + side_length(2), side_length(0) + side_length(3));
         assert_near(of_class(&found, Class::Intersection, true), visible, NEAR, "visible intersection");
         assert_near(of_class(&found, Class::Intersection, false), hidden, NEAR, "hidden intersection");
@@ -164,7 +164,7 @@ fn a_box_half_through_a_box_is_cut_by_four_lines_in_the_place_where_it_enters() 
             assert!(sides.iter().any(lies_on), "{segment:?}");
             assert_near(segment.angle_degrees.unwrap(), 90.0, 1e-9, "angle");
         }
-        // The four edges along x are seen from where they come out, but for the one below and behind.
+        // The four edges along x are visible where they emerge, except the one below and behind.
         let along_x = [(low.y, low.z), (low.y, high.z), (high.y, high.z), (high.y, low.z)];
         let seen: f64 =
             along_x[1..].iter().map(|(y, z)| px_between(&scene, vec3(1.0, *y, *z), vec3(2.0, *y, *z))).sum();
@@ -186,15 +186,15 @@ fn the_rim_of_an_open_box_is_seen_from_above_and_its_floor_where_the_walls_let_i
     let top = |triangle: &[u32; 3]| triangle.iter().all(|corner| corner >> 1 & 1 == 1);
     open.triangles.retain(|triangle| !top(triangle));
     assert_eq!(open.triangles.len(), 10);
-    // Straight in front and from above: in parallel projection heights are scaled by the cosine, depths by the sine.
+    // Straight ahead and from above: in parallel projection heights are scaled by the cosine, depths by the sine.
     let scene = scene_of(vec![open], view("0,60", true));
     let unit = px_between(&scene, DVec3::ZERO, DVec3::X);
     let found = lines(&scene);
     let sin = f64::to_radians(60.0).sin();
     assert_near(of_class(&found, Class::Boundary, true), unit * (2.0 + 2.0 * sin), NEAR, "rim");
     assert_near(of_class(&found, Class::Boundary, false), 0.0, NEAR, "hidden rim");
-    // The front wall hides what is on the floor as far back as cot 60 = 0.577: the rest of both sides is seen, exactly behind
-    // the side walls' rims and thus hidden; the back edge of the floor is seen between, and both back uprights are behind rims.
+    // The front wall hides the floor as far back as cot 60 = 0.577. The rest of both sides is in view, exactly behind the side
+    // walls' rims and thus hidden; the back edge of the floor is visible between, and both back uprights are behind rims.
     let floor_back: f64 = found.segments.iter().filter(|s| s.edge == Some([0, 1]) && s.is_visible).map(length).sum();
     assert_near(floor_back, unit, NEAR, "the floor's back edge");
     let front_bottom: f64 = found.segments.iter().filter(|s| s.edge == Some([4, 5]) && s.is_visible).map(length).sum();
@@ -269,7 +269,7 @@ fn of_a_torus_the_inner_contour_is_hidden_where_the_tube_lies_before_it() {
                 smooth[usize::from(!is_hidden)].push(px(&scene, at));
             }
         }
-        // A contour that folds zigzags on a mesh: not its length but its place is that of the smooth one.
+        // A contour with folds zigzags on a mesh: its place agrees with the smooth one, its length does not.
         for is_visible in [true, false] {
             let pieces: Vec<[DVec2; 2]> =
                 found.segments.iter().filter(|s| s.is_visible == is_visible).map(|s| s.ends_px).collect();

@@ -1,8 +1,8 @@
-//! The check that asks both sides: a point of any line, moved by 1e-4 pixels to either side at its own depth. If a side is not
-//! hidden, something must be drawn there, once; if both are, nothing may be.
+//! The check of both sides: a point of any line, moved by 1e-4 pixels to either side at its own depth. If a side is not
+//! hidden, exactly one line must be drawn there; if both are hidden, none may be.
 //!
-//! In f64 and world space, with formulas of their own, over scenes as drawings have them: flat faces seen along an axis, lines
-//! on one another, corners and faces that touch.
+//! In f64 and world space, with separate formulas, over scenes typical of drawings: flat faces seen along an axis, overlapping
+//! lines, touching corners and faces.
 
 use crate::lines_families::{FAMILIES, Family};
 use crate::lines_support::{explicit, length, published_lines, px, scene_of, scenes_wanted, shuffled};
@@ -25,7 +25,7 @@ const DRAWN_PX: f64 = 0.002;
 /// Sine of the angle to the view below which a face is edge-on, and above which it is not.
 const EDGE_ON: [f64; 2] = [1e-12, 1e-7];
 
-/// What is known of one side of a line.
+/// The result for one side of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Side {
     Hidden,
@@ -41,12 +41,12 @@ pub struct Sides<'a> {
     normals: Vec<DVec3>,
     edges: BTreeMap<(u32, [u32; 2]), Vec<usize>>,
     cells: Vec<Vec<u32>>,
-    /// By object, the distance below which positions count as one.
+    /// The distance below which positions count as one, for each object.
     welds: Vec<f64>,
     object_of: Vec<u32>,
 }
 
-/// What the check found.
+/// The check's results.
 #[derive(Debug, Default, Clone)]
 pub struct Found {
     pub samples: usize,
@@ -69,7 +69,7 @@ impl<'a> Sides<'a> {
             for triangle in &object.mesh.triangles {
                 let mut sorted = *triangle;
                 sorted.sort_unstable();
-                // Of faces with the same corners the first counts.
+                // The first of several faces with the same corners counts.
                 let sides = if known.insert(sorted) { 0..3 } else { 0..0 };
                 for side in sides {
                     let (a, b) = (triangle[side], triangle[(side + 1) % 3]);
@@ -85,7 +85,7 @@ impl<'a> Sides<'a> {
             Self { scene, corners, normals, edges, cells: vec![Vec::new(); CELLS * CELLS], welds, object_of };
         for face in 0..sides.corners.len() {
             let depths = sides.corners[face].map(|corner| sides.depth(corner));
-            // What reaches before the near plane may lie anywhere.
+            // A face that reaches in front of the near plane may lie anywhere.
             let is_behind = depths.iter().all(|depth| *depth > 0.0) || sides.is_parallel();
             let (low, high) = if is_behind {
                 let images = sides.corners[face].map(|corner| px(scene, corner));
@@ -159,7 +159,7 @@ impl<'a> Sides<'a> {
         Some(is_silhouette || cosine < 0.4 || (one == 0.0 && other == 0.0 && cosine < 1.0 - 1e-9))
     }
 
-    /// What is known of a side: `moved` is the point there, `ends` are the line's.
+    /// Tests one side: `moved` is the point there, `ends` are the line's.
     fn side(&self, moved: DVec3, [a, b]: [DVec3; 2], object: u32, own: &[usize]) -> Side {
         let image = px(self.scene, moved);
         let [x, y] = self.cell(image);
@@ -231,7 +231,7 @@ impl<'a> Sides<'a> {
             .map(|((object, ends), faces)| (*object, *ends, faces))
             .collect();
         let each = (points / listed.len().max(1)).max(1);
-        // Of more lines than points, some.
+        // With more lines than points, a sample.
         let step = (listed.len() / points.max(1)).max(1);
         let mut result = Found::default();
         for (object, numbers, own) in listed.iter().skip((random.number() * step as f64) as usize).step_by(step) {
@@ -399,7 +399,7 @@ fn what_any_side_of_a_line_shows_is_drawn_of_public_models_in_the_named_views() 
     assert!(failures.is_empty(), "{failures:#?}");
 }
 
-/// The length of what is seen, by class.
+/// The visible length, by class.
 fn seen(scene: &Scene) -> BTreeMap<Class, f64> {
     let mut sums = BTreeMap::new();
     for segment in published_lines(scene).segments.iter().filter(|segment| segment.is_visible) {

@@ -1,4 +1,4 @@
-//! What is left out of a drawing for being too short, on hand-made lines and on models: never what closes an outline.
+//! Lines that are too short to draw, on hand-made lines and on models: never a line that closes an outline.
 
 use crate::lines_support::{length, lines_with, scene_of, view};
 use crate::shapes::icosphere;
@@ -30,7 +30,7 @@ fn with(more: &[LineSegment]) -> Vec<LineSegment> {
     square().into_iter().chain(more.iter().cloned()).collect()
 }
 
-/// Asserts how many of these further pieces stay beside the square, which does as a whole.
+/// Asserts how many of these additional pieces stay; the square always stays.
 #[track_caller]
 fn assert_stays(more: &[LineSegment], expected: usize) {
     let all = kept(&with(more));
@@ -50,7 +50,7 @@ fn specks_and_barbs_below_the_strokes_width_go_and_longer_ones_stay() {
     let stub = |length: f64| segment(Boundary, true, [40.0, 20.0], [40.0, 20.0 + length]);
     assert_stays(&[stub(1.9)], 0);
     assert_stays(&[stub(2.1)], 1);
-    // Of several pieces: they count together.
+    // Several pieces count together.
     let bent = [stub(1.5), segment(Boundary, true, [40.0, 21.5], [41.0, 21.5])];
     assert_stays(&bent, 2);
     // All that there is of something tiny, closed or not.
@@ -85,7 +85,7 @@ fn what_closes_a_line_stays_however_short_its_parts_are() {
         }
     }
     assert_eq!(kept(&parts).len(), 80);
-    // A bridge between two lines that end on nothing else.
+    // A bridge between two lines without other ends.
     let left = segment(Silhouette, true, [10.0, 40.0], [30.0, 40.0]);
     let right = segment(Silhouette, true, [31.0, 40.0], [50.0, 40.0]);
     let bridge = segment(Boundary, true, [30.0, 40.0], [31.0, 40.0]);
@@ -112,7 +112,7 @@ fn of_a_slivers_two_sides_one_stays() {
     let all: Vec<LineSegment> = sliver.iter().chain(&ends).cloned().collect();
     let stays = kept(&all);
     assert_eq!(stays.len(), 4, "the shorter side goes: {stays:?}");
-    // A larger one is no sliver.
+    // A larger one is not a sliver.
     let large = [way(&[from, [40.5, 26.0], to]), way(&[from, to])].concat();
     let all: Vec<LineSegment> = large.iter().chain(&ends).cloned().collect();
     assert_eq!(kept(&all).len(), 5);
@@ -128,7 +128,7 @@ fn min_length_is_in_pixels_or_millimetres_and_nothing_goes_at_0() {
     // The picture is 120 pixels wide: two pixels a millimetre.
     let on_paper = DrawingSettings { page_size: tinta::lines::PageSize::WidthMm(60.0), ..of("4mm") };
     assert_eq!((kept_with(&speck(7.9), &on_paper).len(), kept_with(&speck(8.1), &on_paper).len()), (4, 5));
-    // Creases: eight times that up to a width, and no more than asked beyond eight widths; polygons smaller than it stay closed.
+    // Creases: eight times that up to a width, and at most the setting beyond eight widths; polygons smaller than it stay closed.
     let fold = |length: f64| with(&[segment(Crease, true, [30.0, 30.0], [30.0 + length, 30.0])]);
     for (text, length) in [("0.5", 4.0), ("2", 16.0), ("8", 16.0), ("20", 20.0)] {
         assert_eq!(kept_with(&fold(length - 0.1), &of(text)).len(), 4, "{text}");

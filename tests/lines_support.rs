@@ -1,4 +1,4 @@
-//! What the tests of the visible lines share: scenes of meshes, projections of their own, sums of lengths.
+//! Shared parts of the tests of visible lines: scenes of meshes, separate projections, sums of lengths.
 
 use crate::shapes::Random;
 use glam::{DVec2, DVec3};
@@ -6,7 +6,7 @@ use tinta::edges::{Class, ClassSet};
 use tinta::lines::{LineSegment, LineSettings, VisibleLines};
 use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
 
-/// How many random scenes `TINTA_LINE_SCENES` asks the exhaustive tests for, of each kind or family.
+/// The number of random scenes for the exhaustive tests in `TINTA_LINE_SCENES`, of each kind or family.
 pub fn scenes_wanted() -> Option<u64> {
     let wanted = std::env::var("TINTA_LINE_SCENES").ok()?;
     Some(wanted.parse().expect("TINTA_LINE_SCENES is a number"))
@@ -37,7 +37,7 @@ pub fn view(name: &str, parallel: bool) -> CameraSettings {
     CameraSettings { view: name.parse().unwrap(), parallel, ..CameraSettings::default() }
 }
 
-/// The lines by the default settings, checked for what must hold of any.
+/// The lines by the default settings, with the general checks.
 pub fn lines(scene: &Scene) -> VisibleLines {
     lines_with(scene, &LineSettings::default())
 }
@@ -47,7 +47,7 @@ pub fn published_lines(scene: &Scene) -> VisibleLines {
     lines_with(scene, &LineSettings::as_published())
 }
 
-/// As [`lines`] with settings.
+/// Like [`lines`], with settings.
 pub fn lines_with(scene: &Scene, settings: &LineSettings) -> VisibleLines {
     let found = VisibleLines::of(scene, settings).unwrap();
     let size = DVec2::new(f64::from(scene.size.width), f64::from(scene.size.height));
@@ -94,7 +94,7 @@ pub fn total(lines: &VisibleLines, is_visible: bool) -> f64 {
     lines.segments.iter().filter(|segment| segment.is_visible == is_visible).map(length).sum()
 }
 
-/// Asserts that two lengths or places are the same but for rounding.
+/// Asserts that two lengths or places are the same up to rounding.
 #[track_caller]
 pub fn assert_near(actual: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((actual - expected).abs() <= tolerance, "{what}: {actual} px instead of {expected}");

@@ -1,4 +1,4 @@
-//! Tests that need a GL context or the finished program. One binary, so that it links once.
+//! Tests that need a GL context or the finished program. A single binary links once.
 
 mod adding_a_style;
 mod animation;

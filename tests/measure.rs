@@ -1,4 +1,4 @@
-//! What the numbers of a measured row say: on pictures made up so that the answer is known, and against a recount.
+//! The numbers of a measured row: on made-up pictures with a known answer, and against a recount.
 
 use crate::support::{BACKENDS, renderer, scene_with};
 use glam::DVec2;
@@ -23,7 +23,7 @@ fn reference(scene: &Scene) -> Reference {
     Reference::of(scene, &LineSettings::as_published()).unwrap()
 }
 
-/// Ink wherever `is_ink` says, black.
+/// Black ink where `is_ink` is true.
 fn ink(is_ink: impl Fn(DVec2) -> bool) -> Ink {
     let middle = |index: u32| DVec2::new(f64::from(index % SIZE) + 0.5, f64::from(index / SIZE) + 0.5);
     let darkness = (0..SIZE * SIZE).map(|index| if is_ink(middle(index)) { 255 } else { 0 }).collect();
@@ -56,7 +56,7 @@ fn the_references_length_is_the_triangles() {
 #[test]
 fn lines_moved_by_three_pixels_are_missed_within_two_and_found_within_four() {
     let reference = reference(&triangle());
-    // Only of the lower leg, along x: moved up into the triangle it is nearer to no other line but at its ends.
+    // Ink on the lower leg only, along x: moved up into the triangle it is near no other line except at its ends.
     let lowest = reference.samples.iter().map(|sample| sample.px.y).fold(0.0, f64::max);
     let (left, right) = (DVec2::new(16.0, lowest - 3.0), DVec2::new(84.0, lowest - 3.0));
     let moved = ink(|middle| (middle.y - left.y).abs() <= 0.5 && (left.x..=right.x).contains(&middle.x));
@@ -70,7 +70,7 @@ fn lines_moved_by_three_pixels_are_missed_within_two_and_found_within_four() {
 #[test]
 fn a_missing_half_halves_recall_and_leaves_precision() {
     let reference = reference(&triangle());
-    // Both legs' halves next to the right angle and none of the rest.
+    // Both legs' halves next to the right angle and no other part.
     let middle = f64::from(SIZE) * 0.5;
     let whole = on_the_lines(&reference);
     let half = ink(|place| reference.distance_px(place) <= 0.75 && place.y >= middle);
@@ -156,7 +156,7 @@ fn a_rows_error_is_found_again_from_the_picture_and_the_written_lines() {
     let reference = reference(&scene);
     let error = Ink::on_white(&picture).error(&reference, 2.0);
 
-    // Again, from the file: nothing shared with the code above.
+    // Again, from the file: independently of the code above.
     let read = |settings: &LineSettings| -> Vec<([DVec2; 2], f64)> {
         let lines = tinta::VisibleLines::of(&scene, settings).unwrap();
         let written: Value = serde_json::from_str(&lines_json(&lines, &scene).unwrap()).unwrap();
@@ -253,7 +253,7 @@ fn gls_tones_are_those_of_the_rays_but_for_what_was_changed() {
         // A picture a third darker differs everywhere.
         let darker = Picture { pixels: drawn.pixels.iter().map(|byte| byte / 3 * 2).collect(), ..drawn };
         assert_eq!(against(&darker, &style).inner_differing, Some(1.0));
-        // Continuous shading has no tones to differ in; the published coordinate of the paper is off in perspective (V4).
+        // Continuous shading has no tones; the published coordinate of the paper is off in perspective (V4).
         let mut drawn = |style: &Style| renderer.draw(&scene, &style.plan(&scene, Show::Final).unwrap()).unwrap();
         let phong = Style::named(StyleName::Phong);
         let error = against(&drawn(&phong), &phong);

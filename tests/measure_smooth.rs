@@ -105,7 +105,7 @@ fn exact_lines_of_a_sphere_converge_and_ink_stays_on_its_pixels() {
     let page = std::fs::read_to_string(format!("{out}/report.html")).unwrap();
     assert!(page.contains("smooth surfaces in closed form") && page.contains("Convergence on the sphere"));
     assert!(std::fs::metadata(format!("{out}/plot-convergence-sphere.svg")).unwrap().len() > 2000);
-    // The same folder takes no rows of another yardstick, and a run that is whole is none again.
+    // The same folder takes no rows of another yardstick, and repeating a complete run adds none.
     let rest = ["-o", out.as_str(), "--quick", "--size", "160", "--frames", "1", "--resume"];
     refused_in_one_line(&[&["measure", "builtin:sphere:500"], &rest[..]].concat(), &["--against"]);
     assert_eq!(run(&["--resume"]).status.code(), Some(0));

@@ -1,8 +1,8 @@
-//! One pass over the geometry draws what the published passes draw: byte for byte where both draw into textures, and but
-//! for rounding where those draw into the framebuffer. So do maps drawn into textures.
+//! One pass over the geometry draws the same as the published passes: byte for byte where both draw into textures, and up to
+//! rounding where the published ones draw into the framebuffer. The same holds for maps drawn into textures.
 //!
-//! Mesa draws its own framebuffer from the top and textures from the bottom: rows count the other way, so that edges
-//! through pixels' middles and interpolated values round otherwise.
+//! Mesa draws its own framebuffer from the top and textures from the bottom: rows count the other way, and edges through pixels'
+//! middles and interpolated values round differently.
 
 use crate::support::{BACKENDS, failure_folder, public_models, renderer, scene, scene_with, side_by_side};
 use std::sync::Arc;
@@ -16,8 +16,8 @@ use tinta::{
     load,
 };
 
-/// Share of pixels that rounding may change between framebuffer and texture: 0.3 % is the most that was seen, on the bust,
-/// whose colours lie between two steps of 8 bits.
+/// Share of pixels that rounding may change between framebuffer and texture: the largest observed is 0.3 %, on the bust, whose
+/// colours lie between two steps of 8 bits.
 const ROUNDED_SHARE: f64 = 0.005;
 
 /// A pixel counts as moved beyond this, in 1/255: a map's value that is one step off counts four times in the filter, with
@@ -84,7 +84,7 @@ fn assert_near(context: &str, expected: &Picture, actual: &Picture) {
     }
 }
 
-/// Compares what both styles draw: byte for byte in textures, but for rounding in the framebuffer.
+/// Compares both styles' pictures: byte for byte in textures, up to rounding in the framebuffer.
 fn assert_pair(renderer: &mut Renderer, scene: &Scene, context: &str, [three, mrt]: &[Style; 2]) {
     let context = format!("{context} on {}", renderer.context().backend);
     let mut draw = |plan: &Plan| renderer.draw(scene, plan).unwrap_or_else(|error| panic!("{context}: {error}"));

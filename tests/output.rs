@@ -1,4 +1,4 @@
-//! Output that cannot be written: one sentence, exit code 2, the old file as it was, nothing beside it.
+//! Output that cannot be written: one sentence, exit code 2, the old file unchanged, no other file left.
 
 use crate::cli::Folder;
 use crate::support::{root, skip};
@@ -24,7 +24,7 @@ fn assert_refused(output: &Output, words: &[&str]) {
     assert!(words.iter().all(|word| said.contains(word)), "{words:?}: {said}");
 }
 
-/// Commands that write into the folder `{}`, one for each kind of file, and the file that would come of it.
+/// Commands that write into the folder `{}`, one for each kind of file, and the file each would write.
 const WRITERS: [(&str, &str); 6] = [
     ("render builtin:ant --size 200 -o {}/a.ppm", "a.ppm"),
     ("render builtin:ant --size 400 -o {}/a.svg", "a.svg"),
@@ -79,7 +79,7 @@ fn a_limit_on_files_sizes_is_an_error_and_no_signal() {
         assert_refused(&through_shell(limit, &arguments(command, &folder.path(""))), &[file, "ulimit -f"]);
         assert!(names(Path::new(&folder.path(""))).is_empty(), "{command}");
     }
-    // Of several pictures that belong together none appears.
+    // If several pictures belong together, none appears.
     let folder = Folder::new();
     let place = folder.path("textures");
     assert_refused(&through_shell(limit, &arguments("textures --size 64 -o {}", &place)), &["ulimit -f"]);
@@ -96,7 +96,7 @@ fn a_limit_on_files_sizes_is_an_error_and_no_signal() {
     assert!(text.is_empty() || text.ends_with('\n'), "{text}");
 }
 
-/// As [`assert_refused`], for a command that says what it is about to do first.
+/// Like [`assert_refused`], for a command that prints its plan first.
 fn assert_refused_at_end(output: &Output, words: &str) {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{:?}: {said}", output.status);
@@ -116,13 +116,13 @@ fn standard_output_that_takes_nothing_is_an_error() {
         assert_refused(&output, &["standard output cannot be written", "No space left"]);
     }
     assert_eq!(names(Path::new(&folder.path(""))), ["a.png"], "the picture was written, its record was not");
-    // A pipe nobody reads any more is no fault of the picture, but it is not written either.
+    // A pipe without a reader is no fault of the picture, but the write fails.
     let limit = format!("ulimit -f 1; exec > {}", folder.path("out.png"));
     assert_refused(&through_shell(&limit, &arguments("render builtin:ant --size 200 -o -", "")), &["standard output"]);
 }
 
-/// Runs a script in which `$T` is the program and `$D` a folder, where it may mount file systems of its own; `None` where the
-/// system does not let us.
+/// Runs a script in which `$T` is the program and `$D` a folder, with permission to mount file systems; `None` where the system
+/// does not allow it.
 pub fn where_mounts_are_ours(script: &str, folder: &str) -> Option<String> {
     let own = ["--user", "--map-root-user", "--mount", "sh", "-ec"];
     let may = Command::new("unshare").args(own).arg("mount -t tmpfs none /tmp").output();
@@ -142,7 +142,7 @@ pub fn where_mounts_are_ours(script: &str, folder: &str) -> Option<String> {
     Some(String::from_utf8(output.stdout).unwrap())
 }
 
-/// In a shell script: runs a command, says its exit code and sentence, and what the folder then holds.
+/// In a shell script: runs a command, prints its exit code and sentence, and the folder's contents afterwards.
 const TRY: &str = r#"
 try() { if said=$("$T" "$@" 2>&1 >/dev/null); then code=0; else code=$?; fi; echo "exit $code"; echo "said $said"; }
 hold() { echo "holds $(ls -A "$D" | tr '\n' ' ')"; }
@@ -154,7 +154,7 @@ fn a_full_disk_leaves_the_old_file_and_nothing_else() {
     for (command, file) in WRITERS {
         let folder = Folder::new();
         let command = command.replace("{}", "\"$D\"");
-        // 8 KiB in all, 4 of them taken by the old file.
+        // 8 KiB in total, 4 of them used by the old file.
         let script = format!(
             "{TRY} mount -t tmpfs -o size=8k none \"$D\"; head -c 4096 /dev/zero > \"$D/{file}\"; \
              try {command}; hold; head -c 4096 /dev/zero | cmp - \"$D/{file}\" && echo same; \
@@ -196,7 +196,7 @@ fn a_read_only_folder_is_refused_before_the_work() {
     for (command, file) in WRITERS {
         let folder = Folder::new();
         folder.file(file, OLD);
-        // The model is not there either: that would be noticed later.
+        // The model is missing too: that would be noticed later.
         let command = command.replace("{}", "\"$D\"").replace("builtin:ant", "no-such.obj");
         let script = format!(
             "{TRY} mount --bind \"$D\" \"$D\"; mount -o remount,ro,bind \"$D\"; try {command}; hold; cat \"$D/{file}\""
@@ -208,7 +208,7 @@ fn a_read_only_folder_is_refused_before_the_work() {
             ("exit 2", format!("holds {file}").as_str(), "what was there"),
             "{text}"
         );
-        let is_refused = said.contains("there is no permission to write into the folder ");
+        let is_refused = said.contains("no permission to write into the folder ");
         assert!(is_refused && said.contains(file) && said.ends_with("; choose another"), "{said}");
     }
 }

@@ -1,5 +1,5 @@
-//! The program killed half way, and its folder taken away: what is left is whole. Killed by what it is seen to have done,
-//! never by the clock; what is asserted holds for any moment.
+//! The program killed half way, and its folder taken away: the remaining files are whole. The tests kill after an observed event,
+//! never by the clock; the assertions hold for any moment.
 
 #![cfg(target_os = "linux")]
 
@@ -41,15 +41,15 @@ fn writes_unnamed(child: &Child, folder: &Path) -> bool {
     targets.into_iter().any(|path| path.starts_with(folder) && path.to_string_lossy().ends_with(" (deleted)"))
 }
 
-/// Kills the program at moments of its work, in eighths, and of its writing, in looks at the file that is written: while it
-/// replaces `file`, and while it makes it anew.
+/// Kills the program at moments of its work, in eighths, and of its writing, counted in checks of the written file: while it
+/// replaces `file`, and while it creates it.
 fn killed_at(file: &str, options: &[&str], eighths: &[u64], looks: &[usize]) {
     let folder = Folder::new();
     let place = Path::new(&folder.path("")).canonicalize().unwrap();
     let path = place.join(file);
     let mut arguments = vec!["render", "builtin:ant", "-o", path.to_str().unwrap()];
     arguments.extend(options);
-    // Once undisturbed: what it writes and how long it works.
+    // Once undisturbed: its output and its run time.
     let mut child = start(&arguments);
     let mut whole = 0;
     while state(&child).0 != 'Z' {
@@ -85,7 +85,7 @@ fn killed_at(file: &str, options: &[&str], eighths: &[u64], looks: &[usize]) {
             let status = end_when(start(&arguments), signal, |child| state(child).1 >= whole * eighth / 8);
             check(status, &format!("{signal} after {eighth} eighths of the work"));
         }
-        // As soon as the file in the making is seen, and looks later: the first may be of the check before the work.
+        // At the first sight of the unfinished file, and checks later: the first may belong to the test write before the work.
         for &looks in looks {
             prepare();
             let (mut seen, mut is_seen) = (0, false);
@@ -127,7 +127,7 @@ fn an_animation_killed_half_way_leaves_the_old_file_or_the_new_one_and_nothing_h
     killed_at("a.apng", &["--size", "96", "--turntable", "60"], &EIGHTHS, &LOOKS);
 }
 
-/// Numbered frames as the program left them: all whole, without a gap, and nothing else.
+/// Numbered frames after the program's end: all whole, without a gap, and no other file.
 fn assert_whole_frames(folder: &Path, at_least: usize) {
     let left = names(folder);
     assert!(left.len() >= at_least && left.len() < 300, "{} frames", left.len());

@@ -1,4 +1,4 @@
-//! Lines as PDF: what the SVG has, on a page of the same size.
+//! Lines as PDF: the lines of the SVG, on a page of the same size.
 
 use crate::svg::{data, drawing, names, points};
 use glam::DVec2;

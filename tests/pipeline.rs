@@ -1,4 +1,4 @@
-//! The pipeline on real contexts: shaders compile, both backends agree, twins agree, nothing leaks, limits are kept.
+//! The pipeline on real contexts: shaders compile, both backends agree, twins agree, nothing leaks, limits hold.
 
 use crate::support::{BACKENDS, renderer, scene, scene_with, skip, styles};
 use std::sync::Arc;
@@ -25,7 +25,7 @@ fn both_backends_of_one_driver_draw_the_same_bytes() {
     let [mut first, mut second] = BACKENDS.map(renderer);
     let of = |renderer: &Renderer| [&renderer.context().renderer, &renderer.context().version].map(String::clone);
     if of(&first) != of(&second) {
-        // Not a pass: said aloud, because only one and the same driver promises equal bytes.
+        // Skipped with a message, because only the same driver promises equal bytes.
         skip(&format!("equal bytes of both backends: they are {:?} and {:?}", of(&first), of(&second)));
         return;
     }
@@ -38,7 +38,7 @@ fn both_backends_of_one_driver_draw_the_same_bytes() {
     }
 }
 
-/// Settings that select the shaders with uniforms but mean what the listing means.
+/// Settings that select the shaders with uniforms but give the listing's picture.
 fn as_published_but_by_settings() -> Cartoon {
     // The next number after 0.65: no specular value a picture shows lies between the two.
     let tones = Tones { specular_threshold: 0.65f32.next_up(), ..Tones::default() };
@@ -69,7 +69,7 @@ fn three_and_two_passes_agree_to_rounding() {
     let scene = scene("builtin:bust", 256, 256);
     let [three, two] =
         [Style::ThreePass, Style::TwoPass].map(|make| renderer.render(&scene, &make(Cartoon::default())).unwrap());
-    // Where the border's response exceeds 1, three-pass clamps alpha and two-pass clamps a negative colour: both black.
+    // Where the border's response exceeds 1, three-pass clamps alpha and two-pass clamps a negative colour: both give black.
     assert!(three.difference(&two).unwrap().largest <= 1);
 }
 
@@ -227,11 +227,11 @@ fn auto_draws_whatever_another_context_can_and_smaller_pictures_as_before() {
         assert_eq!(auto.render(&small, &style).unwrap(), before);
         assert_eq!(auto.context(), &first);
     }
-    // What is drawn larger than the picture counts as large as it is drawn.
+    // Supersampled pictures count at the larger size.
     let quarter = scene("builtin:gear", limits[0] / 4 + 1, 16);
     let sampled = Style::ThreePass(Cartoon { supersample: Supersample::Four, ..Cartoon::default() });
     assert_eq!(auto.render(&quarter, &sampled).unwrap(), osmesa.render(&quarter, &sampled).unwrap());
-    // Beyond all of them it is drawn in tiles by the first.
+    // Beyond all limits the first one draws it in tiles.
     let wide = scene("builtin:gear", limits[1] / 4 + 1, 16);
     assert_eq!(auto.render(&wide, &sampled).unwrap(), egl.render(&wide, &sampled).unwrap());
     assert_eq!(auto.context(), &first);

@@ -1,4 +1,5 @@
-//! What plans state of their draws: the pruner goes by that alone, of anybody's shaders, and by nothing once one is replaced.
+//! The facts that plans state about their draws: the pruner relies on them alone, for anyone's shaders, and ignores them once a
+//! shader is replaced.
 
 use crate::prune::{beside, every_rule};
 use crate::support::{BACKENDS, renderer, root, scene};
@@ -56,7 +57,7 @@ fn a_border_shader_replaced_by_one_that_inks_all_of_the_picture_inks_all_of_it()
     }
 }
 
-/// A shader replaced, and a style and a scene whose short plan would draw something else if it did not count.
+/// A replaced shader, with a style and a scene whose pruned plan would draw something else if the replacement did not count.
 struct Replaced {
     path: &'static str,
     text: String,
@@ -93,9 +94,9 @@ fn whatever_shader_is_replaced_the_short_plan_draws_what_the_full_one_does() {
             ..replaced("evangelista/toon.vert", &scaled("evangelista/toon.vert", "0.2"), three)
         },
         replaced("improved/plane-ink.frag", ALL_INK, Style::Ink(Ink::default())),
-        // A part of the shorter program only: the longer one is as it was.
+        // A part of the shorter program only: the longer one is unchanged.
         replaced("improved/tone-one.frag", dark, Style::ThreePass(one_tone)),
-        // Through holes one sees what was cleared.
+        // The cleared colour shows through holes.
         replaced("valente/paper.frag", holed, Style::Charcoal(Charcoal::default())),
     ];
     let mut renderer = renderer(BACKENDS[0]);
@@ -105,7 +106,7 @@ fn whatever_shader_is_replaced_the_short_plan_draws_what_the_full_one_does() {
         let full = renderer.draw(&scene, &plan).unwrap();
         let other = Style::named(StyleName::ThreePass).plan(&scene, Show::Map).unwrap();
         let mut draw = |pruning: &Pruning| {
-            // Nothing of the full picture may be left for the short plan to show.
+            // The full picture must leave nothing for the pruned plan to show.
             renderer.draw(&scene, &other).unwrap();
             renderer.draw(&scene, &prune(&plan, &scene, pruning).plan).unwrap()
         };
@@ -120,7 +121,7 @@ fn whatever_shader_is_replaced_the_short_plan_draws_what_the_full_one_does() {
     }
 }
 
-/// The same plan by copies of its shaders under names of one's own, and their texts.
+/// The same plan with copies of its shaders under new names, and their texts.
 fn as_ones_own(mut plan: Plan) -> (Plan, HashMap<String, String>) {
     let mut texts = HashMap::new();
     let mut own = |path: &mut &'static str| {
@@ -170,7 +171,7 @@ fn a_style_of_ones_own_that_states_facts_is_pruned_like_the_built_in_ones() {
             assert_eq!(own_short.plan.to_string().replace("own/", ""), short.plan.to_string());
             assert!(renderer.draw(&scene, &own_short.plan).unwrap() == picture, "{own}");
             seen.extend(left_out(&own_short).iter().map(|rule| rule.name()));
-            // What is not stated is not assumed.
+            // Facts that are not stated are not assumed.
             let mut silent = own.clone();
             draws_mut(&mut silent).for_each(|draw| draw.facts = Facts::default());
             let silent = prune(&silent, &scene, &pruning);
@@ -233,7 +234,7 @@ fn the_plan_and_its_pruner_name_no_shader_and_no_uniform() {
         let words: HashSet<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
         for name in &uniforms {
             assert!(!text.contains(&format!("\"{name}\"")), "{place} names the uniform {name}");
-            // Those that are no words of English either.
+            // Names that are not English words either.
             let is_a_word = name.chars().all(|c| c.is_lowercase());
             assert!(is_a_word || !words.contains(name), "{place} names the uniform {name}");
         }

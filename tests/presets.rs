@@ -14,7 +14,7 @@ fn made(arguments: &[&str]) -> Vec<u8> {
     output.stdout
 }
 
-/// A picture on standard output, without a recipe, so that equal pictures are equal bytes.
+/// A picture on standard output, without a recipe: equal pictures are equal bytes.
 fn picture(model: &str, options: &[&str]) -> Vec<u8> {
     made(&[&["render", model, "-o", "-", "--size", "80x60", "--no-recipe"], options].concat())
 }
@@ -46,7 +46,7 @@ fn each_papers_preset_draws_what_its_style_draws_by_default() {
         let options = Preset::parse(name, text).unwrap().options;
         let OptionValue::Text(style) = &options["style"] else { panic!("{name}") };
         let by_preset = picture(&model, &["--preset", name]);
-        // How models are read is no setting of a style: what the preset says of it is given beside the style.
+        // The settings for reading models belong to no style: the preset's are given beside the style.
         let mut by_hand = vec!["--style".to_owned(), style.clone()];
         let of_models = options.iter().filter(|(option, _)| LoadOptions::table().has(option));
         by_hand.extend(of_models.flat_map(|(option, value)| option_words(option, value)));
@@ -73,7 +73,7 @@ fn dachsbachers_preset_reads_models_by_his_rule_for_normals() {
     ]
     .map(|options| picture("builtin:gear", options));
     assert!(preset == by_hand && preset != style);
-    // What the command line says counts more, as of any option.
+    // The command line overrides it, like any option.
     assert!(picture("builtin:gear", &["--preset", "paper:dachsbacher-inking", "--normals", "file"]) == style);
 }
 
@@ -88,7 +88,7 @@ fn what_the_command_line_gives_counts_more_and_the_record_states_what_counted() 
     assert_eq!((&given["style"]["name"], &given["style"]["tones"]), (&"mrt".into(), &2.into()));
     assert!((given["style"]["detection-factor"].as_f64().unwrap() - 0.7).abs() < 1e-6);
     assert_eq!(given["background"]["color"], serde_json::json!([1.0, 0.0, 0.0]));
-    // On either side of --preset; and what excludes an option of the preset beats it.
+    // On either side of --preset; an option that excludes one of the preset overrides it.
     for options in [
         &["--tones", "1", "--preset", &preset, "--eye", "1,2,9", "--transparent"][..],
         &["--preset", &preset, "--transparent", "--eye=1,2,9", "--tones=1"],
@@ -134,7 +134,7 @@ fn what_a_preset_gets_wrong_is_said_with_file_line_and_key() {
     refused("measure", "style = \"inking\"\nfilter = \"oil\"\n", &["line 2: filter oil: "]);
     refused_in_one_line(
         &["render", "builtin:ant", "-o", &out, "--preset", "paper:monet"],
-        &["paper:monet: there is no shipped preset of this name", "paper:dachsbacher-inking"],
+        &["paper:monet: no shipped preset has this name", "paper:dachsbacher-inking"],
     );
     refused_in_one_line(&["render", "builtin:ant", "-o", &out, "--preset", "none.toml"], &["none.toml: there is no"]);
     assert!(!std::path::Path::new(&out).exists());
@@ -174,7 +174,7 @@ fn settings_in_use_are_saved_and_draw_the_same() {
     assert_eq!(preset.options["parallel"], OptionValue::Switch(true));
     assert_eq!(preset.options.len(), 6, "{:?}", preset.options);
     assert!(asked == picture("builtin:gear", &["--preset", &first]));
-    // A preset with something beside it becomes another preset.
+    // A preset with an additional option becomes another preset.
     let more = picture("builtin:gear", &["--preset", &first, "--line-width", "1", "--save-preset", &second]);
     assert!(more != asked && more == picture("builtin:gear", &["--preset", &second]));
     assert_eq!(Preset::read(&second).unwrap().options["line-width"], OptionValue::text("1"));

@@ -1,4 +1,4 @@
-//! Leaving out what a scene does not need: each rule where it applies and where it must not, and pictures byte for byte.
+//! Pruning: each rule where it applies and where it must not, and pictures byte for byte.
 
 use crate::support::{BACKENDS, renderer, scene, scene_with};
 use glam::DVec3;
@@ -47,7 +47,7 @@ fn draws(plan: &Plan) -> impl Iterator<Item = &Draw> {
     plan.steps().filter_map(|(_, step)| if let Step::Draw(draw) = step { Some(draw) } else { None })
 }
 
-/// A scene looked at from the side, so that most of its copies are outside the picture.
+/// A scene seen from the side, with most of its copies outside the picture.
 pub fn beside(model: &str) -> Scene {
     let mesh = Arc::new(load(model, &LoadOptions::default()).unwrap().mesh);
     let mut scene = Scene::new(
@@ -72,7 +72,7 @@ fn a_border_multiplied_by_0_is_left_out_and_one_that_is_not_is_kept() {
     let sloped = Border { detection_factor: 0.0, slope_threshold: true, ..Border::default() };
     let sloped = cartoon(|cartoon| cartoon.border = Some(sloped));
     assert!(!applies(Rule::Border, &scene, &sloped), "that threshold is not multiplied");
-    // With its square goes the map it would have read.
+    // Without the square, the map that it would have read goes too.
     assert!(applies(Rule::UnreadMap, &scene, &with(0.0)));
     assert_eq!(pruned(&scene, &with(0.0)).plan.passes.len(), 1);
 }
@@ -174,7 +174,7 @@ fn a_background_square_is_left_out_unless_borders_or_rounding_need_it() {
     // Two-pass draws the outer half of its borders on it; its map's goes.
     let plan = pruned(&white, &two_pass(|_| {})).plan;
     assert_eq!(draws(&plan).filter(|draw| matches!(draw.geometry, Geometry::BackgroundSquare { .. })).count(), 1);
-    // Half is 127.5 of 255: which way that rounds is the driver's.
+    // Half is 127.5 of 255: its rounding depends on the driver.
     let grey = on(Background::Color(Color([0.5; 3])));
     let plan = pruned(&grey, &cartoon(|_| {})).plan;
     assert_eq!(draws(&plan).filter(|draw| matches!(draw.geometry, Geometry::BackgroundSquare { .. })).count(), 1);

@@ -1,4 +1,4 @@
-//! Pictures of pruned plans beside those of full ones: the same bytes, whatever the model, the style, the view, the backend.
+//! Pictures of pruned plans against those of full ones: the same bytes for every model, style, view and backend.
 
 use crate::prune::{beside, cartoon, many_styles};
 use crate::support::{BACKENDS, public_models, renderer, scene_with, skip, styles};
@@ -20,7 +20,7 @@ impl Dice {
     }
 }
 
-/// The scene from a view of its own: any direction, sometimes from nearer or looking past it, sometimes in parallel.
+/// The scene from a random view: any direction, sometimes from nearer or looking past it, sometimes in parallel.
 fn random_view(scene: &Scene, dice: &mut Dice) -> Scene {
     let view =
         View { azimuth_degrees: dice.roll() * 360.0, elevation_degrees: (dice.roll() * 2.0 - 1.0).asin().to_degrees() };
@@ -64,7 +64,7 @@ fn verify(renderer: &mut Renderer, mesh: &Arc<Mesh>, views: usize) {
             let plan = style.plan(&view, Show::Final).unwrap();
             let short = prune(&plan, &view, &pruning);
             let full = renderer.draw(&view, &plan).unwrap();
-            // The second of two frames in a row: nothing of the first may be left in it.
+            // The second of two frames in a row must contain nothing of the first.
             renderer.time_frames(&view, &short.plan, 0, 1).unwrap();
             let picture = renderer.draw(&view, &short.plan).unwrap();
             let difference = full.difference(&picture).unwrap();
@@ -111,10 +111,10 @@ fn three_views_of_two_models_in_every_style_are_the_same_bytes_on_both_backends(
     }
 }
 
-/// Views of each model by the first backend, unless `TINTA_VIEWS` says how many.
+/// Views of each model by the first backend; `TINTA_VIEWS` overrides it.
 const VIEWS: usize = 10;
 
-/// By the second one there is a view for each so many by the first.
+/// The second backend draws one view for each so many of the first.
 const VIEWS_OF_FIRST: usize = 3;
 
 fn views() -> usize {

@@ -135,7 +135,7 @@ fn without_a_recipe_no_name_is_told_and_nothing_can_be_made_again() {
     let model = textured(&folder);
     for (name, kind) in [("a.png", "png"), ("a.svg", "svg"), ("a.jpg", "png"), ("a.apng", "png")] {
         let path = folder.path(name);
-        // These formats carry none in any case.
+        // These formats never carry a recipe.
         let keep: &[&str] = if ["a.jpg", "a.apng"].contains(&name) { &[] } else { &["--no-recipe"] };
         made(&[&["render", &model, "-o", &path, "--size", "30"], keep].concat());
         let bytes = std::fs::read(&path).unwrap();

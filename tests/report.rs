@@ -1,4 +1,4 @@
-//! Reports on made-up rows: what is written is read back, nothing is lost by an interruption, plots hold their points.
+//! Reports on made-up rows: written rows are read back, an interruption loses none, plots hold their points.
 
 use image::{ImageFormat, Rgb, RgbImage};
 use roxmltree::Document;
@@ -72,7 +72,7 @@ fn with_tones(mut row: Row, inner_differing: Option<f64>, mean_difference: f64) 
     row
 }
 
-/// As many settings as a real run has, on three models.
+/// As many settings as in a real run, on three models.
 pub fn made_up_rows(machine: &str, slowness: f64) -> Vec<Row> {
     let mut rows = Vec::new();
     for (model, weight) in [("builtin:bust", 1.0), ("models/stanford-bunny.obj", 2.2), ("fandisk.obj", 1.3)] {
@@ -117,7 +117,7 @@ pub fn made_up_rows(machine: &str, slowness: f64) -> Vec<Row> {
     rows
 }
 
-/// What a made-up run says of itself.
+/// The description of a made-up run.
 pub fn info() -> ReportInfo {
     let png = |color: [u8; 3]| {
         let mut png = Cursor::new(Vec::new());

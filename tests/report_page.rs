@@ -1,4 +1,4 @@
-//! The report's page in a browser: nothing fails, headers sort, choices choose, nothing is wider than a phone.
+//! The report's page in a browser: no script fails, headers sort, choices choose, the page fits a phone.
 
 use crate::report::{info, made_up_rows};
 use crate::support::skip;
@@ -112,7 +112,7 @@ fn in_browser(page: &str, widths: [u32; 2]) -> Option<serde_json::Value> {
     Some(serde_json::from_slice(&json).unwrap())
 }
 
-/// Leaves a report in `target/tmp`, so that it can be looked at.
+/// Leaves a report in `target/tmp` for inspection.
 fn keep(name: &str, rows: &[Row]) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     std::fs::create_dir_all(&folder).unwrap();

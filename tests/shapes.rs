@@ -1,4 +1,4 @@
-//! Meshes everybody can count, and random ones, for the tests of edges and of ink.
+//! Meshes with known counts, and random ones, for the tests of edges and of ink.
 
 use glam::DVec3;
 use proptest::prelude::*;

@@ -1,4 +1,4 @@
-//! Public models, where they lie beside the checkout; said aloud where they do not.
+//! Public models beside the checkout; without them the test prints that it is skipped.
 //!
 //! `TINTA_MODELS` names their folder, by default `../shared/models`.
 
@@ -143,7 +143,7 @@ fn of_the_models_only_the_one_that_lies_gets_the_hint() {
         assert_eq!(hints(UpAxis::Auto), usize::from(lies), "{name}");
         assert_eq!((hints(UpAxis::Z), hints(UpAxis::Y)), (0, 0), "{name}: who names an axis knows it");
     }
-    // Upright in files with y up, all of them lie in an STL, which is read with z up; as they stand, they are parts with several ends.
+    // Upright in files with y up, all of them lie in an STL, which is read with z up; unturned, they are parts with several ends.
     let folder = tempfile::tempdir().unwrap();
     let stl = folder.path().join("model.stl");
     for (name, lies) in [
@@ -173,7 +173,7 @@ fn of_the_models_only_the_one_that_lies_gets_the_hint() {
     }
 }
 
-/// A mesh as a text STL, its coordinates as they are.
+/// A mesh as a text STL, its coordinates unchanged.
 fn text_stl(mesh: &Mesh) -> String {
     let mut text = "solid a\n".to_owned();
     for triangle in &mesh.triangles {

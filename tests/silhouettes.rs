@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use tinta::edges::{Eye, Incidence, Side, SilhouetteRule, Silhouettes, side_of_face};
 use tinta::{EdgeList, Mesh};
 
-/// The loops that edges form: `None` if at some position other than two of them meet.
+/// The loops formed by edges: `None` unless exactly two of them meet at every position.
 pub fn loops(edges: &EdgeList, chosen: &[u32]) -> Option<usize> {
     let mut neighbours: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for edge in chosen {
@@ -58,7 +58,7 @@ fn the_silhouette_is_closed_even_where_faces_are_seen_exactly_edge_on() {
         let found = find(Eye::Direction(direction));
         assert_eq!((found.len(), loops(&edges, &found)), (4, Some(1)), "{direction}");
     }
-    // In the plane of the top: of the three sides around that corner only one is seen.
+    // In the plane of the top: of the three sides around that corner only one is visible.
     let found = find(Eye::Point(DVec3::new(3.0, 1.0, 0.5)));
     assert_eq!((found.len(), loops(&edges, &found)), (4, Some(1)));
 }
@@ -144,7 +144,7 @@ fn check_edge_on(cases: usize, least_of_each: usize) {
     let mut random = Random(3);
     let mut sides = [0usize; 3];
     for case in 0..cases {
-        // Every fourth lies on a grid, where what is in the plane is so exactly.
+        // Every fourth lies on a grid, where points in the plane are exactly in it.
         let is_on_grid = case % 4 == 0;
         let on_grid = |vector: DVec3| if is_on_grid { (vector * 256.0).round() / 256.0 } else { vector };
         let origin = on_grid(random.direction() * [0.0, 1.0, 1e6][case % 3]);
@@ -154,7 +154,7 @@ fn check_edge_on(cases: usize, least_of_each: usize) {
         let v = if case % 5 == 1 && !is_on_grid { u * 0.5 + v * 1e-9 } else { v };
         let corners = [a, a + u, a + v];
         let [s, t] = [(); 2].map(|()| random.number() * 8.0 - 4.0).map(|x| if is_on_grid { x.round() } else { x });
-        // In the plane but for rounding, then moved by a few units in the last place.
+        // In the plane up to rounding, then moved by a few units in the last place.
         let nudged = |x: f64, steps: i64| f64::from_bits((x.to_bits() as i64 + steps) as u64);
         let steps = if is_on_grid { 0 } else { (random.number() * 5.0) as i64 - 2 };
         let nudge = |vector: DVec3| DVec3::new(nudged(vector.x, steps), vector.y, nudged(vector.z, -steps));
@@ -212,7 +212,7 @@ fn cap(degrees: f64, rings: u32) -> Mesh {
     mesh(positions.collect(), triangles)
 }
 
-/// The silhouette edges of a mesh wound one way, each face's side asked for by itself.
+/// The silhouette edges of a mesh wound one way, each face's side computed separately.
 fn by_sides(mesh: &Mesh, edges: &EdgeList, eye: Eye) -> Vec<u32> {
     let is_front = |face: &u32| side_of_face(corners(mesh, *face), eye) == Side::Front;
     let is_silhouette = |edge: &u32| match edges.faces(*edge) {
@@ -260,7 +260,7 @@ fn every_silhouette_from_eyes_close_to_a_surface_is_that_of_its_faces_sides() {
 
 #[test]
 fn the_papers_rule_takes_edges_between_faces_that_are_both_edge_on_and_the_exact_one_does_not() {
-    // Errata D4: two faces whose normals' components along the view have one sign and this product.
+    // Errata D4: two faces whose normals' components along the view have the same sign and this product.
     let roof = |first: f64, second: f64| {
         let (left, right) = (first.asin(), second.asin());
         mesh(

@@ -1,4 +1,4 @@
-//! Standard output that is full or closed: what should have gone there is not lost without a word.
+//! Full or closed standard output: the loss of output is reported.
 
 #![cfg(target_os = "linux")]
 
@@ -30,7 +30,7 @@ fn help_versions_scripts_and_pages_that_cannot_be_written_are_errors() {
         let mut command = Command::new(env!("CARGO_BIN_EXE_tinta"));
         let output = command.args(arguments.split(' ')).stdout(full).output().unwrap();
         refused(&output, "standard output cannot be written");
-        // As ever, where it can.
+        // As usual, if possible.
         let output = tinta(&arguments.split(' ').collect::<Vec<_>>());
         assert!(output.status.success() && !output.stdout.is_empty() && output.stderr.is_empty(), "{arguments}");
     }
@@ -44,7 +44,7 @@ fn a_result_for_closed_standard_output_is_refused_before_the_work() {
         Command::new("sh").args(["-c", script, "sh", program]).current_dir(root()).output().unwrap()
     };
     for arguments in [
-        // A model that is not there would be noticed later.
+        // A missing model would be noticed later.
         "render no-such.obj -o -",
         "render no-such.obj --style lines -o -",
         "compare no-such.obj -o -",
@@ -57,11 +57,11 @@ fn a_result_for_closed_standard_output_is_refused_before_the_work() {
     ] {
         refused(&run(&format!("\"$1\" {arguments} >&-")), "standard output is closed; name a file");
     }
-    // What goes into a file needs none.
+    // Writing to a file needs no standard output.
     let picture = folder.path("a.png");
     let output = run(&format!("\"$1\" render builtin:ant --size 32 -o {picture} >&-"));
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(image::image_dimensions(&picture).unwrap(), (32, 32));
-    // Nor is one missed that somebody wants to be nothing.
+    // Redirection to /dev/null also works.
     assert!(run("\"$1\" render builtin:ant --size 32 -o - >/dev/null").status.success());
 }

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use tinta::Backend;
 use tinta_lab::stress::{Group, Row, StressSettings, Summary, run};
 
-/// One case of each kind, carried out once for all quick tests; but for turns, of which one takes half a minute.
+/// One case of each kind, carried out once for all quick tests, except turns, each of which takes half a minute.
 /// `lines_invariance.rs` draws exact lines in other sizes.
 fn few() -> &'static Summary {
     static SUMMARY: OnceLock<Summary> = OnceLock::new();
@@ -43,7 +43,7 @@ fn check_ends(summary: &Summary, at_least: usize) {
         .collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
     assert!(summary.case_count >= at_least, "{} cases", summary.case_count);
-    // Nothing was left out silently: each case has as many rows by one backend as by the other.
+    // No case was left out silently: each has as many rows by one backend as by the other.
     let mut rows: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
     for row in &summary.cases {
         if row.group == Group::Files {
@@ -67,7 +67,7 @@ fn check_compared(summary: &Summary) {
     let is_drawn = |row: &&Row| row.verdict == "rendered" && row.group != Group::Files;
     let rendered = summary.cases.iter().filter(is_drawn).count();
     assert_eq!(compared("pruned_differing_px"), rendered);
-    // All by the second backend. OSMesa's largest pictures are larger than EGL's, so that those are not compared.
+    // All by the second backend. OSMesa's largest pictures are larger than EGL's and are not compared.
     let second = summary.cases.iter().filter(is_drawn).filter(|row| row.backend == backend_names()[1]).count();
     let sizes = ["the widest picture", "the highest picture", "one pixel wider", "one pixel higher"];
     let of_largest = |name: &str| sizes.contains(&name);
@@ -100,7 +100,7 @@ fn no_edge_of_a_few_cases_flips_under_jitter_unless_its_predicate_changes_its_si
     check_jitter(few(), 20, 0.0);
 }
 
-/// The mean of one figure less another over the turns of a style, of which there are so many at least.
+/// The mean of one figure less another over the turns of a style, of at least so many rows.
 fn excess(summary: &Summary, least_rows: usize, style: &str, figure: &'static str, less: &'static str) -> f64 {
     let turns = summary.cases.iter().filter(|row| row.style == style && row.group == Group::Turns);
     let rows = turns.filter_map(|row| Some((row.figures.get(figure)?, row.figures.get(less)?)));
@@ -174,7 +174,7 @@ fn check_scale(summary: &Summary) {
     assert!(count > 0);
 }
 
-/// In one test, for others would wait until all cases are carried out.
+/// In one test, because others would wait for all cases.
 #[test]
 #[ignore = "exhaustive: all cases of tinta stress, by both backends"]
 fn all_cases_hold_what_one_of_each_kind_does_and_more() {
@@ -229,7 +229,7 @@ fn a_backend_that_is_not_there_is_an_error_and_no_failed_case() {
 #[test]
 fn cases_are_tried_without_a_backend_that_is_not_there_and_that_is_said() {
     if BACKENDS[1] != Backend::OsMesa {
-        // Both are EGL's then, and go with it.
+        // Without OSMesa both backends are EGL's and both are missing.
         return skip("a missing backend: there is no OSMesa to go on with");
     }
     let folder = tempfile::tempdir().unwrap();

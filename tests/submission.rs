@@ -1,4 +1,4 @@
-//! Vertices by buffers and one by one: the same bytes in every style, and what is said where they cannot be.
+//! Vertices by buffers and one by one: the same bytes in every style, and the errors where they are impossible.
 
 use crate::support::{BACKENDS, renderer, scene, scene_with, styles};
 use tinta::edges::SilhouetteRule;
@@ -76,7 +76,7 @@ fn a_models_own_picture_lies_the_same_by_every_way_to_hand_vertices_over() {
     let settings = SceneSettings { size: Size { width: 80, height: 80 }, ..SceneSettings::default() };
     let scene = Scene::new(vec![std::sync::Arc::new(mesh)], &settings).unwrap();
     let mut renderer = renderer(BACKENDS[0]);
-    // On the first unit by itself, on the second behind the ramp, and in shaders.
+    // Alone on the first unit, behind the ramp on the second, and in shaders.
     let textured = |paint| Style::Inking(Inking { paint, has_texture: true, ..Inking::default() });
     for style in [textured(PaintMode::Flat), textured(PaintMode::Ramp), Style::named(StyleName::Sand)] {
         let plan = style.plan(&scene, Show::Final).unwrap();
@@ -149,7 +149,7 @@ fn the_command_line_draws_the_same_file_by_every_way_to_hand_vertices_over() {
 
 #[test]
 fn nobody_needs_glbegin_but_for_what_it_draws() {
-    // The whole program runs by buffers where it is not asked otherwise.
+    // The whole program uses buffers by default.
     let mut core = Renderer::with_fault(Backend::Auto, Fault::NoImmediateMode).unwrap();
     let scene = scene("builtin:ant", 40, 40);
     for (name, style) in styles() {

@@ -1,4 +1,4 @@
-//! Drawing larger and shrinking: the mean of the large picture, with lines and grain as wide as they were asked for.
+//! Drawing larger and shrinking: the mean of the large picture, with the requested width of lines and grain.
 
 use crate::support::{BACKENDS, ball, renderer, scene};
 use tinta::styles::{Cartoon, Charcoal, Dietrich, Improvements, Ink, Inking, LineWidth, Noise, Phong, Supersample};
@@ -7,8 +7,8 @@ use tinta::{Picture, Scene, Show, Size, Style};
 /// All that draw larger.
 const LARGER: [Supersample; 3] = [Supersample::Two, Supersample::Three, Supersample::Four];
 
-/// Each style but charcoal, whose grain does not grow with its picture: at its own size with all that is in pixels so many
-/// times as large, and supersampled so many times.
+/// Each style except charcoal, whose grain does not grow with its picture: at its own size with everything in pixels scaled, and
+/// supersampled by the same factor.
 fn styles(supersample: Supersample) -> Vec<(&'static str, [Style; 2])> {
     let factor = supersample.factor();
     let scale = factor as f32;
@@ -63,7 +63,7 @@ fn lines_are_as_wide_as_without() {
     let mut renderer = renderer(BACKENDS[0]);
     let scene = scene("builtin:gear", 160, 160);
     for width in [2.0, 5.0] {
-        // Lines that hide nothing of each other: without joints, which only half of the samples may need.
+        // Lines that do not hide each other: without joints, which only half of the samples may need.
         let mut ink = |supersample| {
             let inking =
                 Inking { line_width_px: width, supersample, is_smooth: false, has_joints: false, ..Inking::default() };
@@ -127,7 +127,7 @@ fn grain_and_paper_stay_as_wide_and_as_strong_and_the_outline_is_smooth() {
 #[test]
 fn a_picture_too_large_to_be_supersampled_is_refused_by_the_options_name() {
     let mut renderer = renderer(BACKENDS[0]);
-    // What others draw in tiles of any number this one draws in one viewport: its paper lies on the clip coordinates.
+    // Other styles draw this size in any number of tiles, this one in one viewport: its paper uses clip coordinates.
     let limit = renderer.context().largest_viewport;
     let scene = scene("builtin:open-box", limit.width / 4 + 1, 1);
     let style = Style::Charcoal(Charcoal { supersample: Supersample::Four, ..Charcoal::default() });

@@ -1,4 +1,4 @@
-//! What the integration tests share: scenes, renderers, and comparing pictures so that a failure can be looked at.
+//! Shared parts of the integration tests: scenes, renderers, and comparisons that leave pictures for inspection.
 
 pub mod growth;
 
@@ -9,8 +9,8 @@ use std::sync::{Arc, LazyLock};
 use tinta::gl::context::witnesses;
 use tinta::{Backend, LoadOptions, Picture, Renderer, Scene, SceneSettings, Size, Style, StyleName, load};
 
-/// Two ways to a context, for what is drawn twice, which both must work wherever the tests run: EGL, and beside it OSMesa or where
-/// Mesa has none EGL's surfaceless platform. Which they are is said.
+/// Two backends, for pictures drawn twice; both must work wherever the tests run: EGL, and OSMesa or, where Mesa lacks it, EGL's
+/// surfaceless platform. A message names them.
 pub static BACKENDS: LazyLock<[Backend; 2]> = LazyLock::new(|| {
     let both = witnesses();
     let _ = writeln!(std::io::stderr(), "DRAWN by {} and {}", both[0], both[1]);
@@ -27,12 +27,12 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap()
 }
 
-/// Says that a test checks less than it could; written past the test harness, which would keep it to itself.
+/// Reports that a test checks less than it could, bypassing the test harness's capture.
 pub fn skip(what: &str) {
     let _ = writeln!(std::io::stderr(), "SKIPPED {what}");
 }
 
-/// The folder of public models that tests try where they have it: `TINTA_MODELS`, by default `../shared/models`.
+/// The folder of optional public models for tests: `TINTA_MODELS`, by default `../shared/models`.
 pub fn public_models() -> Option<PathBuf> {
     let folder = std::env::var_os("TINTA_MODELS").map_or_else(|| root().join("../shared/models"), PathBuf::from);
     if folder.is_dir() {

@@ -8,7 +8,7 @@ use tinta::{
     CameraSettings, Color, LoadOptions, Mesh, Picture, Scene, SceneSettings, Show, Size, Style, StyleName, load,
 };
 
-/// Styles whose colours are the scene's.
+/// Styles that use the scene's colours.
 const STYLES: [StyleName; 6] =
     [StyleName::ThreePass, StyleName::TwoPass, StyleName::Mrt, StyleName::Phong, StyleName::Ink, StyleName::Charcoal];
 
@@ -26,7 +26,7 @@ fn square(colors: Vec<[f32; 3]>, surface: Surface) -> Scene {
     Scene::new([mesh], &SceneSettings { bare_color: white, ..settings(surface) }).unwrap()
 }
 
-/// The middle pixel, which every style shades alike whatever its colour.
+/// The middle pixel, which every style shades alike in any colour.
 fn middle(picture: &Picture) -> [u8; 4] {
     picture.pixel(20, 20)
 }
@@ -47,7 +47,7 @@ fn a_colour_at_all_vertices_is_multiplied_with_the_shading() {
             for (found, expected) in colored.into_iter().zip(expected) {
                 assert!((f64::from(found) - expected).abs() <= 1.0, "{name:?}: {colored:?} of {shading:?}");
             }
-            // Left out where nobody asks for them.
+            // Left out by default.
             assert_eq!(drawn(&[[1.0, 0.5, 0.0]; 4], Surface::Plain), shading, "{name:?}");
         }
     }

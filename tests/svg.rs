@@ -102,7 +102,7 @@ fn pixels_of_lines_are_those_that_another_renderer_makes_of_their_svg() {
             let (mut sum, mut far) = (0u64, 0);
             for (index, pixel) in ours.pixels.chunks_exact(4).enumerate() {
                 let [x, y] = [index as u32 % theirs.width(), index as u32 / theirs.width()];
-                // What is covered, on white.
+                // The covered share, on white.
                 let on_white = |[red, _, _, alpha]: [u8; 4]| 255 - u32::from(255 - red) * u32::from(alpha) / 255;
                 let difference = on_white(pixel.try_into().unwrap()).abs_diff(on_white(rgba(&theirs, x, y)));
                 sum += u64::from(difference);

@@ -52,7 +52,7 @@ fn the_ramp_written_and_given_back_paints_the_same_picture() {
     let paint = |name: &str, options: &[&str]| {
         let picture = folder.path(name);
         let mut arguments = vec!["render", "builtin:ant", "-o", &picture, "--size", "64", "--style", "inking"];
-        // Which names the ramp, so that the files would differ.
+        // The recipe names the ramp; with it the files would differ.
         arguments.push("--no-recipe");
         arguments.extend(options);
         assert!(tinta(&arguments).status.success());

@@ -1,4 +1,4 @@
-//! Pictures in tiles beside the same pictures in one piece.
+//! Pictures in tiles against the same pictures in one piece.
 
 use crate::support::{BACKENDS, failure_folder, renderer, scene, side_by_side, styles};
 use tinta::picture::write_rgba_png;
@@ -15,7 +15,7 @@ fn in_tiles(renderer: &mut Renderer, side: u32, scene: &Scene, style: &Style) ->
     picture
 }
 
-/// Every style, and what else is drawn by a way of its own.
+/// Every style, and the other separate ways to draw.
 fn all() -> Vec<(&'static str, Style)> {
     let mut all = styles();
     let three_pass = |supersample| Style::ThreePass(Cartoon { supersample, ..Cartoon::default() });
@@ -44,8 +44,8 @@ fn share(a: &Picture, b: &Picture, largest: u8, of: impl Fn(i64, i64) -> bool) -
     different as f64 / f64::from(all)
 }
 
-/// Of a picture in tiles at most so many pixels are another step of 8 bits than in one piece, and at most so many more than a step
-/// away: docs/dev/limits.md says why.
+/// In a tiled picture at most so many pixels differ by one step of 8 bits from the picture in one piece, and at most so many by
+/// more: docs/dev/limits.md explains why.
 fn limits(name: &str) -> (f64, f64) {
     match name {
         // The middle between two steps, where even faces of one tone lie.
@@ -66,7 +66,7 @@ fn tiles_make_the_picture_of_one_piece_and_no_seam() {
             let tiled = in_tiles(&mut renderer, 300, &scene, style);
             let everywhere = share(&whole, &tiled, 0, |_, _| true);
             let beyond_a_step = share(&whole, &tiled, 1, |_, _| true);
-            // Whatever the factor, tiles begin at multiples of 16 pixels.
+            // For every factor, tiles begin at multiples of 16 pixels.
             let beside_seams =
                 share(&whole, &tiled, 1, |x, y| [x, y].iter().any(|place| (place + 3).rem_euclid(16) < 6));
             let (any, more) = limits(name);
@@ -125,7 +125,7 @@ fn steps_and_times_of_a_picture_in_tiles_are_those_of_all_tiles() {
 fn a_picture_wider_than_any_viewport_is_drawn_where_it_belongs() {
     let mut renderer = renderer(BACKENDS[0]);
     let widest = renderer.context().largest_viewport.width;
-    // As wide again as a tenth, so that no tile sees both ends in its viewport.
+    // A tenth wider than the widest: no tile sees both ends in its viewport.
     let width = widest / 10 * 11 / 16 * 16;
     let styles = [
         Style::named(StyleName::Ink),
@@ -135,7 +135,7 @@ fn a_picture_wider_than_any_viewport_is_drawn_where_it_belongs() {
     for style in styles {
         let large = renderer.render(&scene("builtin:ant", width, 160), &style).unwrap();
         let small = renderer.render(&scene("builtin:ant", width / 4, 40), &style).unwrap();
-        // Means of blocks of the large picture beside those of the small one, whose lines are as many pixels wide.
+        // Means of blocks of the large picture against those of the small one, whose lines are as many pixels wide.
         let mean = |picture: &Picture, x: u32, y: u32, side: u32| {
             let pixels =
                 (0..side * side).map(|n| picture.pixel((x * side + n % side).into(), (y * side + n / side).into()));

@@ -111,7 +111,7 @@ fn a_turn_of_lines_is_numbered_drawings_whose_paths_have_ids_that_stay() {
     let size = |number: usize| std::fs::metadata(folder.path(&format!("a-{number:02}.svg"))).unwrap().len();
     assert_eq!(record["bytes"], (1..=5).map(size).sum::<u64>());
     assert!(!std::path::Path::new(&folder.path("a-06.svg")).exists());
-    // The twelve edges of a box and what of them is behind its sides: seen or hidden, the same strokes.
+    // The twelve edges of a box with their hidden parts: visible or hidden, the same strokes.
     assert!(all.len() < 24, "{all:?}");
     render(&[&model[..], &["-o", &folder.path("%d.pdf")]].concat());
     render(&[&model[..], &["-o", &folder.path("%d.png"), "--style", "lines"]].concat());

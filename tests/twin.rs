@@ -1,4 +1,4 @@
-//! An independent twin on the CPU: border filter and blending recomputed in f64 from what GL dumped.
+//! An independent twin on the CPU: border filter and blending recomputed in f64 from GL's dumped pictures.
 
 use crate::support::{BACKENDS, failure_folder, renderer, scene, side_by_side};
 use tinta::picture::write_rgba_png;
@@ -6,7 +6,7 @@ use tinta::styles::{Border, Cartoon, Filter};
 use tinta::{Picture, Show, Style};
 
 /// The border at a pixel from the map around it, as the shaders define it but in f64: 0 none, 1 and more black; one for each
-/// program that is blended.
+/// blended program.
 ///
 /// `map(x, y)` is the map's four channels in [0, 1] at this offset in pixels, y up, clamped at the rim.
 fn responses(border: &Border, map: impl Fn(i32, i32) -> [f64; 4]) -> Vec<f64> {
@@ -79,7 +79,7 @@ fn every_filter_and_both_styles_agree_with_the_twin_within_one_step_of_255_every
                     let (three, two) = (Style::ThreePass(cartoon.clone()), Style::TwoPass(cartoon));
                     let (map, tones) = (show(&three, Show::Map), show(&three, Show::Tones));
                     let mut pictures = vec![("three-pass", show(&three, Show::Final))];
-                    // What is blended in two programs is no single one.
+                    // A filter blended in two programs is no single one.
                     if filter != Filter::MitchellTwo {
                         pictures.push(("two-pass", show(&two, Show::Final)));
                     }
@@ -173,7 +173,7 @@ fn the_gaussian_weighs_its_centre_as_the_papers_filter_does_and_nothing_in_all()
     let answer = |at| response(&with(Filter::Gaussian), point(at));
     assert!((answer((0, 0)) - 4.0).abs() < 1e-12);
     assert!((answer((0, 1)) - 2.0 / 3.0).abs() < 1e-12 && (answer((1, 1)) - 1.0 / 3.0).abs() < 1e-12);
-    // What beside and corners take away is what the centre gives.
+    // The centre's weight balances those beside it and of the corners.
     assert!((4.0 * answer((1, 0)) + 4.0 * answer((1, 1)) - answer((0, 0))).abs() < 1e-12);
 }
 

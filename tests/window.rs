@@ -43,10 +43,10 @@ fn style(name: &str) -> ViewerEvent {
     ViewerEvent::Style(Side::Left, name.to_owned())
 }
 
-/// What a command line as the viewer writes it draws.
+/// Returns the picture of a command line written by the viewer.
 fn by_command(command: &str, backend: &str) -> Picture {
     let folder = tempfile::tempdir().unwrap();
-    // Nothing in these commands has blanks in it; colours are quoted.
+    // These commands contain no blanks; colours are quoted.
     let command = command.replace('\'', "");
     let words: Vec<&str> = command.split(' ').skip(1).collect();
     let output = Command::new(env!("CARGO_BIN_EXE_tinta"))
@@ -169,7 +169,7 @@ fn a_model_is_stood_up_in_the_window_and_the_command_says_so() {
     assert!(command.contains("--up-axis z"), "{command}");
     assert_eq!(turned.difference(&by_command(&command, "auto")).unwrap().pixels, 0);
     assert_eq!(shown(&mut viewer, [ViewerEvent::ModelDefault("--up-axis".to_owned())]), before);
-    // What cannot be read so leaves the last one and its command.
+    // An unreadable choice keeps the last model and its command.
     viewer.event(ViewerEvent::Model("--skin".to_owned(), "/nowhere.png".to_owned()));
     viewer.rest().unwrap();
     assert!(viewer.problem.as_ref().is_some_and(|problem| problem.contains("nowhere.png")), "{:?}", viewer.problem);
@@ -262,7 +262,7 @@ fn files_saved_from_the_viewer_are_those_its_commands_write() {
     assert!(preset.contains("style = \"three-pass\"\ntones = 2"), "{preset}");
 }
 
-/// A viewer of this model whose files go into this folder, at rest.
+/// An idle viewer of this model that saves files into this folder.
 fn saving_viewer(model: &str, folder: &Path) -> Viewer {
     let options = ViewerOptions {
         state: ViewerState::new(vec![model.to_owned()], Default::default()),
@@ -278,7 +278,7 @@ fn saving_viewer(model: &str, folder: &Path) -> Viewer {
     viewer
 }
 
-/// What saving this says.
+/// The message after saving this.
 fn saved(viewer: &mut Viewer, event: ViewerEvent) -> String {
     viewer.event(event);
     while viewer.state.message.as_deref() == Some("saving") {
@@ -441,7 +441,7 @@ fn pictures_are_coarser_while_the_model_moves_only_if_that_is_allowed_and_never_
     let last = shown(&mut viewer, []);
     assert!(!blocks(&last));
     assert_eq!(last.difference(&by_command(&viewer.commands().remove(0).unwrap(), "auto")).unwrap().pixels, 0);
-    // What is there in full is not drawn again.
+    // A full picture is not drawn again.
     viewer.is_moving = true;
     assert_eq!(shown(&mut viewer, []), last);
 }
@@ -494,7 +494,7 @@ fn in_a_split_both_styles_are_saved_under_their_own_names_and_no_file_twice() {
     let events = [ViewerEvent::Resize([48, 40]), ViewerEvent::Layout(Layout::Split), right];
     shown(&mut viewer, events);
     let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-    // The second is asked for while the first is being written.
+    // The second request comes while the first file is being written.
     for event in [ViewerEvent::SaveTurn, ViewerEvent::SaveTurn, ViewerEvent::SavePreset, ViewerEvent::SavePicture] {
         viewer.event(event);
     }
@@ -512,14 +512,14 @@ fn in_a_split_both_styles_are_saved_under_their_own_names_and_no_file_twice() {
     assert!(folder.path().join("open-box-three-pass-phong.png").exists());
 }
 
-/// A display of one's own; ends with this.
+/// A separate display; ends with this value.
 pub struct Display {
     server: Child,
     name: String,
 }
 
 impl Display {
-    /// Starts Xvfb; says so where there is none.
+    /// Starts Xvfb; prints a message where it is missing.
     pub fn start() -> Option<Self> {
         let started = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", "1280x960x24", "-nolisten", "tcp"])

@@ -13,10 +13,10 @@ class Program:
     name: str
     command: str
     ends: str  # of the drawing's file
-    draws: str  # what it can draw at all
+    draws: str  # what it can draw
     settings: str
     needs_display: bool = False
-    is_reference: bool = False  # it draws what the others are judged by
+    is_reference: bool = False  # the others are judged by its lines
 
 
 TINTA = "TINTA render MODEL --camera MATRIX --size 512x512 -o DRAWING"
@@ -79,7 +79,7 @@ PROGRAMS = [
     Program("f3d edges", f"PYTHON f3d_edges.py {SCRIPT}", "png", "all triangles' edges", "`render.show_edges`, 2 px, a white unlit mesh"),
 ]
 
-# What was looked for and is not there.
+# Programs that were not found.
 MISSING = {
     "three-edge-projection": "not in the package registry under that name; its repository was not reached",
 }

@@ -109,7 +109,7 @@ def summary(name, rows):
     }
 
 
-# F1 is printed to three digits, and what differs by less is called equal.
+# F1 is printed to three digits; smaller differences count as equal.
 EQUAL_F1 = 0.002
 
 

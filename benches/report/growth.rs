@@ -5,7 +5,7 @@ use std::path::Path;
 
 /// Times over sizes, under a name.
 pub struct Curve {
-    /// What took them.
+    /// The contestant's name.
     pub name: String,
     /// Size and milliseconds.
     pub points: Vec<(f64, f64)>,
@@ -24,14 +24,14 @@ impl Curve {
         [(y - slope * x) / w, slope]
     }
 
-    /// By which share of itself the worst time misses that line.
+    /// The worst relative deviation from that line.
     pub fn worst_miss(&self) -> f64 {
         let [start, slope] = self.line();
         self.points.iter().map(|(size, ms)| ((start + slope * size) / ms - 1.0).abs()).fold(0.0, f64::max)
     }
 }
 
-/// Draws the curves to an SVG file, under these words: a title, what the sizes are, and what the times.
+/// Draws the curves to an SVG file, under these words: a title, the axis of sizes, and the axis of times.
 pub fn plot(curves: &[Curve], [title, sizes, times]: [&str; 3], path: &Path) -> Result<(), Box<dyn std::error::Error>> {
     // Twice as many curves have them once more, thinner.
     const COLORS: [RGBColor; 7] = [
@@ -49,7 +49,7 @@ pub fn plot(curves: &[Curve], [title, sizes, times]: [&str; 3], path: &Path) -> 
     };
     let area = SVGBackend::new(path, (760, 460)).into_drawing_area();
     area.fill(&WHITE)?;
-    // Where there are more curves than colours each has its name at its end.
+    // With more curves than colours, each curve has its name at its end.
     let has_legend = curves.len() <= COLORS.len();
     let (beyond, above) = if has_legend { (1.25, 4.0) } else { (2.2, 1.7) };
     let (x, y) = (range(|point| point.0, 0.8, beyond), range(|point| point.1, 0.6, above));
@@ -100,7 +100,7 @@ pub fn plot(curves: &[Curve], [title, sizes, times]: [&str; 3], path: &Path) -> 
     Ok(())
 }
 
-/// Names beside the ends of their curves, pixels, moved down where they would lie on one another.
+/// Names beside the ends of their curves, pixels, moved down to avoid overlaps.
 fn apart(mut ends: Vec<(&str, (i32, i32))>) -> Vec<(&str, (i32, i32))> {
     const ASIDE: i32 = 8;
     const UP: i32 = 6;

@@ -1,10 +1,10 @@
-//! What the benchmarks share: a contestant's times, tables of medians, the record of all raw values.
+//! Shared parts of the benchmarks: a contestant's times, tables of medians, the record of all raw values.
 
 use serde_json::{Value, json};
 use std::path::Path;
 use tinta::renderer::median;
 
-/// Writes the record to `target/bench/NAME.json` and says where.
+/// Writes the record to `target/bench/NAME.json` and prints its path.
 pub fn write_record(name: &str, record: &Value) {
     let path =
         Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join(format!("target/bench/{name}.json"));
@@ -22,7 +22,7 @@ pub struct Series {
 }
 
 impl Series {
-    /// None yet.
+    /// Without times.
     pub fn new(name: &str) -> Self {
         Self { name: name.to_owned(), times: Vec::new() }
     }

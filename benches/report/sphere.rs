@@ -4,7 +4,7 @@ use glam::DVec3;
 use tinta::Mesh;
 use tinta::mesh::Defects;
 
-/// A closed sphere of about so many triangles whose radius varies, so that it has silhouettes in front of itself.
+/// A closed sphere of about so many triangles with a varying radius, which gives silhouettes in front of other parts.
 pub fn bumpy_sphere(triangles: usize) -> Mesh {
     let rows = ((triangles as f64) / 4.0).sqrt().round() as u32;
     let columns = rows * 2;

@@ -1,4 +1,4 @@
-//! Any bytes as a list of jobs, and as what is written down of them.
+//! Any bytes as a list of jobs, and as a journal of them.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {

@@ -1,4 +1,4 @@
-//! Any bytes as a model of whatever format they look like.
+//! Any bytes as a model of the format they look like.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {

@@ -1,4 +1,4 @@
-//! What the fuzz targets share: see README.md.
+//! Shared parts of the fuzz targets: see README.md.
 
 pub mod memory;
 pub mod readers;

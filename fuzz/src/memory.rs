@@ -1,4 +1,4 @@
-//! An allocator that counts, so that an input which takes more memory than it is worth counts as a crash.
+//! A counting allocator: an input that takes too much memory for its size counts as a crash.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 static NOW: AtomicUsize = AtomicUsize::new(0);
 static PEAK: AtomicUsize = AtomicUsize::new(0);
 
-/// The system's allocator with a count of what is taken and of the most there was.
+/// The system's allocator, which counts the current and the largest use of memory.
 pub struct Counting;
 
 fn add(bytes: usize) {
@@ -18,26 +18,26 @@ fn add(bytes: usize) {
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         add(layout.size());
-        // SAFETY: as promised to this function.
+        // SAFETY: the caller's promises hold.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         add(layout.size());
-        // SAFETY: as promised to this function.
+        // SAFETY: the caller's promises hold.
         unsafe { System.alloc_zeroed(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         NOW.fetch_sub(layout.size(), Ordering::Relaxed);
-        // SAFETY: as promised to this function.
+        // SAFETY: the caller's promises hold.
         unsafe { System.dealloc(pointer, layout) }
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         add(size);
         NOW.fetch_sub(layout.size(), Ordering::Relaxed);
-        // SAFETY: as promised to this function.
+        // SAFETY: the caller's promises hold.
         unsafe { System.realloc(pointer, layout, size) }
     }
 }
@@ -45,7 +45,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Runs a reader and panics where it took more than `most` bytes at once.
+/// Runs a reader and panics if it uses more than `most` bytes at once.
 pub fn within(most: usize, read: impl FnOnce()) {
     let before = NOW.load(Ordering::Relaxed);
     PEAK.store(before, Ordering::Relaxed);
@@ -54,16 +54,16 @@ pub fn within(most: usize, read: impl FnOnce()) {
     assert!(peak <= most, "{peak} bytes were taken, more than {most}");
 }
 
-/// What the smallest model may take: mostly the buffers of threads and parsers.
+/// Memory of the smallest model: mostly the buffers of threads and parsers.
 const SLACK_BYTES: usize = 1 << 20;
 
-/// Most memory for a model, or anything else that is not a picture: 20 times the file.
+/// Most memory for a model, or any input except pictures: 20 times the file.
 pub fn of_model(bytes: &[u8]) -> usize {
     bytes.len() * tinta::limits::MEMORY_FACTOR + SLACK_BYTES
 }
 
-/// Most memory for what may be glTF, whose nodes show one mesh many times and whose accessors may be zeros without any bytes: what
-/// docs/dev/limits.md allows besides is used up rightly.
+/// Most memory for a possible glTF file, whose nodes may show one mesh many times and whose accessors may be zeros without any
+/// bytes: the additional memory that docs/dev/limits.md allows is legitimate.
 pub fn of_gltf(bytes: &[u8]) -> usize {
     match bytes.contains(&b'{') {
         true => bytes.len() * tinta::limits::MEMORY_FACTOR + tinta::limits::MEMORY_SLACK_BYTES,
@@ -71,7 +71,7 @@ pub fn of_gltf(bytes: &[u8]) -> usize {
     }
 }
 
-/// Most memory for a list of jobs: a line of 27 bytes may be one, with its name, content and hash in texts of their own.
+/// Most memory for a list of jobs: a line of 27 bytes may be a job, with separate strings for its name, content and hash.
 pub fn of_list(bytes: &[u8]) -> usize {
     64 * bytes.len() + SLACK_BYTES
 }

@@ -1,8 +1,8 @@
-//! What every reader must do with any bytes at all: read them or refuse them in one sentence, without a panic, without
-//! numbers that are not finite, in bounded memory.
+//! The duty of every reader for any bytes: read them or refuse them in one sentence, without a panic, without infinite numbers or
+//! NaN, in bounded memory.
 //!
-//! One function a reader, for the fuzz targets beside this file and for `tests/corpus.rs`, which runs every file of the
-//! corpus through the same function with an ordinary compiler.
+//! One function per reader, for the fuzz targets beside this file and for `tests/corpus.rs`, which runs every file of the corpus
+//! through the same function with an ordinary compiler.
 
 use tinta::batch::{Entries, Job, List, Slice, Summary, place_in};
 use tinta::mesh::{LoadOptions, Loaded, VertexArrays, read_bytes};
@@ -15,7 +15,7 @@ pub fn obj(bytes: &[u8]) {
         Some(end) => (&bytes[..end], &bytes[end + 1..]),
         None => (bytes, [].as_slice()),
     };
-    // What looks like another format would be read as that.
+    // Text that looks like another format would be read as that.
     model_of([b"o o\n", model].concat().as_slice(), materials, "fuzz.obj");
 }
 
@@ -39,7 +39,7 @@ pub fn three_ds(bytes: &[u8]) {
     model_of(bytes, b"", "fuzz.3ds");
 }
 
-/// A glTF model, JSON or GLB; pictures in it are no longer than it.
+/// A glTF model, JSON or GLB; its pictures are no longer than the file.
 pub fn gltf(bytes: &[u8]) {
     let loaded = read_bytes(bytes, "fuzz.gltf", &[], &LoadOptions::default());
     if let Ok(Loaded { mesh, .. }) = &loaded {
@@ -49,7 +49,7 @@ pub fn gltf(bytes: &[u8]) {
     check_model(loaded);
 }
 
-/// A model of any format, by its content alone, with other options than the default: the first byte says which.
+/// A model of any format, recognised by its content, with other options than the default: the first byte selects them.
 pub fn load(bytes: &[u8]) {
     let Some((how, bytes)) = bytes.split_first() else { return };
     let options = LoadOptions {
@@ -65,9 +65,9 @@ fn model_of(bytes: &[u8], materials: &[u8], name: &str) {
     check_model(read_bytes(bytes, name, &[("fuzz.mtl", materials)], &LoadOptions::default()));
 }
 
-/// A model is sound down to what is drawn of it, and says what was wrong with it in single lines.
+/// A model is sound down to its drawing, and reports its faults in single lines.
 fn check_model(loaded: Result<Loaded>) {
-    /// Larger meshes are not made into scenes: the reader is what is tried.
+    /// Larger meshes are not made into scenes: the reader is under test.
     const TRIANGLES: usize = 2000;
     let loaded = match loaded {
         Ok(loaded) => loaded,
@@ -102,7 +102,7 @@ fn check_model(loaded: Result<Loaded>) {
     }
 }
 
-/// A picture of any format; the first byte says which extension its name has.
+/// A picture of any format; the first byte selects the extension of its name.
 pub fn picture(bytes: &[u8]) {
     let Some((how, bytes)) = bytes.split_first() else { return };
     let name = ["a.png", "a.tga", "a.pcx", "a"][usize::from(*how) % 4];
@@ -143,7 +143,7 @@ pub fn rows(bytes: &[u8]) {
     }
 }
 
-/// A list of jobs, and what is written down of them: a job's own text is the same job, and its outputs lie in the folder.
+/// A list of jobs, and its journal: a job's own text gives the same job, and its outputs lie in the folder.
 pub fn batch(bytes: &[u8]) {
     let folder = std::path::Path::new("out");
     match List::of_bytes(bytes.to_vec(), "jobs.jsonl") {
@@ -186,7 +186,7 @@ pub fn preset(bytes: &[u8]) {
     }
 }
 
-/// A picture with a recipe, PNG or SVG: its command line has no end of its own making, and says it again.
+/// A picture with a recipe, PNG or SVG: its command line stays finite and gives the same recipe.
 pub fn recipe(bytes: &[u8]) {
     match Recipe::of_bytes(bytes, "fuzz.png") {
         Ok(recipe) => {
@@ -197,7 +197,7 @@ pub fn recipe(bytes: &[u8]) {
     }
 }
 
-/// One sentence that names the file and is not without end. What breaks lines is escaped where it is said.
+/// One sentence of limited length that names the file. Characters that break lines are escaped.
 fn check_sentence(sentence: &str) {
     assert!(sentence.len() > 8 && sentence.len() < 2000, "{} bytes: {sentence:.500}", sentence.len());
 }

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-/// Parses the words; what is wrong with them is one line.
+/// Parses the words; the error is one line.
 pub fn command_line(bytes: &[u8]) {
     let words = bytes.split(|byte| *byte == b'\n').map(word);
     match tinta_lab::program().check(std::iter::once(OsString::from("tinta")).chain(words)) {

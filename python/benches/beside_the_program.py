@@ -1,9 +1,9 @@
-"""What the package adds to the library's own time, and PyVista's silhouette beside it.
+"""The package's overhead over the library's own time, and PyVista's silhouette for comparison.
 
     python python/benches/beside_the_program.py MODEL target/packaged/tinta [target/wheels/tinta_npr-*.whl]
 
-MODEL is read as OBJ or PLY by the program and by trimesh. The program prints the library's own times (--json); both take turns, so
-that a busy moment hits both. Build the two in one profile: scripts/python --release, cargo build --profile packaged.
+MODEL is read as OBJ or PLY by the program and by trimesh. The program prints the library's own times (--json); both take turns, and
+a busy moment hits both. Build the two in one profile: scripts/python --release, cargo build --profile packaged.
 """
 
 import argparse
@@ -42,10 +42,10 @@ def lines(model, tinta):
     """In process, and as the library times itself within the program: edges, classes, hierarchy, cuts and rays."""
     ours, theirs = [], []
     for _ in range(ROUNDS):
-        # What is known of a mesh's edges is kept with it: each round has its own.
+        # A mesh caches its edges: each round has a new one.
         mesh = tn.mesh(model)
         ours.append(milliseconds(lambda: tn.lines(mesh)))
-        # A drawing, as ours is: a JSON file would ask for outlines too.
+        # A drawing, like ours: a JSON file would add outlines.
         record = program(tinta, model, "-o", "lines.svg", "--no-recipe")
         theirs.append(sum(record[step] for step in ("topology_ms", "silhouette_ms", "visibility_ms")))
     print(f"lines            {said(ours)}\n  the library    {said(theirs)}")

@@ -1,4 +1,4 @@
-"""What a PyVista plotter shows, as vectors for a paper."""
+"""The scene of a PyVista plotter, as vectors for a paper."""
 
 import pyvista as pv
 import tinta_npr

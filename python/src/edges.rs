@@ -11,14 +11,14 @@ use tinta::glam::DVec3;
 use tinta::settings::HasSettings;
 use tinta::{EdgeList, LineSettings, Mesh as TintaMesh, SceneSettings};
 
-/// What is found of the edges: a row each.
+/// The edges found, one row each.
 struct Rows {
     vertices: Vec<[u32; 2]>,
     codes: Vec<u8>,
     faces: Vec<[i64; 2]>,
 }
 
-/// The edges of a mesh that are of a class whatever the view, each with its first class and its faces.
+/// The edges of a mesh with a class in every view, each with its first class and its faces.
 #[pyfunction]
 pub(crate) fn edges<'py>(py: Python<'py>, mesh: Py<Mesh>, given: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDict>> {
     let options = options("edges", given)?;
@@ -73,7 +73,7 @@ pub(crate) fn silhouette<'py>(
         move || {
             let eye = DVec3::from_array(eye);
             let eye = if is_direction { Eye::Direction(eye) } else { Eye::Point(eye) };
-            // Which keeps the edges for the next eye.
+            // The scene keeps the edges for the next eye.
             let scene = scene(std::slice::from_ref(&mesh), &SceneSettings::default())?;
             let edges: &MeshEdges = scene.edges(&scene.objects[0]);
             let found = edges.silhouette(eye, SilhouetteRule::Exact);

@@ -4,7 +4,7 @@ use pyo3::PyErr;
 use pyo3::exceptions::{PyFileNotFoundError, PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyValueError};
 use tinta::{Error, FileKind};
 
-/// What is raised for an error.
+/// Returns the Python exception for an error.
 pub(crate) fn raised(error: Error) -> PyErr {
     let sentence = in_python(&error.with_dashes());
     match error {
@@ -19,7 +19,7 @@ pub(crate) fn raised(error: Error) -> PyErr {
     }
 }
 
-/// What is raised for an argument that is wrong.
+/// Returns the Python exception for a wrong argument.
 pub(crate) fn wrong(argument: &str, problem: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(format!("{argument}: {problem}"))
 }

@@ -80,7 +80,7 @@ fn dictionary<'py>(py: Python<'py>, row: impl IntoIterator<Item = (String, Value
     Ok(of_row)
 }
 
-/// A number, a text, or nothing.
+/// A number, a text, or `None`.
 fn plain(py: Python<'_>, value: Value) -> PyResult<Bound<'_, PyAny>> {
     match value {
         Value::Number(number) if number.is_u64() => number.as_u64().into_bound_py_any(py),
@@ -91,7 +91,7 @@ fn plain(py: Python<'_>, value: Value) -> PyResult<Bound<'_, PyAny>> {
     }
 }
 
-/// Draws meshes together in two styles, and says which lines both drew: the numbers, and the pictures of left, right and lines.
+/// Draws meshes together in two styles and compares their lines: the numbers, and the pictures of left, right and lines.
 #[pyfunction]
 #[pyo3(signature = (meshes, given, left, right, tolerance, backend=None))]
 pub(crate) fn compare<'py>(

@@ -1,11 +1,11 @@
 //! The Python package `tinta_npr`: a door to the library, as the command line is one.
 //!
-//! In: meshes as arrays, or paths of files, and settings by their names. Out: arrays of lines, SVG, pictures. Everything that
-//! Python says better is said there, in `python/tinta_npr`: what a mesh of another package is, cameras, notebooks. Here are the
-//! loops over the tables of settings (`settings.rs`), arrays (`mesh.rs`, `arrays.rs`), and the threads that work while Python's
-//! others go on (`work.rs`, `studio.rs`).
+//! Meshes come in as arrays or paths of files, with settings by their names; arrays of lines, SVG and pictures go out. Python
+//! code in `python/tinta_npr` does the rest: it recognises meshes of other packages, cameras, notebooks. This crate has the loops
+//! over the tables of settings (`settings.rs`), arrays (`mesh.rs`, `arrays.rs`), and the threads that work while Python's other
+//! threads run (`work.rs`, `studio.rs`).
 //!
-//! All `unsafe` code is what pyo3's macros make of `#[pyclass]` and `#[pyfunction]`.
+//! All `unsafe` code comes from pyo3's macros `#[pyclass]` and `#[pyfunction]`.
 
 mod arrays;
 mod edges;
@@ -20,7 +20,7 @@ mod studio;
 mod warnings;
 mod work;
 
-/// What Python imports as `tinta_npr._native`.
+/// The module `tinta_npr._native` in Python.
 #[pyo3::pymodule]
 mod _native {
     #[pymodule_export]

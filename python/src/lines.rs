@@ -14,13 +14,13 @@ use tinta::lines::{GHOST_OPACITY, LineSegment, Progress, drawn_layers, pdf, svg}
 use tinta::record::lines_json;
 use tinta::{DrawingSettings, Recipe, Request, Result, Scene, VisibleLines};
 
-/// The lines of a scene, as they were found.
+/// The lines found in a scene.
 #[pyclass(frozen, module = "tinta_npr._native")]
 pub(crate) struct Lines {
     lines: Arc<VisibleLines>,
     scene: Arc<Scene>,
     asked: Asked,
-    /// With hidden ones, once somebody asks for them.
+    /// With hidden lines, on first access.
     all: OnceLock<Arc<VisibleLines>>,
 }
 
@@ -53,7 +53,7 @@ pub(crate) fn lines(
     Ok(Lines { lines: Arc::new(lines), scene: Arc::new(scene), asked, all: OnceLock::new() })
 }
 
-/// The lines of another request: those that were found, or where it shows more of them these are found.
+/// The lines of another request: the existing ones, or new ones if it shows more of them.
 fn found(lines: Arc<VisibleLines>, scene: &Scene, before: &Request, now: &Request) -> Result<Arc<VisibleLines>> {
     match before.finds_all_for(now) {
         true => Ok(lines),
@@ -71,11 +71,11 @@ impl Lines {
         let mut request = before.clone();
         request.tells_hidden = true;
         let all = done(py, || (), move || found(lines, &scene, &before, &request))?;
-        // Another thread may have been here first: then both keep what they found.
+        // Another thread may have been here first: then both keep its result.
         Ok(self.all.get_or_init(|| all).clone())
     }
 
-    /// Does something with the lines and the settings of a drawing of them, which `file` is called.
+    /// Processes the lines with the settings of a drawing of them; `file` is its name.
     fn drawn<T: Send + 'static>(
         &self,
         py: Python<'_>,

@@ -14,15 +14,15 @@ use tinta::glam::DVec3;
 use tinta::settings::{HasSettings, Options};
 use tinta::{LoadOptions, Result, Scene, SceneSettings, load};
 
-/// A mesh, read and checked, with what was found out about it when it was drawn.
+/// A mesh, read and checked, with the results cached when it was drawn.
 #[pyclass(frozen, module = "tinta_npr._native")]
 pub(crate) struct Mesh {
     pub mesh: Arc<tinta::Mesh>,
-    /// Its file's path as it was given.
+    /// Its file's path as given.
     pub path: Option<String>,
     /// The settings it was read with.
     pub options: Options,
-    /// The files that were read besides.
+    /// The other files read with it.
     pub files: Vec<PathBuf>,
     remarks: Vec<String>,
     /// How it was seen first: its arrays and edges are shared by all later views.
@@ -47,7 +47,7 @@ impl Corners {
         if self.sizes.is_empty() { corner / 3 } else { self.sizes.iter().position(is_behind).unwrap_or(0) }
     }
 
-    /// The corners and sizes as the library takes them, or what is wrong and where.
+    /// Returns the corners and sizes in the library's form, or the error with its place.
     fn checked(self, vertices: usize) -> std::result::Result<(Vec<u32>, Vec<u32>), String> {
         if let Some(row) = self.sizes.iter().position(|size| *size < 3) {
             return Err(format!("row {row} has {} corners; a face has 3 or more", self.sizes[row]));
@@ -66,7 +66,7 @@ impl Corners {
     }
 }
 
-/// Vertices as points, or what is wrong with which.
+/// Returns the vertices as points, or the error with the vertex's number.
 fn checked_vertices(numbers: &[f64]) -> std::result::Result<Vec<DVec3>, String> {
     let (rows, _) = numbers.as_chunks::<3>();
     match rows.iter().position(|row| !row.iter().all(|number| number.is_finite())) {
@@ -77,7 +77,7 @@ fn checked_vertices(numbers: &[f64]) -> std::result::Result<Vec<DVec3>, String> 
 
 #[pymethods]
 impl Mesh {
-    /// Of arrays that are one piece of memory each; `sizes` are the faces' corners, none for triangles. All are copied before
+    /// Makes a mesh of contiguous arrays; `sizes` are the faces' numbers of corners, none for triangles. All are copied before
     /// anything else can run, and the copies are checked.
     #[staticmethod]
     fn of_arrays(
@@ -123,13 +123,13 @@ impl Mesh {
         Ok(Self::new(mesh, None, options, Vec::new(), remarks))
     }
 
-    /// Of a file.
+    /// Reads a mesh from a file.
     #[staticmethod]
     fn of_file(py: Python<'_>, path: String, given: &Bound<'_, PyDict>) -> PyResult<Self> {
         let options = options("mesh", given)?;
         let (of_mesh, file) = (options.clone(), path.clone());
         let loaded = done(py, || (), move || load(&file, &LoadOptions::from_options(&of_mesh)?))?;
-        // Of the file and of the two functions between it and who asks.
+        // The level skips the two functions between the caller and this one.
         warn(py, &loaded.remarks, 4)?;
         Ok(Self::new(loaded.mesh, Some(path), options, loaded.files, loaded.remarks))
     }
@@ -142,13 +142,13 @@ impl Mesh {
         Ok(read(&all)? == read(&self.options)?)
     }
 
-    /// How it is named: its file's path, or as it was said.
+    /// Its name: its file's path, or the given name.
     #[getter]
     fn name(&self) -> &str {
         &self.mesh.name
     }
 
-    /// What was noticed while it was read, a sentence each.
+    /// Remarks from reading, a sentence each.
     #[getter]
     fn remarks(&self) -> Vec<String> {
         self.remarks.iter().map(|remark| in_python(remark)).collect()
@@ -185,7 +185,7 @@ impl Mesh {
     }
 }
 
-/// Meshes together as settings show them, ready to be drawn, while Python goes on.
+/// Combines meshes under the settings into a drawable scene, while Python's other threads run.
 pub(crate) fn drawable(py: Python<'_>, meshes: Vec<Py<Mesh>>, settings: &SceneSettings) -> PyResult<Scene> {
     let settings = settings.clone();
     done(
@@ -199,7 +199,7 @@ pub(crate) fn drawable(py: Python<'_>, meshes: Vec<Py<Mesh>>, settings: &SceneSe
     )
 }
 
-/// Meshes together as settings show them; a single one keeps what is found out about it for the next time.
+/// Combines meshes under the settings; a single mesh caches the scene.
 pub(crate) fn scene(meshes: &[Py<Mesh>], settings: &SceneSettings) -> Result<Scene> {
     let all = || meshes.iter().map(|mesh| mesh.get().mesh.clone());
     match meshes {
@@ -207,7 +207,7 @@ pub(crate) fn scene(meshes: &[Py<Mesh>], settings: &SceneSettings) -> Result<Sce
             Some(scene) => scene.seen_with(settings),
             None => {
                 let scene = Scene::new(all(), settings)?;
-                // Another thread may have been here first: then both keep what they find.
+                // Another thread may have been here first: then both keep its scene.
                 drop(only.get().scene.set(scene.clone()));
                 Ok(scene)
             }

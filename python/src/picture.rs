@@ -18,7 +18,7 @@ use tinta::settings::Options;
 use tinta::styles::is_ignored;
 use tinta::{Error, ParseError, Recipe, Size, Target, TextTarget};
 
-/// A picture as it was drawn: its pixels, handed over once, and the recipe that its PNG file carries.
+/// A drawn picture: its pixels, handed over once, and the recipe in its PNG file.
 #[pyclass(frozen, module = "tinta_npr._native")]
 pub(crate) struct Picture {
     #[pyo3(get)]
@@ -57,13 +57,13 @@ pub(crate) fn render(
     Ok(Picture { pixels: shaped(py, picture.pixels, &shape)?.unbind(), recipe })
 }
 
-/// The value of a name, or the default of none.
+/// The value of a name; the default without a name.
 pub(crate) fn named<T: FromStr<Err = ParseError> + Default>(argument: &str, name: Option<&str>) -> PyResult<T> {
     let Some(name) = name else { return Ok(T::default()) };
     name.parse().map_err(|ParseError(problem)| raised(Error::value(argument, name, problem)))
 }
 
-/// What to say of settings that this style does not have.
+/// The remark about settings that this style does not have.
 fn ignored(given: &Bound<'_, PyDict>, style: &str) -> PyResult<Vec<String>> {
     let mut remarks = Vec::new();
     for key in given.keys() {
@@ -88,7 +88,7 @@ pub(crate) fn png<'py>(
     Ok(PyBytes::new(py, &done(py, || (), move || picture.png_bytes(note.as_ref()))?))
 }
 
-/// Writes the file of pixels that its name's ending says.
+/// Writes the pixels in the format of the file name's ending.
 #[pyfunction]
 #[pyo3(signature = (pixels, path, recipe=None))]
 pub(crate) fn save(
@@ -103,7 +103,7 @@ pub(crate) fn save(
     done(py, || (), move || Target::of_file(&path, is_transparent)?.write_with(&picture, note.as_ref()))
 }
 
-/// Writes a file whole, or leaves what was there as it was.
+/// Writes a file whole, or leaves the old file unchanged.
 #[pyfunction]
 pub(crate) fn write(py: Python<'_>, path: String, content: Vec<u8>) -> PyResult<()> {
     done(py, || (), move || TextTarget::check(&path)?.write_bytes(&content))
@@ -120,7 +120,7 @@ pub(crate) fn picture_of(pixels: &PyReadonlyArray3<'_, u8>) -> PyResult<tinta::P
     Ok(tinta::Picture { size: Size { width, height }, pixels: array.iter().copied().collect() })
 }
 
-/// Settings as the command line says them.
+/// Settings in the command line's notation.
 pub(crate) fn words(options: &Options) -> String {
     let words = options.iter().flat_map(|(name, value)| tinta::recipe::option_words(name, value));
     in_python(&words.map(|word| tinta::shell::quoted(&word)).collect::<Vec<_>>().join(" "))

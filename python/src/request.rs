@@ -1,5 +1,5 @@
-//! What a drawing is asked for with: its settings, a look's and a preset's below them, the models' own; and the recipe of what
-//! comes of it, which is the command line's for models from files.
+//! The request of a drawing: its settings over those of a look and a preset, the models' settings; and the recipe of the result,
+//! which is the command line's for models from files.
 
 use crate::errors::{python_name, raised};
 use crate::mesh::Mesh;
@@ -14,19 +14,19 @@ use tinta::request::layers;
 use tinta::settings::{OptionValue, Options};
 use tinta::{Error, ParseError, Preset, Request, Result, Scene};
 
-/// Whose drawing it is, and what is asked for.
+/// The function and its request.
 #[derive(Debug, Clone)]
 pub(crate) struct Asked {
     pub request: Request,
-    /// Paths of the models; `None` where one is no file's.
+    /// Paths of the models; `None` if one has no file.
     models: Option<Vec<String>>,
-    /// What their drawing is titled.
+    /// The title of the drawing.
     pub title: String,
-    /// The files that were read besides the models.
+    /// The other files read with the models.
     beside: Vec<PathBuf>,
 }
 
-/// What may be given besides the settings.
+/// Arguments other than settings.
 #[derive(Default)]
 pub(crate) struct Basis<'a> {
     pub style: Option<&'a str>,
@@ -37,7 +37,7 @@ pub(crate) struct Basis<'a> {
 }
 
 impl Asked {
-    /// Reads what is given to a function.
+    /// Reads the arguments of a function.
     pub(crate) fn new(
         function: &str,
         meshes: &[Py<Mesh>],
@@ -45,7 +45,7 @@ impl Asked {
         basis: &Basis<'_>,
     ) -> PyResult<Self> {
         let mut request = asked(function, options(function, given)?, basis).map_err(raised)?;
-        // Meshes are there: how they were read says each itself.
+        // The meshes are already read: each knows its reading options.
         request.options.retain(|name, _| !is_reading(name));
         for mesh in meshes {
             request.options.extend(mesh.get().options.clone());
@@ -60,20 +60,20 @@ impl Asked {
         Ok(Self { request, models: paths, title, beside })
     }
 
-    /// The same with other options beside those there are.
+    /// The same with additional options.
     pub(crate) fn with(&self, options: Options) -> Result<Self> {
         let mut all = self.request.options.clone();
         all.extend(options);
         all.entry("style".to_owned()).or_insert_with(|| OptionValue::text(self.request.style.name()));
         let request = Request::from_given(&all)?;
-        // What is kept of it is what was given.
+        // The request keeps only given options.
         let options = all.into_iter().filter(|(name, _)| name != "style" || self.request.options.contains_key("style"));
         let mut other = Self { request, ..self.clone() };
         other.request.options = options.collect();
         Ok(other)
     }
 
-    /// The recipe of a drawing; `None` where a model is no file's, for then nobody could make it again.
+    /// The recipe of a drawing; `None` if a model has no file, because such a drawing cannot be made again.
     pub(crate) fn recipe(&self, scene: &Scene, context: Option<&ContextInfo>) -> Option<Recipe> {
         let models = self.models.clone()?;
         let style = &self.request.style;
@@ -92,7 +92,7 @@ impl Asked {
     }
 }
 
-/// The settings by which a function reads meshes where a look or a preset says so.
+/// The settings that a look or a preset gives a function for reading meshes.
 #[pyfunction]
 #[pyo3(signature = (function, style, look, preset))]
 pub(crate) fn reading<'py>(
@@ -115,7 +115,8 @@ pub(crate) fn reading<'py>(
     Ok(found)
 }
 
-/// What is given to a function, over a preset and a look: the one that is named, or for a picture of which nothing is said the first.
+/// The request of a function: its options over a preset and a look. The look is the named one, or the first for a picture without
+/// style or look.
 fn asked(function: &str, mut given: Options, basis: &Basis<'_>) -> Result<Request> {
     let named = [("style", basis.style), ("show", basis.show), ("backend", basis.backend)];
     given.extend(named.into_iter().filter_map(|(name, value)| Some((name.to_owned(), OptionValue::text(value?)))));

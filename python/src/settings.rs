@@ -1,6 +1,6 @@
-//! Settings by their names: which a function takes, what Python's values say, and what is written of them in help.
+//! Settings by their names: each function's settings, the conversion of Python values, and the help texts.
 //!
-//! No setting is named here: everything is a loop over the tables beside the structs.
+//! This file names no setting: everything is a loop over the tables beside the structs.
 
 use crate::errors::{in_python, python_name, raised};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -12,17 +12,17 @@ use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, names_of
 use tinta::styles::{StyleName, is_of_lines_alone};
 use tinta::{Backend, DrawingSettings, Error, LineSettings, LoadOptions, Request, SceneSettings, Show, Style};
 
-/// Which settings of a drawing a function takes.
+/// The settings of a drawing that a function takes.
 #[derive(Clone, Copy)]
 struct Taken {
-    /// The style that its settings are of; none for all that OpenGL draws.
+    /// The style of its settings; `None` for all OpenGL styles.
     style: Option<StyleName>,
     of_style: fn(&str) -> bool,
     has_scene: bool,
     has_reading: bool,
 }
 
-/// Functions of Python by what their settings are, and what they are called where help is asked for.
+/// Python functions by their settings, with their names in help.
 const FUNCTIONS: [(&str, Taken); 8] = {
     const ALL: Taken = Taken { style: None, of_style: |_| true, has_scene: true, has_reading: true };
     const NONE: fn(&str) -> bool = |_| false;
@@ -56,7 +56,7 @@ impl Entry {
     }
 }
 
-/// Whether a setting says how a mesh is read, which is done before it is drawn.
+/// Whether a setting controls how a mesh is read, which happens before drawing.
 pub(crate) fn is_reading(name: &str) -> bool {
     LoadOptions::table().has(name)
 }
@@ -99,7 +99,7 @@ pub(crate) fn entries(function: &str) -> Vec<Entry> {
     all.into_iter().map(|(_, setting)| Entry { setting, default: default(setting) }).collect()
 }
 
-/// A value as a table writes it: of several numbers, which have a notation of their own there.
+/// A value in the table's notation, which differs for lists of numbers.
 fn canonical(function: &str, name: &str, value: OptionValue) -> OptionValue {
     let (table, mut form) = (Request::table(), form_of(function));
     let is_set = table.apply(&mut form, &Options::from([(name.to_owned(), value.clone())])).is_ok();
@@ -107,7 +107,7 @@ fn canonical(function: &str, name: &str, value: OptionValue) -> OptionValue {
     written.map_or(value, OptionValue::Text)
 }
 
-/// Reads what is given to a function by names.
+/// Reads a function's keyword arguments.
 pub(crate) fn options(function: &str, given: &Bound<'_, PyDict>) -> PyResult<Options> {
     let entries = entries(function);
     let mut options = Options::new();
@@ -139,13 +139,13 @@ pub(crate) fn options(function: &str, given: &Bound<'_, PyDict>) -> PyResult<Opt
     Ok(options)
 }
 
-/// Refuses what is no setting of a function, or no value of one, before any work.
+/// Refuses unknown settings of a function and invalid values before any work.
 #[pyfunction]
 pub(crate) fn check(function: &str, given: &Bound<'_, PyDict>) -> PyResult<()> {
     options(function, given).map(drop)
 }
 
-/// What to say of a name that is no setting of a function.
+/// The error about an unknown setting of a function.
 fn unknown(py: Python<'_>, function: &str, key: &str, entries: &[Entry]) -> String {
     let own = own_names(py, function).unwrap_or_default();
     let settings: Vec<String> = entries.iter().map(|entry| python_name(entry.name())).collect();
@@ -156,7 +156,7 @@ fn unknown(py: Python<'_>, function: &str, key: &str, entries: &[Entry]) -> Stri
     }
 }
 
-/// What a function of the package takes besides settings, by the names in its signature.
+/// A function's arguments other than settings, by the names in its signature.
 fn own_names(py: Python<'_>, function: &str) -> PyResult<Vec<String>> {
     let package = py.import("tinta_npr")?.into_any();
     let of_python = function.split('.').try_fold(package, |within, name| within.getattr(name))?;
@@ -174,7 +174,7 @@ pub(crate) fn kept(kind: &Kind, value: OptionValue) -> Option<OptionValue> {
     }
 }
 
-/// What a value of Python says of a setting; `None` leaves it as it is by default.
+/// Converts a Python value to a setting's; `None` keeps the default.
 fn value_of(key: &str, entry: &Entry, value: &Bound<'_, PyAny>) -> PyResult<Option<OptionValue>> {
     if value.is_none() {
         return Ok(None);
@@ -199,7 +199,7 @@ fn switch(value: &Bound<'_, PyAny>) -> Option<bool> {
     value.extract::<bool>().ok()
 }
 
-/// The text of a value: numbers and texts as they are, several with commas between, pairs as `NAME=VALUE`, a colour's numbers as
+/// The text of a value: numbers and texts unchanged, several joined by commas, pairs as `NAME=VALUE`, a colour's numbers as
 /// shares of full red, green and blue.
 fn text_of(value: &Bound<'_, PyAny>, kind: &Kind) -> PyResult<Option<String>> {
     if let Some(text) = scalar(value)? {
@@ -209,7 +209,7 @@ fn text_of(value: &Bound<'_, PyAny>, kind: &Kind) -> PyResult<Option<String>> {
         let mut texts = Vec::new();
         for pair in pairs.items()? {
             let (key, value): (String, Bound<'_, PyAny>) = pair.extract()?;
-            // Colours are the only values of several numbers that are said of names.
+            // Colours are the only named values of several numbers.
             let Some(value) = text_of(&value, &Kind::Color)? else { return Ok(None) };
             texts.push(format!("{}={value}", key.replace('_', "-")));
         }

@@ -1,5 +1,5 @@
-//! The thread that draws: OpenGL's contexts belong to the thread that opened them, and Python's threads come and go. One thread
-//! keeps the contexts, their programs and what they hold of meshes, and draws for all others, one picture after another.
+//! The drawing thread: OpenGL's contexts belong to the thread that opened them, and Python's threads come and go. One thread
+//! keeps the contexts, their programs and their mesh data, and draws for all others, one picture after another.
 
 use crate::errors::raised;
 use crate::work::wait;
@@ -14,7 +14,7 @@ use tinta::{Backend, Error, Renderer, Result};
 /// The contexts that are open.
 type Renderers = Vec<(Backend, Renderer)>;
 
-/// Something to be done with them.
+/// A job for the renderers.
 type Job = Box<dyn FnOnce(&mut Renderers) + Send>;
 
 struct Studio {
@@ -40,7 +40,7 @@ impl Studio {
     }
 }
 
-/// Draws with this way to OpenGL and returns what comes of it; given up as [`crate::work::done`] does.
+/// Draws with this backend and returns the result; cancelled as [`crate::work::done`] is.
 pub(crate) fn drawn<T: Send + 'static>(
     py: Python<'_>,
     backend: Backend,
@@ -57,7 +57,7 @@ pub(crate) fn drawn<T: Send + 'static>(
         if matches!(result, Err(Error::ContextLost { .. })) {
             renderers.clear();
         }
-        // Nobody may wait any more.
+        // The caller may have stopped waiting.
         drop(sender.send(result));
     });
     submit(job)?;
@@ -75,7 +75,7 @@ fn opened(renderers: &mut Renderers, backend: Backend) -> Result<&mut Renderer> 
     Ok(&mut renderers[place].1)
 }
 
-/// Hands a job to the thread, which is started for the first one, and again where it has died.
+/// Hands a job to the thread, which starts with the first job, and again if it has died.
 fn submit(job: Job) -> PyResult<()> {
     let mut studio = STUDIO.lock().unwrap_or_else(PoisonError::into_inner);
     if studio.as_ref().is_some_and(|studio| studio.process != std::process::id()) {
@@ -102,6 +102,6 @@ pub(crate) fn close(py: Python<'_>) {
     let Some(studio) = studio.filter(|studio| studio.process == std::process::id()) else { return };
     let Studio { jobs, thread, .. } = studio;
     drop(jobs);
-    // A job that panicked has said so.
+    // A panicked job has printed its message.
     py.detach(|| drop(thread.join()));
 }

@@ -1,4 +1,4 @@
-//! Work on a thread of its own while Python's other threads go on, given up when Ctrl-C is pressed.
+//! Work on a separate thread while Python's other threads run, cancelled by Ctrl-C.
 
 use crate::errors::raised;
 use pyo3::exceptions::PyRuntimeError;
@@ -7,11 +7,11 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::Duration;
 use tinta::Result;
 
-/// How often a waiting thread asks Python for signals.
+/// How often a waiting thread checks Python's signals.
 const GLANCE: Duration = Duration::from_millis(50);
 
-/// Does the work and returns what comes of it. Where a signal raises an exception that is raised at once: `cancel` asks the work
-/// to end, and what it still does nobody waits for.
+/// Does the work and returns its result. If a signal raises an exception, this function raises it at once: `cancel` asks the work
+/// to end, and the rest of the work runs without a waiting caller.
 pub(crate) fn done<T: Send + 'static>(
     py: Python<'_>,
     cancel: impl Fn(),
@@ -19,13 +19,13 @@ pub(crate) fn done<T: Send + 'static>(
 ) -> PyResult<T> {
     let (sender, receiver) = sync_channel(1);
     let thread = std::thread::Builder::new().name("tinta".to_owned());
-    // Nobody may wait any more.
+    // The caller may have stopped waiting.
     let started = thread.spawn(move || drop(sender.send(work())));
     started.map_err(|error| PyRuntimeError::new_err(format!("no thread can be started ({error}); try again later")))?;
     wait(py, receiver, cancel)
 }
 
-/// Waits for what another thread sends.
+/// Waits for another thread's result.
 pub(crate) fn wait<T: Send>(py: Python<'_>, receiver: Receiver<Result<T>>, cancel: impl Fn()) -> PyResult<T> {
     let mut receiver = receiver;
     loop {

@@ -1,4 +1,4 @@
-"""What the tests share: the command line's program, which they compare the package with."""
+"""Shared by the tests: the command line's program, which they compare the package with."""
 
 import os
 import shutil
@@ -9,7 +9,7 @@ import pytest
 
 @pytest.fixture(scope="session")
 def tinta():
-    """Runs the program: `tinta("render", "builtin:gear", "-o", "gear.svg")`; the sentence it ends with where it refuses."""
+    """Runs the program: `tinta("render", "builtin:gear", "-o", "gear.svg")`; returns its exit code and error."""
     program = os.environ.get("TINTA") or shutil.which("tinta")
     if not program:
         pytest.fail("TINTA names no program; run scripts/python, which builds it")

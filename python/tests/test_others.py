@@ -137,7 +137,7 @@ class TestMatplotlib:
     @pytest.fixture(autouse=True)
     def without_a_display(self):
         self.matplotlib.use("agg")
-        # So that a file is read as it is.
+        # Without compression the test can read the file.
         self.matplotlib.rcParams["pdf.compression"] = 0
         import matplotlib.pyplot as plt
 

@@ -173,7 +173,7 @@ def test_lines_load_no_opengl():
 def test_without_any_opengl_lines_are_found_and_render_says_what_is_missing():
     known = subprocess.run(["/sbin/ldconfig", "-p"], capture_output=True, text=True).stdout.splitlines()
     libraries = [line.split(" => ")[1] for line in known if line.strip().startswith(("libEGL", "libOSMesa"))]
-    # In a file system of its own, where these libraries are empty files.
+    # In a separate file system, where these libraries are empty files.
     hide = " && ".join(f"mount --bind /dev/null {path}" for path in {os.path.realpath(path) for path in libraries})
     if not libraries or subprocess.run(["unshare", "-rm", "sh", "-c", hide], capture_output=True).returncode:
         pytest.skip("this machine lets nobody have a file system of their own")

@@ -1,4 +1,4 @@
-"""What is wrong is refused in a sentence that names it; nothing ends the interpreter."""
+"""Wrong arguments raise an exception that names them; none ends the interpreter."""
 
 import numpy as np
 import pytest

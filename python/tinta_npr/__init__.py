@@ -4,7 +4,7 @@
 
     tinta_npr.lines(mesh).save("mesh.svg")          # vectors with right occlusion; no OpenGL, no display
     tinta_npr.render(mesh).save("mesh.png")         # a picture in ink, drawn off-screen by OpenGL
-    tinta_npr.pv.export_svg(plotter, "scene.svg")   # what a PyVista plotter shows
+    tinta_npr.pv.export_svg(plotter, "scene.svg")   # the scene of a PyVista plotter
     tinta_npr.mpl.draw(ax, mesh)                    # into matplotlib's axes, as vectors
 
 A mesh is a pair of arrays (vertices, faces), the path of a model file, or an object of trimesh, PyVista or meshio.
@@ -33,12 +33,12 @@ __all__ = [
     "compare", "edges", "lines", "measure", "mesh", "render", "silhouette",
 ]
 
-# The driver ends after the contexts, which end here.
+# Closes the contexts before the driver unloads.
 _atexit.register(_native.close)
 
 
 def mesh(mesh, faces=None, *, name=None, **settings):
-    """Read a mesh once, to be drawn often.
+    """Read a mesh once, to draw it often.
 
     Parameters
     ----------
@@ -48,12 +48,12 @@ def mesh(mesh, faces=None, *, name=None, **settings):
     faces : array_like (M, k) of int, or a list of lists, optional
         With `mesh` as vertices: each face's corners, counter-clockwise seen from outside; 3 or more.
     name : str, optional
-        What errors and drawings call it.
+        Its name in errors and drawings.
 
     Returns
     -------
     Mesh
-        To be given to every other function instead of the same mesh.
+        Pass it to the other functions in place of the mesh.
 
     Settings
     --------
@@ -64,7 +64,7 @@ def mesh(mesh, faces=None, *, name=None, **settings):
 def lines(mesh, faces=None, *, camera=None, look=None, preset=None, name=None, **settings):
     """Find the visible and the hidden lines of a mesh, exactly, in float64.
 
-    Needs neither OpenGL nor a display. Ctrl-C stops it; other threads go on meanwhile.
+    Needs neither OpenGL nor a display. Ctrl-C stops it; other threads keep running.
 
     Parameters
     ----------
@@ -73,9 +73,9 @@ def lines(mesh, faces=None, *, camera=None, look=None, preset=None, name=None, *
     camera : optional
         A view's name (``"iso"``, ``"front"``, ``"top"`` …) or ``(azimuth, elevation)`` in degrees; a dict of the settings under
         Camera, such as ``{"eye": (3, 2, 5), "target": (0, 0, 0), "fov": 30}``; ``plotter.camera`` of PyVista; a `trimesh.Scene`;
-        matplotlib's `Axes3D`; a matrix from world to pixels (3, 4) or to OpenGL's clip space (4, 4). By default the whole mesh
-        is seen from (30, 15). A matrix that no camera of ours has (a principal point off the middle, oblong pixels) moves the
-        vertices instead, and angles of creases are measured there.
+        matplotlib's `Axes3D`; a matrix from world to pixels (3, 4) or to OpenGL's clip space (4, 4). The default
+        is (30, 15), with the whole mesh in view. A matrix that tinta's camera cannot represent (a principal point off the
+        middle, oblong pixels) moves the vertices instead; angles of creases are then measured on the moved mesh.
     look : {"technical"}, optional
         Settings that suit one another; those given here override them.
     preset : path, optional
@@ -94,7 +94,7 @@ def lines(mesh, faces=None, *, camera=None, look=None, preset=None, name=None, *
 
 
 def edges(mesh, faces=None, *, name=None, **settings):
-    """Find the edges of a mesh that are worth a line from every side: boundaries, creases, seams.
+    """Find the edges of a mesh that count as lines in every view: boundaries, creases, seams.
 
     Parameters
     ----------
@@ -104,8 +104,8 @@ def edges(mesh, faces=None, *, name=None, **settings):
     Returns
     -------
     Edges
-        ``vertices`` (N, 2): the numbers of both ends as they were given; ``cls`` (N,): the class; ``faces`` (N, 2): the
-        triangles beside it, -1 for none.
+        ``vertices`` (N, 2): the numbers of both ends in the given mesh; ``cls`` (N,): the class; ``faces`` (N, 2): the
+        adjacent triangles, -1 for none.
 
     Settings
     --------
@@ -114,19 +114,19 @@ def edges(mesh, faces=None, *, name=None, **settings):
 
 
 def silhouette(mesh, eye, faces=None, *, direction=False, name=None, **settings):
-    """Find the edges between a face seen from its front and one seen from its back, exactly, hidden ones too.
+    """Find the edges between a front-facing and a back-facing face, exactly, including hidden ones.
 
     Parameters
     ----------
     mesh, faces, name
         As in `tinta_npr.mesh`. Given a `Mesh`, a second eye takes less time.
     eye : array_like (3,)
-        Where it is seen from, in the mesh's coordinates; with `direction` the direction towards an eye far away.
+        The viewpoint, in the mesh's coordinates; with `direction` the direction towards a distant viewpoint.
 
     Returns
     -------
     ndarray (N, 2) of uint32
-        The numbers of both ends as they were given.
+        The numbers of both ends in the given mesh.
 
     Settings
     --------
@@ -141,7 +141,7 @@ def render(
 ):
     """Draw a mesh off-screen with OpenGL, on a graphics card or on the processor.
 
-    The first call opens OpenGL (EGL, OSMesa; on Windows WGL), and raises RuntimeError with what is missing where there is none.
+    The first call opens OpenGL (EGL, OSMesa; on Windows WGL), and raises RuntimeError with the missing parts if it fails.
 
     Parameters
     ----------
@@ -150,13 +150,13 @@ def render(
     style : str, optional
         One of `tinta_npr.STYLES`.
     look : str, optional
-        One of `tinta_npr.LOOKS`; ``"print"`` where neither style nor preset nor look is given.
+        One of `tinta_npr.LOOKS`; ``"print"`` if style, preset and look are all missing.
     camera : optional
         As in `tinta_npr.lines`; a matrix must be one of a camera with square pixels and its principal point in the middle.
     show : str, optional
         One of the style's pictures: ``"final"``, ``"borders"``, ``"tones"`` …
     backend : {"auto", "egl", "surfaceless", "osmesa", "wgl", "cgl"}, optional
-        Where OpenGL comes from.
+        The way to open OpenGL.
 
     Returns
     -------
@@ -173,7 +173,7 @@ def render(
 
 
 def measure(mesh, faces=None, *, styles=(), frames=21, tolerance=2.0, camera=None, backend=None, name=None, **settings):
-    """Measure styles: how many of the visible lines each draws, how many it invents, and how long a frame takes.
+    """Measure styles: the share of visible lines each draws, its false lines, and its time per frame.
 
     Parameters
     ----------
@@ -182,14 +182,14 @@ def measure(mesh, faces=None, *, styles=(), frames=21, tolerance=2.0, camera=Non
     styles : sequence of str or dict, optional
         Styles by name, or with their settings: ``{"style": "ink", "quality": "best"}``. All styles as published by default.
     frames : int
-        Frames of each that are timed.
+        Number of timed frames for each style.
     tolerance : float
         Distance within which ink and line count as the same, pixels.
 
     Returns
     -------
     list of dict
-        A row for each style, ready for `pandas.DataFrame`; docs/results/measuring.md says what the columns mean.
+        A row for each style, ready for `pandas.DataFrame`; docs/results/measuring.md explains the columns.
 
     Settings
     --------
@@ -229,7 +229,7 @@ def compare(
 
 
 def _one(mesh, faces, name, settings, function):
-    """The one mesh that a function takes; of the settings those are left that are not of reading it."""
+    """Returns the single mesh of a function; removes the settings for reading it."""
     _native.check(function, settings)
     reading = _reading(settings)
     found = _meshes_of(mesh, faces, name, reading, tuple(reading))
@@ -259,7 +259,7 @@ def _drawn(function, mesh, faces, name, camera, settings, basis):
 
 
 def _reading(settings):
-    """Takes those settings out that say how a mesh is read."""
+    """Removes and returns the settings for reading a mesh."""
     found = {key: settings.pop(key) for key in list(settings) if key.replace("-", "_") in _READING}
     return {key: value for key, value in found.items() if value is not None}
 
@@ -283,7 +283,7 @@ for _name in ("svg", "pdf", "save", "layers"):
 
 
 def __getattr__(name):
-    # What matplotlib and PyVista are needed for is imported when it is asked for.
+    # The modules that need matplotlib and PyVista are imported on first use.
     if name in ("mpl", "pv"):
         import importlib
 

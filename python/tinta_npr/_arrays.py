@@ -1,4 +1,4 @@
-"""Arrays as they are given, checked for what numpy knows: shapes and types. Numbers are checked where they are copied."""
+"""Checks shapes and types of given arrays. The numbers are checked where they are copied."""
 
 import numpy as np
 
@@ -29,7 +29,7 @@ def vector(argument, values):
 
 
 def corners(values):
-    """Faces as all their corners one after the other, and how many each has; `None` where all are triangles."""
+    """Faces as a flat array of corners, and the number of corners of each; `None` if all are triangles."""
     try:
         array = np.asarray(values)
     except (ValueError, TypeError):
@@ -57,7 +57,7 @@ def _ragged(values):
 
 
 def padded(cells):
-    """VTK's faces: each one's number of corners before them."""
+    """VTK's faces: each face's corners follow their number."""
     cells = np.asarray(cells, dtype=np.int64)
     if cells.size == 0:
         return cells, None

@@ -1,4 +1,4 @@
-"""Cameras: what is given, as settings of ours, or as a matrix from which they follow once the meshes are known."""
+"""Cameras, converted to tinta's settings, or to a matrix that gives the settings once the meshes are known."""
 
 import math
 
@@ -8,13 +8,13 @@ from . import _mesh, _native
 
 _NAMES = frozenset(_native.camera_names())
 
-#: What is taken for 0 beside lengths of about 1: matrices come from products of a few f64.
+#: Counts as 0 beside lengths of about 1: matrices come from products of a few f64.
 _NOTHING = 1e-9
 _MIRRORED = "camera: this matrix mirrors the picture; turn the sign of one of its first two rows"
 
 
 def settings_of(camera, settings, is_exact):
-    """The settings that a camera says, and a `Matrix` where they depend on the meshes; `is_exact` refuses those that move them."""
+    """Returns a camera's settings, and a `Matrix` if they depend on the meshes; `is_exact` refuses matrices that move meshes."""
     if camera is None:
         return {}, None
     if isinstance(camera, str):
@@ -22,7 +22,7 @@ def settings_of(camera, settings, is_exact):
     if hasattr(camera, "items"):
         for key in camera:
             if key.replace("-", "_") not in _NAMES:
-                raise ValueError(f"camera: it has no {key}; choose of {', '.join(sorted(_NAMES))}")
+                raise ValueError(f"camera: it has no {key}; choose from {', '.join(sorted(_NAMES))}")
         return {key.replace("-", "_"): value for key, value in camera.items() if value is not None}, None
     if hasattr(camera, "get_proj") and hasattr(camera, "transData"):
         return {}, of_axes(camera, settings)
@@ -73,7 +73,7 @@ def _of_pose(world_from_camera, fov):
 
 
 def size_of(settings):
-    """The picture's width and height, as the settings say them."""
+    """The picture's width and height from the settings."""
     size = settings.get("size")
     if size is None:
         size = next(entry["default"] for entry in _native.settings("lines") if entry["name"] == "size")
@@ -89,7 +89,7 @@ def size_of(settings):
 
 
 def of_axes(axes, settings):
-    """What matplotlib's 3-D axes show, in a picture of as many pixels as they have points, so that widths are points."""
+    """The view of matplotlib's 3-D axes, in a picture with one pixel per point, which makes widths points."""
     if axes.name != "3d":
         raise TypeError("camera: these are 2-D axes; give an Axes3D, or another camera")
     points = 72.0 / axes.figure.dpi
@@ -109,14 +109,14 @@ class Matrix:
     """A matrix (3, 4) from world to pixels, y down: (x w, y w, w), with w above 0 in front of the eye."""
 
     def __init__(self, pixels_from_world, size, is_exact, away=None):
-        """`away` is where depth grows, if the matrix says so."""
+        """`away` is the direction of growing depth, if the matrix has one."""
         self._matrix, self._size, self._is_exact, self._away = pixels_from_world, size, is_exact, away
         linear = np.abs(pixels_from_world[:, :3])
         if not linear[:2].any(axis=1).all():
             raise ValueError("camera: this matrix shows everything at one point")
 
     def of_meshes(self, meshes, reading):
-        """The meshes to draw and the settings to draw them with: as they are, or moved so that a camera of ours sees them so."""
+        """The meshes to draw and their settings: meshes unchanged, or moved to give tinta's camera the same view."""
         corners = np.concatenate([_box(mesh.vertices) for mesh in meshes])
         far = np.abs(corners).max()
         is_parallel = np.abs(self._matrix[2, :3]).max() * far <= _NOTHING * abs(self._matrix[2, 3])
@@ -134,7 +134,7 @@ class Matrix:
                 "lines() takes it"
             )
         through = moved @ rotation
-        # What still means something of vertices that are moved.
+        # The settings that still apply to moved vertices.
         kept = {key: value for key, value in reading.items() if key in ("normals", "smooth_angle")}
         meshes = [_mesh.of_arrays((mesh.vertices - eye) @ through.T, mesh.faces, mesh.name, kept) for mesh in meshes]
         return meshes, {**settings, "eye": (0, 0, 0), "target": (0, 0, 1), "up": (0, -1, 0)}
@@ -147,7 +147,7 @@ def _box(points):
 
 
 def _perspective(matrix, size, _corners):
-    """The eye's axes (right, down, forward), what moves them so that pixels are square and the middle is straight ahead, pixels
+    """The eye's axes (right, down, forward), the transformation to square pixels with the middle straight ahead, the pixels
     across one unit at distance 1, and the eye."""
     matrix = matrix / np.linalg.norm(matrix[2, :3])
     linear = matrix[:, :3]
@@ -160,7 +160,7 @@ def _perspective(matrix, size, _corners):
 
 
 def _parallel(matrix, size, corners):
-    """The same of a matrix that shows far things as large as near ones, with an eye before all corners."""
+    """The same for a parallel projection, with an eye in front of all corners."""
     if matrix[2, 3] <= 0:
         raise ValueError("camera: this matrix has everything behind the eye")
     across, offset = matrix[:2, :3] / matrix[2, 3], matrix[:2, 3] / matrix[2, 3]
@@ -177,7 +177,7 @@ def _parallel(matrix, size, corners):
 
 
 def _axes(linear):
-    """A matrix whose last row is a unit vector as right, down and forward, and the upper triangular matrix that it is of them."""
+    """Splits a matrix whose last row is a unit vector into right, down and forward, and an upper triangular matrix."""
     forward = linear[2]
     middle = linear[:2] @ forward
     across = linear[:2] - np.outer(middle, forward)

@@ -1,4 +1,4 @@
-"""Meshes of other packages, known by what they have, so that none of these packages is imported."""
+"""Meshes of other packages, recognised by their attributes, without importing those packages."""
 
 import os
 
@@ -69,7 +69,7 @@ def _is_blocks(cells):
 
 
 def _surface(mesh):
-    """The outside of PyVista's volumes, whole faces as they are; older versions have one way alone."""
+    """The outside of PyVista's volumes, faces undivided; older versions have only one algorithm."""
     import inspect
 
     has_ways = "algorithm" in inspect.signature(mesh.extract_surface).parameters
@@ -77,7 +77,7 @@ def _surface(mesh):
 
 
 def _of_poly_data(mesh, name, reading):
-    """Of PyVista's surfaces."""
+    """Makes a `Mesh` of PyVista's surfaces."""
     if getattr(mesh, "n_strips", 0):
         mesh = mesh.triangulate()
     corners, sizes = _arrays.padded(mesh.faces)
@@ -85,7 +85,7 @@ def _of_poly_data(mesh, name, reading):
 
 
 def _of_cells(mesh, name, reading):
-    """Of meshio's cells: surfaces, and of volumes the faces that only one cell has."""
+    """Makes a `Mesh` of meshio's cells: surfaces, and the faces of volumes that only one cell has."""
     points = np.asarray(mesh.points, dtype=np.float64)
     if points.ndim == 2 and points.shape[1] == 2:
         points = np.column_stack([points, np.zeros(len(points))])

@@ -1,4 +1,4 @@
-"""What functions return."""
+"""The results of functions."""
 
 import os
 
@@ -11,7 +11,7 @@ _ARRAYS = frozenset(["segments", "visible", "_code", "edge", "angle", "object", 
 
 
 class Lines:
-    """The lines of a mesh in a picture: every piece that is seen or hidden as a whole.
+    """The lines of a mesh in a picture, in pieces that are wholly visible or wholly hidden.
 
     Attributes
     ----------
@@ -21,21 +21,21 @@ class Lines:
     cls : ndarray (N,) of str
         The class, one of `tinta_npr.CLASSES`.
     edge : ndarray (N, 2) of int64
-        The mesh edge it is part of, by the numbers of its vertices as they were given; -1 where faces intersect.
+        The mesh edge it is part of, by the numbers of its vertices in the given mesh; -1 where faces intersect.
     angle : ndarray (N,) of float64
         Between the normals of its two faces, degrees; NaN for an edge without exactly two.
     object : ndarray (N,) of uint32
-        The mesh of the list that was given.
+        The number of its mesh in the given list.
     outline : ndarray (N,) of bool
-        Whether it has nothing but background on one side; all False unless a width or colour of ``outline`` was asked for.
+        Whether it has only background on one side; all False unless ``outline`` has a width or colour.
     covered : ndarray (N,) of bool
-        Whether it is hidden and drawings leave it out, because another line lies on it in the picture.
+        Whether it is hidden and left out of drawings because another line overlaps it in the picture.
     size : (width, height)
-        Of the picture, pixels.
+        The size of the picture, pixels.
     counts : dict
-        How many edges there are of each class.
+        The number of edges of each class.
     camera : dict
-        As `tinta_npr.lines` takes it.
+        In the form that `tinta_npr.lines` takes.
     """
 
     def __init__(self, found, classes):
@@ -46,7 +46,7 @@ class Lines:
         self.camera = found.camera()
 
     def __getattr__(self, name):
-        # A drawing needs no hidden pieces: they are found when somebody asks for the arrays.
+        # A drawing needs no hidden pieces: they are found on the first access to the arrays.
         if name not in _ARRAYS:
             raise AttributeError(f"{type(self).__name__} has no attribute {name}")
         for array, value in self._found.arrays().items():
@@ -67,7 +67,7 @@ class Lines:
         return self.select(name)
 
     def select(self, *names, visible=True):
-        """The pieces of some classes, visible ones, or hidden ones, or with ``visible=None`` both: (K, 2, 2) float64."""
+        """The pieces of some classes: visible, hidden, or both with ``visible=None``: (K, 2, 2) float64."""
         for name in names:
             if name not in self._classes:
                 raise KeyError(f"there is no class {name}; choose one of {', '.join(self._classes)}")
@@ -127,7 +127,7 @@ class Lines:
         _native.write(path, content)
 
     def layers(self, **settings):
-        """The drawing as plain values, from the lowest layer to the highest: what the SVG has.
+        """The drawing as plain values, from the lowest layer to the highest, as in the SVG.
 
         Each is a dict: ``name``, ``visible``, ``color`` (red, green, blue in 0 to 1), ``width`` and ``dash`` in pixels,
         ``opacity``, and ``paths``, arrays (K, 2) of points in pixels, y down. Settings as in `svg`.
@@ -164,11 +164,11 @@ class Picture(np.ndarray):
         return picture
 
     def __array_finalize__(self, source):
-        # What is made of a picture, a part of it say, is not what the recipe draws.
+        # An array derived from a picture, such as a part of it, does not match the recipe.
         self.recipe = None
 
     def png(self):
-        """The PNG file: bytes. Of a mesh from a file it holds the recipe that `tinta again` draws it anew from."""
+        """The PNG file: bytes. For a mesh from a file it holds the recipe, from which `tinta again` redraws it."""
         return _native.png(self._pixels(), self.recipe)
 
     def save(self, path):

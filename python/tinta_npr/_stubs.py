@@ -1,4 +1,4 @@
-"""Writes the types that editors read: scripts/python puts what `python -m tinta_npr._stubs` prints into the wheel.
+"""Prints the types that editors read: scripts/python puts the output of `python -m tinta_npr._stubs` into the wheel.
 
 The settings come from the same tables as the functions' own help.
 """
@@ -33,7 +33,7 @@ _Text = str | float | Sequence[Any] | NDArray[Any] | Mapping[str, Any]
 _Camera = str | Sequence[float] | Mapping[str, Any] | NDArray[Any] | Any
 '''
 
-#: Types of the arguments that are no settings; all others are `Any`.
+#: Types of the arguments other than settings; all others are `Any`.
 _ARGUMENTS = {
     "faces": "ArrayLike | Sequence[Sequence[int]] | None",
     "name": "str | None",

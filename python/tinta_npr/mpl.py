@@ -14,14 +14,14 @@ def draw(ax, mesh, faces=None, *, camera=None, extent=None, zorder=2, **settings
     Parameters
     ----------
     ax : Axes or Axes3D
-        2-D axes get a drawing: its pixels are their units unless `extent` says otherwise, and both are as long. 3-D axes get the
-        lines in their own projection, found anew when it changes; the mesh has to lie within their limits, which stay as they are.
+        2-D axes get a drawing in pixels as units (unless `extent` is given), with equal aspect. 3-D axes get the lines in their
+        own projection, updated when it changes; the mesh must lie within their limits, which do not change.
     mesh, faces
         As in `tinta_npr.lines`.
     camera
-        As there; for 3-D axes their own.
+        As in `tinta_npr.lines`; 3-D axes use their own.
     extent : (left, right, bottom, top), optional
-        Where the picture lies in 2-D axes.
+        The place of the picture in 2-D axes.
     **settings
         As in `tinta_npr.lines`. Widths are in points in 3-D axes, and in points for each pixel of the picture in 2-D ones:
         ``hidden="dashed"``, ``line_width=1``, ``class_colors={"crease": "tab:blue"}`` with names of CSS or numbers.
@@ -51,7 +51,7 @@ def draw(ax, mesh, faces=None, *, camera=None, extent=None, zorder=2, **settings
 
 
 class ExactLines(LineCollection):
-    """The visible lines of a mesh in 3-D axes, as they are seen there."""
+    """The visible lines of a mesh in the view of 3-D axes."""
 
     def __init__(self, axes, mesh, faces, settings, zorder):
         super().__init__([], zorder=zorder, capstyle="round", joinstyle="round")
@@ -60,9 +60,9 @@ class ExactLines(LineCollection):
         self._find(axes)
 
     def do_3d_projection(self):
-        """Finds the lines anew where they are seen otherwise; 3-D axes ask for it before they draw."""
+        """Finds the lines again if the view has changed; 3-D axes call it before they draw."""
         self._find(self.axes)
-        # In front of what has a depth: hidden or not is told by the lines themselves.
+        # In front of everything with a depth: the lines already exclude hidden parts.
         return 0.0
 
     def _find(self, axes):

@@ -1,4 +1,4 @@
-"""What a PyVista plotter shows, as exact lines."""
+"""The exact lines of a PyVista plotter's scene."""
 
 import numpy as np
 
@@ -14,9 +14,9 @@ def lines(plotter, **settings):
     Parameters
     ----------
     plotter : pyvista.Plotter
-        Its visible actors, each where it was moved to; of each renderer's the active one's.
+        Its visible actors, at their current places; only those of the active renderer.
     **settings
-        As in `tinta_npr.lines`. The size is the plotter's unless `size` is given; the background is white, whatever its own.
+        As in `tinta_npr.lines`. The size is the plotter's unless `size` is given; the background is white, not the plotter's.
 
     Returns
     -------
@@ -27,7 +27,7 @@ def lines(plotter, **settings):
     if not meshes:
         raise ValueError("plotter: it shows no surface; add_mesh() first")
     settings.setdefault("size", tuple(plotter.window_size))
-    # Which PyVista sets when it first shows the scene.
+    # PyVista sets its camera when it first shows the scene.
     if not plotter.camera.is_set:
         plotter.camera_position = plotter.get_default_cam_pos()
         plotter.reset_camera()
@@ -36,7 +36,7 @@ def lines(plotter, **settings):
 
 
 def export_svg(plotter, file, **settings):
-    """Write what a plotter shows as exact lines: .svg, .pdf or .json.
+    """Write the exact lines of a plotter's scene: .svg, .pdf or .json.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 //! The outputs that jobs claim, and conflicts between them: files, pictures with numbers in their names, folders.
 //!
-//! Names are kept as hashes and sorted, so that a list of a million jobs is checked in seconds. What the hashes find is
-//! looked at again by name before anything is refused.
+//! Names are kept as hashes and sorted: a list of a million jobs is checked in seconds. A match of hashes is verified by name
+//! before the list is refused.
 
 use super::job::{Asked, JobCommand};
 use super::output_path::same_place;
@@ -11,18 +11,18 @@ use crate::picture::PictureFormat;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
-/// Most pictures of a turntable, and of any animation whose length its line does not say.
+/// Most pictures of a turntable, and of any animation of unknown length.
 const MOST_PICTURES: u32 = 10_000;
 
-/// So many of a number's digits are compared as a number; those before them, as a name has them by chance, as text.
+/// So many last digits are compared as a number; earlier digits are compared as text.
 const DIGITS: usize = 9;
 
-/// What an option of a job names for it to write.
+/// A file or folder that a job's option names for output.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Claim {
     /// The option.
     pub option: String,
-    /// As the line has it.
+    /// As written in the line.
     pub output: String,
     /// Its place in the batch's folder.
     place: String,
@@ -34,7 +34,7 @@ enum Kind {
     File,
     /// Pictures from 1 to so many.
     Numbered(NumberedName, u32),
-    /// Whatever is in it.
+    /// With all its contents.
     Folder,
 }
 
@@ -59,12 +59,12 @@ impl Claim {
         })
     }
 
-    /// Its place in the batch's folder, by which two that are the same are found.
+    /// Its normalised place in the batch's folder; equal places are one output.
     pub(super) fn place(&self) -> &str {
         &self.place
     }
 
-    /// Whether it stands for this file, by its name in the batch's folder, as one of several with numbers.
+    /// Whether this file, named in the batch's folder, is one of its numbered files.
     pub(super) fn has_numbered(&self, name: &str) -> bool {
         let Kind::Numbered(numbered, count) = &self.kind else { return false };
         numbered.number_in(name).is_some_and(|number| (1..=*count).contains(&number))
@@ -99,12 +99,12 @@ impl Claim {
         let pattern = shown(&before.output);
         Some(match self.place == shared {
             true => format!("{output} is also written by line {line}, as one of {pattern}; name another"),
-            false => format!("{output} writes {}, and so does line {line} by {pattern}; name another", shown(&shared)),
+            false => format!("{output} writes {}, as does line {line} by {pattern}; name another", shown(&shared)),
         })
     }
 }
 
-/// The beginning of a job's problem: what an option of it names, and why that cannot be.
+/// The beginning of a job's problem: the option's output, and the conflict.
 pub(super) fn problem(asked: &Asked, before: &Asked, line: u32) -> Option<String> {
     let mut claims: Vec<Claim> = Claim::all(asked).collect();
     // The last one, where both stand in one line.
@@ -132,7 +132,7 @@ fn half(hash: &[u8]) -> Key {
 /// Two lines that may write the same: the later one, then the earlier one.
 pub(super) type Lines = (u32, u32);
 
-/// The folders and the numbered names of a list, and what else of it may be among them.
+/// The folders and the numbered names of a list, and the outputs that may be among them.
 #[derive(Default)]
 pub(super) struct Shared {
     folders: Vec<(Key, u32)>,
@@ -142,7 +142,7 @@ pub(super) struct Shared {
     inside: Vec<Lines>,
 }
 
-/// Names that are the same but for a number of so many digits, in a line.
+/// Names in one line that differ only in a number of so many digits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Numbers {
     key: Key,
@@ -161,18 +161,18 @@ impl Shared {
         }
     }
 
-    /// Whether there are any: otherwise there is nothing more to find.
+    /// Whether it is empty, which ends the check.
     pub(super) fn is_empty(&self) -> bool {
         self.folders.is_empty() && self.numbered.is_empty()
     }
 
-    /// To be called once, before the list is looked through again.
+    /// Call it once, before checking the list again.
     pub(super) fn sort(&mut self) {
         self.folders.sort_unstable();
         self.numbered.sort_unstable();
     }
 
-    /// Looks for what a line writes among them.
+    /// Searches for conflicts with a line's output.
     pub(super) fn compare(&mut self, claim: &Claim, line: u32) {
         if !self.folders.is_empty() {
             let mut hash = Sha256::new();
@@ -183,7 +183,7 @@ impl Shared {
                 hash.update(b"/");
                 let found = self.folders.partition_point(|(key, _)| *key < folder);
                 let same = self.folders[found..].iter().take_while(|(key, _)| *key == folder);
-                // One that stands there twice is refused for that.
+                // A name given twice is refused earlier.
                 self.inside
                     .extend(same.take(1).filter(|(_, other)| *other != line).map(|(_, other)| ordered(*other, line)));
             }
@@ -198,7 +198,7 @@ impl Shared {
         }
     }
 
-    /// Pairs of lines that may write the same, those whose later line comes first at the beginning.
+    /// Pairs of lines that may write the same file, ordered by the later line.
     pub(super) fn suspects(mut self) -> Vec<Lines> {
         let mut suspects = self.inside;
         self.numbered.append(&mut self.files);
@@ -224,7 +224,7 @@ fn ordered(one: u32, other: u32) -> Lines {
     (one.max(other), one.min(other))
 }
 
-/// The names that a pattern stands for, as few ranges: one for each number of digits.
+/// The names that a pattern stands for, in few ranges: one for each number of digits.
 fn numbers(name: &NumberedName, count: u32, line: u32) -> Vec<Numbers> {
     let (before, width, after) = name.parts();
     // A digit behind the number breaks its range into single names.

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 pub enum Status {
     /// Its outputs are there, whole.
     Done,
-    /// With an error, or with a check that found a difference.
+    /// Ended with an error, or with a check that found a difference.
     Failed,
 }
 
@@ -22,7 +22,7 @@ pub enum Status {
 pub struct Failure {
     /// [`crate::Error::kind`], `check` for a check that found a difference, `crash` for a worker that ended.
     pub kind: String,
-    /// The sentence that the command would have said; places in the batch's folder are named from there.
+    /// The command's error; paths in the batch's folder are relative to it.
     pub problem: String,
 }
 
@@ -37,36 +37,36 @@ pub struct Written {
     pub sha256: String,
 }
 
-/// What is different each time a job is done.
+/// The part of an entry that differs each time a job runs.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// From reading the line to the last file.
     pub milliseconds: f64,
     /// How often it was tried: a second time where the GL context was lost.
     pub tries: u32,
-    /// Who drew; `None` where nothing was drawn.
+    /// The driver; `None` where the job drew nothing.
     pub gl: Option<Driver>,
-    /// What the command wrote to standard output: a record where the job has `json`.
+    /// The command's standard output: a record where the job has `json`.
     pub printed: Option<String>,
 }
 
-/// What came of a job.
+/// The result of a job.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
     /// How it ended.
     pub status: Status,
     /// Why it failed, if it did.
     pub error: Option<Failure>,
-    /// What the command said on the way, a sentence each.
+    /// Remarks of the command, a sentence each.
     pub remarks: Vec<String>,
-    /// What it wrote, sorted by path.
+    /// Its output files, sorted by path.
     pub outputs: Vec<Written>,
-    /// What is different each time.
+    /// The part that differs each time.
     pub run: Run,
 }
 
 impl Outcome {
-    /// Of a job that failed for this reason.
+    /// The outcome of a job that failed for this reason.
     pub fn failed(kind: &str, problem: impl Into<String>) -> Self {
         Self {
             status: Status::Failed,
@@ -78,7 +78,7 @@ impl Outcome {
     }
 }
 
-/// A job and what came of it: a line of a slice's file.
+/// A job and its result: a line of a slice's file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Line")]
 pub struct Entry {
@@ -88,14 +88,14 @@ pub struct Entry {
     pub line: u64,
     /// [`Job::sha256`]: a job that has been changed since is another.
     pub job: String,
-    /// What was done.
+    /// The command.
     pub command: JobCommand,
-    /// What came of it.
+    /// The result.
     #[serde(flatten)]
     pub outcome: Outcome,
 }
 
-/// An entry as it is read: all keys side by side, which is several times as fast as looking for those that are left over.
+/// An entry for reading, with all keys in one struct; this is several times as fast as serde's flattened keys.
 #[derive(Deserialize)]
 struct Line {
     id: String,
@@ -117,12 +117,12 @@ impl From<Line> for Entry {
 }
 
 impl Entry {
-    /// Of this job.
+    /// Makes the entry of a job.
     pub fn new(job: &Job, outcome: Outcome) -> Self {
         Self { id: job.id.clone(), line: job.line, job: job.sha256.clone(), command: job.command, outcome }
     }
 
-    /// Whether it says that this job is done, and what was written is there and as long as it was.
+    /// Whether this entry marks the job as done, and its output files still exist with the same lengths.
     pub fn is_done(&self, job: &Job, folder: &Path) -> bool {
         let is_there = |file: &Written| {
             folder.join(&file.path).metadata().is_ok_and(|there| there.is_file() && there.len() == file.bytes)
@@ -131,7 +131,7 @@ impl Entry {
     }
 }
 
-/// What lies where a job writes: its files, those in its folders, the pictures of a pattern such as `frame-%04d.png`.
+/// Returns the existing output of a job: its files, those in its folders, the pictures of a pattern such as `frame-%04d.png`.
 pub fn written(job: &Job, folder: &Path) -> Vec<Written> {
     let mut files = Vec::new();
     for claim in Claim::all(&Asked::of_job(job)) {
@@ -170,7 +170,7 @@ fn files_in(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// The files whose names are those of a pattern with a number in its place.
+/// The files whose names match a pattern with a number.
 fn numbered(claim: &Claim, pattern: &Path, folder: &Path) -> Vec<PathBuf> {
     let names = std::fs::read_dir(pattern.parent().unwrap_or(folder)).into_iter().flatten().flatten();
     let is_one = |file: &PathBuf| {

@@ -9,7 +9,7 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::fmt::{Formatter, Write};
 
-/// The options whose value is a file or folder that a job writes.
+/// The options that name a file or folder to write.
 pub const OUTPUTS: [&str; 3] = ["output", "dump", "save-preset"];
 
 /// The commands that jobs may be.
@@ -25,11 +25,11 @@ pub enum JobCommand {
 }
 
 impl JobCommand {
-    /// All of them, as a list names them.
+    /// All of them, with their names in lists.
     pub const ALL: [(&'static str, Self); 3] =
         [("render", Self::Render), ("compare", Self::Compare), ("measure", Self::Measure)];
 
-    /// As a list names it.
+    /// Its name in lists.
     pub fn name(self) -> &'static str {
         match self {
             Self::Render => "render",
@@ -39,14 +39,14 @@ impl JobCommand {
     }
 }
 
-/// What one line asks for.
+/// The contents of one line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Job {
-    /// Its name, by which it is known from run to run.
+    /// Its name, the same from run to run.
     pub id: String,
-    /// Where it stands, 1-based; 0 outside of a list.
+    /// Its line number, 1-based; 0 outside of a list.
     pub line: u64,
-    /// What is to be done.
+    /// The command to run.
     pub command: JobCommand,
     /// The models.
     pub models: Vec<String>,
@@ -63,7 +63,7 @@ impl Job {
     ///
     /// # Errors
     ///
-    /// What is wrong with it, a sentence without the file's name.
+    /// Parses a line. The error is a sentence without the file's name.
     pub fn parse(line: &[u8]) -> Result<Self, String> {
         let keys = keys(line)?;
         let json = sorted(&keys);
@@ -73,7 +73,7 @@ impl Job {
     }
 }
 
-/// What a line asks for, without what it is known by: enough to check it.
+/// A line without its name: enough to check it.
 pub(super) struct Asked {
     pub id: String,
     pub command: JobCommand,
@@ -82,7 +82,7 @@ pub(super) struct Asked {
 }
 
 impl Asked {
-    /// What a job asks for.
+    /// Takes a job's command and options.
     pub(super) fn of_job(job: &Job) -> Self {
         let Job { id, command, options, .. } = job.clone();
         Self { id, command, models: Vec::new(), options }
@@ -93,7 +93,7 @@ impl Asked {
         Self::of_keys(keys(line)?)
     }
 
-    /// The options that name what the job writes, with those names.
+    /// The options that name output files, with those names.
     pub(super) fn outputs(&self) -> impl Iterator<Item = (&str, &str)> {
         self.options.iter().filter_map(|(key, value)| match value {
             OptionValue::Text(output) if OUTPUTS.contains(&key.as_str()) => Some((key.as_str(), output.as_str())),
@@ -118,7 +118,7 @@ impl Asked {
             Some(Value::String(id)) => id,
             Some(Value::Number(id)) if id.is_u64() || id.is_i64() => id.to_string(),
             Some(_) => return Err("id: write a text or a whole number".to_owned()),
-            None => return Err("it has no id; give each job one of its own".to_owned()),
+            None => return Err("it has no id; give each job its own".to_owned()),
         };
         check_id(&id)?;
         let command = match take("command") {
@@ -148,7 +148,7 @@ impl Asked {
         });
         let options = options.collect::<Result<_, String>>()?;
         if models.iter().any(|model| model == "-") {
-            return Err("model: - is standard input, which jobs have not; name a file".to_owned());
+            return Err("model: - is standard input, which jobs lack; name a file".to_owned());
         }
         Ok(Self { id, command, models, options })
     }
@@ -195,7 +195,7 @@ fn scalar(value: Value) -> Result<String, String> {
     }
 }
 
-/// A line's keys in their order, none twice: JSON itself would keep the last one of each in silence.
+/// A line's keys in their order, without repetition: JSON itself would silently keep the last one of each.
 struct Keys(Vec<(String, Value)>);
 
 impl<'de> Deserialize<'de> for Keys {
@@ -225,7 +225,7 @@ impl<'de> Deserialize<'de> for Keys {
     }
 }
 
-/// The same content is the same text, whatever order its keys stood in.
+/// The same content gives the same text in any order of keys.
 fn sorted(keys: &[(String, Value)]) -> String {
     let mut keys: Vec<&(String, Value)> = keys.iter().collect();
     keys.sort_by(|one, other| one.0.cmp(&other.0));

@@ -1,7 +1,7 @@
 //! The journal of a slice: one entry per line, written as soon as its job ends.
 //!
-//! A line is one write to the end of a file that only one run has open, so that a run that is killed leaves whole lines and at
-//! most one torn one, which the next run cuts off. A power cut may cost the last lines: their jobs are done again.
+//! A line is one write to the end of a file that only one run has open. A killed run leaves whole lines and at most one torn
+//! line, which the next run cuts off. A power cut may cost the last lines: their jobs run again.
 
 use super::entry::{Entry, Status};
 use super::job::Job;
@@ -24,11 +24,11 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Begins a slice's file in the batch's folder, or goes on with the one that is there and cuts a torn last line off.
+    /// Creates a slice's file in the batch's folder, or continues the existing one and cuts off a torn last line.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] where it cannot be written, [`Error::Busy`] where another run has it open.
+    /// [`Error::File`] if it cannot be written, [`Error::Busy`] if another run has it open.
     pub fn open(folder: &Path, slice: Slice) -> Result<Self> {
         let path = folder.join(slice.file_name());
         if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
@@ -46,13 +46,13 @@ impl Journal {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] where it cannot be written: then nothing half is left.
+    /// [`Error::File`] if it cannot be written: no partial line is left.
     pub fn append(&mut self, entry: &Entry) -> Result<()> {
         let refuse = |problem: String| Error::output(&self.path, problem);
         let mut line = serde_json::to_string(entry).map_err(|error| refuse(format!("{error}; please report this")))?;
         line.push('\n');
         let length = self.file.metadata().map(|metadata| metadata.len());
-        // Only Unix has a way to open a file that writes at its end by itself and can still be cut.
+        // Only on Unix can a file be opened for appending and still be truncated.
         let written = self.file.seek(SeekFrom::End(0)).and_then(|_| self.file.write_all(line.as_bytes()));
         written.map_err(|error| {
             if let Ok(length) = length {
@@ -64,7 +64,7 @@ impl Journal {
     }
 }
 
-/// Cuts off what stands behind the last line's end, which is looked for from the file's end.
+/// Cuts off everything after the last line's end, searching backwards from the file's end.
 fn cut_torn(file: &mut File) -> std::io::Result<()> {
     let length = file.seek(SeekFrom::End(0))?;
     let mut end = length;
@@ -83,25 +83,25 @@ fn cut_torn(file: &mut File) -> std::io::Result<()> {
     if end < length { file.set_len(end) } else { Ok(()) }
 }
 
-/// Opens the file to be written at its end, for this run alone; `None` where another has it open.
+/// Opens the file for appending, for this run alone; `None` if another run has it open.
 #[cfg(unix)]
 fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
     use rustix::fs::{FlockOperation, flock};
     use rustix::io::Errno;
     let file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
-    // Where the file system cannot tell, the run is believed to be alone.
+    // If the file system cannot tell, the run counts as alone.
     let is_taken = matches!(flock(&file, FlockOperation::NonBlockingLockExclusive), Err(Errno::WOULDBLOCK));
     Ok((!is_taken).then_some(file))
 }
 
-/// The same where a file says itself how others may open it: to read.
+/// The same on Windows, where a file itself limits how others may open it: for reading.
 #[cfg(windows)]
 fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
     use std::os::windows::fs::OpenOptionsExt;
     use windows_sys::Win32::Foundation::ERROR_SHARING_VIOLATION;
     use windows_sys::Win32::Storage::FileSystem::FILE_SHARE_READ;
     let mut options = OpenOptions::new();
-    // What Windows opens to append to cannot be cut.
+    // On Windows a file opened for appending cannot be truncated.
     options.read(true).write(true).create(true).truncate(false).share_mode(FILE_SHARE_READ);
     match options.open(path) {
         Err(error) if error.raw_os_error() == Some(ERROR_SHARING_VIOLATION as i32) => Ok(None),
@@ -109,7 +109,7 @@ fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
     }
 }
 
-/// Elsewhere nothing can be known of others.
+/// On other systems a second run is not detected.
 #[cfg(not(any(unix, windows)))]
 fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
     OpenOptions::new().read(true).append(true).create(true).open(path).map(Some)
@@ -119,7 +119,7 @@ fn read(path: &Path) -> Result<Vec<u8>> {
     files::read(path, BATCH_BYTES).map_err(|failure| failure.into_error(FileKind::Batch, path, "a batch's record"))
 }
 
-/// The slices that have begun in a batch's folder, whose files are not read for that.
+/// The slices with a file in a batch's folder; the files are not read.
 pub fn begun(folder: &Path) -> Vec<Slice> {
     let names = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut slices: Vec<Slice> = names.filter_map(|file| Slice::of_file_name(file.file_name().to_str()?)).collect();
@@ -127,16 +127,16 @@ pub fn begun(folder: &Path) -> Vec<Slice> {
     slices
 }
 
-/// Which of a slice's jobs are done, what they wrote still being there.
+/// Returns which of a slice's jobs are done with their output still present.
 ///
-/// Only files that can tell are read: the slice's own and those of another number of slices. The slices beside this one have
+/// Only relevant files are read: the slice's own and those of another number of slices. Other slices of the same number contain
 /// none of its jobs.
 ///
 /// # Errors
 ///
 /// [`Error::File`] for a file that cannot be read.
 pub fn done(folder: &Path, slice: Slice, jobs: &[Job]) -> Result<Vec<bool>> {
-    /// As much of an entry as most of them need.
+    /// The parts of an entry that most callers need.
     #[derive(Deserialize)]
     struct Ended<'a> {
         #[serde(borrow)]
@@ -160,7 +160,7 @@ pub fn done(folder: &Path, slice: Slice, jobs: &[Job]) -> Result<Vec<bool>> {
     Ok(done)
 }
 
-/// All that is written down in a batch's folder, by whatever slices: its bytes, and where in them the entry of each job is.
+/// All entries in a batch's folder, of any slices: the bytes, and the place of each job's entry in them.
 #[derive(Debug, Default)]
 pub struct Entries {
     files: Vec<Vec<u8>>,
@@ -188,7 +188,7 @@ struct Found {
 }
 
 impl Entries {
-    /// Reads what is there.
+    /// Reads the existing entries.
     ///
     /// # Errors
     ///
@@ -221,14 +221,14 @@ impl Entries {
         self.files.push(bytes);
     }
 
-    /// What came of a job, as it is now: that it is done, or else what was written down last.
+    /// The result of a job in its current form: done if any entry says done, otherwise the last entry.
     pub fn of(&self, job: &Job) -> Option<Entry> {
         let Found { file, start, length, .. } = *self.found.get(&key(&job.sha256)?)?;
         let line = self.files.get(file as usize)?.get(start as usize..)?.get(..length as usize)?;
         serde_json::from_slice(line).ok()
     }
 
-    /// How many entries there are of a job as it is now.
+    /// Number of entries of a job in its current form.
     pub fn count_of(&self, job: &Job) -> usize {
         key(&job.sha256).and_then(|key| self.found.get(&key)).map_or(0, |found| found.count as usize)
     }
@@ -273,7 +273,7 @@ mod tests {
         let journal = Journal::open(folder.path(), Slice::WHOLE).unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), whole);
         drop(journal);
-        // Also one that is longer than what is read at once, and one that is the only line.
+        // Also a torn line longer than one read, and one that is the only line.
         for (text, kept) in [([&whole[..], &[b'x'; 200_000]].concat(), whole.len()), (vec![b'x'; 100_000], 0)] {
             std::fs::write(&path, &text).unwrap();
             Journal::open(folder.path(), Slice::WHOLE).unwrap();
@@ -323,7 +323,7 @@ mod tests {
         write(of(1, 3), "own", Status::Done);
         write(of(2, 2), "from another count", Status::Done);
         write(of(1, 2), "failed", Status::Failed);
-        // This says of one of the slice's jobs what only a slice that does it can: it is not looked at.
+        // This entry describes one of the slice's jobs, which only the slice itself may do: it is ignored.
         write(of(2, 3), "beside", Status::Done);
         let jobs = ["own", "from another count", "failed", "beside"].map(job);
         assert_eq!(done(folder.path(), of(1, 3), &jobs).unwrap(), [true, true, false, false]);

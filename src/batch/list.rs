@@ -14,8 +14,8 @@ use std::path::Path;
 /// The list as a batch keeps it in its folder.
 pub const LIST_FILE: &str = "batch-list.jsonl";
 
-/// Jobs in the order of their list, none of the same name, no two that write the same file. All lines are checked, but jobs are
-/// made of them only when they are asked for: of a list of a million a run does a thousand.
+/// Jobs in the order of their list, without repeated names or output files. All lines are checked, but each becomes a job only
+/// when needed: a run may do a thousand of a million.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct List {
     /// How many jobs there are.
@@ -29,7 +29,7 @@ impl List {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] with the line that is no job, or that has the name or an output of another.
+    /// [`Error::File`] with the line that is invalid, or that has the name or an output of another.
     pub fn read(path: &Path) -> Result<Self> {
         let name = path.display().to_string();
         let bytes = files::read(path, BATCH_BYTES)
@@ -37,7 +37,7 @@ impl List {
         Self::of_bytes(bytes, &name)
     }
 
-    /// Reads a list's bytes; `name` is what errors call it.
+    /// Reads a list's bytes; `name` is its name in errors.
     ///
     /// # Errors
     ///
@@ -82,7 +82,7 @@ impl List {
         self.count == other.count && (self.bytes == other.bytes || content(self).eq(content(other)))
     }
 
-    /// Keeps the list in the batch's folder, so that it is known later what belongs to it.
+    /// Keeps the list in the batch's folder as the record of its jobs.
     ///
     /// # Errors
     ///
@@ -91,11 +91,11 @@ impl List {
         write_whole(&folder.join(LIST_FILE), &self.bytes)
     }
 
-    /// The list that a batch's folder keeps; `None` where it keeps none.
+    /// The list kept in a batch's folder; `None` if missing.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] where it cannot be read.
+    /// [`Error::File`] if it cannot be read.
     pub fn kept(folder: &Path) -> Result<Option<Self>> {
         let path = folder.join(LIST_FILE);
         match path.symlink_metadata() {
@@ -104,7 +104,7 @@ impl List {
         }
     }
 
-    /// Whether the list that a batch's folder keeps asks for the same; `None` where it keeps none.
+    /// Whether the list kept in a batch's folder has the same jobs; `None` if missing.
     ///
     /// # Errors
     ///
@@ -124,7 +124,7 @@ impl List {
         (1..).zip(lines).filter(|(_, text)| !text.is_empty())
     }
 
-    /// What a line asks for that has been checked.
+    /// The parsed contents of a checked line.
     fn asked(&self, line: u32) -> Option<Asked> {
         let (_, text) = self.lines().find(|(number, _)| *number == u64::from(line))?;
         Asked::of_line(text).ok()
@@ -136,7 +136,7 @@ impl List {
         refused(name, Some(line.into()), problem)
     }
 
-    /// Lines that may write the same by a number or in a folder, the first few of them.
+    /// Lines that may write the same file by a number or in a folder; only the first few.
     fn suspects(&self, mut shared: Shared) -> Vec<Lines> {
         if shared.is_empty() {
             return Vec::new();
@@ -152,13 +152,13 @@ impl List {
         suspects
     }
 
-    /// What is wrong with the later of two lines, if both write the same.
+    /// The error for the later of two lines, if both write the same file.
     fn clash(&self, (line, before): Lines) -> Option<String> {
         problem(&self.asked(line)?, &self.asked(before)?, before)
     }
 }
 
-/// So many lines that may write the same are looked at by name; one is enough but where hashes are the same by chance.
+/// Number of possibly conflicting lines compared by name; one is enough unless hashes collide.
 const SUSPECTS: usize = 8;
 
 /// A list has at most [`BATCH_BYTES`] lines, which 32 bits count.
@@ -175,7 +175,7 @@ impl Seen {
         self.0.push((key(name), in_32_bits(line)));
     }
 
-    /// The first line with a name that stands in one before it, or in the same; then that one.
+    /// The first line that repeats a name of an earlier line, or of itself; then the earlier line.
     fn first_twice(mut self) -> Option<Lines> {
         self.0.sort_unstable();
         let twice = self.0.windows(2).filter(|pair| pair[0].0 == pair[1].0);
@@ -183,7 +183,7 @@ impl Seen {
     }
 }
 
-/// Whether a file has just these bytes; of one that cannot be read nothing is said here.
+/// Whether a file has exactly these bytes; false if it cannot be read.
 fn has_bytes(path: &Path, bytes: &[u8]) -> bool {
     // A pipe would be waited for.
     if !path.metadata().is_ok_and(|metadata| metadata.is_file() && metadata.len() == bytes.len() as u64) {
@@ -235,7 +235,7 @@ mod tests {
         assert_eq!(twice, "jobs.jsonl: line 3: the id a is already used by line 1; choose another");
         let twice = said(&format!("{}\n{}\n", job("a", "x/a.png"), job("b", "./x//a.png")));
         assert_eq!(twice, "jobs.jsonl: line 2: output: ./x//a.png is also written by line 1; name another");
-        // The first such line of the list, whatever stands twice in it.
+        // The first such line of the list, whichever name it repeats.
         let lines = [job("a", "a.png"), job("b", "b.png"), job("c", "./a.png"), job("b", "d.png"), job("a", "e.png")];
         let twice = said(&lines.join("\n"));
         assert_eq!(twice, "jobs.jsonl: line 3: output: ./a.png is also written by line 1; name another");
@@ -338,7 +338,7 @@ mod tests {
         assert!(List::kept(folder.path()).unwrap().unwrap().is_same(&one));
         assert!(!list(&job("a", "b.png")).unwrap().is_same(&one));
         assert_eq!(one.is_kept(folder.path()).unwrap(), Some(true));
-        // Blanks do not count, other outputs do, and as long as it is.
+        // Blanks do not count; other outputs and a different length do.
         assert_eq!(list(&job("a", "a.png")).unwrap().is_kept(folder.path()).unwrap(), Some(true));
         assert_eq!(list(&format!("{}\n", job("a", "b.png"))).unwrap().is_kept(folder.path()).unwrap(), Some(false));
         assert_eq!(one.is_kept(&folder.path().join("other")).unwrap(), None);

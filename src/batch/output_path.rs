@@ -1,12 +1,12 @@
-//! Output paths of jobs: inside the batch's own folder, whatever a job's line says.
+//! Output paths of jobs: always inside the batch's own folder.
 
 use std::path::{Component, Path, PathBuf};
 
-/// The place in `folder` that a job's output names. A `/` at its end, which says that a folder is meant, stays there.
+/// Returns the place in `folder` that a job's output names. A final `/`, which marks a folder, stays.
 ///
 /// # Errors
 ///
-/// A sentence for what is empty, standard output, absolute, leads out of the folder or is a file of the batch's own.
+/// A sentence for an output that is empty, standard output, absolute, outside the folder or one of the batch's files.
 pub fn place_in(folder: &Path, output: &str) -> Result<PathBuf, String> {
     let Some(names) = names(output) else {
         return Err(match output {
@@ -31,7 +31,7 @@ pub fn is_own_file(name: &str) -> bool {
     name.starts_with("batch-") && (name.ends_with(".jsonl") || name.ends_with(".json"))
 }
 
-/// The output's name, by which two that are the same are found; `None` where [`place_in`] refuses it.
+/// The output's normalised name, equal for equal places; `None` where [`place_in`] refuses it.
 pub(super) fn same_place(output: &str) -> Option<String> {
     names(output).map(|names| names.join("/"))
 }

@@ -1,16 +1,16 @@
-//! Slices: which jobs of a list belong to which run.
+//! Slices: the division of a list's jobs among runs.
 
 use crate::error::ParseError;
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
-/// One of `count` parts of a list: every count-th job, beginning with the number-th, so that parts cost about the same where
-/// costs change along the list.
+/// One of `count` parts of a list: every count-th job, beginning with the number-th. Slices cost about the same even where costs
+/// change along the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Slice {
     /// How many parts there are, 1 to 100,000.
     pub count: u32,
-    /// Which this is, from 1.
+    /// Its number, from 1.
     pub number: u32,
 }
 
@@ -31,7 +31,7 @@ impl Slice {
         format!("batch-{}-of-{}.jsonl", self.number, self.count)
     }
 
-    /// The slice whose entries are in a file of this name.
+    /// The slice of a file of this name.
     pub fn of_file_name(name: &str) -> Option<Self> {
         let (number, count) = name.strip_prefix("batch-")?.strip_suffix(".jsonl")?.split_once("-of-")?;
         let slice: Self = format!("{number}/{count}").parse().ok()?;

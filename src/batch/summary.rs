@@ -1,8 +1,8 @@
 //! The summary of a whole list, from the journals of its slices.
 //!
-//! `batch-summary.jsonl` has a line for every job in the list's order and nothing in it that differs from run to run, so that
-//! the slices of many machines merge into the bytes that one machine would have given. What differs, times, drivers and
-//! whatever holds a time, stands in `batch-times.jsonl`, also a line a job.
+//! `batch-summary.jsonl` has a line for every job in the list's order, and only facts that are the same in every run: the slices
+//! of many machines merge into the bytes of a single machine's run. Times, drivers and everything that contains a time go to
+//! `batch-times.jsonl`, also one line per job.
 
 use super::entry::{Failure, Outcome, Run, Status, Written};
 use super::job::{Job, JobCommand};
@@ -15,21 +15,21 @@ use crate::renderer::median;
 use serde::Serialize;
 use std::path::Path;
 
-/// What is the same every time, a line a job.
+/// The facts that are the same every time, one line per job.
 pub const SUMMARY_FILE: &str = "batch-summary.jsonl";
 
-/// What is different every time, a line a job.
+/// The facts that differ every time, one line per job.
 pub const TIMES_FILE: &str = "batch-times.jsonl";
 
-/// So much is written at once.
+/// Bytes written at once.
 const WRITTEN_BYTES: usize = 1 << 20;
 
-/// What came of a batch.
+/// The result of a batch.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
     /// Jobs in the list.
     pub jobs: usize,
-    /// Of these, how many are done.
+    /// The number of these that are done.
     pub done: usize,
     /// How many failed.
     pub failed: usize,
@@ -50,7 +50,7 @@ pub struct Summary {
 /// A command's jobs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CommandSummary {
-    /// Which.
+    /// The command.
     pub command: JobCommand,
     /// How many are done.
     pub done: usize,
@@ -58,11 +58,11 @@ pub struct CommandSummary {
     pub failed: usize,
     /// How many have not ended yet.
     pub missing: usize,
-    /// Milliseconds of those that ended: all of them together, the median, the longest.
+    /// Milliseconds of the ended jobs: the sum, the median, the maximum.
     pub milliseconds: [f64; 3],
 }
 
-/// A job that something is to be said of.
+/// A job to report.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Named {
     /// Its line in the list.
@@ -86,7 +86,7 @@ struct Row<'a> {
     outputs: Vec<Output<'a>>,
 }
 
-/// A file; with how long it is and what is in it, unless times are in it.
+/// A file, with its length and hash unless it contains times.
 #[derive(Serialize)]
 struct Output<'a> {
     path: &'a str,
@@ -108,12 +108,11 @@ struct TimesRow<'a> {
 }
 
 impl Summary {
-    /// Reads a batch's folder, even while runs are at work in it, and writes both files there, both or none.
+    /// Reads a batch's folder, even while runs are working there, and writes either both files there or none.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] where there is no batch, what there is cannot be read, or the files cannot be
-    /// written.
+    /// [`Error::File`] if the folder holds no batch, its files cannot be read, or the summary cannot be written.
     pub fn put_together(folder: &Path) -> Result<Self> {
         let list = List::kept(folder)?.ok_or_else(|| {
             Error::file(FileKind::Batch, folder.join(LIST_FILE), "there is no such file; name the folder of a batch")
@@ -139,8 +138,8 @@ impl Summary {
         Ok(summary)
     }
 
-    /// Of a list and what was written down. `take` is given each job's line of the summary and of the times, which is empty
-    /// for a job that has not ended.
+    /// Combines a list with the journal's entries. `take` receives each job's line of the summary and of the times; the latter is
+    /// empty for an unfinished job.
     ///
     /// # Errors
     ///
@@ -236,7 +235,7 @@ impl Tally {
 fn lines(job: &Job, outcome: Option<&Outcome>) -> [String; 2] {
     let outputs = outcome.map_or(&[][..], |outcome| &outcome.outputs);
     let remarks = outcome.map_or(&[][..], |outcome| &outcome.remarks);
-    // A measurement says at first how long it will take.
+    // A measurement first prints its expected time.
     let (same, differ) = if job.command == JobCommand::Measure { (&[][..], remarks) } else { (remarks, &[][..]) };
     let row = Row {
         line: job.line,
@@ -280,7 +279,7 @@ fn holds_times(command: JobCommand, path: &str) -> bool {
 }
 
 fn line_of(row: &impl Serialize) -> String {
-    // Of text and finite numbers, which JSON has.
+    // Only text and finite numbers, which JSON can represent.
     let mut text = serde_json::to_string(row).unwrap_or_default();
     text.push('\n');
     text

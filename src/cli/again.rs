@@ -26,7 +26,7 @@ pub(super) struct Arguments {
     picture: PathBuf,
 
     /// File to write, in the same format
-    // Not required by the parser: of a picture without a recipe that is said first.
+    // Not required by the parser, because the error about a picture without a recipe comes first.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -46,10 +46,10 @@ impl Arguments {
     }
 }
 
-/// What a picture may not allow itself, whatever it says of how it was made: that is for whoever has it.
+/// An option that a picture's recipe cannot grant: only the user can.
 const NOT_GRANTED: &str = "allow-external";
 
-/// Draws the picture again; exit code 1 if it comes out otherwise.
+/// Draws the picture again; exit code 1 if it differs.
 pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
     let recipe = Recipe::read(&arguments.picture)?;
     check_output(arguments)?;
@@ -70,7 +70,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
     }
 }
 
-/// What is compared afterwards must be of one kind, and the old picture still there.
+/// A comparison needs files of one kind, and the old picture must survive.
 fn check_output(arguments: &Arguments) -> Result<()> {
     let refuse = |problem: String| Err(Error::output(arguments.output(), problem));
     let kind = |path: &Path| path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
@@ -98,7 +98,7 @@ fn is_svg(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg"))
 }
 
-/// By its content, for it may have been renamed.
+/// By its content, because the file may have been renamed.
 fn is_png(path: &Path) -> Result<bool> {
     use std::io::Read;
     let mut first = [0];
@@ -110,7 +110,7 @@ fn failed(path: &Path, error: &std::io::Error) -> Error {
     Error::picture(path, format!("it cannot be read ({error}); check the file")).because(error)
 }
 
-/// The models to draw, which must be where they are said to be.
+/// The models to draw; each must exist.
 fn models(arguments: &Arguments, recipe: &Recipe) -> Result<Vec<String>> {
     let refuse = |setting: &str, problem: String| Err(Error::setting(setting, problem));
     if !arguments.model.is_empty() && arguments.model.len() != recipe.models.len() {
@@ -154,8 +154,7 @@ fn on_this_system(model: &str) -> String {
     if !Path::new(model).exists() && Path::new(&slashes).exists() { slashes } else { model.to_owned() }
 }
 
-/// Draws by the recipe. What is not part of a picture, such as a file to write, has no place among its options: a recipe may come
-/// from anyone.
+/// Draws the recipe. Options that are not part of a picture, such as a file to write, are refused: a recipe may come from anyone.
 fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()> {
     let refuse = |problem: String| Error::picture(&arguments.picture, problem);
     if recipe.command != "render" {
@@ -182,7 +181,7 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
     }
     let output = arguments.output().display().to_string();
     let style = is_of_lines(&output).then_some(Layer::Style(StyleName::Lines));
-    // The recipe says all that the picture's look was made of, and of a style not named means the published one.
+    // The recipe has all options of the picture's look; a style not named is the published one.
     let layers: Vec<Layer> = style.into_iter().chain([Layer::Given(recipe.options.clone())]).collect();
     let (request, _) = Request::from_layers(&layers).map_err(|error| match error {
         Error::Setting { .. } | Error::Settings { .. } => {
@@ -198,7 +197,7 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
         render::render(request, &render::RunSettings::default(), &output, &[], &mut super::models::session()).map(drop)
     };
     match draw(&request) {
-        // Another way to OpenGL is better than none; that it is another is said.
+        // Another backend is better than none; a message names it.
         Err(Error::NoContext { .. }) if backend != Backend::Auto => {
             request.backend = Backend::Auto;
             draw(&request)
@@ -207,8 +206,7 @@ fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()>
     }
 }
 
-/// Refuses a recipe for a large picture that the picture itself is not: what comes of it might not be read again, and is drawn
-/// for a long time.
+/// Refuses a recipe for a picture much larger than the file itself: the result might be unreadable, and takes long to draw.
 fn check_size(arguments: &Arguments, size: Size) -> Result<()> {
     if is_svg(arguments.output()) || size.pixel_count() as u64 * 4 <= PICTURE_BYTES {
         return Ok(());

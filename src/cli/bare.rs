@@ -1,14 +1,14 @@
-//! `tinta MODEL…`, without a command: a window, or where there is none a picture beside the model.
+//! `tinta MODEL…`, without a command: opens a window, or without a display draws a picture beside the model.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use tinta::mesh::is_model_name;
 
-/// How many pictures of one model may stand beside it.
+/// Most pictures of one model beside it.
 const MOST_PICTURES: usize = 10_000;
 
-/// The words with the command that they mean, the program's name first; as they are where they name one. The second is the picture
-/// that is drawn, if one is.
+/// Adds the implied command to the words, the program's name first; words that name a command stay unchanged. The second value is
+/// the picture to draw, if any.
 pub(super) fn with_command(words: Vec<OsString>, has_window: bool) -> (Vec<OsString>, Option<PathBuf>) {
     let Some(model) = words.get(1).filter(|word| is_model(word)).cloned() else { return (words, None) };
     let names_output = words.iter().skip(2).any(|word| {
@@ -29,13 +29,13 @@ pub(super) fn with_command(words: Vec<OsString>, has_window: bool) -> (Vec<OsStr
     (all, output)
 }
 
-/// Whether a word can only be a model: a built-in one, or a file's name that ends as models' do.
+/// Whether a word can only be a model: a built-in one, or a file name with a model's ending.
 fn is_model(word: &OsStr) -> bool {
     let text = word.to_string_lossy();
     text.starts_with("builtin:") || is_model_name(&text)
 }
 
-/// A picture's name beside the model, for a file that is not there.
+/// A new picture name beside the model.
 fn free_name(model: &OsStr) -> PathBuf {
     let text = model.to_string_lossy();
     let path = text.strip_prefix("builtin:").map_or_else(|| PathBuf::from(model), PathBuf::from);
@@ -57,7 +57,7 @@ pub(super) fn has_window() -> bool {
     cfg!(feature = "window") && (!cfg!(target_os = "linux") || is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"))
 }
 
-/// Where a picture was drawn that nobody named.
+/// The message with the automatic name of a picture.
 pub(super) fn said(picture: &Path) -> String {
     format!("{}\n", picture.display())
 }

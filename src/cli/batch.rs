@@ -1,8 +1,7 @@
 //! `tinta batch`: runs a list of jobs, or a slice of it, on all cores, and summarises the results.
 //!
-//! The jobs are done by workers, processes of this program that take one job after another and keep their context, programs
-//! and models: a job that brings the driver down takes one worker with it and no other job. What a worker tells of a job is
-//! written down at once.
+//! Workers do the jobs: processes of this program that take one job after another and keep their context, programs and models. A
+//! job that crashes the driver ends one worker and no other job. Each result is recorded at once.
 
 pub(super) mod job_options;
 mod staging;
@@ -81,8 +80,8 @@ pub(super) struct Arguments {
     worker: bool,
 }
 
-/// Carries the list out, or sums up what was carried out; exit code 1 where a job failed or is missing, 128 and the signal's
-/// number where a signal ended it with jobs to do.
+/// Runs the list, or summarises its results; exit code 1 if a job failed or is missing, 128 plus the signal's number if a signal
+/// ended it early.
 pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<Verdict> {
     if let Some(folder) = &arguments.summary {
         return sum_up(folder, arguments.json);
@@ -116,17 +115,16 @@ pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<Verdict> {
     Ok(if counts.failed == 0 { Verdict::Good } else { Verdict::Different })
 }
 
-/// What a run has before it.
+/// The work of a run.
 struct Begun {
     journal: Journal,
     /// How many jobs the slice has.
     jobs: usize,
-    /// Those of them that are not done.
+    /// The unfinished ones.
     left: Vec<Job>,
 }
 
-/// Opens the slice's file, once it is known that this list and this folder belong together. Of the list only the jobs that
-/// are left stay in memory.
+/// Opens the slice's file, after checking that the list belongs to this folder. Only the unfinished jobs stay in memory.
 fn begin(arguments: &Arguments, folder: &Path, list: List) -> Result<Begun> {
     let refuse = |problem: String| Err(Error::output(folder, problem));
     let slice = arguments.slice;
@@ -148,7 +146,7 @@ fn begin(arguments: &Arguments, folder: &Path, list: List) -> Result<Begun> {
     let journal = Journal::open(folder, slice)?;
     let jobs: Vec<Job> = list.jobs(slice).collect();
     drop(list);
-    // Now, for nobody else writes into this slice's file any more.
+    // Now that this run alone writes to the slice's file.
     let done = done(folder, slice, &jobs)?;
     let count = jobs.len();
     let left = jobs.into_iter().zip(done).filter(|(_, done)| !done).map(|(job, _)| job).collect();
@@ -168,7 +166,7 @@ impl Counts {
     }
 }
 
-/// What all workers' threads write to.
+/// Shared output of all workers' threads.
 struct Desk {
     journal: Journal,
     counts: Counts,
@@ -221,8 +219,7 @@ fn carry_out(
     }
 }
 
-/// A full disk is the run's error, not the job's: every further one would fail too. The job is not written down, so that it
-/// is done when the run goes on.
+/// A full disk is the run's error, not the job's: every later job would fail too. The job is not recorded; the next run does it.
 fn stop_on_full_disk(job: &Job, folder: &Path, outcome: Outcome) -> Result<Outcome> {
     match outcome.error {
         Some(Failure { ref kind, ref problem }) if *kind == DISK_FULL => Err(Error::output(
@@ -237,7 +234,7 @@ fn stop_on_full_disk(job: &Job, folder: &Path, outcome: Outcome) -> Result<Outco
 /// [`Error::kind`] of [`Error::File`].
 const DISK_FULL: &str = "disk-full";
 
-/// Counts a job and says why it failed, for the first few that do.
+/// Counts a job, and reports the reason for the first few failures.
 fn note(counts: &mut Counts, job: &Job, outcome: &Outcome) {
     match outcome.status {
         Status::Done => counts.done += 1,
@@ -256,7 +253,7 @@ fn in_words(counts: &Counts, jobs: usize, before: usize) -> String {
     format!("tinta: {} of {jobs} jobs done{before}, {} failed", counts.done, counts.failed)
 }
 
-/// Puts together what all slices wrote down.
+/// Combines the journals of all slices.
 fn sum_up(folder: &Path, json: bool) -> Result<Verdict> {
     let summary = Summary::put_together(folder)?;
     if json {

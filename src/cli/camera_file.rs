@@ -11,7 +11,7 @@ use tinta::{CameraSettings, Error, FileKind, Result, SceneSettings, View, camera
 /// Largest file read, bytes: a model with its data, as `--camera scene.glb` names.
 const LARGEST_BYTES: u64 = tinta::limits::MODEL_BYTES;
 
-/// What to name instead.
+/// The accepted kinds of files.
 const CHOICE: &str = "name what --json printed, a picture by tinta render, a glTF model with a camera, or 16 numbers";
 
 /// Reads a file's camera.
@@ -84,7 +84,7 @@ fn of_record(camera: &Value) -> std::result::Result<CameraSettings, String> {
     }
 }
 
-/// All numbers of a list of lists; `None` where something else stands.
+/// All numbers of a list of lists; `None` for other values.
 fn flat(value: &Value) -> Vec<Option<f64>> {
     match value {
         Value::Array(values) => values.iter().flat_map(flat).collect(),

@@ -26,22 +26,22 @@ pub enum Verdict {
 pub struct Command {
     /// The word after `tinta`.
     pub name: &'static str,
-    /// Adds its arguments and its help to a command that has none.
+    /// Adds its arguments and its help to an empty command.
     pub arguments: fn(clap::Command) -> clap::Command,
     /// Carries it out.
     pub run: fn(&ArgMatches, &mut Call<'_>) -> Result<Verdict>,
-    /// Its lines among the examples of `tinta --help`. Default none.
+    /// Its lines among the examples of `tinta --help`. Default empty.
     pub examples: &'static [&'static str],
     /// Checks a job of a batch and makes a task of it. Default `None`: a batch has no such jobs.
     pub job: Option<fn(&JobOptions) -> Result<Task>>,
-    /// The values that a shell offers for an option. Default none: those of a drawing's settings are offered.
+    /// The values that a shell offers for an option. Default empty: those of a drawing's settings are offered.
     pub offers: fn(&str) -> Vec<&'static str>,
 }
 
 /// A job that was checked. It is given the folder that its output folder is written in until it is whole, if it writes one.
 pub type Task = Box<dyn FnOnce(Option<&Path>, &mut Session) -> Result<Verdict>>;
 
-/// What a command may use of the run.
+/// The parts of the run that a command may use.
 #[derive(Debug)]
 pub struct Call<'a> {
     /// All commands.
@@ -96,7 +96,7 @@ impl Program {
         }
     }
 
-    /// With further commands.
+    /// Adds commands.
     #[must_use]
     pub fn with(mut self, commands: impl IntoIterator<Item = Command>) -> Self {
         let place = self.commands.iter().position(|command| command.name == FIRST_OF_MANAGING);
@@ -105,7 +105,7 @@ impl Program {
         self
     }
 
-    /// With a window that measures lines so.
+    /// Sets how the window measures lines.
     #[cfg(feature = "window")]
     #[must_use]
     pub fn measuring_lines_by(self, measure: crate::window::LineMeasure) -> Self {

@@ -1,7 +1,7 @@
 //! `tinta completions`: a script with which a shell completes commands, options, values and files.
 //!
-//! clap_complete writes the scripts from the definition that also reads the command line. Two things it cannot say are put
-//! in: a model or preset is either a built-in one or a file, and in bash a word may hold a colon or an equals sign.
+//! clap_complete writes the scripts from the definition that also parses the command line. This module adds two things: a model
+//! or preset is either a built-in one or a file, and in bash a word may hold a colon or an equals sign.
 
 mod values;
 
@@ -50,7 +50,7 @@ pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<()> {
     super::print(&script(arguments.shell, program))
 }
 
-/// Options whose value is a preset, and the arguments that are models.
+/// Options that take a preset, and arguments that take models.
 const PRESET: &str = "preset";
 const MODELS: [&str; 2] = ["models", "model"];
 
@@ -68,7 +68,7 @@ fn script(shell: Shell, program: &Program) -> String {
     }
 }
 
-/// clap's function is asked by one that puts words together first: `src/cli/completions/words.bash`.
+/// The script first joins words, then calls clap's function: `src/cli/completions/words.bash`.
 fn bash(command: &Command, written: &str) -> String {
     let words = include_str!("completions/words.bash")
         .replace("@models@", &models().join(" "))
@@ -78,7 +78,7 @@ fn bash(command: &Command, written: &str) -> String {
     written.replace("complete -F _tinta ", "complete -F _tinta_words ") + "\n" + &words
 }
 
-/// Where clap asks for files only, `src/cli/completions/names.zsh` also offers what is built in.
+/// Where clap offers only files, `src/cli/completions/names.zsh` also offers built-in names.
 fn zsh(written: &str) -> String {
     let escaped = |names: Vec<String>| names.join(" ").replace(':', "\\:");
     let names = include_str!("completions/names.zsh")
@@ -93,13 +93,13 @@ fn zsh(written: &str) -> String {
         } else {
             line.to_owned()
         };
-        // The script's last lines call what it defines.
+        // The script's last lines call the functions it defines.
         if line.starts_with("if [ \"$funcstack[1]\"") { format!("{names}\n{better}\n") } else { better + "\n" }
     });
     lines.collect()
 }
 
-/// fish joins what several lines offer.
+/// fish combines the suggestions of several lines.
 fn fish(command: &Command, written: &str) -> String {
     let mut script = written.to_owned();
     for name in with_models(command) {
@@ -111,7 +111,7 @@ fn fish(command: &Command, written: &str) -> String {
         }
     }
     for command in command.get_subcommands() {
-        // Of clap's own script positional arguments are missing.
+        // clap's own script omits positional arguments.
         for arg in command.get_positionals().filter(|arg| !arg.get_possible_values().is_empty()) {
             let names: Vec<String> =
                 arg.get_possible_values().iter().map(|value| value.get_name().to_owned()).collect();

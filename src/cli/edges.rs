@@ -44,7 +44,7 @@ pub(super) struct Arguments {
     subject: Chosen<OfSubject>,
 }
 
-/// What the edge list is asked, as the style inking asks it.
+/// The settings of the edge list, the same as in the style inking.
 struct OfEdges;
 
 impl Selection for OfEdges {
@@ -72,7 +72,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let Some(mesh) = meshes.pop() else { return Err(Error::CommandLine { problem: "no model was named".to_owned() }) };
     let eye = scene.eye(&scene.objects[0], rule);
 
-    // Timed like frames: every round does all of it anew.
+    // Timed like frames: every round repeats all the work.
     let mut times: [Vec<f64>; 4] = Default::default();
     let mut last = None;
     for _ in 0..arguments.frames {

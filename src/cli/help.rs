@@ -1,7 +1,7 @@
 //! The two helps: `-h` lists the options that most people need, `--help` all of them in their groups.
 //!
-//! Which these are is declared with the settings (`Setting::common`), and with the options of single commands as clap has it
-//! (`hide_short_help`). clap would give each option of a long help three lines; here both are set as its short one is.
+//! The settings declare which options are common (`Setting::common`), and single commands do so with clap's `hide_short_help`.
+//! clap would give each option of a long help three lines; here both helps use the short form.
 
 use super::Program;
 use clap::{Arg, ArgAction, Command};
@@ -15,7 +15,7 @@ const PAGE_LINES: usize = 60;
 /// Examples below the program's help before those of the commands.
 const EXAMPLE: &str = "tinta cow.obj                                   show a model, or draw it";
 
-/// What the exit code says.
+/// The meaning of each exit code.
 const EXIT_CODES: &str = "\
 Exit codes:
   0  done
@@ -34,7 +34,7 @@ pub(super) fn whole(program: &Program) -> Command {
     commands(program).mut_subcommands(unmarked)
 }
 
-/// The program's commands; what has a look tells the look's defaults.
+/// The program's commands; those with looks state the look's defaults.
 fn commands(program: &Program) -> Command {
     let look = LOOKS[0].preset().map(|preset| preset.options).unwrap_or_default();
     let all = program.commands().iter().map(|command| (command.arguments)(Command::new(command.name)));
@@ -52,10 +52,10 @@ fn commands(program: &Program) -> Command {
     })
 }
 
-/// What begins the default at the end of an option's help.
+/// The beginning of the default at the end of an option's help.
 const DEFAULT: &str = "[default: ";
 
-/// An option whose help states the value that is drawn where nothing is asked for, then the default of a style that is named.
+/// An option whose help states the default look's value, then the default of a named style.
 fn with_drawn_default(arg: Arg, look: &Options) -> Arg {
     let value = match arg.get_long().and_then(|name| look.get(name)) {
         Some(OptionValue::Text(value)) => value.clone(),
@@ -65,7 +65,7 @@ fn with_drawn_default(arg: Arg, look: &Options) -> Arg {
     };
     let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
     match help.rsplit_once(DEFAULT) {
-        // What is the same in both is told once.
+        // A value that is the same in both appears once.
         Some((about, published)) if !published.starts_with(&format!("{value}]")) => {
             arg.help(format!("{about}{DEFAULT}{value}; published: {published}"))
         }
@@ -78,8 +78,7 @@ pub(super) fn unmarked(command: Command) -> Command {
     command.mut_args(|arg| arg.hide_short_help(false))
 }
 
-/// The program's commands for these words, the program's name first: where they ask for the short help, that is what help
-/// prints.
+/// The program's commands for these words, the program's name first. If the words request the short help, help prints that one.
 pub(super) fn command(program: &Program, words: &[OsString]) -> Command {
     if !words.iter().skip(1).take_while(|word| *word != "--").any(|word| word == "-h") {
         return whole(program);
@@ -105,7 +104,7 @@ fn lines(command: &Command) -> usize {
     command.clone().term_width(80).render_help().to_string().lines().count()
 }
 
-/// A command that lists these options alone, in one group, and says where the others are.
+/// A command that lists only these options, in one group, and names the way to the others.
 fn shortened(command: Command, needed: &[String]) -> Command {
     let name = command.get_name().to_owned();
     let count = options(&command).count();
@@ -171,7 +170,7 @@ mod tests {
         assert!(whole.contains("\nCamera:\n") && !short.contains("\nCamera:\n"));
         let headings: Vec<&str> = short.lines().filter(|line| line.ends_with(':') && !line.starts_with(' ')).collect();
         assert_eq!(headings, ["Arguments:", "Options:"]);
-        // Wherever the word stands; behind two dashes it is a model.
+        // At any place; after two dashes it is a model.
         assert_eq!(help_of("tinta render a.obj --style ink -h"), short);
         assert!(help_of("tinta help render").contains("\nCamera:\n"));
     }

@@ -5,7 +5,7 @@ use tinta::request::files_named;
 use tinta::settings::Options;
 use tinta::{Error, Result};
 
-/// What a command reads, as far as its command line says.
+/// The files that a command reads, as far as the command line names them.
 #[derive(Debug)]
 pub struct Inputs(Vec<(&'static str, PathBuf)>);
 
@@ -22,7 +22,7 @@ impl Inputs {
         Self(pictures.map(|picture| ("model's picture", picture)).collect())
     }
 
-    /// Refuses to write over any of them; an output with a number in it, `frame-%04d.png`, stands for all of its pictures.
+    /// Refuses to overwrite any of them; a numbered output such as `frame-%04d.png` stands for all of its pictures.
     pub fn keep(&self, output: &str) -> Result<()> {
         let is_it = |input: &Path| match output.split_once('%') {
             None => same(Path::new(output), input),
@@ -42,12 +42,12 @@ impl Inputs {
     }
 }
 
-/// Whether both are one file, by whatever way.
+/// Whether both paths are one file.
 fn same(output: &Path, input: &Path) -> bool {
     output.canonicalize().is_ok_and(|output| input.canonicalize().is_ok_and(|input| input == output))
 }
 
-/// Whether a file may be one of `before`, a number, and what follows the `d` of `after`.
+/// Whether a file name may be `before`, a number, and the part of `after` behind its `d`.
 fn is_numbered(before: &str, after: &str, input: &Path) -> bool {
     let end = after.split_once('d').map_or("", |(_, end)| end);
     let pattern = Path::new(before);

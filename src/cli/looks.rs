@@ -1,4 +1,4 @@
-//! `tinta looks`: what a model looks like in each look.
+//! `tinta looks`: draws a model in each look.
 
 use super::render::{self, RunSettings};
 use super::{Command, Verdict, given};
@@ -36,7 +36,7 @@ pub(super) struct Arguments {
     size: Size,
 }
 
-/// The size of the look that is drawn where nothing is asked for, here of all of them.
+/// The size of the default look, used here for all looks.
 fn default_size() -> Size {
     let options = LOOKS[0].preset().map(|look| look.options).unwrap_or_default();
     let size =
@@ -70,12 +70,12 @@ fn list() -> String {
     text + "\nDraw a model in every look:  tinta looks MODEL -o looks\nDraw it in one look:         tinta render MODEL -o picture.png --look NAME\n"
 }
 
-/// The file of a look: vectors where it draws lines.
+/// The file of a look: vectors if it draws lines.
 fn file(look: Look) -> String {
     format!("{}.{}", look.name, if look.draws_lines() { "svg" } else { "png" })
 }
 
-/// The page, which needs the pictures beside it and nothing else.
+/// The page, which needs only the pictures beside it.
 fn html(model: &str, size: Size) -> String {
     let mut figures = String::new();
     for look in LOOKS {
@@ -111,7 +111,7 @@ mod tests {
         }
         assert!(html("a<b.obj", size).contains("a&lt;b.obj") && !html("a<b.obj", size).contains("a<b"));
         assert_eq!(file(LOOKS[1]), "technical.svg");
-        // What is written is as large as its look wants, unless a size is given; published styles are as large as the paper's pictures.
+        // Without a size, pictures have their look's size; published styles use the size of the papers' pictures.
         for (more, size) in [
             ("a.png", [1280, 960]),
             ("a.png --look charcoal", [1280, 960]),

@@ -44,15 +44,15 @@ pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<()> {
 struct Page {
     /// Its file: `tinta-render.1`.
     file: String,
-    /// In man's language.
+    /// The page in man's language.
     text: String,
 }
 
-/// What the program is, for its own page.
+/// The description of the program, for its own page.
 const DESCRIPTION: &str = "Draws 3D models as cartoons, ink, charcoal and line art. It runs OpenGL 2.1 programs \
 published between 2001 and 2007, almost as printed, and computes exact visible lines. It needs neither a display nor a \
 graphics card: OpenGL comes from EGL or OSMesa, and Mesa's software renderer is enough. Models are files, or built in, \
-such as builtin:bust. Each command has a page of its own with all its options and their defaults.";
+such as builtin:bust. Each command has its own page with all its options and their defaults.";
 
 /// Where a window opens.
 const DISPLAY: (&str, &str) =
@@ -68,7 +68,7 @@ const ENVIRONMENT: [(&str, &str); 3] = [
 /// Commands that open no OpenGL.
 const WITHOUT_OPENGL: [&str; 4] = ["edges", "textures", "completions", "man"];
 
-/// What the exit code says.
+/// The meaning of each exit code.
 const EXIT_CODES: [(&str, &str); 4] = [
     ("0", "Done."),
     (
@@ -97,7 +97,7 @@ fn pages(program: &Program) -> Vec<Page> {
     std::iter::once(of_all).chain(of_commands).collect()
 }
 
-/// The examples below the program's help; what continues on a second line stays with its first.
+/// The examples below the program's help; a second line stays with its first.
 fn examples(whole: &Command) -> Vec<String> {
     let text = whole.get_after_help().map(ToString::to_string).unwrap_or_default();
     let lines = text.lines().skip_while(|line| *line != "Examples:").skip(1).take_while(|line| !line.is_empty());
@@ -116,7 +116,7 @@ pub(super) fn page(command: &Command, examples: &[String], commands: &[String]) 
     let usage = command.clone().render_usage().to_string();
     let usage = usage.strip_prefix("Usage: ").unwrap_or(&usage).to_owned();
     let man = Man::new(command.clone().override_usage(usage));
-    // roff leaves out an empty date, and with it the order of what follows.
+    // roff omits an empty date, which would shift the following fields.
     let title = command.get_display_name().unwrap_or("tinta");
     let mut text = format!(".TH {title} 1 \"\" \"tinta {}\" \"tinta\"\n", env!("CARGO_PKG_VERSION"));
     text += &written(|out| man.render_name_section(out));
@@ -159,7 +159,7 @@ pub(super) fn page(command: &Command, examples: &[String], commands: &[String]) 
     text + &rest.render()
 }
 
-/// What is written into memory, where writing does not fail.
+/// Writes into memory, where writing does not fail.
 fn written(write: impl Fn(&mut dyn std::io::Write) -> std::io::Result<()>) -> String {
     let mut text = Vec::new();
     let _ = write(&mut text);
@@ -182,7 +182,7 @@ fn with_subsections(command: &Command, options: &str) -> String {
     lines.collect()
 }
 
-/// Paragraphs, and lines set in by two blanks as they stand.
+/// Paragraphs; lines indented by two blanks stay unchanged.
 fn described(page: &mut Roff, text: &str) {
     for (number, paragraph) in text.trim_end().split("\n\n").enumerate() {
         if number > 0 {

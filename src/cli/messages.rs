@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use tinta::{Error, Result};
 
-/// What was said and printed while it was captured.
+/// Messages and output captured.
 #[derive(Default)]
 pub(super) struct Captured {
     /// Sentences for the person.
@@ -15,15 +15,15 @@ pub(super) struct Captured {
     pub printed: String,
 }
 
-/// Of the process: a job may speak from more than one thread.
+/// For the whole process: a job may print from several threads.
 static CAPTURED: Mutex<Option<Captured>> = Mutex::new(None);
 
-/// Keeps what is said from now on instead of saying it.
+/// Starts to capture messages.
 pub(super) fn capture() {
     *CAPTURED.lock().unwrap_or_else(PoisonError::into_inner) = Some(Captured::default());
 }
 
-/// Ends that, and hands over what was captured.
+/// Ends the capture and returns its contents.
 pub(super) fn captured() -> Captured {
     CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default()
 }
@@ -33,7 +33,7 @@ pub(super) fn is_captured() -> bool {
     CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).is_some()
 }
 
-/// Says a line to the person, on standard error; nobody listening is no error.
+/// Prints a line for the user to standard error; a closed stream is no error.
 pub fn say(line: &str) {
     let line = plain(line);
     match CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
@@ -52,7 +52,7 @@ pub fn plain(line: &str) -> String {
         .collect()
 }
 
-/// Writes text to standard output; a reader that has heard enough (`| head`) is no error.
+/// Writes text to standard output; a reader that stops early (`| head`) is no error.
 pub fn print(text: &str) -> Result<()> {
     if let Some(captured) = CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
         captured.printed.push_str(text);
@@ -63,14 +63,13 @@ pub fn print(text: &str) -> Result<()> {
     printed(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }
 
-/// Prints the help or the version that was asked for; where none was, but the command line is empty, it is an error and ends
-/// the program.
+/// Prints the requested help or version; an empty command line is an error and ends the program.
 pub(super) fn print_help(help: &clap::Error) -> Result<()> {
     if help.use_stderr() {
         help.exit();
     }
     check_output(STANDARD_OUTPUT)?;
-    // Which knows whether a terminal shows colours.
+    // clap knows whether the terminal shows colours.
     printed(help.print().and_then(|()| std::io::stdout().flush()))
 }
 

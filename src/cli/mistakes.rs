@@ -1,5 +1,5 @@
-//! What is wrong with a command line, in one sentence: clap's without its usage lines and hints, or a better one where more
-//! can be said, such as the name that was meant.
+//! The error of a command line in one sentence: clap's without usage lines and hints, or a better one where possible, such as a
+//! suggested name.
 
 use super::help::options;
 use crate::choice::{meant_or, nearest, no_option};
@@ -8,10 +8,10 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::ffi::OsString;
 use std::path::Path;
 
-/// Most characters of clap's message that are said.
+/// The longest part of clap's message that is printed, in characters.
 const LONGEST_SENTENCE: usize = 400;
 
-/// What clap has against these words, the program's name first, which `whole` was to read.
+/// Turns clap's error about these words, the program's name first, into a sentence; `whole` is the command that parsed them.
 pub(super) fn sentence(error: &clap::Error, whole: &Command, words: &[OsString]) -> String {
     let command = words.iter().skip(1).find_map(|word| whole.find_subcommand(word)).unwrap_or(whole);
     let better = match error.kind() {
@@ -47,7 +47,7 @@ fn text(error: &clap::Error, kind: ContextKind) -> Option<&str> {
     }
 }
 
-/// Several of them.
+/// A list of texts of the error.
 fn texts(error: &clap::Error, kind: ContextKind) -> Option<&[String]> {
     match error.get(kind) {
         Some(ContextValue::Strings(texts)) => Some(texts),
@@ -64,7 +64,7 @@ fn unknown_command(error: &clap::Error, whole: &Command) -> Option<String> {
 
 fn unknown_option(error: &clap::Error, command: &Command, words: &[OsString]) -> Option<String> {
     let given = text(error, ContextKind::InvalidArg)?;
-    // Of -size clap sees -s.
+    // clap sees -size as -s.
     let is_single = given.starts_with('-') && !given.starts_with("--");
     let word = words.iter().skip(1).filter_map(|word| word.to_str()).find(|word| is_single && word.starts_with(given));
     let word = word.unwrap_or(given);
@@ -80,7 +80,7 @@ fn unknown_option(error: &clap::Error, command: &Command, words: &[OsString]) ->
     Some(no_option(&command_name, &shortened(name), meant.as_deref()))
 }
 
-/// What to say of a word that is one too many.
+/// The error about a surplus word.
 fn surplus(command: &Command, word: &str) -> String {
     let name = command.get_name();
     let taken: Vec<String> = command
@@ -93,14 +93,14 @@ fn surplus(command: &Command, word: &str) -> String {
     }
 }
 
-/// The option of a command that somebody meant who wrote this name, without dashes.
+/// The option of a command closest to a mistyped name, without dashes.
 pub(super) fn meant_option<'c>(command: &'c Command, name: &str) -> Option<&'c str> {
     let options: Vec<&str> =
         options(command).filter(|arg| !arg.is_hide_set()).filter_map(|arg| arg.get_long()).collect();
     nearest(name, &options)
 }
 
-/// Of a value that clap itself knows to be one of a few names.
+/// The error about a value that clap knows to be one of a few names.
 fn unknown_value(error: &clap::Error) -> Option<String> {
     let (value, arg) = (text(error, ContextKind::InvalidValue)?, text(error, ContextKind::InvalidArg)?);
     let names: Vec<&str> = texts(error, ContextKind::ValidValue)?.iter().map(String::as_str).collect();
@@ -108,7 +108,7 @@ fn unknown_value(error: &clap::Error) -> Option<String> {
     (!value.is_empty()).then(|| format!("invalid value '{}' for '{arg}': {choice}", shortened(value)))
 }
 
-/// What to type where a model or the output is missing.
+/// An example of the complete command line where a model or the output is missing.
 fn missing(error: &clap::Error, whole: &Command, command: &Command, words: &[OsString]) -> Option<String> {
     let missing = texts(error, ContextKind::InvalidArg)?;
     let output = missing.iter().find_map(|what| what.strip_prefix("--output "));
@@ -142,7 +142,7 @@ fn model(whole: &Command, words: &[OsString]) -> Option<OsString> {
     given.get_raw(if models { "models" } else { return None })?.next().map(OsString::from)
 }
 
-/// What a picture of a model may be called, without its ending; not a name that a shell would take apart.
+/// A possible name for a picture of a model, without its ending; `None` for names that a shell would split.
 fn stem(model: &OsString) -> String {
     let model = model.to_string_lossy();
     let name = model.strip_prefix("builtin:").unwrap_or(&model);

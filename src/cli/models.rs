@@ -6,7 +6,7 @@ use tinta::mesh::{Loaded, load, read_as};
 use tinta::request::{ModelCache, Session};
 use tinta::{Backend, LoadOptions, Mesh, Renderer, Result};
 
-/// Reads a model: a file, a built-in one, or what comes from standard input.
+/// Reads a model: a file, a built-in one, or standard input.
 pub(super) fn read(model: &str, options: &LoadOptions) -> Result<Loaded> {
     match model {
         standard_input::DASH => read_as(&standard_input::model()?, standard_input::NAME, options),
@@ -28,7 +28,7 @@ pub(super) fn session_for_many(open: fn(Backend) -> Result<Renderer>) -> Session
     Session::for_many(open).reading(read, say)
 }
 
-/// Reads models and says what is to be said of them.
+/// Reads models and prints their remarks.
 pub fn load_meshes(paths: &[String], options: &LoadOptions) -> Result<Vec<Arc<Mesh>>> {
     let cache = ModelCache::for_one().reading(read, say);
     paths.iter().map(|path| Ok(cache.read(path, options)?.mesh.clone())).collect()

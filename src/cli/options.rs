@@ -1,7 +1,7 @@
 //! Options that more than one command takes: loops over the tables of settings.
 //!
-//! Name, values, help and default of each are declared beside the struct it sets, see `tinta::settings`. What is no setting
-//! of a struct stands here: which settings a command has, paths that are no text.
+//! Name, values, help and default of each are declared beside the struct it sets, see `tinta::settings`. This module holds
+//! everything else: which settings a command has, and paths that are not text.
 
 #[cfg(test)]
 mod tests;
@@ -18,12 +18,12 @@ use tinta::request::{Layer, Request, layers};
 use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table};
 use tinta::{LoadOptions, Result};
 
-/// What is given of a selection on the command line.
+/// The given options of a selection on the command line.
 #[derive(Debug)]
 pub struct Chosen<S> {
-    /// By name, as a preset has it.
+    /// By name, as in a preset.
     pub options: Options,
-    /// Files whose paths are no text, which options cannot hold.
+    /// Files whose paths are not valid text; options cannot hold them.
     paths: Vec<(&'static str, PathBuf)>,
     selection: PhantomData<S>,
 }
@@ -33,7 +33,7 @@ impl<S: Selection> Chosen<S> {
         S::Of::table().of(None).into_iter().filter(|setting| S::has(setting))
     }
 
-    /// Those of some options that are of this selection, for a command that is not given by words.
+    /// The options of this selection, for a command that is not called by words.
     pub fn of_options(options: &Options) -> Self {
         let options = options.iter().filter(|(name, _)| Self::all().any(|setting| setting.name == **name));
         let options = options.map(|(name, value)| (name.clone(), value.clone())).collect();
@@ -45,7 +45,7 @@ impl<S: Selection> Chosen<S> {
         Self::all().any(|setting| setting.name == option)
     }
 
-    /// What is given as settings of their own.
+    /// The given options as settings.
     pub fn settings(&self) -> Result<S::Of>
     where
         S::Of: Default,
@@ -69,7 +69,7 @@ fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'st
         true => arg.num_args(0..=1).require_equals(true).default_missing_value(""),
         false => arg,
     };
-    // As soon as it is read only what is no value at all is refused; whose setting it is, is known later.
+    // Parsing refuses only invalid values; the setting's owner is known later.
     let check = move |text: &str| table.check(setting.name, text).map(|()| text.to_owned());
     match &setting.kind {
         Kind::File => arg.value_parser(clap::value_parser!(PathBuf)),
@@ -141,7 +141,7 @@ impl Selection for OfRequest {
     type Of = Request;
 }
 
-/// A model and from where it is seen.
+/// A model and its view.
 #[derive(Debug)]
 pub struct OfSubject;
 
@@ -182,22 +182,22 @@ pub(super) struct NamedLook {
     pub look: Option<Look>,
 }
 
-/// What lies below the options of a command line.
+/// The layers below the options of a command line.
 #[derive(Debug, Default)]
 pub struct Below<'a> {
     pub look: Option<Look>,
     pub preset: Option<&'a str>,
     pub camera: Option<&'a Path>,
-    /// Whether the file's name asks for lines.
+    /// Whether the output's name requests lines.
     pub draws_lines: bool,
-    /// Whether the command has looks, and the first is drawn where nothing is said.
+    /// Whether the command has looks, with the first as the default.
     pub has_looks: bool,
-    /// The command, for what is said of a preset.
+    /// The command, for errors about a preset.
     pub command: &'static str,
 }
 
 impl<S: Selection<Of = Request>> Chosen<S> {
-    /// The request that these options make, and what of them changes nothing.
+    /// Returns the request made by these options, and the options without effect.
     pub fn request(&self, models: &[String], below: &Below<'_>) -> Result<(Request, Vec<String>)> {
         let preset = below.preset.map(Preset::read).transpose()?;
         if let Some(preset) = &preset {
@@ -250,5 +250,5 @@ pub fn refuse_of_other_commands(preset: &Preset, command: &str, has: impl Fn(&st
     }
 }
 
-/// Options that no preset holds, for they name one or a file.
+/// Options that presets do not hold, because they name a preset or a file.
 const OF_ONE_RUN: [&str; 4] = ["camera", "look", "output", "preset"];

@@ -11,7 +11,7 @@ use tinta::{Error, Result};
 /// Why a command line is not carried out.
 #[derive(Debug)]
 enum Stop {
-    /// Help or the version was asked for: this is it.
+    /// The requested help or version.
     Help(clap::Error),
     /// It is wrong.
     Wrong(Error),
@@ -43,12 +43,12 @@ impl Program {
         (command.run)(matches, &mut Call { program: self, words: &words, started, session: &mut session })
     }
 
-    /// Parses a command line, the program's name first, and does nothing with it: help's text where it asks for that, or one
-    /// sentence of what is wrong.
+    /// Parses a command line, the program's name first, without running it. Returns the text of requested help, or a one-sentence
+    /// error.
     ///
     /// # Errors
     ///
-    /// That sentence, as the program prints it.
+    /// The error sentence, as the program prints it.
     pub fn check(&self, words: impl IntoIterator<Item = OsString>) -> std::result::Result<Option<String>, String> {
         match self.parse(super::bare::with_command(words.into_iter().collect(), false).0) {
             Ok(_) => Ok(None),
@@ -57,7 +57,7 @@ impl Program {
         }
     }
 
-    /// What the words say, the program's name first.
+    /// Parses the words, the program's name first.
     fn parse(&self, words: Vec<OsString>) -> std::result::Result<ArgMatches, Stop> {
         let mut whole = help::command(self, &words);
         whole.try_get_matches_from_mut(&words).map_err(|error| match error.kind() {

@@ -1,4 +1,4 @@
-//! A progress bar for commands that take a while: on standard error, and only where that is a terminal.
+//! A progress bar for long commands: on standard error, and only if that is a terminal.
 
 mod estimate;
 mod timed;
@@ -7,12 +7,12 @@ use super::messages::is_captured;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 pub use {estimate::Steps, timed::TimedProgress};
 
-/// Disappears when it is dropped, so that a message after it stands in a line of its own.
+/// Disappears when dropped; a later message then starts on a clear line.
 #[derive(Debug)]
 pub struct Progress(ProgressBar);
 
 impl Progress {
-    /// A bar for `count` steps with the word for what is done, such as "drawing".
+    /// A bar for `count` steps with the name of the work, such as "drawing".
     pub fn new(what: &'static str, count: u64) -> Self {
         let progress = Self(bar(what, count));
         progress.show_share();
@@ -25,7 +25,7 @@ impl Progress {
         }
     }
 
-    /// So many steps are done of so many.
+    /// Sets the number of finished steps and their total.
     pub fn set(&self, done: u64, count: u64) {
         if self.0.length() != Some(count) {
             self.0.set_length(count);
@@ -34,7 +34,7 @@ impl Progress {
         self.0.set_position(done);
     }
 
-    /// Nothing is known yet of how much there is to do.
+    /// The amount of work is still unknown.
     pub fn wait(&self) {
         if let Ok(style) = ProgressStyle::with_template("{msg}, {elapsed} so far") {
             self.0.set_style(style);
@@ -55,9 +55,9 @@ impl Drop for Progress {
     }
 }
 
-/// A bar of so many steps with the word for what is done.
+/// A bar of so many steps with the name of the work.
 fn bar(what: &'static str, count: u64) -> ProgressBar {
-    // Draws nothing unless standard error is a terminal, and nothing for a job of a batch, which has a bar of its own.
+    // Draws nothing unless standard error is a terminal, and nothing for a job of a batch, which has its own bar.
     let target = if is_captured() { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     let bar = ProgressBar::with_draw_target(Some(count), target);
     bar.set_message(what);

@@ -78,7 +78,7 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    /// Of a job's options.
+    /// Reads a job's options.
     pub(super) fn of_job(job: &JobOptions) -> Result<Self> {
         let is_own = |name: &str| name == "look" || Chosen::<OfRun>::has(name) || Chosen::<OfRequest>::has(name);
         job.refuse_unknown("render", is_own)?;
@@ -93,7 +93,7 @@ impl Arguments {
         })
     }
 
-    /// What the options ask for, and what of them changes nothing.
+    /// Returns the request, and the options without effect.
     pub(super) fn asked(&self) -> Result<(Request, Vec<String>)> {
         let below = Below {
             look: self.look.look,
@@ -113,7 +113,7 @@ const WARM_UP: usize = 2;
 /// Most frames drawn again to time single passes.
 const PASS_FRAMES: usize = 21;
 
-/// The request of a command line of this command, the program's name first, and where it is drawn into.
+/// Returns the request of a command line of this command, the program's name first, and its output.
 ///
 /// # Errors
 ///
@@ -126,7 +126,7 @@ pub fn asked_by(words: &[String]) -> Result<(Request, String)> {
     Ok((arguments.asked()?.0, arguments.output))
 }
 
-/// Draws what the arguments say.
+/// Draws the arguments' models.
 pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<Verdict> {
     let (request, remarks) = arguments.asked()?;
     let run = arguments.run.settings()?;
@@ -136,7 +136,7 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<Verdic
     let verdict =
         render(&request, &run, &arguments.output, &presets.into_iter().flatten().collect::<Vec<_>>(), session);
     let verdict = verdict.map_err(|error| request.attributed(error))?;
-    // Said of what was drawn: a refusal is one sentence, and no other before it.
+    // After drawing: a refusal prints one sentence only.
     remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
     Ok(verdict)
 }

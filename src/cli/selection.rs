@@ -4,10 +4,10 @@ use tinta::settings::{HasSettings, Setting};
 
 /// Some of a table's settings as options.
 pub trait Selection {
-    /// Whose settings.
+    /// The struct that the settings belong to.
     type Of: HasSettings;
 
-    /// Whether they are listed under headings of their own.
+    /// Whether they have their own headings.
     const HAS_HEADINGS: bool = true;
 
     /// Whether this is one of them.

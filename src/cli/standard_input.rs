@@ -10,17 +10,17 @@ use tinta::{Error, Result};
 /// How a command line names it.
 pub(super) const DASH: &str = "-";
 
-/// What messages call it.
+/// Its name in messages.
 pub(super) const NAME: &str = "standard input";
 
-/// A model's bytes, kept for whoever reads the model again: its other frames, a recipe.
+/// A model's bytes, kept for a second reading of the model: its other frames, a recipe.
 static MODEL: Mutex<Option<Arc<Vec<u8>>>> = Mutex::new(None);
 
 /// The bytes of the model on standard input.
 ///
 /// # Errors
 ///
-/// [`Error::File`] where nothing comes, or too much.
+/// [`Error::File`] for empty input, or too much.
 pub(super) fn model() -> Result<Arc<Vec<u8>>> {
     let mut kept = MODEL.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(bytes) = &*kept {

@@ -1,20 +1,20 @@
-//! Whether there is a standard output. Rust opens `/dev/null` in the place of one that is closed before `main` begins, and what
-//! is written there is lost without an error; so it is looked for before that.
+//! Whether there is a standard output. Before `main` begins, Rust opens `/dev/null` in place of a closed one, and output there is
+//! lost without an error; this check therefore runs earlier.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static WAS_CLOSED: AtomicBool = AtomicBool::new(false);
 
-/// Whether standard output was closed when the program began, as `>&-` closes it. Linux only; elsewhere it is never said.
+/// Whether standard output was closed when the program began, as with `>&-`. Linux only; false on other systems.
 pub(super) fn was_closed() -> bool {
     WAS_CLOSED.load(Ordering::Relaxed)
 }
 
-/// What the system's loader calls before anything of Rust's.
+/// A function that the system's loader calls before Rust's runtime.
 #[cfg(target_os = "linux")]
 #[expect(unsafe_code, reason = "nothing in Rust runs before /dev/null is in its place")]
-// SAFETY: the section holds pointers to functions of the C ABI, which is what this is. `look` makes two system calls and stores
-// a value; it needs nothing of what Rust sets up before main, and cannot unwind.
+// SAFETY: the section holds pointers to functions of the C ABI, as here. `look` makes two system calls and stores a value; it
+// does not need Rust's runtime, and cannot unwind.
 #[unsafe(link_section = ".init_array")]
 #[used]
 static LOOK: extern "C" fn() = look;
@@ -22,7 +22,7 @@ static LOOK: extern "C" fn() = look;
 #[cfg(target_os = "linux")]
 extern "C" fn look() {
     use rustix::fs::readlink;
-    // Without /proc nothing is known.
+    // Without /proc the result is unknown.
     let is_there = |path: &str| readlink(path, Vec::new()).is_ok();
     WAS_CLOSED.store(is_there("/proc/self") && !is_there("/proc/self/fd/1"), Ordering::Relaxed);
 }

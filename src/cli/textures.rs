@@ -1,4 +1,4 @@
-//! `tinta textures`: the charcoal drawing's textures as files, to be looked at and used elsewhere.
+//! `tinta textures`: writes the charcoal drawing's textures to files, for inspection and use elsewhere.
 
 use super::options::{Chosen, Selection};
 use super::{Command, Verdict, given};
@@ -41,7 +41,7 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-/// What the contrast-enhanced texture and all random numbers follow from, as a charcoal drawing has them.
+/// The settings that determine the contrast-enhanced texture and all random numbers, as in a charcoal drawing.
 struct OfGrain;
 
 impl Selection for OfGrain {
@@ -52,7 +52,7 @@ impl Selection for OfGrain {
     }
 }
 
-/// Makes all textures, then writes them: nonsense leaves no file, a full disk none of them.
+/// Makes all textures, then writes them: an invalid setting leaves no file, a full disk none of them.
 pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let mut made = Vec::new();
     let contrast = arguments.contrast()?;

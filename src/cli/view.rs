@@ -69,7 +69,7 @@ pub(super) struct Arguments {
     options: Chosen<OfWindow>,
 }
 
-/// What a viewer can show from the start; the rest is done with the mouse.
+/// The viewer's initial settings; the mouse changes the rest.
 struct OfWindow;
 
 impl Selection for OfWindow {
@@ -96,7 +96,7 @@ pub(super) fn run(arguments: &Arguments, call: &Call<'_>) -> Result<()> {
             "the window reads its models again; save it as a file and name that",
         ));
     }
-    // What is broken in a file is said in the window; a name that is nothing at all need not open one.
+    // The window reports a broken file; a missing file is refused before the window opens.
     let is_missing = |model: &&String| !model.starts_with("builtin:") && !Path::new(model).exists();
     if let Some(path) = arguments.models.iter().find(is_missing) {
         refuse_address(path)?;
@@ -127,12 +127,12 @@ pub(super) fn run(arguments: &Arguments, call: &Call<'_>) -> Result<()> {
     }
 }
 
-/// What is shown first.
+/// The first state.
 fn state(request: &Request, right: Option<StyleName>, is_coarse: bool) -> Result<ViewerState> {
     let mut state = ViewerState::new(request.models.clone(), Orbit::default());
     state.put_scene(request.scene.clone());
     let left = request.style.style_name();
-    // Options are for every style that has them, whichever is chosen later.
+    // Options apply to every style that has them, even one chosen later.
     for (_, name) in StyleName::ALL {
         match request.in_style(name) {
             Ok(request) => state.prepare_style(&request.style),

@@ -1,4 +1,4 @@
-//! What is known to be wrong with drivers, and what is done about it: each was seen with tinta.
+//! Known driver faults and their workarounds. Each was observed with tinta.
 
 use crate::gl::ContextInfo;
 use serde::Serialize;
@@ -10,9 +10,9 @@ pub struct KnownFault {
     pub name: &'static str,
     /// The first version it was seen in.
     pub first_seen: &'static str,
-    /// The last one; versions in which nobody looked are not said to be free of it.
+    /// The last version with the fault; untested versions may have it too.
     pub last_seen: &'static str,
-    /// What tinta does about it.
+    /// tinta's workaround.
     pub workaround: &'static str,
     /// How tinta knows that the driver has it.
     pub detected_by: &'static str,
@@ -27,8 +27,8 @@ pub const KNOWN: [KnownFault; 6] = [
         name: "two contexts of one screen at work at once crash",
         first_seen: "Mesa 22.3.6, llvmpipe",
         last_seen: "Mesa 22.3.6, llvmpipe",
-        workaround: "contexts of one software screen take turns; a second thread draws on a screen of its own",
-        detected_by: "the renderer's name: every driver that draws on the processor is taken for one",
+        workaround: "contexts of one software screen take turns; a second thread draws on its own screen",
+        detected_by: "the renderer's name: every software driver counts as one",
         is_of: |info| info.renderer.starts_with("llvmpipe"),
     },
     KnownFault {
@@ -43,7 +43,7 @@ pub const KNOWN: [KnownFault; 6] = [
         name: "a GALLIUM_DRIVER that it does not have ends in a crash",
         first_seen: "Mesa 22.3.6, OSMesa",
         last_seen: "Mesa 22.3.6, OSMesa",
-        workaround: "it is refused with a sentence before the library is asked",
+        workaround: "tinta refuses it with an error before it calls the library",
         detected_by: "the backend, and the variable",
         is_of: |info| info.backend == "osmesa",
     },
@@ -64,7 +64,7 @@ pub const KNOWN: [KnownFault; 6] = [
         is_of: |info| info.renderer.starts_with("zink"),
     },
     KnownFault {
-        name: "EGL's display does not open unless software is asked for",
+        name: "EGL's display opens only when software rendering is requested",
         first_seen: "Mesa 22.3.6, zink on lavapipe",
         last_seen: "Mesa 22.3.6, zink on lavapipe",
         workaround: "set LIBGL_ALWAYS_SOFTWARE=1 beside GALLIUM_DRIVER=zink",

@@ -133,7 +133,7 @@ impl Plan {
             0 => Err(wrong_size("what is drawn".to_owned(), "0 times the picture".to_owned(), "once or more")),
             1 => Ok(()),
             times if !last.is_some_and(is_shrunk) => {
-                let what = "what the plan ends with".to_owned();
+                let what = "the end of the plan".to_owned();
                 Err(wrong_size(what, format!("{times} times the picture"), "the picture's size"))
             }
             _ => Ok(()),
@@ -165,7 +165,7 @@ impl Written {
             }
             Step::ClearEach { colors } => {
                 let expected = match target {
-                    Target::Framebuffer => return Err(missing(pass, "textures to clear each to a colour of its own")),
+                    Target::Framebuffer => return Err(missing(pass, "textures to clear, each to its own colour")),
                     Target::Textures(attachments) => attachments.colors.len(),
                 };
                 if colors.len() != expected {

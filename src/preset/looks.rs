@@ -1,4 +1,4 @@
-//! The looks: what a picture looks like to whom no paper's way matters, each a TOML file in `presets/looks`.
+//! The looks: pictures for users who need not match a paper, each a TOML file in `presets/looks`.
 
 use super::{OptionValue, Preset};
 use crate::choice::meant_or;
@@ -10,12 +10,12 @@ use crate::styles::StyleName;
 pub struct Look {
     /// Its name.
     pub name: &'static str,
-    /// What it looks like, a line.
+    /// One line that describes the look.
     pub about: &'static str,
     text: &'static str,
 }
 
-/// All of them, the one first that is drawn where nothing is asked for.
+/// All looks. The first is the default.
 pub const LOOKS: [Look; 4] = [
     Look {
         name: "print",
@@ -40,7 +40,7 @@ impl Look {
     ///
     /// # Errors
     ///
-    /// Which names there are.
+    /// Returns the look of a name.
     pub fn of_name(name: &str) -> std::result::Result<Self, ParseError> {
         let found = LOOKS.into_iter().find(|look| look.name == name);
         let names = LOOKS.map(|look| look.name);
@@ -67,7 +67,7 @@ impl Look {
     ///
     /// # Errors
     ///
-    /// None: a test reads them all.
+    /// None in practice: a test reads them all.
     pub fn preset(self) -> Result<Preset> {
         Preset::parse(&format!("look {}", self.name), self.text)
     }

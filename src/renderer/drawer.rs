@@ -149,7 +149,7 @@ impl Drop for Drawer {
 /// So many bytes of 0, or that there is no memory for them.
 fn memory(bytes: usize) -> Result<Vec<u8>> {
     let mut memory = Vec::new();
-    memory.try_reserve_exact(bytes).map_err(|_| Error::gl("reading the picture back", "there is not enough memory"))?;
+    memory.try_reserve_exact(bytes).map_err(|_| Error::gl("reading the picture back", "not enough memory"))?;
     memory.resize(bytes, 0);
     Ok(memory)
 }

@@ -15,7 +15,7 @@ use crate::styles::LineStyle;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What came of a request.
+/// The result of a request.
 #[derive(Debug)]
 pub enum Drawn {
     /// A picture that OpenGL drew.
@@ -29,17 +29,17 @@ pub enum Drawn {
 pub struct DrawnPicture {
     /// The scene.
     pub scene: Scene,
-    /// What was read besides the models' own files.
+    /// The files read besides the models' own files.
     pub files: Vec<PathBuf>,
-    /// What the style does for the scene, before anything is left out.
+    /// The style's plan for the scene, before pruning.
     pub published: Plan,
-    /// What was drawn.
+    /// The executed plan.
     pub plan: Plan,
-    /// What was left out, and why.
+    /// The omissions, with reasons.
     pub omissions: Vec<Omission>,
-    /// What was not, and why.
+    /// The rules that omitted nothing, with reasons.
     pub kept: Vec<Kept>,
-    /// What is to be known of it, a sentence each.
+    /// Remarks for the user, a sentence each.
     pub remarks: Vec<String>,
     /// The picture.
     pub picture: Picture,
@@ -50,7 +50,7 @@ pub struct DrawnPicture {
 /// How long the stages took, milliseconds.
 #[derive(Debug, Clone, Default)]
 pub struct Times {
-    /// Reading the models and making meshes of them.
+    /// Reading the models and making meshes.
     pub load_ms: f64,
     /// Each stage's part of that.
     pub stages: Vec<(LoadStage, f64)>,
@@ -58,7 +58,7 @@ pub struct Times {
     pub arrays_ms: f64,
     /// Plan and pruning.
     pub plan_ms: f64,
-    /// Opening the context; 0 where it was open.
+    /// Opening the context; 0 if it was open.
     pub context_ms: f64,
     /// Drawing one triangle meanwhile; `None` where the models were read before.
     pub warm_up_ms: Option<f64>,
@@ -71,7 +71,7 @@ pub struct Times {
 pub struct DrawnLines {
     /// The scene.
     pub scene: Scene,
-    /// What was read besides the models' own files.
+    /// The files read besides the models' own files.
     pub files: Vec<PathBuf>,
     /// The style that they are drawn in.
     pub style: LineStyle,
@@ -86,15 +86,15 @@ pub struct DrawnLines {
 pub struct ReadModels {
     /// Their meshes.
     pub meshes: Vec<Arc<Mesh>>,
-    /// The files that were read besides the models' own.
+    /// The files read besides the models' own.
     pub files: Vec<PathBuf>,
-    /// How long each stage of reading took for all of them together, milliseconds.
+    /// Time of each stage of reading, for all models together, milliseconds.
     pub stages: Vec<(LoadStage, f64)>,
     /// How long all of it took, milliseconds.
     pub ms: f64,
 }
 
-/// A scene ready to be drawn, and what is to be done for it.
+/// A scene ready to draw, with its plan.
 struct Planned {
     scene: Scene,
     files: Vec<PathBuf>,
@@ -150,7 +150,7 @@ impl Request {
         Some(LineStyle { lines, drawing })
     }
 
-    /// What is to be found for this style.
+    /// The lines to find for this style.
     fn wanted(&self, style: &LineStyle) -> LineSettings {
         let mut wanted = style.wanted();
         wanted.finds_hidden |= self.tells_all || self.tells_hidden;
@@ -159,7 +159,7 @@ impl Request {
         wanted
     }
 
-    /// Whether all that is found for this request does for another of the same lines, whatever that one shows of them.
+    /// Whether the result of this request also serves another request for the same lines, whichever parts that one shows.
     pub fn finds_all_for(&self, other: &Self) -> bool {
         let wanted = [self, other].map(|request| request.line_style().map(|style| request.wanted(&style)));
         let [Some(own), Some(other)] = wanted else { return false };
@@ -180,7 +180,7 @@ impl Request {
         VisibleLines::with_progress(scene, &self.wanted(&style), progress)
     }
 
-    /// Finds the lines of a scene that the drawing shows, without those that are too short to be seen.
+    /// Finds the lines of a scene that the drawing shows, without those too short to see.
     ///
     /// # Errors
     ///
@@ -194,7 +194,7 @@ impl Request {
         }
     }
 
-    /// What the style does for a scene, as published and without what cannot change the picture.
+    /// Returns the style's plan for a scene, as published and pruned of everything that cannot change the picture.
     ///
     /// # Errors
     ///
@@ -205,7 +205,7 @@ impl Request {
         Ok((published, pruned))
     }
 
-    /// A plan without what cannot change the picture.
+    /// Prunes a plan of everything that cannot change the picture.
     fn pruned(&self, published: &Plan, scene: &Scene, renderer: &mut Renderer) -> Result<Pruned> {
         renderer.choose_context(scene, published)?;
         Ok(match self.pruning.pruning(renderer) {
@@ -249,9 +249,10 @@ impl Request {
         let shared = &*session;
         let (models, submission) = (&shared.models, shared.submission);
         let load = || self.planned(models, submission);
-        // Context and driver need as long as a large model: both at once. The renderer stays on this thread, as GL wants.
+        // Opening the context takes as long as reading a large model: both run in parallel. The renderer stays on this thread, as
+        // GL requires.
         let (opened, loaded) = std::thread::scope(|scope| {
-            // Where no second thread can be had, one after the other.
+            // Without a second thread, one after the other.
             let Ok(loading) = std::thread::Builder::new().spawn_scoped(scope, load) else {
                 let loaded = load();
                 return (self.open(shared, || true), loaded);
@@ -267,7 +268,7 @@ impl Request {
                 session.keep(backend, renderer);
                 (times, loaded)
             }
-            // What is wrong with the models is said first.
+            // Errors of the models come first.
             Err(error) => (Times::default(), loaded.and(Err(error))),
         }
     }

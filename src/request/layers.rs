@@ -15,18 +15,18 @@ use crate::styles::{StyleName, is_ignored, is_of_lines_alone};
 pub enum Layer {
     /// The style that is drawn where no layer names one; no recipe keeps it.
     Style(StyleName),
-    /// A look: what it says of other styles than the one that is drawn does not count.
+    /// A look. Its options for styles other than the drawn one do not count.
     Look(Look),
-    /// A file, or something that stands for one: a preset, a recipe, a camera.
+    /// A file or a substitute for one: a preset, a recipe, a camera.
     File(Preset),
-    /// A camera: what is below it says nothing of the camera.
+    /// A camera, which replaces the camera of the layers below it.
     Camera(Preset),
-    /// What was given by hand. Of what has no effect on the style that is drawn a remark tells.
+    /// Options given by hand. A remark names those that do not affect the drawn style.
     Given(Options),
 }
 
-/// The layers of a drawing, the lowest first: the look that is named, or the first one where nothing is said of style or look
-/// and no lines are drawn; then files; then what was given.
+/// Returns the layers of a drawing, the lowest first: the named look (or the first look if no style, look or lines are given),
+/// then files, then options given by hand.
 ///
 /// # Errors
 ///
@@ -39,7 +39,7 @@ pub fn layers(look: Option<Look>, files: Vec<Preset>, given: Options, draws_line
     below.chain(files.into_iter().map(Layer::File)).chain([Layer::Given(given)]).collect()
 }
 
-/// A layer's options in the words of this version, and what they are read from where that has a name.
+/// A layer's options in this version's names, with the name of the file they come from, if any.
 struct Read {
     options: Options,
     file: Option<Preset>,
@@ -65,7 +65,7 @@ impl Read {
         }
     }
 
-    /// Checks every option by itself, and that none excludes another.
+    /// Checks each option alone, then that none excludes another.
     fn check(mut self) -> Result<Self> {
         let table = Request::table();
         for (name, value) in std::mem::take(&mut self.options) {
@@ -90,14 +90,14 @@ impl Read {
     }
 }
 
-/// What to say of an option that there is not.
+/// The error for an unknown option.
 fn unknown(name: &str) -> Error {
     let names: Vec<&str> = Request::table().of(None).into_iter().map(|setting| setting.name).collect();
     let choice = meant_or(name, &names, "keys are long names of tinta render --help");
     Error::setting(name.chars().take(40).collect::<String>(), format!("there is no such option; {choice}"))
 }
 
-/// Whether a value says that something is off.
+/// Whether a value turns its option off.
 fn is_off(value: &OptionValue) -> bool {
     *value == OptionValue::Switch(false)
 }
@@ -106,7 +106,7 @@ fn is_of_camera(name: &str) -> bool {
     SceneSettings::table().settings.iter().any(|setting| setting.name == name && setting.heading == camera::HEADING)
 }
 
-/// Whether what is given above excludes this option.
+/// Whether an option of a higher layer excludes this one.
 fn is_excluded(name: &str, above: &Options) -> bool {
     let is_given = |name: &str| above.get(name).is_some_and(|value| !is_off(value));
     let excludes = |(one, others): &(&str, &[&str])| {
@@ -116,11 +116,11 @@ fn is_excluded(name: &str, above: &Options) -> bool {
 }
 
 impl Request {
-    /// Puts layers together, the lowest first, and says what of the options given by hand changes nothing.
+    /// Merges layers, the lowest first, and names the options given by hand that change nothing.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for an option or a value that there is not, and for an option of exact lines where a picture is drawn;
+    /// [`Error::Setting`] for an unknown option or value, and for an option of exact lines where a picture is drawn;
     /// [`Error::File`] with the line where a file's option is refused; [`Error::Settings`] for options that exclude each other.
     pub fn from_layers(layers: &[Layer]) -> Result<(Self, Vec<String>)> {
         let read: Vec<Read> = layers.iter().map(|layer| Read::of(layer)?.check()).collect::<Result<_>>()?;
@@ -168,11 +168,11 @@ impl Request {
         Ok((request, remark.into_iter().collect()))
     }
 
-    /// As [`Request::from_layers`], of options alone.
+    /// Like [`Request::from_layers`], for options alone.
     ///
     /// # Errors
     ///
-    /// As there.
+    /// Those of [`Request::from_layers`].
     pub fn from_given(options: &Options) -> Result<Self> {
         Ok(Self::from_layers(&[Layer::Given(options.clone())])?.0)
     }
@@ -181,7 +181,7 @@ impl Request {
 /// The options that are about paper.
 pub const OF_PAPER: [&str; 4] = ["page", "width-mm", "dpi", "margin"];
 
-/// What to say of paper where pixels are written.
+/// The error about a paper size for pixels.
 pub fn pixels_on_paper(options: &Options) -> String {
     /// Dots an inch of a print.
     const DPI: f64 = 300.0;
@@ -191,7 +191,7 @@ pub fn pixels_on_paper(options: &Options) -> String {
     }
 }
 
-/// What to say of options that none of the styles that are drawn has.
+/// The remark about options that no drawn style has.
 pub fn ignored_remark<'a>(options: impl Iterator<Item = &'a str>, styles: &[&str]) -> Option<String> {
     let ignored: Vec<&str> = options.filter(|option| is_ignored(option, styles)).collect();
     let (first, rest) = ignored.split_first()?;
@@ -205,7 +205,7 @@ pub fn ignored_remark<'a>(options: impl Iterator<Item = &'a str>, styles: &[&str
     let of_all = names_of_styles().find(|style| ignored.iter().all(|option| !is_ignored(option, &[style])));
     let has_it = match of_all {
         Some(style) => format!("style {style} has {it}"),
-        // Of options that no style has all of, each has one of its own.
+        // No style has all of these options; each option belongs to one style.
         None => {
             let of_one = |option: &&str| names_of_styles().find(|style| !is_ignored(option, &[style]));
             let pairs = ignored.iter().filter_map(|option| Some(format!("style {} has --{option}", of_one(option)?)));
@@ -258,7 +258,7 @@ mod tests {
         assert_eq!(request.options.keys().collect::<Vec<_>>(), ["eye", "seed", "tones"]);
         let Style::ThreePass(cartoon) = &request.style else { panic!("three-pass") };
         assert_eq!((cartoon.tones.count, remarks), (2, Vec::new()));
-        // A file may turn off what is below it.
+        // A file may turn off an option of a lower layer.
         let (request, _) = Request::from_layers(&[file("parallel = true\n"), file("parallel = false\n")]).unwrap();
         assert!(!request.scene.camera.parallel && request.options.is_empty());
     }
@@ -280,7 +280,7 @@ mod tests {
             refused(&[file("\ntones = \"many\"")]),
             "a.toml: line 2: tones many: give a whole number from 0 to 255"
         );
-        // Even where it is beaten.
+        // Even if a higher layer overrides it.
         assert!(refused(&[file("tones = \"many\""), given(&[("tones", "2")])]).starts_with("a.toml: line 1"));
         assert!(refused(&[file("tone = 2")]).contains("line 1: tone: there is no such option; did you mean tones?"));
         assert!(refused(&[file("eye = [1, 2, 3]\nview = \"top\"")]).contains("exclude each other"));

@@ -1,4 +1,4 @@
-//! A cache of the models last read, so that jobs that follow one another do not read the same one again.
+//! A cache of the models last read. Consecutive jobs with the same model read it once.
 
 use crate::error::Result;
 use crate::mesh::{LoadOptions, LoadStage, Loaded, Mesh, load};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
-/// Reads models, and keeps them where there are many jobs.
+/// Reads models, and caches them for many jobs.
 #[derive(Debug)]
 pub struct ModelCache {
     models: Mutex<Models>,
@@ -15,7 +15,7 @@ pub struct ModelCache {
 }
 
 impl ModelCache {
-    /// For one job: nothing is kept.
+    /// For a single job: caches nothing.
     pub fn for_one() -> Self {
         Self::new(false)
     }
@@ -33,13 +33,13 @@ impl ModelCache {
         }
     }
 
-    /// With another way to read models, and somebody who is told what is to be said of them.
+    /// With another reader of models, and a function that receives remarks.
     #[must_use]
     pub fn reading(self, read: fn(&str, &LoadOptions) -> Result<Loaded>, say: fn(&str)) -> Self {
         Self { read, say, ..self }
     }
 
-    /// Reads a model, or finds it among those last read; says what is to be said of it either time.
+    /// Reads a model, or takes it from the cache; reports its remarks either way.
     ///
     /// # Errors
     ///
@@ -51,14 +51,14 @@ impl ModelCache {
     }
 }
 
-/// A model that was read, with what was read beside it and what is to be said of it.
+/// A model with the files read with it and its remarks.
 #[derive(Debug)]
 pub struct Model {
     /// Its mesh.
     pub mesh: Arc<Mesh>,
-    /// The files that were read besides its own.
+    /// The files read besides its own.
     pub files: Vec<PathBuf>,
-    /// What is to be said of it.
+    /// Remarks for the user.
     pub remarks: Vec<String>,
     /// How long each stage of reading took, milliseconds.
     pub stages: Vec<(LoadStage, f64)>,
@@ -67,7 +67,7 @@ pub struct Model {
     stamps: Vec<Stamp>,
 }
 
-/// When a file was last written and how long it was; `None` for what has neither, as built-in models.
+/// When a file was last written and its length; `None` for models without a file, such as built-in ones.
 type Stamp = Option<(SystemTime, u64)>;
 
 fn stamp(path: &Path) -> Stamp {

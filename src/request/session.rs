@@ -1,7 +1,7 @@
-//! What the jobs of one process share: contexts with their programs and textures, and the models last read.
+//! State shared by the jobs of one process: contexts with their programs and textures, and the models last read.
 //!
-//! A command line opens what it needs and leaves it at its end; a batch's worker hands the same session to every job. Contexts
-//! belong to the thread that opened them.
+//! A command line opens a context when it needs one and closes it at its end; a batch's worker passes the same session to every
+//! job. Contexts belong to the thread that opened them.
 
 use super::ModelCache;
 use crate::error::Result;
@@ -15,9 +15,9 @@ use crate::renderer::Renderer;
 pub struct Session {
     open: fn(Backend) -> Result<Renderer>,
     renderers: Vec<(Backend, Renderer)>,
-    /// What the job at hand draws by.
+    /// The backend of the current job.
     used: Option<Backend>,
-    /// Also for other threads: models are read while the first context opens.
+    /// Other threads use it too: models are read while the first context opens.
     pub models: ModelCache,
     /// How vertices are handed to GL. Default in buffers.
     pub submission: Submission,
@@ -30,7 +30,7 @@ impl Default for Session {
 }
 
 impl Session {
-    /// For one job: nothing is kept that it does not need.
+    /// For a single job: keeps nothing after it.
     pub fn for_one() -> Self {
         Self::new(Renderer::new, ModelCache::for_one())
     }
@@ -44,7 +44,7 @@ impl Session {
         Self { open, renderers: Vec::new(), used: None, models, submission: Submission::default() }
     }
 
-    /// With another way to read models, and somebody who is told what is to be said of them.
+    /// With another reader of models, and a function that receives remarks.
     #[must_use]
     pub fn reading(mut self, read: fn(&str, &LoadOptions) -> Result<Loaded>, say: fn(&str)) -> Self {
         self.models = self.models.reading(read, say);
@@ -92,7 +92,7 @@ impl Session {
         }
     }
 
-    /// The context that was asked for since this was asked last.
+    /// Returns the context requested since the last call.
     pub fn take_used(&mut self) -> Option<&Renderer> {
         let used = self.used.take()?;
         self.renderers.iter().find(|(known, _)| *known == used).map(|(_, renderer)| renderer)
@@ -103,7 +103,7 @@ impl Session {
         self.renderers.iter().map(|(_, renderer)| renderer.live_objects()).sum()
     }
 
-    /// Lets go of all contexts: one of them is lost.
+    /// Closes all contexts, because one of them is lost.
     pub fn close(&mut self) {
         self.renderers.clear();
     }

@@ -166,7 +166,7 @@ impl Cartoon {
                 return Err(Error::value(
                     "show",
                     "borders",
-                    "there are none with --no-borders; leave out one of the two",
+                    "--no-borders leaves none to show; leave out one of the two",
                 ));
             }
             None => {}

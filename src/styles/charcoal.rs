@@ -396,7 +396,7 @@ impl Charcoal {
             ));
         }
         if self.lights == [None, None] {
-            return Err(Error::setting("light-2", "without any light nothing is drawn; leave one of the two"));
+            return Err(Error::setting("light-2", "the picture needs a light; leave one of the two"));
         }
         for (light, option) in self.lights.iter().zip(["light-1", "light-2"]) {
             let is_direction =

@@ -153,7 +153,7 @@ impl Ink {
                  normals (only where they are split, see --smooth-angle)",
                 |ink: &mut Self| &mut ink.crease_by,
             )
-            .ours("the measured setting (measuring.md)"),
+            .ours("measured (measuring.md)"),
             Setting::open_field(
                 "remove-specks",
                 ON_OFF,
@@ -248,7 +248,7 @@ impl Ink {
             return Err(Error::setting("show", "the style ink has final, tones, borders and map; show one of these"));
         }
         if !self.is_inked && matches!(show, Show::Borders | Show::Map) {
-            return Err(Error::setting("show", "there is no ink with --no-borders; leave out one of the two"));
+            return Err(Error::setting("show", "--no-borders leaves no ink to show; leave out one of the two"));
         }
         self.line_width.check("border-width")?;
         self.inner_width.map_or(Ok(()), |width| width.check("inner-width"))?;

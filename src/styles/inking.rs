@@ -130,7 +130,7 @@ impl Inking {
                 "Draw edges whose faces both point away, on or off; closed models hide nearly all of them",
                 |inking: &mut Self| &mut inking.back_edges,
             )
-            .printed("D, Inking: the listing asks of no edge where its faces look"),
+            .printed("D, Inking: the listing ignores which way an edge's faces point"),
             Setting::field(
                 "line-drawing",
                 "HOW",
@@ -146,7 +146,7 @@ impl Inking {
                  (test)",
                 |inking: &mut Self| &mut inking.writes_depth,
             )
-            .deduced("D, Inking: the listing leaves the depth mask as it is"),
+            .deduced("D, Inking: the listing does not change the depth mask"),
             Setting::field(
                 "polygon-offset",
                 "F,U",
@@ -178,7 +178,7 @@ impl Inking {
                 "Gradient of the ramp: material (the one nearest to the material's colour), object (the next one for \
                  each object), 0 to 3, or own (made from each colour)",
                 |inking: &mut Self| &mut inking.ramp_row,
-            ).ours("D leaves it to who writes the program: texOffset"),
+            ).ours("D leaves it to the program's author: texOffset"),
             Setting::field(
                 "light",
                 "WHERE",
@@ -304,7 +304,7 @@ impl Inking {
             ));
         }
         if show == Show::Borders && !self.is_inked {
-            return Err(Error::value("show", "borders", "there are none with --no-borders; leave out one of the two"));
+            return Err(Error::value("show", "borders", "--no-borders leaves none to show; leave out one of the two"));
         }
         let has_picture = |material: &crate::mesh::Material| material.has_texture();
         if self.has_texture && !scene.objects.iter().any(|object| object.mesh.materials.iter().any(has_picture)) {

@@ -90,7 +90,7 @@ const TONES_AND_MAP: Attachments = Attachments {
     has_depth: true,
     asked_by: SettingValue { setting: "style", value: "mrt" },
     instead: SettingValue { setting: "style", value: "three-pass" },
-    instead_draws: Some("the same picture but for rounding"),
+    instead_draws: Some("the same picture except for rounding"),
 };
 
 /// What the border is blended over while it reads the map.

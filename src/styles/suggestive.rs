@@ -61,11 +61,11 @@ impl Suggestive {
             Setting::field(
                 "valley-radius",
                 "PIXELS",
-                "Radius of the neighbourhood in which a pixel can be a valley, in pixels, 1 to 16; more draws wider \
+                "Radius of the neighbourhood searched for valleys of shade, in pixels, 1 to 16; more draws wider \
                  lines",
                 |style: &mut Self| &mut style.radius_px,
             )
-            .ours("looked at on public models: lines of two to three pixels")
+            .ours("chosen by eye on public models: lines of two to three pixels")
             .range(1.0, f64::from(LARGEST_RADIUS), 0),
             Setting::field(
                 "valley-share",
@@ -81,7 +81,7 @@ impl Suggestive {
                 "Least difference between a valley and the brightest pixel around it; more leaves out shallow valleys",
                 |style: &mut Self| &mut style.least_depth,
             )
-            .ours("looked at on public models")
+            .ours("chosen by eye on public models")
             .range(0.0, 1.0, 2),
         ];
         under(ALL_STYLES, common)
@@ -119,7 +119,7 @@ impl Suggestive {
             return Err(Error::setting("show", problem));
         }
         if !self.is_inked && matches!(show, Show::Borders | Show::Map) {
-            return Err(Error::setting("show", "there is no ink with --no-borders; leave out one of the two"));
+            return Err(Error::setting("show", "--no-borders leaves no ink to show; leave out one of the two"));
         }
         if !(1..=LARGEST_RADIUS).contains(&self.radius_px) {
             let problem = format!("the radius is 1 to {LARGEST_RADIUS} pixels");

@@ -1,6 +1,6 @@
 //! The window itself: winit's events in, egui's frames out, and recordings played in it.
 //!
-//! Frames are painted when there is something new to see and at no other time.
+//! The window paints frames only when the picture changes.
 
 use super::player::{PlayedRecord, Player};
 use super::replay::Replay;
@@ -23,7 +23,7 @@ pub struct WindowOptions {
     pub size: Size,
     /// A recording that is played; then the window closes.
     pub replay: Option<Replay>,
-    /// When the program began, for the time to the first picture.
+    /// When the program began, to time the first picture.
     pub started: Instant,
 }
 
@@ -31,12 +31,12 @@ pub struct WindowOptions {
 #[derive(Debug, Clone, Copy)]
 struct News;
 
-/// Opens the window and returns when it is closed; of a recording what it took.
+/// Opens the window and returns when it is closed, with the measurements of a recording.
 ///
 /// # Errors
 ///
-/// [`Error::NoWindow`] without a display or OpenGL on it, what keeps the renderer from drawing at all, and for a recording
-/// what keeps its pictures from being written.
+/// [`Error::NoWindow`] without a display or OpenGL on it, the renderer's errors, and for a recording the errors of writing its
+/// pictures.
 pub fn open(mut options: WindowOptions) -> Result<Option<PlayedRecord>> {
     let no_window = |error: winit::error::EventLoopError| Error::NoWindow { reason: reason(&error.to_string()) };
     let event_loop = EventLoop::<News>::with_user_event().build().map_err(no_window)?;
@@ -45,7 +45,7 @@ pub fn open(mut options: WindowOptions) -> Result<Option<PlayedRecord>> {
     let wake = move || {
         let _ = proxy.send_event(News);
     };
-    // A recording says by itself what is open.
+    // A recording states which parts are open.
     if options.replay.is_none() {
         let state = &mut options.viewer.state;
         (state.has_panel, state.has_hint) = (options.size.width >= NARROW, true);
@@ -101,7 +101,7 @@ impl App {
         match delay {
             Duration::ZERO => shown.window.request_redraw(),
             delay => event_loop.set_control_flow(
-                // Too long to be a time is for ever.
+                // A delay too long for the clock means no limit.
                 Instant::now().checked_add(delay).map_or(ControlFlow::Wait, ControlFlow::WaitUntil),
             ),
         }

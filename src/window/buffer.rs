@@ -7,12 +7,12 @@ use crate::scene::Color;
 use crate::styles::{ClassColors, Inking, PaintMode, Show, Style, StyleName};
 use std::str::FromStr;
 
-/// What is shown of a style.
+/// One of a style's pictures or maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Buffer {
     /// One of its pictures.
     Show(Show),
-    /// The model's edges, each class in a colour of its own; the same for all styles.
+    /// The model's edges, one colour a class; the same for all styles.
     EdgeClasses,
 }
 
@@ -26,7 +26,7 @@ impl Default for Buffer {
 const EDGE_CLASSES: &str = "edge-classes";
 
 impl Buffer {
-    /// As the user writes it.
+    /// In the user's notation.
     pub fn name(self) -> &'static str {
         match self {
             Self::Show(show) => show.choice_name(),
@@ -34,7 +34,7 @@ impl Buffer {
         }
     }
 
-    /// The style and its picture that are drawn for this buffer of a style; its finished picture where it has no such buffer.
+    /// The style and picture that draw this buffer of a style; the finished picture if the style lacks the buffer.
     pub fn drawn(self, style: &Style) -> (Style, Show) {
         match self {
             Self::EdgeClasses => (edge_classes(), Show::Final),

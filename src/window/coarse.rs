@@ -1,14 +1,14 @@
-//! What is drawn while the model moves, where the user allows it to be coarser than at rest.
+//! Drawings while the model moves, coarser than at rest if the user allows it.
 //!
-//! In: a style and a size. Out: a style that draws much the same sooner, at half the width and height, and a picture of the
-//! first size with each pixel twice as wide and high.
+//! Takes a style and a size; returns a faster style with nearly the same picture, at half the width and height, and a picture of
+//! the first size with each pixel twice as wide and high.
 
 use crate::picture::Picture;
 use crate::scene::Size;
 use crate::settings::HasSettings;
 use crate::styles::{Style, StyleName};
 
-/// So many times less wide and high.
+/// The factor for width and height.
 const DIVISOR: u32 = 2;
 
 /// The size that is drawn.
@@ -27,7 +27,7 @@ pub(super) fn style(style: &Style) -> Style {
     for (name, value) in [("cull", "back"), ("supersample", "1")] {
         if let Some(setting) = Style::table().find(&coarse, name) {
             let mut changed = coarse.clone();
-            // Where it cannot be so it stays as it is.
+            // Where it cannot be coarser it does not change.
             if setting.set(&mut changed, value).is_ok() {
                 coarse = changed;
             }

@@ -5,10 +5,10 @@ use super::state::{Content, ViewerState};
 use crate::picture::Picture;
 use crate::scene::Size;
 
-/// What is between panes.
+/// The colour between panes.
 const GAP: [u8; 4] = [128, 128, 128, 255];
 
-/// The drawing area as it is shown; `None` until every side that is seen has a picture.
+/// Returns the drawing area as shown; `None` until every visible side has a picture.
 pub fn composed(state: &ViewerState, picture: impl Fn(Side) -> Option<Picture>) -> Option<Picture> {
     let panes = state.panes();
     let parts: Vec<(u32, Picture)> = panes
@@ -39,7 +39,7 @@ pub fn composed(state: &ViewerState, picture: impl Fn(Side) -> Option<Picture>) 
     Some(Picture { size, pixels })
 }
 
-/// The left picture up to a column, the right one from there on.
+/// The left picture up to a column, the right picture beyond it.
 fn cut(left: &Picture, right: &Picture, column: u32) -> Picture {
     if left.size != right.size {
         return left.clone();

@@ -1,7 +1,7 @@
-//! The settings of the styles as controls: which of them a panel has, and how they are read and set.
+//! The settings of the styles as controls: the panel's selection, and how they are read and set.
 //!
-//! Values are the texts that the command line takes, so that a control, a recorded event and a command say the same thing in
-//! the same words. What there is to turn is declared beside the styles; nothing is listed here.
+//! Values are the texts that the command line takes: a control, a recorded event and a command use the same words. The settings
+//! are declared with the styles; this file lists none.
 
 use super::line_style::LINE_SETTINGS;
 use crate::error::Result;
@@ -15,7 +15,7 @@ use crate::styles::{Style, StyleName};
 pub const SCENE_SETTINGS: [&str; 8] =
     ["view", "fov", "parallel", "framing", "background", "color", "bare-color", "surface"];
 
-/// How models are read, as far as a window sets it: the others are for whoever reads a stranger's files.
+/// The settings for reading models that a window offers; the others are for untrusted files.
 const LOAD_SETTINGS: [&str; 6] = ["up-axis", "normals", "smooth-angle", "weld", "model-frame", "skin"];
 
 /// The same style with its source's settings.
@@ -46,20 +46,20 @@ pub(super) fn of_load(load: &LoadOptions) -> Vec<Control<LoadOptions>> {
     all.into_iter().filter(|control| LOAD_SETTINGS.contains(&control.setting.name)).collect()
 }
 
-/// Another style with the settings of a look that it has; as published where it cannot have them.
+/// Another style with a look's settings; as published if it does not accept them.
 pub(super) fn sibling(look: Look, name: StyleName) -> Style {
     let options = look.preset().map(|preset| preset.options);
     options.and_then(|options| Style::with_options(name, &options)).unwrap_or_else(|_| Style::named(name))
 }
 
-/// The look whose sibling a style is; the published one where it has no settings but its own.
+/// The look whose sibling a style is; the published one if it has only its own settings.
 pub(super) fn look_of_sibling(style: &Style) -> Option<Look> {
     let is_of = |look: &Look| sibling(*look, style.style_name()) == *style;
-    // A style that a look says nothing of is as published.
+    // A style that a look does not mention is as published.
     LOOKS.into_iter().rev().find(is_of)
 }
 
-/// What a look makes of what draws a side and of the scene. What another look sets of the scene is as by default again.
+/// Returns the style and scene settings after choosing a look. Settings of the scene from another look return to their defaults.
 ///
 /// # Errors
 ///
@@ -116,7 +116,7 @@ impl<T: Clone + 'static> Control<T> {
         format!("--{}", self.setting.name)
     }
 
-    /// What to begin with where it is no longer left open: the default's if it has any, else the range's upper ends, or white.
+    /// The first value after leaving the open state: the default if it has one, else the range's upper ends, or white.
     pub(super) fn given(&self) -> String {
         match self.setting.kind {
             Kind::Numbers { count, range: [_, high], .. } if self.setting.open == Some(&*self.default) => {
@@ -143,16 +143,16 @@ impl<T: Clone + 'static> Control<T> {
 ///
 /// # Errors
 ///
-/// A sentence that begins with the option, for a style without it and for values it cannot have. What no value of its own
-/// can tell, the style's plan refuses.
+/// Returns a sentence that begins with the option, for a style without it and for invalid values. The style's plan refuses
+/// invalid combinations.
 pub(super) fn turn(style: &mut Style, option: &str, value: &str) -> std::result::Result<(), String> {
     let setting = find(style, option)?;
     set(setting, style, option, value)
 }
 
-/// Settings beside those of styles that a window shows and sets.
+/// The window's settings other than those of styles.
 pub(super) struct Group {
-    /// Whose they are, as a sentence about one that there is not says it.
+    /// The owner of the settings, for the error about an unknown one.
     what: &'static str,
     names: &'static [&'static str],
 }
@@ -193,7 +193,7 @@ fn find_in<T: HasSettings>(group: &Group, option: &str) -> std::result::Result<&
     })
 }
 
-/// Sets what options say of the scene that a window can set.
+/// Applies the options of the scene that a window can set.
 ///
 /// # Errors
 ///
@@ -223,7 +223,7 @@ fn set<T: Clone + 'static>(
     turned(setting.set(of, value))
 }
 
-/// Sets it back to what is published.
+/// Restores the published value.
 ///
 /// # Errors
 ///

@@ -1,7 +1,7 @@
 //! Each style's frame time and line error, measured while the window is idle.
 //!
-//! The exact lines of a view take longer than its picture: they are found on a thread of their own, which is told to give up
-//! as soon as the view changes.
+//! The exact lines of a view take longer than its picture: a separate thread finds them, and gives up as soon as the view
+//! changes.
 
 use super::event::Side;
 use super::job::Cost;
@@ -13,14 +13,14 @@ use crate::renderer::PassTime;
 use crate::scene::Scene;
 use std::sync::Arc;
 
-/// What is known of the picture that is shown.
+/// The measurements of the shown picture.
 #[derive(Debug, Default)]
 pub struct Costs {
-    /// Each side's style with the times of its passes and its lines' error, where they are known.
+    /// Each side's style with the times of its passes and its lines' error, if known.
     pub sides: Vec<SideCost>,
-    /// All that was measured in this view, for the plot.
+    /// All measurements in this view, for the plot.
     pub history: Vec<Point>,
-    /// What is going on.
+    /// The measurement in progress.
     measuring: Option<Arc<Progress>>,
     number: u64,
 }
@@ -28,7 +28,7 @@ pub struct Costs {
 /// A side's cost.
 #[derive(Debug, Clone)]
 pub struct SideCost {
-    /// Which side.
+    /// The side.
     pub side: Side,
     /// The style's name.
     pub style: &'static str,
@@ -57,13 +57,13 @@ pub struct Point {
 const MOST_POINTS: usize = 64;
 
 impl Costs {
-    /// Forgets everything and gives up what is going on: the view has changed.
+    /// The view has changed: forgets everything and cancels the measurement in progress.
     pub fn view_changed(&mut self) {
         self.style_changed();
         self.history.clear();
     }
 
-    /// Forgets what was known of the styles; what was measured in this view stays in the plot.
+    /// Forgets the styles' measurements; the plot keeps this view's measurements.
     pub fn style_changed(&mut self) {
         self.sides.clear();
         self.number += 1;
@@ -72,7 +72,7 @@ impl Costs {
         }
     }
 
-    /// Whether exact lines are being looked for.
+    /// Whether a search for exact lines is running.
     pub fn is_measuring(&self) -> bool {
         self.measuring.is_some()
     }
@@ -90,7 +90,7 @@ impl Costs {
         self.measuring = Some(progress.clone());
         let number = self.number;
         let work = move || {
-            // Given up, or a scene that has no lines to be found: then there is no number to show.
+            // Cancelled, or a scene without lines: the result is empty.
             let errors = errors(measure, &scene, inks, &progress).unwrap_or_default();
             reporter.say(Report::Measured(number, errors));
         };
@@ -99,7 +99,7 @@ impl Costs {
         }
     }
 
-    /// Takes what was measured, unless the view has changed since.
+    /// Takes the measurements, unless the view has changed since.
     pub fn measured(&mut self, number: u64, errors: Vec<(Side, LineScore)>) {
         if number != self.number {
             return;

@@ -1,7 +1,7 @@
-//! A rendering thread: it owns a renderer, takes jobs and answers with pictures, so that the window answers meanwhile.
+//! A rendering thread: it owns a renderer, takes jobs and answers with pictures. The window stays responsive meanwhile.
 //!
-//! In: a [`Job`], all values. Out: the pictures that `tinta render` draws with the same settings, byte for byte, because
-//! it is the same renderer with the same plans.
+//! Takes a [`Job`], all values; returns the pictures that `tinta render` draws with the same settings, byte for byte, because it
+//! is the same renderer with the same plans.
 
 use super::coarse;
 use super::event::Side;
@@ -20,20 +20,20 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-/// What a drawing thread is told.
+/// A command for a drawing thread.
 pub(super) enum Order {
     /// Draw this.
     Draw(Box<Job>),
-    /// Time this and draw its lines by themselves.
+    /// Time this and draw its lines alone.
     MeasureCost(Box<Job>, Option<LineMeasure>),
     /// Use these shaders instead of those built in, by their paths below `glsl/`.
     Shaders(HashMap<String, String>),
 }
 
-/// Frames from which the time of a pass is taken.
+/// Number of frames that time a pass.
 const TIMED_FRAMES: usize = 5;
 
-/// What draws: a renderer and shaders that may have been replaced.
+/// A renderer with possibly replaced shaders.
 #[derive(Debug)]
 pub struct Drawer {
     renderer: Renderer,
@@ -55,7 +55,7 @@ impl Drawer {
         Ok(Self { renderer, shaders: HashMap::new(), are_tried: true, good_shaders: HashMap::new() })
     }
 
-    /// What the context says about itself.
+    /// The context's own description.
     pub fn context(&self) -> &ContextInfo {
         self.renderer.context()
     }
@@ -65,7 +65,7 @@ impl Drawer {
         self.renderer.live_objects()
     }
 
-    /// Takes shaders from now on from these texts where they are among them.
+    /// Replaces shaders by the texts given here.
     ///
     /// # Errors
     ///
@@ -77,7 +77,7 @@ impl Drawer {
         Ok(())
     }
 
-    /// Draws a job's pictures; after a shader that does not link the ones before it are used again, and its log is said.
+    /// Draws a job's pictures; after a shader that does not link, uses the previous ones and returns its log.
     ///
     /// # Errors
     ///
@@ -117,7 +117,7 @@ impl Drawer {
         job.drawings.iter().map(draw).collect()
     }
 
-    /// Draws a scene, without what cannot change the picture.
+    /// Draws a scene, pruned of everything that cannot change the picture.
     ///
     /// # Errors
     ///
@@ -132,7 +132,7 @@ impl Drawer {
         Ok(milliseconds_since(start))
     }
 
-    /// Times the passes of a job's pictures and draws their lines by themselves.
+    /// Times the passes of a job's pictures and draws their lines alone.
     ///
     /// # Errors
     ///

@@ -1,8 +1,8 @@
-//! What can happen to the viewer, as plain values: the mouse, the keys and the panel make them, a recording holds them.
+//! Events of the viewer, as plain values: the mouse, the keys and the panel make them, a recording holds them.
 
 use serde::{Deserialize, Serialize};
 
-/// One of the two styles of a split view; of a single one the left.
+/// One of the two styles of a split view; the left one if there is a single style.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Side {
@@ -13,7 +13,7 @@ pub enum Side {
     Right,
 }
 
-/// What is seen of the two styles.
+/// How the two styles are laid out.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Layout {
@@ -32,7 +32,7 @@ pub enum Layout {
 pub enum ViewerEvent {
     /// The model is turned by a drag to the right and down, shares of a pane's height.
     Turn([f64; 2]),
-    /// It is moved likewise.
+    /// The model is moved by a drag, in the same units.
     Move([f64; 2]),
     /// It is brought nearer by this factor.
     Zoom(f64),
@@ -58,7 +58,7 @@ pub enum ViewerEvent {
     Faithful(Side),
     /// The side that number keys and the panel are for.
     Choose(Side),
-    /// What is seen of the two styles.
+    /// How the two styles are laid out.
     Layout(Layout),
     /// From one, to both, to both and their difference, and back.
     NextLayout,
@@ -97,7 +97,7 @@ pub enum ViewerEvent {
     Browse,
     /// Models to show instead, by their paths.
     Open(Vec<String>),
-    /// The picture as it is shown, into a file.
+    /// The shown picture, into a file.
     SavePicture,
     /// The exact lines of this view, into a file.
     SaveLines,
@@ -118,7 +118,7 @@ impl ViewerEvent {
     }
 }
 
-/// What the state cannot do by itself.
+/// An effect outside the state.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Effect {
     /// Let the user choose models.
@@ -137,7 +137,7 @@ pub enum Effect {
 /// Kinds of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Save {
-    /// PNG of what is shown.
+    /// PNG of the shown picture.
     Picture,
     /// SVG of the exact lines.
     Lines,

@@ -1,9 +1,9 @@
-//! The exact lines of the view, found and painted on a thread of their own.
+//! Finds and paints the exact lines of the view on a separate thread.
 //!
-//! In: a [`LineJob`], all values. Out: ink to be laid over a picture of the same view. One view's lines are looked for at a time.
-//! When the view changes meanwhile they are given up if only a picture of the same view can take them; lines that are a picture
-//! by themselves are finished and shown, and those of the newest view are next. Strokes keep their ids from view to view, so that it can
-//! be said how many stayed.
+//! Takes a [`LineJob`], all values, and returns ink to lay over a picture of the same view. It searches one view's lines at a
+//! time. If the view changes meanwhile, the search stops where only a picture of the same view can use the lines. Lines drawn
+//! alone are finished and shown, then the search for the newest view starts. Strokes keep their ids from view to view, to count
+//! how many stayed.
 
 use super::line_job::{Found, LineJob, Stayed};
 use super::paint::painted;
@@ -19,7 +19,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 impl LineJob {
-    /// The lines on nothing, and how many of their strokes are those of the view before.
+    /// The lines on a transparent ground, and how many of their strokes belong to the view before.
     fn find(&self, ids: &Mutex<Option<Kept>>, progress: &Progress) -> Result<(Picture, Stayed)> {
         let (scene, drawing) = (self.view.scene()?, &self.style.drawing);
         let lines = VisibleLines::with_progress(&scene, &self.style.wanted(), progress)?.without_specks(drawing)?;
@@ -38,13 +38,13 @@ impl LineJob {
         let stayed = strokes.intersection(&kept.strokes).count();
         let stayed = Stayed { count: strokes.len(), new: strokes.len() - stayed, gone: kept.strokes.len() - stayed };
         kept.strokes = strokes;
-        // As the file has them: a path that ends where a stroke does would begin its dashes anew.
+        // As in the file: a path that ends where a stroke does would restart its dashes.
         let drawn = strokes_of_paths(&lines, chain(&lines.segments), drawing)?;
         Ok((painted(&drawn, scene.size), stayed))
     }
 }
 
-/// The strokes of the view before, for which settings of which models.
+/// The strokes of the previous view, with their settings and models.
 #[derive(Debug)]
 struct Kept {
     scene: Arc<Scene>,
@@ -53,7 +53,7 @@ struct Kept {
     strokes: HashSet<u32>,
 }
 
-/// A scene's lines on nothing.
+/// A scene's lines on a transparent ground.
 ///
 /// # Errors
 ///
@@ -67,13 +67,13 @@ pub(super) fn ink(scene: &Scene, style: &LineStyle, progress: &Progress) -> Resu
 #[derive(Debug, Default)]
 pub struct ExactLines {
     found: Option<Found>,
-    /// Whose lines are being looked for.
+    /// The current search.
     finding: Option<(LineJob, Arc<Progress>)>,
-    /// Whose cannot be found, and why.
+    /// The lines that failed, and why.
     refused: Option<(LineJob, String)>,
-    /// By which the next view's strokes are known again.
+    /// The strokes that the next view's strokes are matched with.
     kept: Arc<Mutex<Option<Kept>>>,
-    /// Counts what was found.
+    /// Counts the results.
     pub number: u64,
 }
 
@@ -83,12 +83,12 @@ impl ExactLines {
         self.found.as_ref()
     }
 
-    /// Whether lines are being looked for.
+    /// Whether a search for lines is running.
     pub fn is_finding(&self) -> bool {
         self.finding.is_some()
     }
 
-    /// Whether these lines are there, are being looked for, or cannot be found.
+    /// Whether these lines are found, being found, or failed.
     pub fn is_begun(&self, job: &LineJob) -> bool {
         let found = self.found.as_ref().map(|found| &found.job);
         let finding = self.finding.as_ref().map(|(job, _)| job);
@@ -96,19 +96,20 @@ impl ExactLines {
         [found, finding, refused].into_iter().flatten().any(|begun| begun.is_same(job))
     }
 
-    /// Why lines that were wanted are not there.
+    /// The reason why requested lines are missing.
     pub fn problem(&self) -> Option<&str> {
         self.refused.as_ref().map(|(_, problem)| problem.as_str())
     }
 
-    /// Wants these lines or none. `is_picture`: they are shown by themselves, so that those of a view before are worth having.
+    /// Requests these lines, or none. `is_picture` means that they are shown alone, and that those of a previous view are useful
+    /// too.
     pub fn ask(&mut self, wanted: Option<LineJob>, is_picture: bool, reporter: &Reporter) {
         let is_wanted = |job: &LineJob| wanted.as_ref().is_some_and(|wanted| wanted.is_same(job));
         if !self.refused.as_ref().is_some_and(|(job, _)| is_wanted(job)) {
             self.refused = None;
         }
         if let Some((job, progress)) = &self.finding {
-            // Its thread says so when it has ended.
+            // Its thread reports its end.
             if !is_wanted(job) && (!is_picture || wanted.is_none()) {
                 progress.cancel();
             }
@@ -136,7 +137,7 @@ impl ExactLines {
         }
     }
 
-    /// Takes what a thread has found.
+    /// Takes a thread's result.
     pub fn take(&mut self, found: Result<Found>) {
         let Some((job, progress)) = self.finding.take() else { return };
         match found {
@@ -149,7 +150,7 @@ impl ExactLines {
         }
     }
 
-    /// Gives up what is going on.
+    /// Cancels the running search.
     pub fn cancel(&self) {
         if let Some((_, progress)) = &self.finding {
             progress.cancel();

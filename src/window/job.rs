@@ -1,4 +1,4 @@
-//! What is to be drawn, and what comes of it: values that the viewer and its drawing threads exchange.
+//! A drawing job and its result: values that the viewer and its drawing threads exchange.
 
 use super::coarse;
 use super::event::Side;
@@ -11,7 +11,7 @@ use crate::scene::{Scene, SceneSettings};
 use crate::styles::{Show, Style};
 use std::sync::Arc;
 
-/// What is to be drawn.
+/// A drawing job.
 #[derive(Debug, Clone)]
 pub struct Job {
     /// The models, at their places.
@@ -20,7 +20,7 @@ pub struct Job {
     pub orbit: Orbit,
     /// The rest of the scene's settings.
     pub settings: SceneSettings,
-    /// What of which style for each side that is seen.
+    /// The style and picture to show for each visible side.
     pub drawings: Vec<(Side, Style, Show)>,
     /// Whether it may be coarser: the view is on its way to another.
     pub is_coarse: bool,
@@ -36,7 +36,7 @@ impl Job {
         self.orbit.settings(&self.scene, &self.settings)
     }
 
-    /// The scene as it is seen.
+    /// The scene with the current camera.
     ///
     /// # Errors
     ///
@@ -56,7 +56,7 @@ impl Job {
         self.orbit == other.orbit && self.settings.camera == other.settings.camera
     }
 
-    /// Whether it is of the same scene as another, seen alike, whatever is drawn of it.
+    /// Whether it shows the same scene in the same view as another, whatever it draws.
     pub fn is_of_same_picture(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene) && self.orbit == other.orbit && self.settings == other.settings
     }
@@ -66,7 +66,7 @@ impl Job {
         self.is_of_same_picture(other) && self.drawings == other.drawings && self.is_coarse == other.is_coarse
     }
 
-    /// Whether what it draws does for another: the same, or a finer picture than needs be.
+    /// Whether its picture serves for another job: the same, or finer than needed.
     pub fn does_for(&self, other: &Self) -> bool {
         self.is_same(&Self { is_coarse: self.is_coarse && other.is_coarse, ..other.clone() })
     }
@@ -75,7 +75,7 @@ impl Job {
 /// A side's picture.
 #[derive(Debug, Clone)]
 pub struct Drawing {
-    /// Which side.
+    /// The side.
     pub side: Side,
     /// The picture.
     pub picture: Picture,
@@ -83,10 +83,10 @@ pub struct Drawing {
     pub frame_ms: f64,
 }
 
-/// What a side's picture costs.
+/// The cost of a side's picture.
 #[derive(Debug)]
 pub struct Cost {
-    /// Which side.
+    /// The side.
     pub side: Side,
     /// The style's name.
     pub style: &'static str,
@@ -96,6 +96,6 @@ pub struct Cost {
     pub passes: Vec<PassTime>,
     /// Whether the style draws lines.
     pub has_lines: bool,
-    /// How dark each pixel of its lines is; `None` without lines, and where they are not measured.
+    /// The darkness of each pixel of its lines; `None` without lines, and if not measured.
     pub ink: Option<Vec<u8>>,
 }

@@ -1,4 +1,4 @@
-//! Keys: which event each makes.
+//! The event of each key.
 
 use super::event::{Side, ViewerEvent};
 use super::line_style::LinesShown;
@@ -7,7 +7,7 @@ use crate::keys::{Action, action};
 use crate::styles::StyleName;
 use egui::{Key, Modifiers};
 
-/// What can be saved: what it is, and what the key that saves it does.
+/// The things to save: each with its name and its key's action.
 pub(super) const SAVES: [(&str, Action); 4] = [
     ("picture", Action::SavePicture),
     ("lines", Action::SaveLines),
@@ -15,12 +15,12 @@ pub(super) const SAVES: [(&str, Action); 4] = [
     ("preset", Action::SavePreset),
 ];
 
-/// The event of a key; `None` for a key that does nothing.
+/// The event of a key; `None` for a key without an action.
 pub(super) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Option<ViewerEvent> {
     event_of(action(|name| Key::from_name(name) == Some(key), modifiers.shift, modifiers.command)?, state)
 }
 
-/// The event of what a key does; `None` where there is nothing to close.
+/// The event of a key's action; `None` if it has nothing to close.
 pub(super) fn event_of(action: Action, state: &ViewerState) -> Option<ViewerEvent> {
     let style = |name: &str| ViewerEvent::Style(state.active, name.to_owned());
     Some(match action {

@@ -1,4 +1,4 @@
-//! What each of two pictures side by side is, in a corner of its pane: a look, a style as its text has it, or neither.
+//! The label of each of two pictures side by side, in a corner of its pane: a look, a style with its text's settings, or neither.
 
 use super::controls;
 use super::event::{Layout, Side};
@@ -12,7 +12,7 @@ const MARGIN: f32 = 8.0;
 /// Around the text, points.
 const PADDING: f32 = 3.0;
 
-/// What a side shows: the look's name, or the style's and where its settings come from.
+/// The label of a side: the look's name, or the style's and the origin of its settings.
 pub(super) fn label(state: &ViewerState, side: Side) -> String {
     let name = state.drawn_name(side);
     if let Some(look) = state.look_of(side).filter(|look| look.has_settings()) {
@@ -28,7 +28,8 @@ pub(super) fn label(state: &ViewerState, side: Side) -> String {
     }
 }
 
-/// Paints the labels of two sides; a single one needs none. `corner` is the drawing area's in points, `scale` how many pixels one has.
+/// Paints the labels of two sides; a single one needs none. `corner` is the drawing area's in points, `scale` the number of
+/// pixels per point.
 pub(super) fn show(ui: &Ui, state: &ViewerState, area: Rect, scale: f32) {
     if state.layout == Layout::Single {
         return;

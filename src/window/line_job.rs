@@ -1,4 +1,4 @@
-//! Which exact lines are wanted, and those found: values that the viewer and its thread of lines exchange.
+//! The requested exact lines and the found ones: values that the viewer and its line thread exchange.
 
 use super::job::Job;
 use super::paint::over;
@@ -6,12 +6,12 @@ use crate::picture::Picture;
 use crate::scene::{SceneSettings, Size};
 use crate::styles::LineStyle;
 
-/// Whose lines are wanted, drawn how.
+/// The requested lines and how to draw them.
 #[derive(Debug, Clone)]
 pub struct LineJob {
-    /// The view; what else is drawn of it does not matter.
+    /// The view; other contents of the job do not matter.
     pub view: Job,
-    /// Which lines, and how they look.
+    /// The lines and their appearance.
     pub style: LineStyle,
 }
 
@@ -20,7 +20,7 @@ pub struct LineJob {
 pub struct Stayed {
     /// Strokes in this view.
     pub count: usize,
-    /// Of these not in the one before; all in a first view.
+    /// The number of these that are new in this view; all in a first view.
     pub new: usize,
     /// Those of the one before that are not in this one.
     pub gone: usize,
@@ -37,24 +37,24 @@ impl Stayed {
 /// Lines that were found.
 #[derive(Debug)]
 pub struct Found {
-    /// Whose they are.
+    /// The job that they belong to.
     pub job: LineJob,
-    /// They on nothing.
+    /// The lines on a transparent ground.
     pub ink: Picture,
     /// How many of their strokes are those of the view before.
     pub stayed: Stayed,
-    /// What that took, milliseconds.
+    /// Time taken, milliseconds.
     pub ms: f64,
 }
 
 impl Found {
-    /// They as a picture by themselves.
+    /// The lines alone as a picture.
     pub fn alone(&self) -> Picture {
         over(&self.ink, &ground(self.ink.size, &self.job.view.settings))
     }
 }
 
-/// What is behind lines that are a picture by themselves.
+/// The background of lines drawn alone.
 pub(super) fn ground(size: Size, settings: &SceneSettings) -> Picture {
     let pixel = settings.background.clear_color().map(|channel| (channel * 255.0).round() as u8);
     Picture { size, pixels: pixel.repeat(size.pixel_count()) }

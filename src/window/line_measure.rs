@@ -1,4 +1,4 @@
-//! How the window measures lines: by functions that a package above this one has.
+//! How the window measures lines: with functions of a higher package.
 
 use crate::error::Result;
 use crate::lines::Progress;

@@ -1,4 +1,4 @@
-//! What of the exact lines the window shows and sets.
+//! The settings of exact lines in the window.
 
 /// The settings of exact lines that a window shows and sets: the others are of files and of paper.
 pub const LINE_SETTINGS: [&str; 13] = [
@@ -17,10 +17,10 @@ pub const LINE_SETTINGS: [&str; 13] = [
     "min-length",
 ];
 
-/// What a side shows of the exact lines.
+/// How a side shows exact lines.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum LinesShown {
-    /// Nothing.
+    /// No lines.
     #[default]
     None,
     /// They lie over the style's picture.

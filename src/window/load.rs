@@ -1,4 +1,4 @@
-//! Reads models on their own thread, so that the window stays responsive.
+//! Reads models on a separate thread; the window stays responsive.
 
 use super::report::{LoadedModels, Report, Reporter, Stage};
 use crate::error::Result;
@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Starts threads that read models; the last one asked counts.
+/// Starts threads that read models; the last request counts.
 pub(super) struct Loader {
     reporter: Reporter,
     /// The number of the last load.
@@ -16,12 +16,12 @@ pub(super) struct Loader {
 }
 
 impl Loader {
-    /// Tells this reporter.
+    /// With this reporter.
     pub(super) fn new(reporter: Reporter) -> Self {
         Self { reporter, last: AtomicU64::default() }
     }
 
-    /// Whether this load is the last one asked for.
+    /// Whether this load is the last request.
     pub(super) fn is_last(&self, number: u64) -> bool {
         self.last.load(Ordering::Relaxed) == number
     }
@@ -30,7 +30,7 @@ impl Loader {
     ///
     /// # Errors
     ///
-    /// When there is no thread to be had.
+    /// When the thread cannot be started.
     pub(super) fn start(&self, models: Vec<String>, options: LoadOptions) -> std::io::Result<()> {
         let number = self.last.fetch_add(1, Ordering::Relaxed) + 1;
         let reporter = self.reporter.clone();
@@ -45,10 +45,10 @@ impl Loader {
     }
 }
 
-/// Steps in which a model is read.
+/// Steps of reading a model.
 const STEPS_A_MODEL: usize = 4;
 
-/// Reads models and puts them together; says what it does.
+/// Reads models, puts them together, and reports progress.
 fn scene_of(models: &[String], options: &LoadOptions, stage: &dyn Fn(Stage)) -> Result<LoadedModels> {
     let (mut meshes, mut remarks): (Vec<Arc<Mesh>>, Vec<String>) = Default::default();
     let mut files: Vec<PathBuf> =

@@ -1,15 +1,15 @@
 //! Paints strokes: exact lines as pixels, antialiased, with round ends and joins.
 //!
-//! In: [`Strokes`] from the lowest layer to the highest. Out: a [`Picture`] with colours multiplied by alpha, to be laid over
-//! another. A pixel's share of a stroke is what the stroke covers of a pixel's width across it: exact along a straight line, and
-//! as good as any at ends and joins. Within a layer the largest share counts, so that strokes that cross or join do not add up.
+//! Takes [`Strokes`] from the lowest layer to the highest, and returns a [`Picture`] with colours multiplied by alpha, to lay
+//! over another. A pixel's share of a stroke is the covered part of a pixel's width across the stroke: exact along a straight
+//! line, approximate at ends and joins. Within a layer the largest share counts: strokes that cross or join do not add up.
 
 use crate::lines::Strokes;
 use crate::picture::Picture;
 use crate::scene::{Color, Size};
 use glam::DVec2;
 
-/// Strokes on nothing.
+/// Strokes on a transparent ground.
 pub fn painted(strokes: &[Strokes], size: Size) -> Picture {
     let mut pixels = vec![0; size.pixel_count() * 4];
     let mut layer = Layer::new(size);
@@ -25,7 +25,7 @@ pub fn painted(strokes: &[Strokes], size: Size) -> Picture {
     Picture { size, pixels }
 }
 
-/// A picture with ink over it; the picture alone where they are of different sizes.
+/// A picture with ink over it; the picture alone if their sizes differ.
 pub fn over(ink: &Picture, picture: &Picture) -> Picture {
     if ink.size != picture.size {
         return picture.clone();
@@ -81,7 +81,7 @@ impl Layer {
         }
     }
 
-    /// Lays the layer over what is there and empties it.
+    /// Lays the layer over the pixels and empties it.
     fn blend_into(&mut self, pixels: &mut [u8], color: Color, opacity: f32) {
         let width = self.size.width as usize;
         let bytes = color.0.map(|channel| (channel * 255.0).round());
@@ -145,7 +145,7 @@ mod tests {
         let picture = painted(&[strokes(&[[5.0, 20.0], [95.0, 20.0]], 2.0, false)], SIZE);
         assert!((6..94).all(|x| [19, 20].iter().all(|y| alpha(&picture, x, *y) == 255)));
         assert!((0..100).all(|x| [18, 21].iter().all(|y| alpha(&picture, x, *y) == 0)));
-        // Half a pixel wide in the middle of a row: half of the row, and nothing beside it.
+        // Half a pixel wide in the middle of a row: half of the row, no ink beside it.
         let thin = painted(&[strokes(&[[5.0, 20.5], [95.0, 20.5]], 0.5, false)], SIZE);
         assert_eq!([19, 20, 21].map(|y| alpha(&thin, 50, y)), [0, 128, 0]);
     }
@@ -168,7 +168,7 @@ mod tests {
         let square = [[20.0, 10.0], [60.0, 10.0], [60.0, 50.0], [20.0, 50.0]];
         let open = painted(&[strokes(&square, 2.0, false)], SIZE);
         let closed = painted(&[strokes(&square, 2.0, true)], SIZE);
-        // 40 pixels of two, without the quarter discs and squares that the ends had.
+        // 40 pixels of two, without the quarter discs and squares of the ends.
         let added = area(&closed) - area(&open);
         assert!((added - (80.0 - 2.0 * (1.0 + PI / 4.0))).abs() < 0.5, "{added}");
         let mut twice = strokes(&square, 2.0, true);

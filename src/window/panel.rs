@@ -1,4 +1,4 @@
-//! The panel: a widget for every control of the active style. It reads the state and makes events, nothing else.
+//! The panel: a widget for every control of the active style. It reads the state and makes events.
 
 use super::controls::{self, Control};
 use super::event::{Layout, Side, ViewerEvent};
@@ -11,18 +11,18 @@ use crate::preset::{LOOKS, Look, SHIPPED};
 use crate::styles::{Origin, StyleName};
 use egui::{Color32, RichText, Ui};
 
-/// Colours of what is said of a style's settings.
+/// Colours of the remarks on a style's settings.
 pub(super) const FAITHFUL: Color32 = Color32::from_rgb(110, 190, 110);
 pub(super) const CHANGED: Color32 = Color32::from_rgb(220, 160, 60);
 
-/// Colour of what stands in an empty field.
+/// Colour of the hint in an empty field.
 pub(super) const HINT: Color32 = Color32::GRAY;
 
-/// What being coarser is.
+/// The meaning of coarser.
 const COARSE: &str =
     "while the model turns: half the width and height, without the faces that look away, three-pass in one pass";
 
-/// What is counted of exact lines.
+/// The count of exact lines.
 const STAYED: &str = "strokes of the exact lines in this view, and how many came and went since the view before; a stroke stays as long \
                       as it runs along the same place of the model";
 
@@ -138,24 +138,24 @@ fn search(ui: &mut Ui) -> String {
     words.trim().to_owned()
 }
 
-/// A group is called by its heading, without what explains that: it has no room here.
+/// A group's heading, without its explanation, which does not fit here.
 fn by_heading(heading: &str) -> String {
     heading.split(['(', ':']).next().unwrap_or(heading).trim().to_owned()
 }
 
-/// Settings that a style shares with others are its own here, whichever styles the heading names.
+/// Settings shared with other styles appear as the style's own, whichever styles the heading names.
 fn of_style_heading(heading: &str, style: &str) -> String {
     if heading.starts_with("Style") { format!("Style {style}") } else { by_heading(heading) }
 }
 
-/// Lists of controls, as far as they are looked for, and the events they make.
+/// Lists of controls, filtered by the search, and the events they make.
 struct Listed<'a> {
     words: String,
     events: &'a mut Vec<ViewerEvent>,
 }
 
 impl Listed<'_> {
-    /// Shows controls under their headings, which fold as long as nothing is looked for.
+    /// Shows controls under their headings, which fold unless a search is active.
     fn show<T: Clone + 'static>(
         &mut self,
         ui: &mut Ui,
@@ -190,8 +190,8 @@ impl Listed<'_> {
     }
 }
 
-/// A field for a file, which shows `open` until a path is typed: what was typed once it is to be opened, nothing typed as an empty path.
-/// Files can be dropped on the window, too.
+/// A field for a file, which shows `open` until the user types a path. Returns the typed path when it is confirmed, empty if the
+/// field is empty. Files can be dropped on the window, too.
 fn file(ui: &mut Ui, label: &str, open: RichText, about: &str) -> Option<String> {
     let mut opened = None;
     ui.horizontal(|ui| {
@@ -210,7 +210,7 @@ fn file(ui: &mut Ui, label: &str, open: RichText, about: &str) -> Option<String>
     opened
 }
 
-/// Whether all settings are the article's, where there is one, as a state that can be returned to; or a look's.
+/// Whether all settings are the article's, if there is one, as a state to return to; or a look's.
 fn changes<T: Clone + 'static>(
     ui: &mut Ui,
     origin: Origin,
@@ -251,7 +251,7 @@ fn choices<'a>(
     choices_with_help(ui, label, chosen, names.map(|name| (name, "")), choose);
 }
 
-/// Names to choose from, each with what it is said to be.
+/// Names to choose from, each with its description.
 fn choices_with_help<'a>(
     ui: &mut Ui,
     label: &str,

@@ -10,16 +10,16 @@ use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
 
-/// What a recording took.
+/// The measurements of a recording.
 #[derive(Debug, Clone, Serialize)]
 pub struct PlayedRecord {
     /// From the program's start to the first picture on the screen.
     pub first_picture_ms: f64,
-    /// Each frame, from its events to its being shown; in frames that wait for their pictures with that.
+    /// The time of each frame, from its events to its display; includes the drawing of frames that wait for it.
     pub frame_ms: Summary,
-    /// Frames that went on while something was being read or drawn.
+    /// Frames that ran while something was being read or drawn.
     pub free_frame_ms: Summary,
-    /// In drags, from one new picture on the screen to the next.
+    /// In drags, the time from one new picture on the screen to the next.
     pub drag_frame_ms: Summary,
     /// Pixels of the window to a point.
     pub scale: f64,
@@ -29,16 +29,16 @@ pub struct PlayedRecord {
 pub(super) struct Player {
     replay: Replay,
     frame: u64,
-    /// Whether frames go on without waiting for what they started.
+    /// Whether frames run without waiting for the work they started.
     is_free: bool,
-    /// In a drag: the number of the picture shown last, and when that was.
+    /// In a drag: the number and time of the last picture shown.
     dragged: Option<(u64, Instant)>,
     /// When the program began.
     started: Instant,
     times: Times,
 }
 
-/// What frames took.
+/// The times of frames.
 #[derive(Default)]
 struct Times {
     first_picture_ms: Option<f64>,
@@ -54,12 +54,12 @@ impl Player {
         Self { replay, frame: 0, is_free: false, dragged: None, started, times: Times::default() }
     }
 
-    /// Whether it says how large the drawing area is.
+    /// Whether it gives the size of the drawing area.
     pub(super) fn has_sizes(&self) -> bool {
         self.replay.has_sizes()
     }
 
-    /// What it took.
+    /// Returns the measurements.
     pub(super) fn record(self) -> PlayedRecord {
         let Times { first_picture_ms, frame_ms, free_frame_ms, drag_frame_ms, scale } = self.times;
         PlayedRecord {
@@ -83,7 +83,7 @@ impl Player {
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for an event that cannot be and for what cannot be drawn, and what keeps pictures from being written.
+    /// [`Error::Setting`] for an invalid event and for drawing failures, and the errors of writing pictures.
     pub(super) fn play(&mut self, shown: &mut Shown) -> Result<bool> {
         self.times.scale = shown.scale();
         if self.is_free {
@@ -95,7 +95,7 @@ impl Player {
         for event in lines.iter().filter_map(|line| line.event.clone()) {
             let saves = event.saves();
             shown.event(event);
-            // What saving says comes later.
+            // Saving reports later.
             if let Some(problem) = shown.viewer.state.message.clone().filter(|_| !saves) {
                 return Err(Self::refused(self.frame, problem));
             }
@@ -118,7 +118,7 @@ impl Player {
         }
         let is_wanted = lines.iter().any(|line| line.window.is_some());
         if is_wanted {
-            // egui places a sheet that is new where it belongs only once it knows its size, and that of the texts in it.
+            // egui places a new sheet correctly only once it knows the size of the sheet and of its texts.
             (0..2).try_for_each(|_| shown.frame(false).map(drop))?;
         }
         let (window, _) = shown.frame(is_wanted)?;
@@ -142,7 +142,7 @@ impl Player {
         Ok(self.is_over() || shown.is_over)
     }
 
-    /// A frame that goes on with what the one before it has started.
+    /// A frame that continues the work of the one before it.
     fn play_free(&mut self, shown: &mut Shown) -> Result<()> {
         let start = Instant::now();
         shown.viewer.take_reports()?;

@@ -1,4 +1,4 @@
-//! Times and errors of what is shown, as numbers and a small plot.
+//! Times and errors of the shown picture, as numbers and a small plot.
 
 use super::cost::{Costs, Point};
 use super::line_style::LinesShown;
@@ -95,7 +95,7 @@ fn plot(ui: &mut Ui, costs: &Costs) {
     }
 }
 
-/// Where a label of this size goes beside a point without lying on others: right or left of it, higher and higher.
+/// A free place for a label beside a point: right or left of it, higher and higher.
 fn free_place(point: Pos2, size: Vec2, area: Rect, taken: &[Rect]) -> Rect {
     let at = |right: bool, step: i32| {
         let left = if right { point.x + LABEL_GAP } else { point.x - LABEL_GAP - size.x };
@@ -104,11 +104,11 @@ fn free_place(point: Pos2, size: Vec2, area: Rect, taken: &[Rect]) -> Rect {
     let is_free = |label: &Rect| area.contains_rect(*label) && !taken.iter().any(|other| other.intersects(*label));
     let steps = [0, 1, -1, 2, -2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12];
     let all = steps.into_iter().flat_map(|step| [at(true, step), at(false, step)]);
-    // Where there is no room at all they lie on one another.
+    // Without any free place they overlap.
     all.into_iter().find(is_free).unwrap_or_else(|| at(true, 0))
 }
 
-/// Where a point stands, the largest time at the right and the largest error at the top.
+/// The place of a point, the largest time at the right and the largest error at the top.
 fn place(point: &Point, [slowest, worst]: [f64; 2], area: Rect) -> Pos2 {
     let share = |value: f64| value.clamp(0.0, 1.0) as f32;
     Pos2::new(

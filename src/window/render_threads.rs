@@ -1,9 +1,9 @@
-//! The threads that render, and what each is doing.
+//! The rendering threads and their current jobs.
 //!
-//! One draws, until the picture changes faster than it can: then, where drawing is the processor's work, a second one takes
-//! every other picture. Mesa's software drivers compute vertices on one core, so that a second core would wait for them. Two
-//! contexts of one screen of such a driver take turns (see `gl`), so the second is of EGL's surfaceless platform where the first is of a
-//! device: the same library's driver with a screen of its own.
+//! One thread draws, until the picture changes faster than it can draw. Then, where the processor draws, a second one takes every
+//! other picture. Mesa's software drivers compute vertices on one core; a second core would wait for them. Two contexts of one
+//! screen of such a driver take turns (see `gl`). The second therefore uses EGL's surfaceless platform where the first uses a
+//! device: the same library's driver with its own screen.
 
 use super::draw::{self, Order};
 use super::job::Job;
@@ -24,11 +24,11 @@ const SECOND: Backend = Backend::Surfaceless;
 /// The threads.
 pub(super) struct RenderThreads {
     backend: Backend,
-    /// What the first thread's context says about itself.
+    /// The first thread's context's own description.
     first: Option<ContextInfo>,
     reporter: Reporter,
     threads: Vec<Thread>,
-    /// Shaders that were replaced, for a thread that starts later.
+    /// Replaced shaders, for a thread that starts later.
     shaders: Option<HashMap<String, String>>,
     /// Whether another thread would draw more pictures.
     may_grow: bool,
@@ -36,12 +36,12 @@ pub(super) struct RenderThreads {
     count: u64,
 }
 
-/// One of them.
+/// A rendering thread.
 struct Thread {
     /// Until it shall end.
     orders: Option<Sender<Order>>,
     handle: Option<JoinHandle<()>>,
-    /// What it draws, and which job of all that is.
+    /// Its job, with the job's number.
     job: Option<(u64, Job)>,
 }
 
@@ -50,7 +50,7 @@ impl RenderThreads {
     ///
     /// # Errors
     ///
-    /// When there is no thread to be had.
+    /// When the thread cannot be started.
     pub(super) fn start(backend: Backend, reporter: Reporter) -> std::io::Result<Self> {
         let mut started =
             Self { backend, first: None, reporter, threads: Vec::new(), shaders: None, may_grow: false, count: 0 };
@@ -69,8 +69,8 @@ impl RenderThreads {
         Ok(())
     }
 
-    /// Takes what a thread's context says: whether a second thread is worth having, and whether the second one that came draws
-    /// what the first does.
+    /// Takes a thread's context description: decides whether a second thread helps, and whether the second one draws the same
+    /// pictures.
     pub(super) fn opened(&mut self, thread: usize, context: &ContextInfo) {
         if thread == 0 {
             let has_another = self.backend == Backend::Auto && context.backend == "egl";
@@ -96,7 +96,7 @@ impl RenderThreads {
         jobs.max_by_key(|(number, _)| *number).map(|(_, job)| job)
     }
 
-    /// Gives a job to a thread that has nothing to do. While the view changes and there is none, one is started if it helps.
+    /// Gives a job to an idle thread. While the view changes and none is idle, starts one if it helps.
     ///
     /// # Errors
     ///
@@ -104,7 +104,7 @@ impl RenderThreads {
     pub(super) fn draw(&mut self, job: Job, is_moving: bool) -> Result<(), Ended> {
         let is_free = |thread: &Thread| thread.orders.is_some() && thread.job.is_none();
         let may_add = is_moving && self.may_grow && self.threads.len() < MOST;
-        // Where there is no other thread to be had, the picture waits.
+        // If no other thread can start, the picture waits.
         if !self.threads.iter().any(is_free) && (!may_add || self.add().is_err()) {
             return Ok(());
         }
@@ -123,7 +123,7 @@ impl RenderThreads {
         self.threads.first().map_or(Err(Ended), |thread| thread.send(Order::MeasureCost(Box::new(job), measure)))
     }
 
-    /// Has shaders used from now on.
+    /// Replaces shaders.
     ///
     /// # Errors
     ///
@@ -144,7 +144,7 @@ impl RenderThreads {
 #[derive(Debug)]
 pub(super) struct Ended;
 
-/// Whether two contexts are those of the same driver, whose pictures are the same.
+/// Whether two contexts belong to the same driver and draw the same pictures.
 fn is_same_driver(a: &ContextInfo, b: &ContextInfo) -> bool {
     (&a.renderer, &a.version) == (&b.renderer, &b.version)
 }
@@ -156,11 +156,11 @@ impl Thread {
 }
 
 impl Drop for RenderThreads {
-    /// Waits for what is being drawn: a driver does not bear a program's end while it draws.
+    /// Waits for running drawings: a driver does not survive the program's end while it draws.
     fn drop(&mut self) {
         self.threads.iter_mut().for_each(|thread| thread.orders = None);
         for handle in self.threads.iter_mut().filter_map(|thread| thread.handle.take()) {
-            // One that has panicked has said so.
+            // A panicked thread has printed its message.
             let _ = handle.join();
         }
     }

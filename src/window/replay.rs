@@ -1,4 +1,4 @@
-//! A recording: events by the number of their frame, and pictures to be taken, one JSON object a line.
+//! A recording: events by frame number, and pictures to take, one JSON object a line.
 //!
 //! ```text
 //! {"frame": 0, "event": {"resize": [320, 240]}}
@@ -6,8 +6,8 @@
 //! {"frame": 2, "event": "key-sheet", "window": "keys.png"}
 //! ```
 //!
-//! A frame's events happen first, then its picture is drawn, then it is taken: `screenshot` has the panes as they are shown,
-//! `window` the whole window.
+//! A frame's events happen first, then its picture is drawn, then it is saved: `screenshot` has the panes, `window` the whole
+//! window.
 
 use super::event::ViewerEvent;
 use crate::error::{Error, Result};
@@ -18,18 +18,18 @@ use std::path::Path;
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Line {
-    /// The frame's number, from 0; as the line before it if none is given.
+    /// The frame's number, from 0; by default the same as in the previous line.
     pub frame: Option<u64>,
-    /// What happens.
+    /// The event.
     pub event: Option<ViewerEvent>,
-    /// A file for what the panes show.
+    /// A file for the picture of the panes.
     pub screenshot: Option<String>,
-    /// A file for what the window shows.
+    /// A file for the picture of the window.
     pub window: Option<String>,
-    /// Frames go on without waiting for what the event starts; how long each takes is in the record.
+    /// Frames run without waiting for the work that the event starts; the record has each frame's time.
     #[serde(default)]
     pub free: bool,
-    /// The frame is one of a drag: it shows the newest picture there is as soon as its own is begun.
+    /// The frame is one of a drag: it shows the newest finished picture as soon as its own is begun.
     #[serde(default)]
     pub drag: bool,
 }
@@ -101,7 +101,7 @@ impl Replay {
         self.lines.last().map_or(0, |(frame, _)| *frame)
     }
 
-    /// Whether it says how large the drawing area is; else it is as the window leaves it.
+    /// Whether it gives the size of the drawing area; otherwise the window decides.
     pub fn has_sizes(&self) -> bool {
         self.lines.iter().any(|(_, line)| matches!(line.event, Some(ViewerEvent::Resize(_))))
     }

@@ -18,7 +18,7 @@ use std::sync::mpsc::Sender;
 pub enum Report {
     /// A drawing thread has something to draw with.
     Renderer(usize, Box<ContextInfo>),
-    /// It has nothing to draw with.
+    /// A thread has no renderer.
     NoRenderer(usize, Error),
     /// A job is done; where a new shader was refused, its log.
     Drawn {
@@ -26,35 +26,35 @@ pub enum Report {
         thread: usize,
         /// The pictures.
         drawings: Vec<Drawing>,
-        /// What the driver said.
+        /// The driver's message.
         shader_log: Option<String>,
     },
     /// A drawing thread's job cannot be done.
     NotDrawn(usize, Error),
-    /// What a job costs, and the scene it draws.
+    /// The cost of a job, and the scene it draws.
     Cost {
         /// The scene.
         scene: Box<Scene>,
         /// A cost for each side.
         costs: Vec<Cost>,
     },
-    /// What a job costs cannot be found out.
+    /// The measurement of a job's cost failed.
     NotPriced(Error),
     /// A drawing thread has new shaders.
     ShadersTaken,
     /// It has refused them and uses those before.
     ShadersRefused(Error),
-    /// How far loading is: the number of the load, and what is being done.
+    /// Progress of loading: the number of the load, and its stage.
     Stage(u64, Stage),
-    /// Models are loaded: the number of the load, and what there is.
+    /// Models are loaded: the number of the load, and the models.
     Loaded(u64, Box<LoadedModels>),
     /// Models cannot be loaded.
     NotLoaded(u64, Error),
     /// The error of a side's lines against the exact ones.
     Measured(u64, Vec<(Side, LineScore)>),
-    /// The exact lines of a view, or why there are none.
+    /// The exact lines of a view, or the reason why they failed.
     Lines(Box<Result<Found>>),
-    /// Models were chosen, or none.
+    /// Chosen models, possibly none.
     #[cfg(feature = "file-dialogue")]
     Chosen(Vec<String>),
     /// A model's file has changed.
@@ -72,24 +72,24 @@ pub struct LoadedModels {
     pub models: Vec<String>,
     /// How they were read.
     pub options: LoadOptions,
-    /// Their files and what was read beside them.
+    /// Their files and the files read with them.
     pub files: Vec<PathBuf>,
     /// They at their places.
     pub scene: Arc<Scene>,
-    /// What was noticed, to be said once.
+    /// Remarks to show once.
     pub remarks: Vec<String>,
 }
 
 /// How far reading is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
-    /// What is being done.
+    /// The current stage.
     pub text: String,
     /// Steps done, share of all; steps take different times.
     pub share: f32,
 }
 
-/// Tells the viewer news and wakes it.
+/// Sends the viewer reports and wakes it.
 #[derive(Clone)]
 pub struct Reporter {
     sender: Sender<Report>,
@@ -108,7 +108,7 @@ impl Reporter {
         Self { sender, wake: Arc::new(wake) }
     }
 
-    /// Says it; that nobody listens any more is no error.
+    /// Sends the report; a closed receiver is no error.
     pub fn say(&self, report: Report) {
         if self.sender.send(report).is_ok() {
             (self.wake)();

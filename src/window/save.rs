@@ -1,4 +1,4 @@
-//! Files from the window: what is shown, its exact lines, a turn, a preset; and the command line that makes the same.
+//! Saves files from the window: the picture, its exact lines, a turn, a preset; and the command line that makes the same.
 
 use super::controls;
 use super::draw::Drawer;
@@ -26,7 +26,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Pictures of a turn, and how long each is shown, milliseconds: what `--turntable 36` makes of it.
+/// Pictures of a turn, and the time of each, milliseconds, as in `--turntable 36`.
 const TURN: (u32, u16) = (36, 69);
 
 /// How a model is read and where files go.
@@ -38,11 +38,11 @@ pub(super) struct Surroundings {
     pub backend: Backend,
     /// Where files are written.
     pub folder: PathBuf,
-    /// The models' files and what was read beside them.
+    /// The models' files and the files read with them.
     pub files: Vec<PathBuf>,
     /// Who draws.
     pub context: Option<Box<ContextInfo>>,
-    /// Names that were given to files, some of which are still being written.
+    /// Names already given to files, some of which are still being written.
     pub names: Arc<Mutex<HashSet<PathBuf>>>,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct Surroundings {
 ///
 /// # Errors
 ///
-/// [`crate::Error::Setting`] where a setting has no option, and what the camera is refused for.
+/// [`crate::Error::Setting`] where a setting has no option, and the camera's errors.
 pub(super) fn command(
     state: &ViewerState,
     job: &Job,
@@ -62,12 +62,12 @@ pub(super) fn command(
     Ok(recipe(state, job, surroundings, save, side)?.command_line(output))
 }
 
-/// The recipe of what is shown of a side, without the files' contents.
+/// The recipe of a side's picture, without the files' contents.
 fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save, side: Side) -> Result<Recipe> {
     let mut options = SceneSettings { camera: job.camera()?, ..job.settings.clone() }.to_options()?;
     options.extend(surroundings.load.to_options()?);
     match save {
-        // The file's name says that it has lines.
+        // The file's name requests lines.
         Save::Lines => {
             options.extend(state.style_of_lines().to_options()?.into_iter().filter(|(name, _)| name != "style"))
         }
@@ -105,7 +105,7 @@ fn whole_recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, sav
     Ok(Recipe { files, ..recipe(state, job, surroundings, save, side)? })
 }
 
-/// The options of what is shown of a side.
+/// The options of a side's picture.
 fn style_options(state: &ViewerState, job: &Job, side: Side) -> Result<Options> {
     let drawn = job.drawings.iter().find(|(drawn, ..)| *drawn == side);
     let (style, show) = drawn.map_or((state.style(side), Show::Final), |(_, style, show)| (style, *show));
@@ -114,12 +114,12 @@ fn style_options(state: &ViewerState, job: &Job, side: Side) -> Result<Options> 
     Ok(options)
 }
 
-/// Writes files of what is shown and says where, with the command that makes the same: of turns and presets one for each style
-/// that is shown.
+/// Writes files of the shown pictures and reports where, with the command that makes the same; turns and presets give one file
+/// for each shown style.
 ///
 /// # Errors
 ///
-/// [`crate::Error::File`] and what drawing is refused for.
+/// [`crate::Error::File`] and the errors of drawing.
 pub(super) fn save(
     state: &ViewerState,
     job: &Job,
@@ -137,7 +137,7 @@ pub(super) fn save(
     Ok(said?.join("; "))
 }
 
-/// Writes one file and says where.
+/// Writes one file and reports where.
 fn save_of(
     state: &ViewerState,
     job: &Job,
@@ -175,7 +175,7 @@ fn save_of(
             let style = state.line_style();
             let lines = VisibleLines::of(&job.scene()?, &style.wanted())?;
             let recipe = whole_recipe(state, job, surroundings, save, side)?;
-            // Byte for byte what the command writes.
+            // Byte for byte the command's file.
             let settings = DrawingSettings {
                 title: state.model_names().join(", "),
                 command: recipe.command_line("drawing.svg"),
@@ -192,7 +192,7 @@ fn save_of(
             }
         }
         Save::Preset => {
-            // Not from where: a preset is for any model.
+            // Without the view: a preset is for any model.
             let mut options = controls::of_scene_in(&job.settings.to_options()?);
             options.remove("view");
             options.extend(style_options(state, job, side)?);
@@ -207,7 +207,7 @@ fn save_of(
     })
 }
 
-/// A turn around what a side shows, in a renderer of its own.
+/// A turn around a side's scene, in a separate renderer.
 fn turn(state: &ViewerState, job: &Job, side: Side, backend: Backend, name: &str) -> Result<()> {
     let target = AnimationTarget::check(name, false)?;
     let mut drawer = Drawer::new(backend)?;
@@ -243,7 +243,7 @@ fn stem(state: &ViewerState, save: Save, side: Side) -> String {
     format!("{model}-{}", styles.join("-"))
 }
 
-/// A name that no file has yet, nor one that is being written, so that nothing is written over.
+/// A new name that neither an existing file nor one being written has.
 fn free_name(surroundings: &Surroundings, stem: &str, save: Save) -> PathBuf {
     let extension = match save {
         Save::Picture => "png",

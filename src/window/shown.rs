@@ -20,10 +20,10 @@ const TEXT_GREY: u8 = 215;
 /// A window less wide, in points, begins without the panel, and folds it when it becomes so.
 pub(super) const NARROW: u32 = 800;
 
-/// How long a pointer that drags rests before what it drags is drawn in full.
+/// How long a dragging pointer rests before the full picture is drawn.
 const STILL: Duration = Duration::from_millis(200);
 
-/// What there is once there is a window.
+/// The parts that exist once the window exists.
 pub(super) struct Shown {
     pub viewer: Viewer,
     textures: Textures,
@@ -34,11 +34,11 @@ pub(super) struct Shown {
     title: String,
     /// Whether the drawing area is as large as the window leaves it.
     pub follows_window: bool,
-    /// Whether it is to be closed.
+    /// Whether the window should close.
     pub is_over: bool,
-    /// Whether there is no room for the panel beside the panes.
+    /// Whether the window is too narrow for the panel beside the panes.
     is_narrow: bool,
-    /// Whether a recording says what happens, and when the view moves.
+    /// Whether a recording controls the events, including those that move the view.
     is_played: bool,
 }
 
@@ -90,8 +90,8 @@ impl Shown {
         Size { width: size.width, height: size.height }
     }
 
-    /// Paints a frame and lets happen what was done in it. What the window then shows is returned if asked for, and how long
-    /// nothing need be painted.
+    /// Paints a frame and applies its events. Returns the window's picture if requested, and how long the window can wait before
+    /// the next paint.
     pub(super) fn frame(&mut self, is_wanted: bool) -> Result<(Option<Picture>, Duration)> {
         let input = self.egui.take_egui_input(&self.window);
         let context = self.egui.egui_ctx().clone();
@@ -118,7 +118,7 @@ impl Shown {
             pixels_per_point: output.pixels_per_point,
         };
         let size = self.size();
-        // A window without pixels shows nothing; its textures are kept up to date all the same.
+        // A window without pixels shows nothing, but its textures stay up to date.
         let picture = self.gl.paint(size, &shapes, is_wanted)?;
         let delay = output.viewport_output.get(&ViewportId::ROOT).map_or(Duration::MAX, |output| output.repaint_delay);
         let delay = moving.map_or(delay, |left| left.min(delay));
@@ -162,13 +162,13 @@ impl Shown {
 pub(super) fn dress(context: &egui::Context) {
     context.set_theme(egui::Theme::Dark);
     context.all_styles_mut(|style| {
-        // What fades in has to be painted again and again.
+        // A fading element would need repeated painting.
         style.animation_time = 0.0;
         style.visuals.override_text_color = Some(egui::Color32::from_gray(TEXT_GREY));
     });
 }
 
-/// DejaVu for everything: egui's own fonts have licences of their own.
+/// DejaVu for everything: egui's own fonts have separate licences.
 pub(super) fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
     for (name, data, family) in [

@@ -1,4 +1,4 @@
-//! The viewer as a value: what is shown, from where, in which styles; and how events change it. No window here, no GL.
+//! The viewer as a value: the scene, the view, the styles, and how events change them. It uses neither a window nor GL.
 
 use super::buffer::{Buffer, buffers};
 use super::controls;
@@ -13,30 +13,30 @@ use crate::request::{Layer, Request};
 use crate::scene::{SceneSettings, Size};
 use crate::styles::{LineStyle, Style, StyleName};
 
-/// All that decides what the viewer shows.
+/// The complete state of the viewer's pictures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ViewerState {
     /// The models, as the user named them.
     pub models: Vec<String>,
     /// How they are read.
     pub(super) load: LoadOptions,
-    /// From where they are seen.
+    /// The view of them.
     pub orbit: Orbit,
-    /// The styles of both sides by their names, with the settings each had last.
+    /// The styles of both sides by their names, each with its last settings.
     pub(super) styles: [Vec<Style>; 2],
-    /// Which of them is shown.
+    /// The shown style of each side.
     pub(super) chosen: [StyleName; 2],
     /// Whether exact lines lie over it.
     pub(super) has_lines_over: [bool; 2],
     /// The side that number keys and the panel are for.
     pub active: Side,
-    /// What is seen of the two styles.
+    /// How the two styles are laid out.
     pub layout: Layout,
     /// Where the divider is, share of the width.
     pub divider: f64,
-    /// What is shown of them.
+    /// The shown buffer of the styles.
     pub buffer: Buffer,
-    /// The scene of both sides; its size is that of a pane, and from where it is seen says the orbit.
+    /// The scene of both sides; a pane gives its size, and the orbit its view.
     pub(super) scene: SceneSettings,
     /// Whether pictures may be coarser while the view moves.
     pub is_coarse_while_moving: bool,
@@ -44,7 +44,7 @@ pub struct ViewerState {
     pub area: Size,
     /// Whether the panel is shown.
     pub has_panel: bool,
-    /// Whether a line says how to begin, until something was done.
+    /// Whether the starting hint is shown, until the first event.
     pub has_hint: bool,
     /// Whether the key sheet is.
     pub has_key_sheet: bool,
@@ -52,7 +52,7 @@ pub struct ViewerState {
     pub has_price: bool,
     /// Whether the whole screen is covered.
     pub is_full_screen: bool,
-    /// A sentence about the last event, where there is something to say.
+    /// A sentence about the last event, if any.
     pub message: Option<String>,
 }
 
@@ -62,7 +62,7 @@ const DIVIDER_MARGIN: f64 = 0.02;
 /// Pixels between the panes of a difference.
 const GAP_PX: u32 = 2;
 
-/// Largest side of a drawing area asked for by an event.
+/// Largest side of a drawing area that an event may set.
 const LARGEST_SIDE: u32 = 16_384;
 
 impl Default for ViewerState {
@@ -92,10 +92,10 @@ impl Default for ViewerState {
     }
 }
 
-/// A pane: where in the drawing area, pixels from the left, and what it shows.
+/// A pane: its place in the drawing area, pixels from the left, and its content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pane {
-    /// What is in it.
+    /// The pane's content.
     pub content: Content,
     /// Its left edge.
     pub left: u32,
@@ -103,7 +103,7 @@ pub struct Pane {
     pub size: Size,
 }
 
-/// What a pane shows.
+/// The content of a pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Content {
     /// A side's picture.
@@ -125,7 +125,7 @@ impl ViewerState {
         &self.styles[side as usize][self.chosen[side as usize] as usize]
     }
 
-    /// What of the exact lines a side shows.
+    /// How a side shows exact lines.
     pub fn lines_shown(&self, side: Side) -> LinesShown {
         match (self.style(side).lines(), self.has_lines_over[side as usize]) {
             (Some(_), _) => LinesShown::Alone,
@@ -139,13 +139,13 @@ impl ViewerState {
         &self.styles[0][StyleName::Lines as usize]
     }
 
-    /// How exact lines look: those that a side shows by themselves, or else those that lie over pictures.
+    /// The style of exact lines: of a side that shows them alone, or else of those over pictures.
     pub fn line_style(&self) -> LineStyle {
         let alone = self.sides().iter().find_map(|side| self.style(*side).lines());
         alone.or_else(|| self.style_of_lines().lines()).unwrap_or_default()
     }
 
-    /// What a side shows, by name: a style, lines, or a style and lines.
+    /// The name of a side's picture: a style, lines, or a style and lines.
     pub fn drawn_name(&self, side: Side) -> String {
         let name = self.style(side).name();
         match self.lines_shown(side) {
@@ -229,13 +229,13 @@ impl ViewerState {
         self.panes().first().map_or(self.area, |pane| pane.size)
     }
 
-    /// What the scene is drawn with as long as it is neither moved nor zoomed.
+    /// The scene settings without the user's moves and zoom.
     pub fn scene_settings(&self) -> SceneSettings {
         let camera = self.orbit.fitted(&self.scene.camera);
         SceneSettings { size: self.picture_size(), camera, ..self.scene.clone() }
     }
 
-    /// Shows the scene so; of the camera the view, the projection and what is in the middle.
+    /// Applies scene settings; of the camera the view, the projection and the target.
     pub fn put_scene(&mut self, scene: SceneSettings) {
         let CameraSettings { view, parallel, fov_y_degrees, .. } = scene.camera;
         if view != self.orbit.view {
@@ -273,10 +273,10 @@ impl ViewerState {
         format!("{models} - {} - tinta", styles.join(" | "))
     }
 
-    /// Lets an event happen; what comes of it outside of this value is returned.
+    /// Applies an event; returns its effect outside this value.
     pub fn update(&mut self, event: ViewerEvent) -> Option<Effect> {
         self.message = None;
-        // A window is resized by itself, too.
+        // The system resizes a window, too.
         self.has_hint &= matches!(event, ViewerEvent::Resize(_));
         let result = self.changed(event);
         result.unwrap_or_else(|problem| {
@@ -365,7 +365,7 @@ impl ViewerState {
     fn choose_style(&mut self, side: Side, name: StyleName) {
         self.chosen[side as usize] = name;
         self.has_lines_over[side as usize] &= !name.draws_lines();
-        // The buffer stays where the new style has it, so that two styles' maps can be compared by a key.
+        // The buffer stays if the new style has it, to let a key compare two styles' maps.
         if !self.sides().iter().any(|side| buffers(self.style(*side).style_name()).contains(&self.buffer)) {
             self.buffer = Buffer::default();
         }
@@ -384,13 +384,13 @@ impl ViewerState {
         known.get((index + 1) % known.len().max(1)).copied().unwrap_or_default()
     }
 
-    /// Puts a look on the active side, and what it says of the scene on both.
+    /// Puts a look on the active side, and its scene settings on both.
     fn choose_look(&mut self, look: Look) -> Result<(), String> {
         let (style, scene) = controls::of_look(look, self.style(self.active), &self.scene_settings())
             .map_err(|error| error.to_string())?;
         self.put_drawn(self.active, style);
         self.put_scene(scene);
-        // A side that nobody has seen or changed begins with what fits the look.
+        // A side still unseen and unchanged starts with settings that fit the look.
         let other = if self.active == Side::Left { Side::Right } else { Side::Left };
         if self.layout == Layout::Single && controls::look_of_sibling(self.style(other)).is_some() {
             self.put_style(other, controls::sibling(look, self.chosen[other as usize]));
@@ -418,7 +418,7 @@ impl ViewerState {
         LOOKS.into_iter().find(has)
     }
 
-    /// Puts a preset's style and settings on the active side, and what it says of the scene on both.
+    /// Puts a preset's style and settings on the active side, and its scene settings on both.
     fn open_preset(&mut self, name: &str) -> Result<(), String> {
         let said = |error: crate::Error| error.to_string();
         let preset = Preset::read(name).map_err(said)?;

@@ -130,7 +130,7 @@ fn a_preset_draws_in_the_viewer_what_it_draws_elsewhere() {
         state.update(ViewerEvent::OpenPreset(path.clone()));
         (state.style(Side::Left).clone(), state.message.unwrap_or_default())
     };
-    // A recipe is no control, the view no setting of a style, and both may stand in a preset.
+    // A recipe is no control, and the view no setting of a style; both may be in a preset.
     let (style, said) = open("style = \"charcoal\"\ncharcoal = \"darker\"\nview = \"front\"\ntones = 2\n");
     assert_eq!((style, said.as_str()), (Style::Charcoal(Charcoal::recipe(CharcoalRecipe::Darker)), ""));
     for (text, words) in [
@@ -164,7 +164,7 @@ fn a_look_is_a_style_and_a_scene_and_the_next_takes_back_what_it_has_set() {
     let published = after([look("print"), look("published")]);
     assert_eq!(*published.style(Side::Left), Style::named(StyleName::Ink));
     assert_eq!(published.scene_settings(), SceneSettings::default());
-    // The user's own background is no look's.
+    // The user's own background does not belong to a look.
     let tan = ViewerEvent::Background("tan".to_owned());
     let kept = after([tan, look("charcoal"), look("print")]).scene_settings();
     assert_ne!(kept.background, SceneSettings::default().background);

@@ -22,10 +22,10 @@ const PANEL_SHARE: f32 = 0.36;
 /// Height of the line below the panes, points.
 pub(super) const STATUS_HEIGHT: f32 = 24.0;
 
-/// Height of what stands around the list of keys, points.
+/// Height of the parts around the list of keys, points.
 const KEY_SHEET_MARGIN: f32 = 136.0;
 
-/// What of a window of this width panel and status line take, points.
+/// Size that the panel and the status line take from a window of this width, points.
 pub(super) fn taken(state: &ViewerState, window_width: f32) -> [f32; 2] {
     [if state.has_panel { panel_width(window_width) } else { 0.0 }, STATUS_HEIGHT]
 }
@@ -39,7 +39,7 @@ fn panel_width(window_width: f32) -> f32 {
 /// A window this wide, points, has the list of keys in two columns.
 const WIDE: f32 = 1100.0;
 
-/// Letters of what a key does that stand on one line.
+/// Letters on one line of a key's description.
 const LINE_LETTERS: usize = 44;
 
 /// How far from the divider a pointer takes it, points.
@@ -48,10 +48,10 @@ const DIVIDER_REACH: f32 = 6.0;
 /// Points of scrolling that bring the model nearer by e.
 const SCROLL_POINTS: f64 = 300.0;
 
-/// Between updates of what loading is doing.
+/// Time between updates of the loading stage.
 const LOADING_INTERVAL: Duration = Duration::from_millis(100);
 
-/// The pictures as textures, made anew when there are new ones.
+/// The pictures as textures, replaced when new ones arrive.
 #[derive(Default)]
 pub(super) struct Textures {
     made_of: Option<(u64, bool)>,
@@ -80,7 +80,7 @@ fn put(context: &Context, texture: &mut Option<TextureHandle>, picture: Option<&
         *texture = None;
         return;
     };
-    // A map's depth lies in its alpha, which is not meant to be seen through.
+    // A map's depth lies in its alpha, which must not show as transparency.
     let image = egui::ColorImage::from_rgba_premultiplied(
         [picture.size.width as usize, picture.size.height as usize],
         &picture.clone().opaque().pixels,
@@ -91,7 +91,7 @@ fn put(context: &Context, texture: &mut Option<TextureHandle>, picture: Option<&
     }
 }
 
-/// Shows a frame and returns what was done in it. `follows_window`: the drawing area is as large as the window leaves it.
+/// Shows a frame and returns its events. `follows_window`: the drawing area is as large as the window allows.
 pub(super) fn frame(
     context: &Context,
     viewer: &Viewer,
@@ -101,9 +101,9 @@ pub(super) fn frame(
     let mut events = Vec::new();
     textures.update(context, viewer);
     let state = &viewer.state;
-    // While a text is typed its letters are no keys of ours.
+    // While the user types a text, its letters are not keys.
     let is_typing = context.memory(|memory| memory.focused()).is_some();
-    // Esc closes a list that is open, and nothing besides.
+    // Esc closes an open list, and only that.
     if !is_typing && !egui::Popup::is_any_open(context) {
         let pressed = |event: &egui::Event| match event {
             egui::Event::Key { key, pressed: true, modifiers, .. } => keys::event(*key, *modifiers, state),
@@ -171,7 +171,7 @@ fn status(ui: &mut Ui, viewer: &Viewer) {
     });
 }
 
-/// The pictures where they belong, and what the mouse does to them.
+/// The pictures in their places, and the mouse's actions on them.
 fn panes(ui: &mut Ui, viewer: &Viewer, textures: &Textures, follows_window: bool, events: &mut Vec<ViewerEvent>) {
     let area = ui.max_rect();
     let scale = ui.ctx().pixels_per_point();
@@ -180,7 +180,7 @@ fn panes(ui: &mut Ui, viewer: &Viewer, textures: &Textures, follows_window: bool
     if follows_window && pixels != [state.area.width, state.area.height] {
         events.push(ViewerEvent::Resize(pixels));
     }
-    // On whole pixels, so that each of the picture's is one of the screen's.
+    // Aligned to whole pixels: each pixel of the picture is one of the screen's.
     let corner = Pos2::new((area.left() * scale).round() / scale, (area.top() * scale).round() / scale);
     let response = ui.interact(area, ui.id().with("panes"), Sense::click_and_drag());
     for pane in state.panes() {
@@ -229,7 +229,7 @@ fn paint(ui: &Ui, textures: &Textures, pane: Pane, corner: Pos2, scale: f32) {
     }
 }
 
-/// The line between two styles, to be dragged.
+/// The draggable line between two styles.
 fn divider(ui: &Ui, top: Pos2, area: Rect, events: &mut Vec<ViewerEvent>) {
     let reach = Rect::from_x_y_ranges(top.x - DIVIDER_REACH..=top.x + DIVIDER_REACH, area.y_range());
     let response =
@@ -245,7 +245,7 @@ fn divider(ui: &Ui, top: Pos2, area: Rect, events: &mut Vec<ViewerEvent>) {
     }
 }
 
-/// A text of the sheet, on two lines where it is long.
+/// A text of the sheet, on two lines if it is long.
 fn broken(text: &str) -> String {
     let end = text.char_indices().nth(LINE_LETTERS).and_then(|(end, _)| text[..end].rfind(' '));
     end.map_or_else(|| text.to_owned(), |end| format!("{}\n{}", &text[..end], &text[end + 1..]))
@@ -261,7 +261,7 @@ fn hint(context: &Context) {
     });
 }
 
-/// What lies over the panes: keys, costs, what is wrong, what is being read.
+/// The sheets over the panes: keys, costs, problems, progress of reading.
 fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     let state = &viewer.state;
     let window = |title: &str| egui::Window::new(title.to_owned()).collapsible(false).resizable(false).movable(false);
@@ -303,7 +303,7 @@ fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     }
     if state.has_key_sheet {
         let shown = window("keys").anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
-            // In a small window the rest is scrolled to.
+            // In a small window the rest scrolls.
             let Vec2 { x: width, y: height } = context.content_rect().size();
             egui::ScrollArea::vertical().max_height(height - KEY_SHEET_MARGIN).show(ui, |ui| {
                 let rows: Vec<_> = crate::keys::sheet(false).collect();

@@ -1,4 +1,4 @@
-//! Tests of frames without a window: pointer, wheel, keys and dropped files, as egui is told of them.
+//! Tests of frames without a window: pointer, wheel, keys and dropped files, as egui receives them.
 
 use super::*;
 use crate::gl::Backend;
@@ -28,7 +28,7 @@ impl Frames {
         frames
     }
 
-    /// Shows a frame in which this happens, lets happen what it makes, and waits for the picture.
+    /// Shows a frame with these input events, applies the resulting events, and waits for the picture.
     fn show(&mut self, events: Vec<Event>) -> Vec<ViewerEvent> {
         self.show_with(RawInput { events, ..RawInput::default() })
     }

@@ -1,8 +1,8 @@
 //! The viewer without its window: the state, its worker threads, and their latest results.
 //!
-//! The window asks [`Viewer::take_reports`] for news when it is woken, hands over events, and paints what is known. Each
-//! drawing thread draws one picture; when it is there and no longer what is wanted, the next one is asked for. So the newest
-//! wish is always at most a picture away, and nothing is drawn while nothing changes.
+//! The window calls [`Viewer::take_reports`] when it wakes, hands over events, and paints the result. Each drawing thread draws
+//! one picture. When the picture is finished and outdated, the thread gets the next job. The newest request is always at most one
+//! picture away, and no thread draws while the state stays the same.
 
 use super::compose::composed;
 use super::cost::Costs;
@@ -33,13 +33,13 @@ use std::thread::JoinHandle;
 /// How the viewer is started.
 #[derive(Debug, Clone)]
 pub struct ViewerOptions {
-    /// What it shows first; its models are read at once.
+    /// The first state; its models are read at once.
     pub state: ViewerState,
     /// How models are read.
     pub load: LoadOptions,
-    /// OpenGL from, for the pictures; the window has its own.
+    /// The OpenGL backend for the pictures; the window has another.
     pub backend: Backend,
-    /// A folder laid out like `glsl/` whose shaders are used, and used anew when they change.
+    /// A folder laid out like `glsl/` with the shaders to use, reloaded when they change.
     pub shaders: Option<PathBuf>,
     /// Where files are written.
     pub folder: PathBuf,
@@ -49,17 +49,17 @@ pub struct ViewerOptions {
 
 /// The viewer.
 pub struct Viewer {
-    /// What is shown.
+    /// The shown state.
     pub state: ViewerState,
-    /// What the shown styles cost.
+    /// The cost of the shown styles.
     pub costs: Costs,
     /// The exact lines of the view, where a side shows them.
     pub lines: ExactLines,
-    /// What loading is doing, while it does.
+    /// The current stage of loading.
     pub stage: Option<Stage>,
     /// A shader that was refused, with the driver's log.
     pub shader_log: Option<String>,
-    /// What is wrong with the models or the picture; stays until it is not.
+    /// The current problem with the models or the picture.
     pub problem: Option<String>,
     /// Whether the user is moving the view just now.
     pub is_moving: bool,
@@ -69,10 +69,10 @@ pub struct Viewer {
     drawings: Vec<Drawing>,
     /// Counts drawings.
     drawings_number: u64,
-    /// The pictures of sides that show exact lines, and what they were made of.
+    /// The pictures of sides that show exact lines, and their inputs.
     inked: [Option<Picture>; 2],
     inked_of: Option<InkedOf>,
-    /// Counts what is shown, so that a window knows when to show another.
+    /// Counts changes of the picture; a window compares it to know when to repaint.
     pub picture_number: u64,
     /// The job that the drawings are of.
     drawn: Option<Job>,
@@ -87,11 +87,11 @@ pub struct Viewer {
     loader: Loader,
     watched: Sender<Vec<PathBuf>>,
     loads_going_on: u64,
-    /// The drawing threads' last words, where they have gone.
+    /// The drawing threads' final error, after they ended.
     gone: Option<Error>,
 }
 
-/// What pictures with exact lines are made of: the numbers of drawings and lines, and for each side what it shows of the lines.
+/// The inputs of pictures with exact lines: the numbers of drawings and lines, and each side's [`LinesShown`].
 type InkedOf = (u64, u64, [LinesShown; 2]);
 
 impl std::fmt::Debug for Viewer {
@@ -105,7 +105,7 @@ impl Viewer {
     ///
     /// # Errors
     ///
-    /// [`Error::Gl`] when the system has no threads to give.
+    /// [`Error::Gl`] when the system cannot start a thread.
     pub fn start(options: ViewerOptions, wake: impl Fn() + Send + Sync + 'static) -> Result<Self> {
         let no_thread = |error: std::io::Error| Error::gl("starting the window's threads", error.to_string());
         let (sender, reports) = channel();
@@ -158,7 +158,7 @@ impl Viewer {
         Ok(viewer)
     }
 
-    /// Lets an event happen. What only a window can do is returned.
+    /// Applies an event and returns its effect outside the viewer.
     pub fn event(&mut self, event: ViewerEvent) -> Option<Effect> {
         let effect = self.state.update(event);
         match effect {
@@ -172,11 +172,11 @@ impl Viewer {
         None
     }
 
-    /// Takes what the threads have told; whether there was anything.
+    /// Takes the threads' reports; returns whether it received any.
     ///
     /// # Errors
     ///
-    /// What keeps the drawing thread from drawing anything at all.
+    /// The error that keeps the drawing thread from drawing at all.
     pub fn take_reports(&mut self) -> Result<bool> {
         let mut is_news = false;
         while let Ok(report) = self.reports.try_recv() {
@@ -213,7 +213,7 @@ impl Viewer {
         Ok(())
     }
 
-    /// Asks for the picture of the state, if it is not there, and for its cost when it is. To be called after events.
+    /// Requests the picture of the state if it is missing, and otherwise its cost. Call it after events.
     pub fn ask(&mut self) {
         let Some(job) = self.job() else { return };
         let is_picture = self.shows(LinesShown::Alone);
@@ -248,7 +248,7 @@ impl Viewer {
         self.check(sent);
     }
 
-    /// Whether the picture of the state is there or being drawn, and lines that are a picture by themselves likewise.
+    /// Whether the state's picture is finished or being drawn, and likewise any lines shown alone.
     pub fn is_asked(&self) -> bool {
         let Some(job) = self.job() else { return true };
         let newest = self.render_threads.newest().or(self.drawn.as_ref());
@@ -261,13 +261,13 @@ impl Viewer {
         self.render_threads.newest().is_some()
     }
 
-    /// Whether nothing is being read, drawn or measured.
+    /// Whether the viewer is idle: no reading, drawing or measuring.
     pub fn is_at_rest(&self) -> bool {
         let is_working = self.is_drawing() || self.is_pricing || self.costs.is_measuring() || self.lines.is_finding();
         self.loads_going_on == 0 && !is_working
     }
 
-    /// A side's picture, with the exact lines where it shows them.
+    /// A side's picture, with the exact lines if it shows them.
     pub fn picture(&self, side: Side) -> Option<&Picture> {
         self.inked[side as usize].as_ref().or_else(|| self.drawing(side).map(|drawing| &drawing.picture))
     }
@@ -277,12 +277,12 @@ impl Viewer {
         self.drawings.iter().find(|drawing| drawing.side == side)
     }
 
-    /// The drawing area as it is shown, once there is something to show.
+    /// The drawing area as shown, once a picture exists.
     pub fn shown(&self) -> Option<Picture> {
         composed(&self.state, |side| self.picture(side).cloned())
     }
 
-    /// What the drawing context says about itself.
+    /// The drawing context's own description.
     pub fn context(&self) -> Option<&ContextInfo> {
         self.surroundings.context.as_deref()
     }
@@ -292,7 +292,7 @@ impl Viewer {
         self.scene.as_ref().map(|scene| scene.triangle_count())
     }
 
-    /// What is to be drawn for the state.
+    /// The drawing job of the state.
     pub fn job(&self) -> Option<Job> {
         let drawing = |side: &Side| {
             let (style, show) = self.state.buffer.drawn(self.state.style(*side));
@@ -307,7 +307,7 @@ impl Viewer {
         })
     }
 
-    /// The exact lines that are wanted, where a side that is seen shows them.
+    /// The exact lines to find, if a visible side shows them.
     fn line_job(&self, job: &Job) -> Option<LineJob> {
         let is_wanted = self.shows(LinesShown::Over) || self.shows(LinesShown::Alone);
         let view = Job { drawings: Vec::new(), is_coarse: false, ..job.clone() };
@@ -319,7 +319,7 @@ impl Viewer {
         self.state.sides().iter().any(|side| self.state.lines_shown(*side) == lines)
     }
 
-    /// Lays the lines that were found over the pictures, where they are of the same view.
+    /// Lays the found lines over the pictures of the same view.
     fn ink(&mut self) {
         let lines = [Side::Left, Side::Right].map(|side| match self.state.lines_shown(side) {
             LinesShown::Over if !self.has_ink_over(side) => LinesShown::None,
@@ -346,7 +346,7 @@ impl Viewer {
         is_of_it && self.drawing(side).is_some()
     }
 
-    /// The command lines that draw what is shown of the active side: its style's picture, its exact lines.
+    /// The command lines that draw the active side: its style's picture, its exact lines.
     pub fn commands(&self) -> Vec<std::result::Result<String, String>> {
         let Some(job) = self.job() else { return Vec::new() };
         let command = |save: Save, output: &str| {
@@ -381,11 +381,11 @@ impl Viewer {
     }
 
     fn save(&mut self, kind: Save) {
-        // What is written is never coarse.
+        // Written files are never coarse.
         let job = self.job().map(|job| Job { is_coarse: false, ..job });
         let is_shown = self.drawn.as_ref().is_some_and(|drawn| !drawn.is_coarse);
         let Some(job) = job.filter(|_| is_shown) else {
-            self.state.message = Some("there is nothing to save yet; wait until the picture is there".to_owned());
+            self.state.message = Some("no picture to save yet; wait until one is drawn".to_owned());
             return;
         };
         let (state, shown, surroundings) = (self.state.clone(), self.shown(), self.surroundings.clone());
@@ -425,7 +425,7 @@ impl Viewer {
             }
             Report::NotDrawn(thread, error) => {
                 if let Some(job) = self.done(thread) {
-                    // Not asked for again until something changes; the last picture stays.
+                    // Not requested again until the state changes; the last picture stays.
                     self.drawn = Some(job);
                     self.problem = Some(error.to_string());
                 }
@@ -512,7 +512,7 @@ impl Viewer {
             false => self.costs.view_changed(),
         }
         self.drawn = Some(job);
-        // Of sides that show exact lines by themselves there is nothing new.
+        // Sides that show exact lines alone need no new picture.
         if !drawings.is_empty() || !self.drawings.is_empty() {
             self.drawings_number += 1;
             self.picture_number += 1;
@@ -528,7 +528,7 @@ impl Drop for Viewer {
         self.costs.view_changed();
         self.lines.cancel();
         for thread in self.saving_threads.drain(..) {
-            // One that has panicked has said so.
+            // A panicked thread has printed its message.
             let _ = thread.join();
         }
     }

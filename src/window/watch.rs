@@ -1,8 +1,8 @@
 //! Polls files for changes: the models and a folder of shaders.
 //!
-//! Asked for their time and length twice a second, which costs some microseconds and works on every kind of disk; a
-//! notification by the system would need a crate and miss network disks. A file counts as changed once it has stood still for
-//! one look, so that half of it is not read.
+//! The thread reads each file's time and length twice a second, which costs some microseconds and works on every kind of disk; a
+//! notification by the system would need a crate and miss network disks. A file counts as changed once it stays the same for one
+//! check, to avoid reading half of it.
 
 use super::report::{Report, Reporter};
 use crate::glsl::SOURCES;
@@ -17,17 +17,17 @@ const INTERVAL: Duration = Duration::from_millis(500);
 /// Longest shader read, bytes: some hundred times the longest there is.
 const LONGEST_SHADER: u64 = 1 << 20;
 
-/// What is known of a file without opening it; `None` where there is none.
+/// A file's time and length, read without opening it; `None` for a missing file.
 type Look = Option<(SystemTime, u64)>;
 
-/// Files and what was seen of them.
+/// Files and their last state.
 #[derive(Debug, Default)]
 pub(super) struct Watched {
     files: Vec<(PathBuf, Look, Look)>,
 }
 
 impl Watched {
-    /// Begins to watch files as they are now.
+    /// Begins to watch files in their current state.
     pub(super) fn new(files: impl IntoIterator<Item = PathBuf>) -> Self {
         let seen = |file: PathBuf| {
             let now = look(&file);
@@ -36,7 +36,7 @@ impl Watched {
         Self { files: files.into_iter().map(seen).collect() }
     }
 
-    /// Looks again; whether a file has changed since it was last said to have, and stood still since the last look.
+    /// Checks the files; returns whether one has changed since the last report and stayed the same since the last check.
     pub(super) fn has_changed(&mut self) -> bool {
         let mut has_changed = false;
         for (file, said, last) in &mut self.files {
@@ -67,7 +67,7 @@ pub(super) fn shaders_in(folder: &Path) -> HashMap<String, String> {
     changed.filter(|(_, built_in, text)| text != built_in).map(|(path, _, text)| (path.to_owned(), text)).collect()
 }
 
-/// Starts the thread; what is sent to it is the list of models to watch from then on. It ends with its sender.
+/// Starts the thread; each message is the new list of models to watch. It ends with its sender.
 pub(super) fn start(shaders: Option<PathBuf>, reporter: Reporter) -> std::io::Result<Sender<Vec<PathBuf>>> {
     let (sender, lists) = channel();
     let work = move || work(shaders.as_deref(), &lists, &reporter);

@@ -1,4 +1,4 @@
-//! The widget of a control, by what its setting can be.
+//! The widget of a control, by the kind of its setting.
 
 use super::controls::Control;
 use crate::scene::Color;
@@ -6,7 +6,7 @@ use crate::settings::{Kind, Value};
 use crate::styles::ClassColors;
 use egui::{RichText, Ui};
 
-/// What was done to a control: its new value, or back to the default.
+/// A change to a control: a new value, or back to the default.
 pub(super) enum Change {
     /// To this value.
     Set(String),
@@ -14,7 +14,7 @@ pub(super) enum Change {
     Default,
 }
 
-/// A control: its name, its widget, and the way back to the published value. What was done to it is returned.
+/// A control: its name, its widget, and a reset to the published value. Returns the change.
 pub(super) fn show<T: Clone + 'static>(ui: &mut Ui, control: &Control<T>) -> Option<Change> {
     let (setting, value) = (control.setting, &control.value);
     let mut change = None;
@@ -42,7 +42,7 @@ pub(super) fn show<T: Clone + 'static>(ui: &mut Ui, control: &Control<T>) -> Opt
             change = Some(Change::Set(if is_open { open.to_owned() } else { control.given() }));
         }
     }
-    // Left open there is no number to show.
+    // An open value has no number to show.
     let has_value = setting.open != Some(value) || !matches!(setting.kind, Kind::Numbers { .. });
     if has_value
         && let Kind::Numbers { .. } | Kind::Several(_) | Kind::File | Kind::Text { .. } | Kind::Colors { .. } =
@@ -60,7 +60,7 @@ fn picker(ui: &mut Ui, color: Color) -> Option<Color> {
     has_changed.then(|| Color(bytes.map(|byte| f32::from(byte) / 255.0)))
 }
 
-/// A picker for each name, in two columns; one of which nothing is said shows black.
+/// A picker for each name, in two columns; a name without a value shows black.
 fn pickers(ui: &mut Ui, names: &[&str], value: &str) -> Option<String> {
     let mut colors: ClassColors = value.parse().ok()?;
     let mut has_changed = false;
@@ -119,7 +119,7 @@ fn widget(ui: &mut Ui, kind: &Kind, value: &str) -> Option<String> {
             has_changed.then(|| numbers.iter().map(text).collect::<Vec<_>>().join(","))
         }
         Kind::Choice(names) | Kind::Recipe(names) => choice(ui, names, value),
-        // Left open there is none to show.
+        // An open value has no colour to show.
         Kind::Color => picker(ui, value.parse().ok()?).map(|color| color.to_string()),
         Kind::Colors { names, offered, .. } => {
             let whole = offered_or_typed(ui, offered, value);
@@ -135,7 +135,7 @@ fn widget(ui: &mut Ui, kind: &Kind, value: &str) -> Option<String> {
     }
 }
 
-/// Some of a few names, one at least, each to be switched on and off.
+/// At least one of a few names, each with a switch.
 fn several(ui: &mut Ui, names: &[&str], value: &str) -> Option<String> {
     let mut chosen: Vec<&str> = value.split(',').collect();
     let mut switched = None;
@@ -157,7 +157,7 @@ fn several(ui: &mut Ui, names: &[&str], value: &str) -> Option<String> {
 
 /// A field for a text.
 fn typed(ui: &mut Ui, value: &str) -> Option<String> {
-    // What is being typed is kept until it is finished: half a word is no value.
+    // Unfinished text stays in the field: half a word is no value.
     let id = ui.id().with("typed");
     let mut text: String = ui.data_mut(|data| data.get_temp(id)).unwrap_or_else(|| value.to_owned());
     let field = ui.add(egui::TextEdit::singleline(&mut text).desired_width(f32::INFINITY));

@@ -1,15 +1,15 @@
-//! Which files of a crate use which, by the crate's texts alone: imports and paths, resolved to the file that defines each name.
+//! The uses among a crate's files, from the texts alone: imports and paths, resolved to the file that defines each name.
 //!
-//! In: a crate's texts. Out: for each file the files it uses, with the names. Re-exports are followed, so that a file which only
-//! declares and re-exports its children uses none of them. Comments, literals and tests do not count. Names of standard or foreign
-//! crates, and those made by macros of other files, have no file here and are left out.
+//! Takes a crate's texts and returns, for each file, the files it uses, with the names. Re-exports are followed: a file that only
+//! declares and re-exports its children uses none of them. Comments, literals and tests do not count. Names of standard or
+//! foreign crates, and those made by macros of other files, have no file here and are left out.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 /// For each file the files that it uses, and the names it takes from each.
 pub type Uses = BTreeMap<String, BTreeMap<String, BTreeSet<String>>>;
 
-/// The uses of a crate whose root is `lib.rs` and whose texts `read` knows by their paths below it; and how many there are.
+/// The uses of a crate with the root `lib.rs`, whose texts `read` returns by their paths below it; and their number.
 pub fn uses(read: &dyn Fn(&str) -> Option<String>) -> (Uses, usize) {
     let mut modules = Modules(Vec::new());
     modules.add("lib.rs", "", None, read);
@@ -26,7 +26,7 @@ pub fn uses(read: &dyn Fn(&str) -> Option<String>) -> (Uses, usize) {
     (uses, count)
 }
 
-/// The circles in which files use one another, each by its files.
+/// The circles of files that use one another, each by its files.
 pub fn circles(uses: &Uses) -> Vec<Vec<String>> {
     let reached = |from: &str| {
         let (mut reached, mut waiting) = (BTreeSet::new(), vec![from.to_owned()]);
@@ -54,7 +54,7 @@ pub fn circles(uses: &Uses) -> Vec<Vec<String>> {
 /// A name that a module takes over from elsewhere.
 struct Import {
     path: Vec<String>,
-    /// What it is called here; `*` for all names of a module.
+    /// The imported name; `*` for all names of a module.
     name: String,
     is_public: bool,
     /// Whether it holds for the whole module, not for one function.
@@ -68,7 +68,7 @@ struct Module {
     children: BTreeMap<String, usize>,
     definitions: BTreeSet<String>,
     imports: Vec<Import>,
-    /// Everything else, as tokens.
+    /// All other text, as tokens.
     code: Vec<String>,
 }
 
@@ -135,7 +135,7 @@ impl Modules {
         used
     }
 
-    /// The module in which a path ends, and the name that it defines; without one where the path is of the module itself.
+    /// The module at the end of a path, and the name that it defines; no name if the path is the module itself.
     fn resolve(
         &self,
         from: usize,
@@ -228,7 +228,7 @@ fn tokens(text: &str) -> Vec<String> {
             }
         }
     }
-    // `pub(in crate::lines)` is no use of it.
+    // `pub(in crate::lines)` does not use that module.
     let mut plain: Vec<String> = Vec::with_capacity(tokens.len());
     let mut rest = tokens.as_slice();
     while let [token, after @ ..] = rest {
@@ -296,7 +296,7 @@ fn parsed(tokens: &[String]) -> (Module, Vec<String>) {
     (module, declared)
 }
 
-/// Whether an attribute, from the bracket on, is that of tests.
+/// Whether an attribute, starting at its bracket, marks tests.
 fn is_of_tests(attribute: &[String]) -> bool {
     let begins = |with: &[&str]| attribute.iter().zip(with).filter(|(a, b)| a == *b).count() == with.len();
     begins(&["cfg", "(", "test"]) || begins(&["cfg", "(", "all", "(", "test"])

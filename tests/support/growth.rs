@@ -1,8 +1,8 @@
-//! Families of scenes of any number of triangles that have made programs for hidden lines hang, for the tests and benchmarks of
-//! how the exact lines' time grows.
+//! Families of scenes of any number of triangles that have made programs for hidden lines hang, for tests and benchmarks of the
+//! growth of the exact lines' time.
 //!
-//! Each is positions and triangles, about as many as asked for, the same on every machine. What grows is the model; the picture
-//! and the view stay, so that a family shows what more of the same costs.
+//! Each is positions and triangles, about as many as requested, the same on every machine. The model grows; the picture and the
+//! view stay, to show the cost of more of the same.
 
 use glam::{DMat3, DVec3};
 use std::f64::consts::TAU;
@@ -17,20 +17,20 @@ pub struct Shape {
 /// A family of scenes.
 #[derive(Clone, Copy)]
 pub struct Family {
-    /// A word for tables and plots.
+    /// A short name for tables and plots.
     pub name: &'static str,
-    /// What it is made of.
+    /// A description of the family.
     pub what: &'static str,
     /// One of about so many triangles.
     pub make: fn(usize) -> Shape,
-    /// From where it is seen.
+    /// The view.
     pub seen: Seen,
 }
 
 /// From where a family is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Seen {
-    /// As by default.
+    /// The default view.
     Aslant,
     /// Along the z axis in parallel projection, where equal parts lie on one another.
     Along,
@@ -127,7 +127,7 @@ impl Shape {
         self.turned_cuboid(low, high, |corner| corner);
     }
 
-    /// One whose corners are moved.
+    /// A cuboid with moved corners.
     fn turned_cuboid(&mut self, low: DVec3, high: DVec3, moved: impl FnMut(DVec3) -> DVec3) {
         let corner = |i: u32| {
             let pick = |bit: u32, low: f64, high: f64| if i >> bit & 1 == 1 { high } else { low };
@@ -209,7 +209,7 @@ fn book(count: usize) -> Shape {
     shape
 }
 
-/// A book that lies, so that each leaf is seen edge-on.
+/// A lying book, with each leaf seen edge-on.
 fn pages(count: usize) -> Shape {
     let lie = |position: DVec3| DVec3::new(position.x, position.z, position.y);
     let Shape { positions, triangles } = book(count);
@@ -392,7 +392,7 @@ fn building(count: usize) -> Shape {
     shape
 }
 
-/// Bolts of round shafts and hexagonal heads and nuts, each through a plate of its own.
+/// Bolts of round shafts and hexagonal heads and nuts, each through a separate plate.
 fn assembly(count: usize) -> Shape {
     const SIDES: u32 = 24;
     // A plate, a shaft, a washer, a head and a nut.

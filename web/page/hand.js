@@ -3,10 +3,10 @@
 import { element } from "./panel.js";
 import { key_action as actionOf } from "./tinta.js";
 
-/** What a notch of the wheel zooms by. */
+/** Zoom factor of a notch of the wheel. */
 const NOTCH = 1.118;
 
-/** Connects a stage with what it changes. */
+/** Connects a stage with the state it changes. */
 export function hand(stage, { state, pane, changed, tables, chooseStyle, shownOf, keys, save }) {
   const pointers = new Map();
   let active = "left";

@@ -21,7 +21,7 @@ const model = Model.builtin(name);
 let pane;
 let show = "final";
 
-/** A picture of the document: live where its column names a buffer, else as it is in the document. */
+/** A picture of the document: live where its column names a buffer, else the document's. */
 function picture(alternative, address, heading) {
   const named = heading?.match(/^`--show (\w+)`/)?.[1];
   if (!named || !pane) return element("img", { src: address, alt: alternative, loading: "lazy" });

@@ -1,4 +1,4 @@
-// Exact lines, in a worker: they take longer than a picture. What is no longer wanted is given up with its worker.
+// Exact lines, in a worker: they take longer than a picture. Ending the worker cancels an outdated search.
 
 let module;
 let worker;
@@ -21,7 +21,7 @@ function started() {
   return worker;
 }
 
-/** Asks the worker for something of a model; the promise is never kept where it is given up. */
+/** Sends the worker a request about a model; the promise stays pending if it is cancelled. */
 export function ask(kind, model, options, ink) {
   number += 1;
   const asked = new Promise((resolve, reject) => waiting.set(number, { resolve, reject }));
@@ -29,7 +29,7 @@ export function ask(kind, model, options, ink) {
   return asked;
 }
 
-/** Gives up what is being worked on. */
+/** Cancels the current work. */
 export function cancel() {
   if (!waiting.size) return;
   waiting.clear();

@@ -1,4 +1,4 @@
-// The page: it reads the state, draws both sides, and changes the state by what a hand does.
+// The page: it reads the state, draws both sides, and changes the state by the user's actions.
 
 import init, { Pane, listing, look as lookOf, refusal, tables as tablesOf } from "./tinta.js";
 import * as lines from "./lines.js";
@@ -10,7 +10,7 @@ import { hand } from "./hand.js";
 
 const at = (id) => document.getElementById(id);
 const NAMES = ["left", "right"];
-/** Milliseconds without a change before exact lines are looked for. */
+/** Milliseconds without a change before the search for exact lines starts. */
 const IDLE = 400;
 /** The most pixels of a picture: beyond, it is drawn smaller and shown larger. */
 const MOST_PIXELS = 4e6;
@@ -76,7 +76,7 @@ function drawSide(name) {
     cost(name, `${side.style}: ${(performance.now() - start).toFixed(1)} ms a picture`);
     return undefined;
   } catch (problem) {
-    // What was drawn before is neither this style nor, soon, this view.
+    // The old picture shows neither this style nor, soon, this view.
     const canvas = at(name);
     canvas.getContext("2d").clearRect(0, 0, canvas.width, canvas.height);
     cost(name, `${side.style}: not drawn`);
@@ -94,7 +94,7 @@ function warn(problem) {
 
 const cost = (name, text) => (at(`${name}-side`).querySelector(".cost").textContent = text);
 
-/** The divider where it belongs, and what is left and right of it. */
+/** Places the divider, and the pictures left and right of it. */
 function place() {
   const share = `${state.divider}%`;
   at("bar").style.left = share;
@@ -103,7 +103,7 @@ function place() {
   at("divider").value = state.divider;
 }
 
-/** The options that say what is seen, wherever it is drawn. */
+/** The options of the scene and its view, for any way of drawing. */
 function seen() {
   const scene = sceneOptions();
   return JSON.stringify({ ...scene, ...(pane ? JSON.parse(pane.camera(JSON.stringify(scene))) : {}) });
@@ -187,7 +187,7 @@ function sideControls(name) {
     changed(() => sideControls(name));
   });
   const settings = element("details", {}, element("summary", { textContent: "Settings" }), published, ...panel(table.settings, side.settings, change));
-  // What was open and what had the focus has them again.
+  // Restores open parts and the focus.
   const openings = (of) => [...of.querySelectorAll("details")].map((details) => [details.querySelector("summary").textContent, details]);
   const before = new Map(openings(at(`${name}-side`)));
   const focused = document.activeElement?.id;
@@ -204,7 +204,7 @@ function sceneControls() {
   at("scene").replaceChildren(element("summary", { textContent: "Scene" }), ...controls);
 }
 
-/** What a look says of the style counts for this side, what it says of the scene for both. */
+/** A look's style settings apply to this side, its scene settings to both. */
 function chooseLook(name, text) {
   const { style, settings, scene } = JSON.parse(lookOf(text));
   Object.assign(state.sides[name], { style, show: "final", settings });
@@ -288,7 +288,7 @@ function save(name, content, type) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-/** Opens WebGL, or says why there is none. */
+/** Opens WebGL, or explains why it failed. */
 function begin() {
   const canvas = document.createElement("canvas");
   canvas.addEventListener("webglcontextlost", (event) => {

@@ -2,7 +2,7 @@
 
 import { element } from "./panel.js";
 
-/** A document's blocks as elements; `picture(alternative, address, heading)` makes what stands for a picture. */
+/** A document's blocks as elements; `picture(alternative, address, heading)` makes the element of a picture. */
 export function blocks(text, picture) {
   const made = [];
   for (const block of text.split(/\n{2,}/)) {

@@ -2,7 +2,7 @@
 
 import { Files, Model } from "./tinta.js";
 
-/** What a model may name, and is none itself. */
+/** Endings of files that a model may name and that are no models. */
 const BESIDE = /\.(mtl|bin|png|jpe?g|bmp|tga|pcx|ppm)$/i;
 
 /** The model among files, with those beside it; undefined where all are of the other kind. */
@@ -13,7 +13,7 @@ export async function ofFiles(files) {
   return model && { ...model, beside: all.filter((file) => file !== model) };
 }
 
-/** Reads a model that is asked for. */
+/** Reads a requested model. */
 export function read({ name, bytes, beside }) {
   if (!bytes) return Model.builtin(name);
   const files = new Files();

@@ -8,8 +8,8 @@ export function element(name, properties = {}, ...children) {
 }
 
 /**
- * Controls for settings, under their headings; `change(name, text)` is called with a text, or null for the default, and returns
- * what is wrong with it, if anything.
+ * Controls for settings, under their headings; `change(name, text)` receives a text, or null for the default, and returns an
+ * error, if any.
  */
 export function panel(table, settings, change) {
   const groups = new Map();

@@ -1,4 +1,4 @@
-// What is shown: a plain value, and the link that holds it.
+// The state of the page: a plain value, and the link that holds it.
 
 /** The state that a page begins with. */
 export const first = () => ({
@@ -24,7 +24,7 @@ export function linkOf(state) {
   return words.toString();
 }
 
-/** The state that a link holds; what it does not say is as at first, and what it says wrongly is left out. */
+/** The state in a link; missing parts have their initial values, and invalid parts are ignored. */
 export function ofLink(link, tables) {
   const state = first();
   for (const [key, value] of new URLSearchParams(link.replace(/^#/, ""))) {

@@ -1,4 +1,4 @@
-// What takes long, beside the page: the exact lines of a model, and the error of a picture's ink.
+// Slow work outside the page: the exact lines of a model, and the error of a picture's ink.
 
 import { read } from "./model.js";
 import init from "./tinta.js";

@@ -7,7 +7,7 @@ pub(crate) fn said(error: tinta::Error) -> JsError {
     JsError::new(&error.to_string())
 }
 
-/// What JSON could not be made of or read from: the page's mistake.
+/// An error of writing or reading JSON: the page's mistake.
 pub(crate) fn unreadable(error: serde_json::Error) -> JsError {
     JsError::new(&format!("the page and the program speak differently: {error}; load the page again"))
 }

@@ -1,7 +1,7 @@
 //! tinta in a browser: the library's styles on a canvas, its exact lines, its tables of settings, for a page of plain JavaScript.
 //!
-//! In: models' bytes, and options by the names that the command line has. Out: pictures, SVG, and what the page shows of them,
-//! as JSON. The page is in `web/page/`; `scripts/web` builds both into `web/dist/`. For anything but a browser it is empty.
+//! Takes models' bytes, and options by the command line's names; returns pictures, SVG and their descriptions as JSON. The page
+//! is in `web/page/`; `scripts/web` builds both into `web/dist/`. For targets other than a browser it is empty.
 
 #[cfg(target_arch = "wasm32")]
 mod errors;

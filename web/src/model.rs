@@ -1,4 +1,4 @@
-//! A model, its scene, and its exact lines: all that needs no canvas, so that a worker can have it too.
+//! A model, its scene, and its exact lines: the parts without a canvas, which a worker can use too.
 
 use crate::errors::{said, unreadable};
 use serde_json::json;
@@ -13,10 +13,10 @@ use tinta_lab::measure::{Ink, Reference};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Distance within which ink lies on a line, pixels: that of `tinta measure`.
+/// Distance within which ink lies on a line, pixels: the default of `tinta measure`.
 const TOLERANCE_PX: f64 = 2.0;
 
-/// A model, and what was said of it when it was read.
+/// A model, with its remarks from reading.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Model {
@@ -26,14 +26,14 @@ pub struct Model {
     files: Vec<FileRecord>,
 }
 
-/// Files that lie beside a model, by their names.
+/// Files beside a model, by their names.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct Files(Vec<(String, Vec<u8>)>);
 
 #[wasm_bindgen]
 impl Files {
-    /// None yet.
+    /// Without files.
     #[wasm_bindgen(constructor)]
     pub fn new() -> Files {
         Self::default()
@@ -51,7 +51,7 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// Where there is none of that name.
+    /// If the name is unknown.
     pub fn builtin(name: &str) -> Result<Model, JsError> {
         let path = format!("builtin:{name}");
         let loaded = load(&path, &LoadOptions::default()).map_err(said)?;
@@ -75,13 +75,13 @@ impl Model {
         Self { name, mesh: Arc::new(loaded.mesh), remarks: loaded.remarks, files }
     }
 
-    /// Its name, size, and what was noticed: JSON.
+    /// Its name, size and remarks, as JSON.
     pub fn about(&self) -> String {
         let Mesh { triangles, .. } = &*self.mesh;
         json!({ "name": self.name, "triangles": triangles.len(), "remarks": self.remarks }).to_string()
     }
 
-    /// The exact lines of a view as the SVG that the command line writes with these options, its recipe in it if it is wanted.
+    /// The exact lines of a view as the SVG that the command line writes with these options, with its recipe if requested.
     ///
     /// # Errors
     ///
@@ -114,12 +114,12 @@ impl Model {
 }
 
 impl Model {
-    /// What is asked for of it by options of the page, which are the command line's: in this style where they name none.
+    /// The request of the page's options, which are the command line's; in this style if they name none.
     pub(crate) fn request(&self, style: StyleName, options: &str) -> Result<Request, JsError> {
         Ok(asked(style, options)?.with_models(vec![self.name.clone()]))
     }
 
-    /// What a picture of it was made of.
+    /// The recipe of a picture of it.
     pub(crate) fn recipe(&self, request: &Request, size: Size, gl: Option<Driver>) -> Recipe {
         Recipe {
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -139,7 +139,7 @@ impl Model {
     }
 }
 
-/// What options of the page ask for, in this style where they name none.
+/// The request of the page's options, in this style if they name none.
 pub(crate) fn asked(style: StyleName, options: &str) -> Result<Request, JsError> {
     let options: Options = serde_json::from_str(options).map_err(unreadable)?;
     Ok(Request::from_layers(&[Layer::Style(style), Layer::Given(options)]).map_err(said)?.0)

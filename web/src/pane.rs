@@ -1,4 +1,4 @@
-//! What the page draws with: a canvas's renderer, a scene, and from where it is seen.
+//! The page's drawing parts: a canvas's renderer, a scene, and its view.
 
 use crate::errors::{said, unreadable};
 use crate::model::{Model, asked};
@@ -31,23 +31,23 @@ impl Pane {
     ///
     /// # Errors
     ///
-    /// Where the browser has no WebGL, or too little of it.
+    /// If WebGL is missing or too limited.
     #[wasm_bindgen(constructor)]
     pub fn new(canvas: HtmlCanvasElement) -> Result<Pane, JsError> {
         let renderer = Renderer::on_canvas(canvas).map_err(said)?;
         Ok(Self { renderer, scene: None, orbit: Orbit::default(), drawn: None })
     }
 
-    /// What this browser draws with: JSON.
+    /// The browser's graphics context, as JSON.
     pub fn context(&self) -> String {
         json!(self.renderer.context()).to_string()
     }
 
-    /// Shows this model from now on.
+    /// Shows this model.
     ///
     /// # Errors
     ///
-    /// Where it is too large for a scene.
+    /// If it is too large for a scene.
     pub fn show(&mut self, model: &Model) -> Result<(), JsError> {
         self.scene = Some(model.scene(&SceneSettings::default())?);
         Ok(())
@@ -76,7 +76,7 @@ impl Pane {
     ///
     /// # Errors
     ///
-    /// Where nothing was drawn yet.
+    /// Before the first drawing.
     pub fn png(&self, options: &str, model: &Model) -> Result<Vec<u8>, JsError> {
         let picture = self.drawn.as_ref().ok_or_else(|| JsError::new("nothing was drawn yet"))?;
         let driver = Driver::new(self.renderer.context());
@@ -84,7 +84,7 @@ impl Pane {
         picture.png_bytes(recipe.note().as_ref()).map_err(said)
     }
 
-    /// The passes of what would be drawn, each with its programs' shaders: JSON.
+    /// The passes of the drawing, each with its programs' shaders, as JSON.
     ///
     /// # Errors
     ///
@@ -112,7 +112,7 @@ impl Pane {
         serde_json::to_string(&passes).map_err(unreadable)
     }
 
-    /// The ink of the lines that these options draw, how dark each pixel is; nothing for a style without lines.
+    /// The ink of these options' lines, as the darkness of each pixel; `None` for a style without lines.
     ///
     /// # Errors
     ///
@@ -132,7 +132,7 @@ impl Pane {
         format!("{},{}", words.join(","), if *parallel { "parallel" } else { "perspective" })
     }
 
-    /// Sees the scene from where a link says; what it says wrongly is left as it is.
+    /// Sets the view from a link; invalid parts change nothing.
     #[wasm_bindgen(js_name = setOrbit)]
     pub fn set_orbit(&mut self, words: &str) {
         let numbers: Vec<f64> = words.split(',').map_while(|word| word.parse().ok()).collect();
@@ -151,7 +151,7 @@ impl Pane {
     ///
     /// # Errors
     ///
-    /// Where one of them is not understood.
+    /// If one of them is refused.
     pub fn replace_shaders(&mut self, shaders: &str) -> Result<(), JsError> {
         let shaders = serde_json::from_str(shaders).map_err(unreadable)?;
         self.renderer.replace_shaders(shaders).map_err(said)
@@ -182,7 +182,7 @@ impl Pane {
     ///
     /// # Errors
     ///
-    /// Where there is no such view.
+    /// If the view is unknown.
     pub fn look(&mut self, view: &str) -> Result<(), JsError> {
         let view: View = view.parse().map_err(|error| JsError::new(&format!("{error}")))?;
         self.orbit.look_from(view);
@@ -228,7 +228,7 @@ impl Pane {
     }
 }
 
-/// What options ask for, and which of the style's pictures.
+/// The request of the options, with one of the style's pictures.
 fn picture_asked(options: &str, show: &str) -> Result<Request, JsError> {
     let mut request = asked(StyleName::ThreePass, options)?;
     request.show = show.parse().map_err(|error| JsError::new(&format!("{error}")))?;

@@ -1,4 +1,4 @@
-//! What the page's controls are made of: the tables of settings, the models, the shaders.
+//! The contents of the page's controls: the tables of settings, the models, the shaders.
 
 use crate::errors::{said, unreadable};
 use serde_json::{Value, json};
@@ -31,19 +31,19 @@ pub fn tables() -> String {
     let offered = BUILTINS.iter().filter(|model| model.closed_form().is_none());
     let models: Vec<Value> = offered.map(|model| json!({ "name": model.name, "what": model.what })).collect();
     let keys: Vec<Value> = sheet(true).map(|(keys, what)| json!({ "keys": keys, "what": what })).collect();
-    // Lines as vectors are what the page saves, not what it draws.
+    // The page saves vector lines but does not draw them.
     let looks = LOOKS.iter().filter(|look| !look.draws_lines());
     let looks: Vec<Value> = looks.map(|look| json!({ "name": look.name, "about": look.about })).collect();
     json!({ "version": env!("CARGO_PKG_VERSION"), "styles": styles, "looks": looks, "scene": of_scene, "models": models, "keys": keys })
         .to_string()
 }
 
-/// What a look makes of a side and of the scene: JSON, the style's name, its settings and the scene's, each a text by its name; `null` is
-/// the default.
+/// A look's effect on a side and on the scene: JSON, the style's name, its settings and the scene's, each a text by its name;
+/// `null` is the default.
 ///
 /// # Errors
 ///
-/// A sentence where there is no such look.
+/// A sentence for an unknown look.
 #[wasm_bindgen]
 pub fn look(name: &str) -> Result<String, JsError> {
     let look = Look::of_name(name).map_err(|error| JsError::new(&format!("{error}")))?;
@@ -53,10 +53,10 @@ pub fn look(name: &str) -> Result<String, JsError> {
         options.by_ref().map(|(name, value)| (name.clone(), text(value))).collect()
     };
     let settings = of(&|name| Style::table().has(name));
-    // The page says how large the picture is, and the hand from where it is seen.
+    // The page sets the picture's size, and the mouse its view.
     let is_of_scene = |name: &str| !["size", "view"].contains(&name) && SceneSettings::table().has(name);
     let mut scene = of(&is_of_scene);
-    // What another look sets is as by default again.
+    // Settings of another look return to their defaults.
     for other in LOOKS {
         for name in other.preset().map_err(said)?.options.into_keys().filter(|name| is_of_scene(name)) {
             scene.entry(name).or_insert(Value::Null);
@@ -102,11 +102,11 @@ fn control<T: Clone + 'static>(setting: &Setting<T>, of: &T) -> Value {
     })
 }
 
-/// A shader of `glsl/` in pieces, as it was published and as this browser has it: JSON, a list of pairs.
+/// A shader of `glsl/` in pieces, the published version and this browser's: JSON, a list of pairs.
 ///
 /// # Errors
 ///
-/// A sentence where there is no such shader.
+/// A sentence for an unknown shader.
 #[wasm_bindgen]
 pub fn listing(path: &str) -> Result<String, JsError> {
     let text = tinta::glsl::source(path).ok_or_else(|| JsError::new(&format!("there is no shader {path}")))?;
@@ -121,7 +121,7 @@ pub fn shaders() -> String {
     json!(tinta::glsl::SOURCES.iter().map(|(path, _)| path).collect::<Vec<_>>()).to_string()
 }
 
-/// The word that a text of a setting of a style is refused with; nothing where it is taken.
+/// The error for a setting's text, if the style refuses it.
 #[wasm_bindgen]
 pub fn refusal(style: &str, name: &str, text: &str) -> Option<String> {
     let style = Style::named(style.parse().ok()?);
@@ -129,14 +129,14 @@ pub fn refusal(style: &str, name: &str, text: &str) -> Option<String> {
     setting.set(&mut style.clone(), text).err().map(|error| error.to_string())
 }
 
-/// What a key does, by its name as `KeyboardEvent.key` has it: JSON, an action's name, or an object of its name and value; `null` where
-/// it does nothing.
+/// The action of a key, by its `KeyboardEvent.key` name: JSON, an action's name, or an object of its name and value; `null` for a
+/// key without an action.
 #[wasm_bindgen]
 pub fn key_action(key: &str, has_shift: bool, has_ctrl: bool) -> String {
     json!(action(|name| name.eq_ignore_ascii_case(key), has_shift, has_ctrl)).to_string()
 }
 
-/// Runs when the page is opened: a bug is told in the console, with its place.
+/// Runs when the page opens: prints a bug's message and place to the console.
 #[wasm_bindgen(start)]
 pub fn start() {
     std::panic::set_hook(Box::new(|panic| {

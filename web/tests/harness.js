@@ -1,8 +1,8 @@
-// What tests need: reports to the server, what the command line draws, pictures compared.
+// Shared by the tests: reports to the server, the command line's pictures, comparison of pictures.
 
 const report = (body) => fetch("/report", { method: "POST", body: JSON.stringify(body) });
 
-/** Does some work and reports whether it held, with what it returns. */
+/** Runs a test and reports whether it passed, with its result. */
 export async function test(name, work) {
   try {
     const note = await work();
@@ -28,14 +28,14 @@ export async function until(holds, what) {
   }
 }
 
-/** What the command line draws with these options, the file's name last: its bytes. */
+/** The bytes of the command line's picture with these options, the file's name last. */
 export async function drawn(...words) {
   const answer = await fetch(`/drawn?${encodeURIComponent(JSON.stringify(words))}`);
   if (!answer.ok) throw new Error(await answer.text());
   return new Uint8Array(await answer.arrayBuffer());
 }
 
-/** A PNG's pixels, as they are in it. */
+/** A PNG's pixels, unconverted. */
 export async function pixels(png) {
   const picture = await createImageBitmap(new Blob([png]), { premultiplyAlpha: "none", colorSpaceConversion: "none" });
   const canvas = new OffscreenCanvas(picture.width, picture.height);
@@ -44,7 +44,7 @@ export async function pixels(png) {
   return context.getImageData(0, 0, picture.width, picture.height).data;
 }
 
-/** The share of pixels of which a channel differs by more than this. */
+/** The share of pixels with a channel that differs by more than this. */
 export function differing(a, b, by) {
   assert(a.length === b.length, `${a.length} and ${b.length} bytes`);
   let count = 0;

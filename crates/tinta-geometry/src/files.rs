@@ -32,7 +32,7 @@ impl Failure {
         match self {
             Self::System(error) => match error.kind() {
                 ErrorKind::NotFound => "there is no such file; check the name".to_owned(),
-                ErrorKind::PermissionDenied => "there is no permission to read it; change its permissions".to_owned(),
+                ErrorKind::PermissionDenied => "no permission to read it; change its permissions".to_owned(),
                 _ => format!("it cannot be read ({error}); check the file"),
             },
             Self::Folder => format!("this is a directory; name {what} in it"),
@@ -42,10 +42,7 @@ impl Failure {
                 format!("it is larger than {}, the limit for {what}; make it smaller", in_bytes(*limit))
             }
             Self::NoMemory(bytes) => {
-                format!(
-                    "there is not enough memory for its {}; close other programs or make it smaller",
-                    in_bytes(*bytes)
-                )
+                format!("not enough memory for its {}; close other programs or make it smaller", in_bytes(*bytes))
             }
         }
     }
@@ -214,7 +211,7 @@ mod tests {
     #[test]
     fn memory_that_is_not_there_is_a_sentence() {
         let failure = read_from(Liar { count: 10 }, u64::MAX >> 2, u64::MAX >> 1).unwrap_err();
-        assert!(failure.problem("a model file").starts_with("there is not enough memory for its 4294967296 GiB"));
+        assert!(failure.problem("a model file").starts_with("not enough memory for its 4294967296 GiB"));
     }
 
     #[test]

@@ -167,7 +167,7 @@ impl SceneSettings {
             background.said("white").common(),
             Setting::flag(
                 "transparent",
-                "No background: alpha 0 where nothing is drawn",
+                "No background: alpha 0 outside the model",
                 |scene: &Self| scene.background == Background::Transparent,
                 |scene, is_on| {
                     if is_on {
@@ -183,7 +183,7 @@ impl SceneSettings {
             })
             .said("the model's own")
             .common(),
-            Setting::field("bare-color", "COLOR", "Colour of surfaces without one of their own", |scene: &mut Self| {
+            Setting::field("bare-color", "COLOR", "Colour of surfaces that have none", |scene: &mut Self| {
                 &mut scene.bare_color
             }),
             Setting::field(

@@ -1,8 +1,8 @@
 //! Compares the lines of two drawings: drawn by both, or by only one.
 //!
-//! In: two pictures of lines alone (dark on light, or ink by its alpha). Out: counts and a map of agreement. A pixel of ink
-//! counts as drawn by both where the other drawing has ink within a tolerance, for lines of different width and half a
-//! pixel's difference are the same lines to the eye.
+//! Takes two pictures of lines alone (dark on light, or ink by its alpha); returns counts and a map of agreement. A pixel of ink
+//! counts as drawn by both if the other drawing has ink within a tolerance: lines of different width or half a pixel apart look
+//! the same.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -24,10 +24,10 @@ use serde::Serialize;
 use tinta::picture::Picture;
 use tinta::scene::Size;
 
-/// Darkness from which a pixel is ink, of 255.
+/// Least darkness of a pixel that counts as ink, of 255.
 const INK_FROM: u8 = 64;
 
-/// Which pixels of a picture are ink.
+/// The ink pixels of a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct InkMask {
     /// The picture's size.
@@ -37,7 +37,7 @@ pub struct InkMask {
 }
 
 impl InkMask {
-    /// Pixels at least a quarter covered by ink, so that faint lines count too: on white by how far the pixel is from white
+    /// Pixels covered by at least a quarter of ink, to include faint lines: on white by the pixel's largest difference from white
     /// in any channel, on a transparent ground by its alpha.
     pub fn of(lines: &Picture) -> Self {
         let is_transparent = lines.pixels.chunks_exact(4).any(|pixel| pixel[3] < u8::MAX);
@@ -48,17 +48,17 @@ impl InkMask {
         Self { size: lines.size, ink: lines.pixels.chunks_exact(4).map(is_ink).collect() }
     }
 
-    /// A mask of these pixels' darkness, of 255, row by row from the top: ink from a quarter on.
+    /// A mask of these pixels' darkness, of 255, row by row from the top: ink is at least a quarter dark.
     pub fn of_darkness(size: Size, darkness: &[u8]) -> Self {
         Self::of_darkness_from(size, darkness, INK_FROM)
     }
 
-    /// The same, ink from another darkness on.
+    /// The same, with another least darkness of ink.
     pub fn of_darkness_from(size: Size, darkness: &[u8], from: u8) -> Self {
         Self { size, ink: darkness.iter().map(|darkness| *darkness >= from).collect() }
     }
 
-    /// The ink at whose pixels' middles this holds.
+    /// The ink of the pixels whose middles satisfy a condition.
     #[must_use]
     pub fn kept(mut self, holds: impl Fn(DVec2) -> bool) -> Self {
         let width = self.size.width as usize;
@@ -75,7 +75,7 @@ impl InkMask {
         self
     }
 
-    /// The pixels in which points lie, given from the upper left corner, y down; those outside the picture are left out.
+    /// The pixels that contain points, given from the upper left corner, y down; points outside the picture are left out.
     pub fn of_points(size: Size, points: impl Iterator<Item = DVec2>) -> Self {
         let mut ink = vec![false; size.pixel_count()];
         for point in points {
@@ -97,8 +97,7 @@ impl InkMask {
         self.ink.iter().filter(|ink| **ink).count()
     }
 
-    /// Pixels with ink that have none of the other picture's, which is of the same size, within `radius_px`: ink that was not
-    /// merely moved.
+    /// Number of ink pixels without ink of the other picture, of the same size, within `radius_px`: ink that did not merely move.
     pub fn count_far_from(&self, other: &Self, radius_px: u32) -> usize {
         self.ink.iter().zip(other.grown(radius_px)).filter(|(ink, near)| **ink && !near).count()
     }
@@ -128,7 +127,7 @@ impl InkMask {
 /// Who drew a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Drawn {
-    /// Nobody.
+    /// Neither of them.
     Neither,
     /// One has ink here, the other within the tolerance.
     Both,
@@ -147,7 +146,7 @@ pub struct Agreement {
     pub numbers: AgreementNumbers,
 }
 
-/// How many pixels of ink there are, and how many of them the other drawing has too.
+/// The number of ink pixels, and of those that the other drawing shares.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct AgreementNumbers {
     /// Distance within which ink counts as the same, pixels.
@@ -156,9 +155,9 @@ pub struct AgreementNumbers {
     pub left_px: usize,
     /// Ink of the right drawing.
     pub right_px: usize,
-    /// Ink of the left drawing with none of the right one's near it.
+    /// Ink of the left drawing without ink of the right one near it.
     pub only_left_px: usize,
-    /// Ink of the right drawing with none of the left one's near it.
+    /// Ink of the right drawing without ink of the left one near it.
     pub only_right_px: usize,
     /// Share of the left drawing's ink that the right one has too, 0 to 1; `None` without ink.
     pub left_shared: Option<f64>,
@@ -211,7 +210,7 @@ impl Agreement {
     }
 }
 
-/// Ink that both drew: dark grey. The three are told apart by colour-blind eyes too (Okabe and Ito).
+/// Ink of both drawings: dark grey. Colour-blind eyes can distinguish the three colours (Okabe and Ito).
 pub const BOTH_COLOR: [u8; 3] = [60, 60, 60];
 /// Ink that only the left drawing has: vermilion.
 pub const LEFT_COLOR: [u8; 3] = [213, 94, 0];

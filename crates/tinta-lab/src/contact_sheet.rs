@@ -23,7 +23,7 @@ pub struct Panel {
     pub title: String,
     /// Below the title, plain; may be empty.
     pub subtitle: String,
-    /// As it is, not scaled.
+    /// The picture, not scaled.
     pub picture: Picture,
 }
 
@@ -32,7 +32,7 @@ pub struct Panel {
 pub struct Caption {
     /// A square of this colour before the text.
     pub swatch: Option<[u8; 3]>,
-    /// The text; what is not in the font becomes a question mark.
+    /// The text; letters missing in the font become a question mark.
     pub text: String,
 }
 
@@ -42,7 +42,7 @@ const MARGIN: u32 = 16;
 const BACKGROUND: [u8; 4] = [255; 4];
 const FRAME: [u8; 4] = [200, 200, 200, 255];
 const TEXT: [u8; 3] = [28, 28, 30];
-/// Of what stands below a title.
+/// The colour of the text below a title.
 const SOFT: [u8; 3] = [92, 92, 99];
 
 /// Puts panels next to each other, each as wide as its picture or its titles, and captions below.
@@ -97,7 +97,7 @@ struct Font {
 }
 
 impl Font {
-    /// Large pictures are looked at from further away.
+    /// Large pictures are viewed from further away.
     fn for_width(width_px: u32) -> Self {
         let (title, text) = match width_px {
             0..400 => (16.0, 13.0),
@@ -124,7 +124,7 @@ impl Face {
         Self { font, scale: PxScale::from(em_px * lines_a_em.unwrap_or(1.0)) }
     }
 
-    /// Of a line, pixels.
+    /// Height of a line, pixels.
     fn height(&self) -> u32 {
         self.scale.y.ceil() as u32
     }

@@ -1,9 +1,9 @@
-//! Every figure of the three texts, drawn again or named with why not, and their claims: lists of plain data, and what draws,
-//! measures and shows them.
+//! Every figure of the three texts, drawn again or listed with the reason why not, and their claims: lists of plain data, and the
+//! code that draws, measures and shows them.
 //!
-//! In: a picture size and a renderer. Out: pictures, measured numbers ([`Numbers`]), what is found of each claim
-//! ([`ClaimRecord`]) and a page with all of it ([`page::page`]). The list knows neither GL nor clap: a panel is a scene's settings
-//! and a style, and beside them the words that make `tinta` draw the same, which a test holds against each other.
+//! Takes a picture size and a renderer, and returns pictures, measured numbers ([`Numbers`]), the finding of each claim
+//! ([`ClaimRecord`]) and a page with everything ([`page::page`]). The list knows neither GL nor clap: a panel is a scene's
+//! settings and a style, with the words that make `tinta` draw the same. A test compares the two.
 //!
 //! ```
 //! use tinta::Size;
@@ -55,7 +55,7 @@ pub fn figures(size: Size) -> Vec<Figure> {
     .concat()
 }
 
-/// Those of these ids, in the list's order; all of them for none.
+/// The figures with these ids, in the list's order; all if no id is given.
 ///
 /// # Errors
 ///

@@ -1,8 +1,8 @@
-//! Anyone's drawing of a scene, judged by its exact visible lines: how much of them it has, what it invents, what it draws although
-//! it is hidden.
+//! Judges any drawing of a scene by its exact visible lines: the share of lines it has, its false ink, and the hidden lines it
+//! draws.
 //!
-//! In: a picture or an SVG by any program, and the scene it was drawn of. Out: a [`Judgement`]. What the numbers mean stands in
-//! docs/results/league.md.
+//! Takes a picture or an SVG by any program, and its scene; returns a [`Judgement`]. docs/results/league.md explains the
+//! numbers.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -52,7 +52,7 @@ use tinta::lines::LineSegment;
 pub struct JudgeSettings {
     /// Distance within which ink and line count as the same, pixels. Default 2.
     pub tolerance_px: f64,
-    /// Whether a small shift, another scale and a mirror image are looked for first. Default no.
+    /// Whether to try a small shift, another scale and a mirror image first. Default no.
     pub fits: bool,
 }
 
@@ -63,7 +63,7 @@ impl Default for JudgeSettings {
 }
 
 impl JudgeSettings {
-    /// Refuses what is no distance.
+    /// Refuses invalid distances.
     ///
     /// # Errors
     ///
@@ -92,9 +92,9 @@ pub struct Judgement {
     pub hausdorff_95_px: Option<f64>,
     /// Lines that were drawn though hidden.
     pub hidden: Hidden,
-    /// How the lines were moved onto the drawing, where that was looked for.
+    /// How the lines were moved onto the drawing, if requested.
     pub fit: Option<Fit>,
-    /// Why the numbers probably say nothing of the drawing's lines.
+    /// Why the numbers probably do not describe the drawing's lines.
     #[serde(default)]
     pub doubt: Option<Doubt>,
 }
@@ -117,7 +117,7 @@ pub struct OneToOne {
     pub average_precision: f64,
 }
 
-/// Lines that lie behind something, farther than twice the tolerance from every visible one; none of a reference without hidden lines
+/// Lines behind something, farther than twice the tolerance from every visible one; empty for a reference without hidden lines
 /// ([`Reference::with_hidden`]).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Hidden {
@@ -130,7 +130,7 @@ pub struct Hidden {
 /// The benchmark's distance, as a share of the picture's diagonal.
 pub const BENCHMARK_DISTANCE: f64 = 0.0075;
 
-/// Darknesses from which a pixel is ink, of 255, that one-to-one matching tries beside [`INK_FROM`].
+/// Least darknesses of ink, of 255, that one-to-one matching tries beside [`INK_FROM`].
 const THRESHOLDS: [u8; 7] = [1, 16, 32, 96, 128, 176, 224];
 
 /// Distance within which a pixel of thinned ink is on a line, or on a crease that does not count, pixels.
@@ -140,7 +140,7 @@ const NEAR_PX: f64 = 2.0;
 ///
 /// # Errors
 ///
-/// [`Error::Setting`] for ink of another size than the reference, or a tolerance that is none.
+/// [`Error::Setting`] for ink of another size than the reference, or an invalid tolerance.
 pub fn judge(ink: &Ink, reference: &Reference, settings: &JudgeSettings) -> Result<Judgement> {
     let tolerance_px = settings.tolerance_px;
     if ink.size != reference.size {

@@ -1,4 +1,4 @@
-//! The laboratory of tinta: what a drawing is worth. It lies above the library `tinta`, which draws.
+//! The laboratory of tinta, which measures the quality of drawings. It lies above the library `tinta`, which draws.
 //!
 //! | for | see |
 //! |---|---|
@@ -11,12 +11,13 @@
 //!
 //! # Cargo features
 //!
-//! None is on by default; then [`measure`] says how far a picture's ink is from the exact lines. `measuring` adds reports,
-//! figures and stress, `judging` other programs' drawings, `cli` the commands, `window` the measure that the window shows.
+//! No feature is on by default; then [`measure`] measures how far a picture's ink is from the exact lines. `measuring` adds
+//! reports, figures and stress, `judging` other programs' drawings, `cli` the commands, `window` the measure that the window
+//! shows.
 
 #![deny(unreachable_pub)]
 
-// Floors, from the ground up: a module uses those above it in this list and none below (`tests/floors.rs`).
+// Floors, from the ground up: a module uses only those above it in this list (`tests/floors.rs`).
 pub mod compare;
 pub mod provenance;
 #[cfg(feature = "cli")]

@@ -1,7 +1,7 @@
 //! Error against run time: every setting of every style on a model, measured against exact references.
 //!
-//! In: models and a list of settings. Out: a [`Row`] for each as soon as it is known. What the numbers mean stands in
-//! docs/results/measuring.md.
+//! Takes models and a list of settings, and returns a [`Row`] for each as soon as it is known. docs/results/measuring.md explains
+//! the numbers.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {

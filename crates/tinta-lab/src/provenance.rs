@@ -1,8 +1,7 @@
-//! Whose each value of a style is: printed in its text, deduced from it, or ours.
+//! The origin of each value of a style: printed in its text, deduced from it, or ours.
 //!
-//! Settings say it where they are declared ([`tinta::settings::Setting::provenance`]), fixed values in [`CONSTANTS`], the numbers
-//! in shaders in [`SHADERS`]. In: the name of a style, or none for all. Out: rows, a table for a terminal, and a page
-//! of all tables.
+//! Settings declare it ([`tinta::settings::Setting::provenance`]), fixed values have it in [`CONSTANTS`], the numbers in shaders
+//! in [`SHADERS`]. Takes the name of a style, or none for all; returns rows, a table for a terminal, and a page of all tables.
 //!
 //! ```
 //! use tinta::StyleName;
@@ -24,26 +23,26 @@ use tinta::choice::Choice;
 use tinta::settings::{HasSettings, Whose};
 use tinta::styles::{Style, StyleName};
 
-/// A value and whose it is.
+/// A value and its origin.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Row {
-    /// Of which styles.
+    /// The styles that use it.
     pub styles: Vec<StyleName>,
-    /// The option's name, or what the value is.
+    /// The option's name, or the value's description.
     pub name: String,
     /// The value, by default.
     pub value: String,
-    /// Whose.
+    /// Its origin.
     pub whose: Whose,
-    /// Where it is printed, what it follows from, or why it was chosen.
+    /// Its printed place, its derivation, or the reason for its choice.
     pub why: &'static str,
-    /// What it does, so what changes if it were otherwise.
+    /// Its effect, and the change if it were otherwise.
     pub otherwise: &'static str,
 }
 
-/// All rows of a style, or of all; a row that several styles share stands once.
+/// All rows of a style, or of all styles; a row shared by several styles appears once.
 ///
-/// First the settings in the order of help, then what is fixed, then the numbers in the shaders.
+/// First the settings in the order of help, then fixed values, then the numbers in the shaders.
 pub fn rows(style: Option<StyleName>) -> Vec<Row> {
     let mut rows: Vec<Row> = Vec::new();
     let is_wanted = |of: StyleName| style.is_none_or(|style| style == of);
@@ -89,8 +88,8 @@ pub fn rows(style: Option<StyleName>) -> Vec<Row> {
     rows
 }
 
-/// The rows as a table for a terminal: under each of printed, deduced and ours the values, their source or reason, and what
-/// they do.
+/// The rows as a table for a terminal: under each of printed, deduced and ours the values, their source or reason, and their
+/// effect.
 pub fn text(style: Option<StyleName>) -> String {
     let rows = rows(style);
     let mut out = String::new();
@@ -141,7 +140,7 @@ pub fn page() -> String {
     out
 }
 
-/// What the page says before its tables.
+/// The page's text before its tables.
 const PAGE_OPENING: &str = "\
 # Whose value is it
 

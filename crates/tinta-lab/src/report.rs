@@ -1,9 +1,9 @@
 //! Reports on measured rows: `results.jsonl` row by row, then `results.csv`, plots of error against run time and one
 //! page that holds all of it.
 //!
-//! In: [`Row`]s of one machine or several, and [`ReportInfo`] about the run. Out: files in a folder, each written whole.
-//! Nothing here measures, draws models or looks at the clock. The plots are work-precision diagrams as numerical
-//! analysts draw them (Hairer, Nørsett, Wanner: Solving Ordinary Differential Equations I, section II.10).
+//! Takes [`Row`]s of one machine or several, and [`ReportInfo`] about the run; writes files in a folder, each whole. It does not
+//! measure, draw models or read the clock. The plots are work-precision diagrams as in numerical analysis (Hairer, Nørsett,
+//! Wanner: Solving Ordinary Differential Equations I, section II.10).
 //!
 //! ```
 //! // The first line names the columns.
@@ -41,7 +41,7 @@ use tinta::output::Staged;
 
 /// All rows with all their columns but the times of single frames, which `results.jsonl` has.
 ///
-/// The first line names the columns of [`columns`], in their order; what a style does not have is empty.
+/// The first line names the columns of [`columns`], in their order; values that a style lacks are empty.
 pub fn csv(rows: &[Row]) -> String {
     let columns = columns();
     let mut writer = csv::Writer::from_writer(Vec::new());
@@ -60,7 +60,7 @@ pub fn csv(rows: &[Row]) -> String {
     writer.into_inner().map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
 }
 
-/// A row with its columns by their names: numbers, texts, and `null` for what a style does not have.
+/// A row with its columns by their names: numbers, texts, and `null` for values that a style lacks.
 pub fn record(row: &Row) -> Vec<(String, serde_json::Value)> {
     let cell = |value: Value| match value {
         Value::Text(text) => text.into(),
@@ -77,7 +77,7 @@ pub fn record(row: &Row) -> Vec<(String, serde_json::Value)> {
 /// [`Error::File`] when a file cannot be written, and without any row.
 pub fn write(folder: &Path, rows: &[Row], info: &ReportInfo) -> Result<()> {
     if rows.is_empty() {
-        return Err(Error::file(FileKind::Rows, folder, "there is no row to report on; measure something first"));
+        return Err(Error::file(FileKind::Rows, folder, "no row to report on; measure something first"));
     }
     // They belong together: none appears before all are on the disk.
     let stage = |name: &str, text: &str| Staged::new(&folder.join(name), text.as_bytes());

@@ -1,7 +1,7 @@
 //! Extreme cases for numbers and input files, each with its expected outcome.
 //!
-//! In: [`cases`], plain values that say what is extreme, what must happen and which number shows it. Out: a [`Row`] for each
-//! case, style and backend with its verdict. What the figures mean, and what they were, stands in docs/results/stability.md.
+//! Takes [`cases`], plain values that state an extreme, the required outcome and the number that shows it; returns a [`Row`] for
+//! each case, style and backend with its verdict. docs/results/stability.md has the figures and their meaning.
 //!
 //! ```no_run
 //! # fn main() -> tinta::Result<()> {

@@ -5,7 +5,7 @@ use tinta::lines::{LineSettings, Progress};
 use tinta::window::{LineMeasure, LineScore};
 use tinta::{Renderer, Result, Scene, Style};
 
-/// Distance within which ink lies on a line, pixels: that of `tinta measure`.
+/// Distance within which ink lies on a line, pixels: the default of `tinta measure`.
 const TOLERANCE_PX: f64 = 2.0;
 
 /// How the window measures the lines of a style.

@@ -10,7 +10,7 @@ use tinta::request::Request;
 use tinta::settings::{HasSettings, OptionValue, Options};
 use tinta::{Error, ParseError, Result};
 
-/// What a job gives to its command.
+/// The options of a job for its command.
 #[derive(Debug)]
 pub struct JobOptions {
     /// The models.
@@ -19,15 +19,15 @@ pub struct JobOptions {
     pub output: String,
     /// All others, files that are written at their places.
     pub options: Options,
-    /// As a command line has it.
+    /// In the form of a command line.
     pub command: String,
 }
 
-/// The options that every command has besides its own.
+/// The options that every command has.
 const COMMON: [&str; 2] = ["preset", "camera"];
 
 impl JobOptions {
-    /// Of a job whose outputs lie in `folder`.
+    /// The options of a job with its outputs placed in `folder`.
     pub(super) fn of(job: &Job, folder: &Path) -> Result<Self> {
         let mut options = Options::new();
         for (key, value) in &job.options {

@@ -14,7 +14,7 @@ pub(super) struct StagedFolder {
 }
 
 impl StagedFolder {
-    /// Of a measurement; of other jobs none. A folder that is no measurement's is refused.
+    /// For a measurement; `None` for other jobs. Refuses a folder that is not a measurement's.
     pub(super) fn of(job: &Job, folder: &Path) -> Result<Option<Self>> {
         let output = job.options.iter().find(|(key, _)| key == "output");
         let (JobCommand::Measure, Some((_, OptionValue::Text(output)))) = (job.command, output) else {
@@ -38,7 +38,7 @@ impl StagedFolder {
         Ok(Some(Self { staged, place }))
     }
 
-    /// Where it is written until it is whole.
+    /// The temporary folder of the unfinished output.
     pub(super) fn path(&self) -> &Path {
         &self.staged
     }

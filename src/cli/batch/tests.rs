@@ -9,7 +9,7 @@ use tinta::batch::{Job, Outcome, Status};
 use tinta::gl::Fault;
 use tinta::{Backend, Renderer, Result};
 
-/// What jobs say is heard by the process: one test at a time.
+/// Messages are captured for the whole process: one test at a time.
 static ALONE: Mutex<()> = Mutex::new(());
 
 fn job(id: usize) -> Job {

@@ -17,7 +17,7 @@ use tinta::request::Session;
 use tinta::settings::OptionValue;
 use tinta::{Error, Renderer, Result};
 
-/// Does what it is told until nobody tells any more.
+/// Does jobs until standard input ends.
 pub(super) fn serve(folder: &Path, program: &Program) -> Result<()> {
     signals::leave_to_the_run();
     let gone =
@@ -38,7 +38,7 @@ pub(super) fn serve(folder: &Path, program: &Program) -> Result<()> {
     Ok(())
 }
 
-/// What standard input tells, read on a thread of its own: a run that ends while a job is done takes its worker with it.
+/// The lines of standard input, read on a separate thread: a run that ends during a job takes its worker with it.
 fn lines(is_busy: &Arc<AtomicBool>) -> std::io::Result<Receiver<Vec<u8>>> {
     let (sender, receiver) = std::sync::mpsc::channel();
     let is_busy = is_busy.clone();

@@ -14,7 +14,7 @@ pub(super) struct WorkerProcess {
     outcomes: BufReader<ChildStdout>,
 }
 
-/// Mesa's threads beside the one that draws, which it reads once when it starts.
+/// The variable for the number of Mesa's extra threads, which Mesa reads once when it starts.
 const RASTER_THREADS: &str = "LP_NUM_THREADS";
 
 impl WorkerProcess {
@@ -43,7 +43,7 @@ impl WorkerProcess {
         };
         let mut command = Command::new(program().map_err(cannot)?);
         command.args(["batch", "--worker", "--output"]).arg(folder);
-        // Threads that draw for one another only where there are processors left for them.
+        // More drawing threads only while processors are free.
         if std::env::var_os(RASTER_THREADS).is_none() {
             let threads = if cores >= workers * 2 { cores / workers } else { 0 };
             command.env(RASTER_THREADS, threads.to_string());
@@ -64,7 +64,7 @@ impl WorkerProcess {
             .map(|jobs| jobs.write_all(format!("{}\n", job.json).as_bytes()).and_then(|()| jobs.flush()));
         let mut line = Vec::new();
         if matches!(told, Some(Ok(()))) {
-            // What cannot be read is as good as not there.
+            // Unreadable output counts as missing.
             let _ = self.outcomes.read_until(b'\n', &mut line);
         }
         if let Ok(outcome) = serde_json::from_slice(&line) {
@@ -76,8 +76,8 @@ impl WorkerProcess {
         Ok(Outcome::failed(
             "crash",
             format!(
-                "its worker process ended ({ended}), perhaps because the driver crashed or memory ran out; try it by \
-                 itself"
+                "its worker process ended ({ended}), perhaps because the driver crashed or memory ran out; run this job \
+                 alone"
             ),
         ))
     }

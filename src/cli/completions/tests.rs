@@ -1,4 +1,4 @@
-//! What the scripts hold against what the command line takes.
+//! Compares the scripts with the options of the command line.
 
 use super::*;
 
@@ -10,7 +10,7 @@ fn whole() -> Command {
     whole
 }
 
-/// What a script says of one command.
+/// A script's part for one command.
 fn part(shell: Shell, script: &str, command: &str) -> String {
     let between = |start: &str, end: &str| {
         let rest = script.split_once(start).unwrap_or_else(|| panic!("{command}: no {start:?}")).1;
@@ -74,7 +74,7 @@ fn files_are_offered_where_files_are_taken_and_nothing_where_numbers_are() {
 
 #[test]
 fn an_option_takes_a_value_in_all_commands_or_in_none() {
-    // bash's words are put together before it is known whose option it is.
+    // bash's words are joined before their option is known.
     let whole = whole();
     let with_value = with_value(&whole);
     assert!(with_value.iter().any(|option| option == "-o") && with_value.len() > 80, "{with_value:?}");

@@ -1,5 +1,5 @@
-//! What stands after an option: names, files or folders. clap knows how to read values, not which there are; a shell has
-//! to be told. Reading and help stay as they are: only the scripts are made from this.
+//! The values that a shell offers after an option: names, files or folders. clap knows how to parse values but does not list them
+//! for shells. Parsing and help do not use this module: it only makes the scripts.
 
 use super::super::Program;
 use clap::builder::{PossibleValuesParser, Resettable};
@@ -9,14 +9,14 @@ use tinta::preset::LOOKS;
 use tinta::request::Request;
 use tinta::settings::{HasSettings, names_of};
 
-/// The whole command line with what a shell offers for each value.
+/// The whole command line with the values that a shell offers.
 pub fn with_values(program: &Program) -> Command {
     program.commands().iter().fold(program.command_line(), |whole, of| {
         whole.mut_subcommand(of.name, |command| command.mut_args(|arg| with_value(of.offers, arg)))
     })
 }
 
-/// Whether a value stands after it.
+/// Whether the option takes a value.
 pub(super) fn takes_value(arg: &Arg) -> bool {
     arg.get_long().is_some() && arg.get_action().takes_values()
 }
@@ -40,7 +40,7 @@ fn with_value(offers: fn(&str) -> Vec<&'static str>, arg: Arg) -> Arg {
     }
 }
 
-/// The names an option takes, or the usual ones where it takes others too.
+/// The names an option takes, or the default suggestions where it takes other values too.
 fn offered(offers: fn(&str) -> Vec<&'static str>, option: &str) -> Vec<&'static str> {
     let of_command = offers(option);
     match option {
@@ -60,7 +60,7 @@ fn offered(offers: fn(&str) -> Vec<&'static str>, option: &str) -> Vec<&'static 
     }
 }
 
-/// What a table of settings offers for an option; nothing for one of another table.
+/// The values from a table of settings for an option; empty for an option of another table.
 pub fn of_table<T: HasSettings>(option: &str) -> Vec<&'static str> {
     let settings = T::table().settings.iter().filter(|setting| setting.name == option);
     let offered = settings.map(|setting| setting.kind.offered()).next().unwrap_or_default();

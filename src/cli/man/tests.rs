@@ -1,4 +1,4 @@
-//! What the pages hold against what the command line takes.
+//! Compares the pages with the options of the command line.
 
 use super::*;
 

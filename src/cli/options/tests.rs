@@ -1,4 +1,4 @@
-//! A made-up setting of a made-up style, at every door that is a loop over tables. The viewer's is tried beside its controls.
+//! A made-up setting of a made-up style passes through every loop over tables. The viewer's is tested with its controls.
 
 use super::super::{completions, man};
 use super::*;
@@ -85,7 +85,7 @@ fn a_setting_is_found_at_every_door() {
     // The manual page.
     let page = man::page(&command, &[], &[]);
     assert!(page.contains("dot\\-spacing") && page.contains("more is coarser"), "{page}");
-    // What a shell offers.
+    // A shell's suggestions.
     assert_eq!(completions::of_table::<Halftone>("dot-shape"), ["round", "square"]);
     assert!(completions::of_table::<Halftone>("dot-spacing").is_empty());
     // Presets, and with them recipes and jobs, which hold the same options.

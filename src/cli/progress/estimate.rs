@@ -1,7 +1,7 @@
-//! How long is left of work in steps of several kinds, by what remains of each kind.
+//! Estimates the remaining time of steps of several kinds, from the remaining steps of each kind.
 //!
-//! In: how many steps of each kind there are and how long one is expected to take, then each step's kind and the time when it
-//! ended. Out: seconds that are left. Nothing here looks at a clock.
+//! Takes the number of steps of each kind with their expected times, then each step's kind and end time; returns the remaining
+//! seconds. It reads no clock.
 
 /// Steps of one kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,7 +13,7 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// How long all of them are expected to take, seconds.
+    /// The expected time of all of them, seconds.
     pub fn total(self) -> f64 {
         self.count as f64 * self.seconds
     }
@@ -53,7 +53,7 @@ impl Estimate {
         self.last = now;
     }
 
-    /// So many steps of this kind need not be done.
+    /// Removes so many steps of this kind.
     pub(super) fn skip(&mut self, kind: usize, count: usize) {
         if let Some(kind) = self.kinds.get_mut(kind) {
             kind.skipped += count;
@@ -62,8 +62,8 @@ impl Estimate {
 
     /// How long the work will still take, seconds.
     ///
-    /// Steps of a kind of which some are done take as long as those did; others as long as expected, by as much more or less
-    /// as the steps so far.
+    /// A kind of step already measured continues at its measured rate; other kinds use the expected time, scaled by the steps so
+    /// far.
     pub(super) fn left(&self) -> f64 {
         let took: f64 = self.kinds.iter().map(|kind| kind.took).sum();
         let expected: f64 = self.kinds.iter().map(|kind| kind.done as f64 * kind.expected.seconds).sum();
@@ -75,7 +75,7 @@ impl Estimate {
         self.kinds.iter().map(left).sum()
     }
 
-    /// Which share of the work is done, in time.
+    /// The finished share of the work, in time.
     pub(super) fn share(&self) -> f64 {
         let took: f64 = self.kinds.iter().map(|kind| kind.took).sum();
         let all = took + self.left();
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn slow_steps_at_first_say_nothing_of_fast_ones_that_follow() {
-        // By the count of steps alone, ten of a hundred and ten, six and a half minutes would be left.
+        // The count of steps alone, ten of a hundred and ten, would predict six and a half minutes.
         let mut estimate = Estimate::new(&[SLOW, FAST]);
         (1..=10).for_each(|step| estimate.step(0, f64::from(step) * 4.0));
         assert!((estimate.left() - 10.0).abs() < 1e-9, "{}", estimate.left());
@@ -124,7 +124,7 @@ mod tests {
         let mut estimate = Estimate::new(&[SLOW, FAST]);
         estimate.step(0, 8.0);
         assert!((estimate.left() - (9.0 * 8.0 + 20.0)).abs() < 1e-9, "{}", estimate.left());
-        // A kind that turns out otherwise is believed.
+        // Measured times override expected ones.
         estimate.step(1, 9.0);
         assert!((estimate.left() - (9.0 * 8.0 + 99.0)).abs() < 1e-9, "{}", estimate.left());
     }

@@ -6,7 +6,7 @@ use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
-/// A bar for steps of several kinds, whose length and time left go by how long each kind takes.
+/// A bar for steps of several kinds; its length and remaining time account for the time of each kind.
 #[derive(Debug)]
 pub struct TimedProgress {
     bar: ProgressBar,
@@ -15,10 +15,10 @@ pub struct TimedProgress {
 }
 
 impl TimedProgress {
-    /// How finely the bar's length is told.
+    /// Resolution of the bar.
     const PARTS: u64 = 1000;
 
-    /// A bar with the word for what is done, such as "measuring", that begins now.
+    /// A bar with the name of the work, such as "measuring", that begins now.
     pub fn new(what: &'static str, kinds: &[Steps]) -> Self {
         let bar = bar(what, Self::PARTS);
         if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:32}] {prefix} left") {
@@ -35,7 +35,7 @@ impl TimedProgress {
         self.show();
     }
 
-    /// So many steps of this kind need not be done.
+    /// Removes so many steps of this kind.
     pub fn skip(&self, kind: usize, count: usize) {
         self.estimate.borrow_mut().skip(kind, count);
         self.show();

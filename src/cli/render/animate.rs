@@ -15,13 +15,13 @@ use tinta::renderer::milliseconds_since;
 use tinta::request::{AnimationSettings, ModelCache, ReadModels, Request, Session};
 use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings};
 
-/// How long a turn takes unless told otherwise, milliseconds; few views are not shown longer than 200 each.
+/// Default time of a turn, milliseconds; each of a few views is shown for at most 200.
 const TURN_MS: u32 = 2500;
 
 /// Quake 2 shows ten frames a second.
 const MODEL_FRAME_MS: u16 = 100;
 
-/// Where the animation goes, if one is asked for.
+/// The animation's target, if the output is one.
 pub(super) fn target(
     animation: &AnimationSettings,
     output: &str,
@@ -38,7 +38,7 @@ fn delay_ms(animation: &AnimationSettings, frames: usize) -> u16 {
     as_given.unwrap_or(if animation.animate.is_some() { MODEL_FRAME_MS } else { turn })
 }
 
-/// Draws the animation that is asked for; encoding goes on beside the drawing.
+/// Draws the animation; encoding runs in parallel.
 pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: &mut Session) -> Result<Verdict> {
     let start = Instant::now();
     let Rendering { request, run, output } = *rendering;
@@ -160,7 +160,7 @@ fn numbers_of(names: &[String], movement: &str, path: &str) -> Result<Vec<usize>
     Ok(numbers)
 }
 
-/// Scenes that share one camera, which shows the models in all of them, and one place for each copy.
+/// Scenes with one camera, which has the models of all of them in view, and a fixed place for each copy.
 fn one_scene_a_frame(frames: Vec<Vec<Arc<Mesh>>>, settings: &SceneSettings) -> Result<Vec<Scene>> {
     let models = frames[0].len();
     let meshes: Vec<Arc<Mesh>> = frames.iter().flatten().cloned().collect();

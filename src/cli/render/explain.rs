@@ -1,4 +1,4 @@
-//! What `--explain` says of a plan's times, of what came before the first frame, and of exact lines.
+//! The text of `--explain`: a plan's times, the preparation before the first frame, and exact lines.
 
 use tinta::edges::Class;
 use tinta::lines::{InconsistencyKind, Polyline, Strokes, VisibleLines};
@@ -25,7 +25,7 @@ pub(super) fn start(parts: &[(&str, f64)]) -> String {
     format!("\n{:<20}{:>10}  the model is read while the context opens\n{}", "start", "ms", rows.concat())
 }
 
-/// Which pens a plotter needs for which layers, from the first drawn to the last: as many as there are widths and colours.
+/// The pens that a plotter needs for the layers, in drawing order: one for each width and colour.
 pub(super) fn pens(layers: &[Strokes]) -> String {
     let mut pens: Vec<(&Strokes, Vec<&Strokes>)> = Vec::new();
     for layer in layers {
@@ -47,7 +47,7 @@ pub(super) fn pens(layers: &[Strokes]) -> String {
     text
 }
 
-/// What the lines of a drawing are, how long each part took, and where what is seen of smooth silhouettes ends for no reason.
+/// Explains a drawing's lines: their counts, the time of each part, and where visible smooth silhouettes end without a reason.
 pub(super) fn lines(lines: &VisibleLines, counts: &LineCounts, load_ms: f64, written_ms: f64) -> String {
     let mut text = format!("{:<20}{:>10}{:>12}{:>12}\n", "class", "lines", "seen px", "hidden px");
     let mut edges = lines.edges;
@@ -55,7 +55,7 @@ pub(super) fn lines(lines: &VisibleLines, counts: &LineCounts, load_ms: f64, wri
         let length = |is_visible: bool| -> f64 {
             let of_it = |line: &&tinta::lines::LineSegment| line.class == class && line.is_visible == is_visible;
             let lengths = lines.segments.iter().filter(of_it).map(|line| line.ends_px[0].distance(line.ends_px[1]));
-            // The sum of none is -0.
+            // An empty sum is -0.
             lengths.sum::<f64>() + 0.0
         };
         if *edges.of(class) > 0 {

@@ -1,4 +1,4 @@
-//! What an output's name asks for: lines or pixels.
+//! The format of an output by its name: lines or pixels.
 
 use std::path::Path;
 use tinta::picture::PictureFormat;
@@ -25,7 +25,7 @@ fn extension(output: &str) -> Option<&str> {
 }
 
 impl Format {
-    /// What a file of this name is, if it holds lines.
+    /// The format of a file of this name, if it holds lines.
     fn of_name(output: &str) -> Option<Self> {
         match extension(output).map(str::to_ascii_lowercase).as_deref() {
             Some("svg") => Some(Self::Svg),
@@ -54,11 +54,11 @@ impl Format {
                 "{} draws pixels; --look technical in its place writes lines, or name a picture such as drawing.png",
                 request.style_said()
             )),
-            // What is no picture either is refused with all there is to choose from.
+            // A name that is no picture either is refused later, with the full list of formats.
             (false, None) if output == "-" || Path::new(output).is_dir() => Ok(None),
             (false, None) => match extension(output) {
                 Some(extension) if !is_of_a_picture(extension) => refuse(format!(
-                    "nothing is written as .{extension}; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for \
+                    "tinta writes no .{extension}; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for \
                      lines, .gif or .apng for an animation"
                 )),
                 _ => Ok(None),

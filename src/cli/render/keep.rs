@@ -1,4 +1,4 @@
-//! What is kept of a rendering besides the picture: its recipe in the picture, its options as a preset.
+//! The records of a rendering besides the picture: its recipe in the picture, its options as a preset.
 
 use super::super::inputs::Inputs;
 use super::super::standard_input;
@@ -34,7 +34,7 @@ pub(super) fn save_preset(target: &TextTarget, options: &Options) -> Result<()> 
     target.write(&to_toml(options, &comment))
 }
 
-/// The recipe of a picture, or without a context of lines; `None` where it is not wanted.
+/// The recipe of a picture, or of lines if no context is given; `None` if not requested.
 pub(super) fn recipe(
     rendering: &Rendering<'_>,
     scene: &Scene,
@@ -53,13 +53,13 @@ pub(super) fn recipe(
         size: [scene.size.width, scene.size.height],
         models: request.models.clone(),
         options: request.options.clone(),
-        // One that has gone since it was read is left out: the picture is there, and says so by drawing otherwise.
+        // A file removed after reading is left out: drawing the recipe reports the difference.
         files: paths.iter().filter_map(|path| record(path)).collect(),
         gl: context.map(Driver::new),
     })
 }
 
-/// What is kept of a file: of standard input, too, its length and hash, by which it is known if it is ever piped in again.
+/// A file's record. Standard input is recorded too, by length and hash, to recognise the same data later.
 fn record(path: &Path) -> Option<FileRecord> {
     match path == Path::new(standard_input::DASH) {
         true => standard_input::model().ok().map(|bytes| FileRecord::of_bytes(standard_input::DASH, &bytes)),

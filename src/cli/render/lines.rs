@@ -56,7 +56,7 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
         say(&format!("tinta: {output}: {note}"));
     }
     let recipe = match format {
-        // What there is of a part depends on the machine: nothing makes it again.
+        // Partial lines depend on the machine and cannot be reproduced.
         _ if note.is_some() => None,
         Format::Svg | Format::Pdf | Format::Picture => keep::recipe(rendering, &scene, &files, None),
         Format::Json => None,
@@ -97,13 +97,13 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     super::super::print_json(&record).map(|()| Verdict::Good)
 }
 
-/// What a signal has ended.
+/// The verdict after a signal.
 fn stopped(stop: Option<&Stop>) -> Verdict {
     say("tinta: stopped by a signal; nothing was written");
     Verdict::Stopped { signal: stop.map_or(0, Stop::signal) }
 }
 
-/// Writes nothing yet: checks that the file can be written.
+/// Checks that the file can be written, without writing.
 fn check_output(output: &str, format: Format, is_transparent: bool) -> Result<()> {
     match format {
         Format::Picture => Target::check(output, is_transparent).map(drop),
@@ -111,8 +111,8 @@ fn check_output(output: &str, format: Format, is_transparent: bool) -> Result<()
     }
 }
 
-/// How the drawing is written, with its recipe. Its command has a name of its own for the output: the same drawing is the same bytes
-/// wherever it is written.
+/// How the drawing is written, with its recipe. The recipe's command uses a fixed name for the output: the same drawing has the
+/// same bytes wherever it is written.
 fn with_recipe(drawing: DrawingSettings, output: &str, recipe: Option<&Recipe>) -> DrawingSettings {
     let name = if output.to_ascii_lowercase().ends_with(".pdf") { "drawing.pdf" } else { "drawing.svg" };
     DrawingSettings {
@@ -139,12 +139,12 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Resu
     }
     refuse(&["animate"], problem)?;
     if run.explain && request.animation.turntable.is_some() {
-        return Err(Error::setting("explain", "a turn has many views and it tells of one; leave out --turntable"));
+        return Err(Error::setting("explain", "a turn has many views and this describes one; leave out --turntable"));
     }
     let holds_note =
         format != Format::Picture || output == "-" || PictureFormat::of(Path::new(output)) == Some(PictureFormat::Png);
     if run.partial && !holds_note {
-        let problem = "this format has no place to say that the drawing is a part; write a .svg, .pdf, .json or .png";
+        let problem = "this format cannot mark the drawing as partial; write a .svg, .pdf, .json or .png";
         return Err(Error::setting("partial", problem));
     }
     if output == "-" && run.is_told() {

@@ -1,4 +1,4 @@
-//! `tinta render` without what a scene does not need: which rules are applied, what they saved, whether the picture is the same.
+//! `tinta render` with pruning: the applied rules, the time they saved, and whether the picture is the same.
 
 use super::super::Verdict;
 use std::path::{Path, PathBuf};
@@ -7,10 +7,10 @@ use tinta::plan::prune::{Omission, Pruned, Pruning, prune};
 use tinta::renderer::median;
 use tinta::{Picture, Renderer, Result, Scene, Target};
 
-/// Least rounds by which what an omission saved is timed.
+/// Least rounds that time an omission.
 const LEAST_ROUNDS: usize = 5;
 
-/// Most of them.
+/// Most rounds.
 const MOST_ROUNDS: usize = 101;
 
 /// Draws the published plan and compares it with the picture of the shorter one; without a difference no picture of one stays.
@@ -24,7 +24,7 @@ pub(super) fn verify(
     let full = renderer.draw(scene, published)?;
     let path = difference_path(output);
     if full.pixels == picture.pixels {
-        // One of an earlier run would say what is no longer so.
+        // A file from an earlier run would be out of date.
         let _ = std::fs::remove_file(&path);
         return Ok(Verdict::Good);
     }
@@ -45,7 +45,7 @@ pub(super) fn verify(
     Ok(Verdict::Different)
 }
 
-/// `a/b.png` becomes `a/b-difference.png`, and so does `a/b-%04d.png`.
+/// `a/b.png` and `a/b-%04d.png` both become `a/b-difference.png`.
 fn difference_path(output: &str) -> PathBuf {
     let path = Path::new(output);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -54,7 +54,7 @@ fn difference_path(output: &str) -> PathBuf {
     path.with_file_name(format!("{stem}-difference.png"))
 }
 
-/// What was left out and what that saved, timed by drawing with and without each; and what was not left out.
+/// The omissions and the time each saved, measured by drawing with and without each; and the rules that omitted nothing.
 pub(super) fn explanation(
     renderer: &mut Renderer,
     scene: &Scene,
@@ -63,7 +63,7 @@ pub(super) fn explanation(
     frames: usize,
 ) -> Result<String> {
     let Pruned { plan, omissions, kept } = prune(published, scene, pruning);
-    // Each is put back by itself, for they build on one another.
+    // Each is restored alone, because they build on one another.
     let with = |omission: &Omission| {
         let keep = pruning.keep.iter().copied().chain([omission.rule]).collect();
         prune(published, scene, &Pruning { keep, ..pruning.clone() }).plan
@@ -93,7 +93,7 @@ pub(super) fn explanation(
     Ok(text)
 }
 
-/// What putting something back costs, in words; medians of a busy machine differ by a twentieth for no reason.
+/// The time of restoring an omission, in words; medians of a busy machine vary by a twentieth.
 fn saved(with_ms: f64, without_ms: f64) -> String {
     match with_ms - without_ms {
         saved if saved.abs() > 0.05 * without_ms && saved > 0.0 => format!("saved {saved:.2} ms"),

@@ -1,4 +1,4 @@
-//! A drawing under way: what was asked, and where it goes.
+//! A rendering in progress: the request and its output.
 
 use super::super::inputs::Inputs;
 use super::settings::RunSettings;
@@ -14,7 +14,7 @@ pub(super) struct Rendering<'a> {
 }
 
 impl Rendering<'_> {
-    /// What is said of the models.
+    /// Records of the models.
     pub(super) fn model_records(&self, scene: &Scene) -> Vec<ModelRecord> {
         scene.objects[..self.request.models.len()].iter().map(|object| ModelRecord::new(&object.mesh)).collect()
     }

@@ -1,5 +1,5 @@
-//! Settings to options and back: every option of the command line that makes a picture, for every style. What values an option
-//! takes is known from its table, so that a new setting is tried here too.
+//! Settings to options and back: every option of the command line that makes a picture, for every style. An option's table gives
+//! its values: the test covers new settings too.
 
 use super::{Arguments, is_of_one_run};
 use crate::request::{Layer, Request};
@@ -53,7 +53,7 @@ fn of_table<T: HasSettings>(table: &'static Table<T>, file: &Path) -> Vec<Sample
         let defaults: Vec<String> =
             table.defaults.iter().filter_map(|form| table.find(form, setting.name)?.value(form)).collect();
         let differs = |sample: &String| !defaults.contains(sample);
-        // What one form alone takes is no sample of all of them.
+        // A value that only one form accepts does not represent all of them.
         let is_taken = |sample: &String| {
             let has_it = table.defaults.iter().filter_map(|form| Some((form, table.find(form, setting.name)?)));
             has_it.filter(|(form, setting)| setting.set(&mut (*form).clone(), sample).is_ok()).count() > 0
@@ -71,7 +71,7 @@ fn of_table<T: HasSettings>(table: &'static Table<T>, file: &Path) -> Vec<Sample
 fn samples(file: &Path) -> Vec<Sample> {
     let mut samples = of_table(Request::table(), file);
     samples.retain(|sample| sample.name != "style");
-    // Beyond what a panel offers.
+    // Values that a panel does not offer.
     for (name, value) in [
         ("seed", "12345678901234567890"),
         ("tone-levels", "0.1,-0.9,1e-7"),
@@ -86,7 +86,7 @@ fn samples(file: &Path) -> Vec<Sample> {
     samples
 }
 
-/// What the words ask for in a style; none if the settings refuse one another.
+/// The request made by the words in a style; `None` if the settings exclude one another.
 fn asked(given: &[String], style: &str) -> Option<Request> {
     let words: Vec<String> = given.iter().cloned().chain([format!("--style={style}")]).collect();
     Some(parsed(&words).asked().ok()?.0)
@@ -100,7 +100,7 @@ fn written(request: &Request) -> Options {
     options
 }
 
-/// Asserts that what is written asks for the same.
+/// Asserts that the written options give the same request.
 fn assert_survives(request: &Request) -> Options {
     let options = written(request);
     let again = parsed(&words(&options)).asked().unwrap().0;
@@ -139,7 +139,7 @@ fn every_option_of_a_picture_survives_being_written_and_read() {
         for (style, _) in StyleName::ALL {
             let Some(request) = asked(&sample.words(), style) else { continue };
             let options = assert_survives(&request);
-            // A recipe is written as what it sets.
+            // A recipe is written as the settings it stands for.
             let sought = if sample.name == "charcoal" { "density" } else { sample.name };
             is_written |= options.contains_key(sought);
         }
@@ -163,7 +163,7 @@ fn an_option_is_said_to_have_no_effect_exactly_where_it_changes_nothing() {
                 Style::with_options(style, &options).map_or(true, |changed| changed != Style::named(style));
             match is_ignored(name, &[]) {
                 false => assert!(!is_changed, "--{name} is an option of styles"),
-                // Exact is what lines have anyway, and they refuse the listing's rule.
+                // Lines always use exact, and refuse the listing's rule.
                 true if name == "silhouette" && style.draws_lines() => {}
                 true => assert_eq!(is_ignored(name, &[style_name]), !is_changed, "--{name} in {style_name}"),
             }
@@ -212,7 +212,7 @@ fn the_papers_presets_are_the_styles_defaults() {
         let style = Request::from_layers(&[Layer::File(preset.clone())]).unwrap().0.style;
         assert_eq!(style, Style::named(style.style_name()), "{name}");
         assert!(preset.options.len() > 12, "{name} spells its constants out");
-        // Every one of the style's own options is spelt out, but for files, which have none.
+        // All the style's options are written out, except files, which have none.
         let is_a_constant = |kind: &Kind| !matches!(kind, Kind::File | Kind::Flag);
         let settings = Style::table().of(Some(&style));
         let expected: BTreeSet<&str> =

@@ -1,4 +1,4 @@
-//! The options of `tinta render` that say what is done with a drawing, not which it is: they are in no preset and no recipe.
+//! The options of `tinta render` that control the use of a drawing, not its contents: presets and recipes never contain them.
 
 use super::super::selection::Selection;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use tinta::plan::Submission;
 use tinta::settings::{HasSettings, Kind, Setting, Table, under};
 use tinta::{Error, Result};
 
-/// What is done with one drawing.
+/// The use of one drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::cli) struct RunSettings {
     pub submission: Submission,
@@ -52,7 +52,7 @@ pub(in crate::cli) fn is_of_one_run(option: &str) -> bool {
     RunSettings::table().has(option)
 }
 
-/// What a setting that is left open is called.
+/// The name of an open setting.
 const OFF: &str = "off";
 
 impl HasSettings for RunSettings {
@@ -163,26 +163,26 @@ impl RunSettings {
         }
     }
 
-    /// Refuses what only lines have.
+    /// Refuses options of lines.
     pub(super) fn refuse_for_pictures(&self) -> Result<()> {
         let problem = "only exact lines can end before they are done; leave it out, or write a .svg";
         Self::refuse(&[("within", self.within.is_some()), ("partial", self.partial)], problem)
     }
 
-    /// Refuses what is for one picture.
+    /// Refuses options for single pictures.
     pub(super) fn refuse_for_animations(&self) -> Result<()> {
         let given = [("explain", self.explain), ("dump", self.dump.is_some()), ("frames", self.frames != 1)];
         Self::refuse(&given, "this is for one picture; leave it out, or name a picture such as drawing.png")
     }
 
-    /// Refuses what only pictures have.
+    /// Refuses options of pictures.
     pub(super) fn refuse_for_lines(&self) -> Result<()> {
         let problem =
             "style lines has no passes and no model's frames; leave it out, or name a picture such as drawing.png";
         Self::refuse(&[("dump", self.dump.is_some()), ("frames", self.frames != 1)], problem)?;
         let problem = "style lines is computed, not drawn by passes; leave it out here";
         Self::refuse(&[("verify", self.verify)], problem)?;
-        let problem = "without a limit there is no part; add --within SECONDS, or leave it out";
+        let problem = "it needs a time limit; add --within SECONDS, or leave it out";
         Self::refuse(&[("partial", self.partial && self.within.is_none())], problem)
     }
 }

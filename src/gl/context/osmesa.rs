@@ -66,7 +66,7 @@ fn load() -> Result<Functions, String> {
         }
     }
     Err(format!(
-        "the library is not installed ({}); Mesa has none since 25.1, and nothing needs it where another way works",
+        "the library is not installed ({}); Mesa dropped it in 25.1, and tinta needs it only if no other backend works",
         reasons[0]
     ))
 }
@@ -166,7 +166,7 @@ impl OsMesaContext {
 impl Platform for OsMesaContext {
     fn resize(&mut self, size: Size) -> Result<(), String> {
         let mut memory = Vec::new();
-        memory.try_reserve_exact(size.pixel_count()).map_err(|_| "there is not enough memory".to_owned())?;
+        memory.try_reserve_exact(size.pixel_count()).map_err(|_| "not enough memory".to_owned())?;
         memory.resize(size.pixel_count(), 0);
         *self.memory.borrow_mut() = memory;
         self.size = size;

@@ -34,7 +34,7 @@ fn what_a_driver_lacks_is_refused_by_the_option_that_asks_for_it() {
     let no_objects = "Voodoo 2 has no framebuffer objects (ARB_framebuffer_object); use";
     assert_eq!(
         refused(&old, &mrt),
-        format!("style mrt: {no_objects} --style three-pass, which draws the same picture but for rounding")
+        format!("style mrt: {no_objects} --style three-pass, which draws the same picture except for rounding")
     );
     for style in [&texture, &ink] {
         assert_eq!(refused(&old, style), format!("map-target texture: {no_objects} --map-target copy"));

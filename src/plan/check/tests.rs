@@ -149,7 +149,7 @@ fn sizes_that_do_not_fit_are_found() {
     draw_of(&mut plan, 2).scissor = Some(Rectangle { x: 4, y: 0, width: 5, height: 6 });
     says(&plan, "what border is confined to is 5x6 pixels from (4, 0), not within 8x6");
     plan.supersample = 2;
-    says(&plan, "what the plan ends with is 2 times the picture, not the picture's size");
+    says(&plan, "the end of the plan is 2 times the picture, not the picture's size");
     let mut plan = three_pass();
     plan.passes[1].scissor = Some(Rectangle { x: u32::MAX, y: 0, width: 2, height: 1 });
     says(&plan, "what tones is confined to");

@@ -19,12 +19,7 @@ pub(super) fn border(plan: &mut Plan) -> Result<Omission, String> {
     }
     plan.passes.iter_mut().for_each(|pass| pass.steps.retain(|step| reason(step).is_none()));
     drop_empty_passes(plan);
-    Ok(Omission {
-        rule: Rule::Border,
-        what: what.join(", "),
-        reason: "it leaves every pixel as it is".to_owned(),
-        facts,
-    })
+    Ok(Omission { rule: Rule::Border, what: what.join(", "), reason: "it changes no pixel".to_owned(), facts })
 }
 
 /// Leaves out passes, draws and copies whose result nothing reads, going back from the picture.
@@ -83,7 +78,7 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
     Ok(Omission {
         rule: Rule::UnreadMap,
         what: format!("{}: {}", counted(dropped.len(), "step", "steps"), dropped.join(", ")),
-        reason: "what they draw is cleared or never read before the picture is".to_owned(),
+        reason: "their drawing is cleared or never read before the picture is".to_owned(),
         facts: vec!["no later step reads their texture".to_owned()],
     })
 }

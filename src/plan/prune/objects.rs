@@ -55,7 +55,7 @@ pub(super) fn outside(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omis
         rule: Rule::OutsideObjects,
         what: format!("{} of {}{lines}", count, counted(outside.len(), "object", "objects")),
         reason: "none of their pixels would lie in the picture".to_owned(),
-        facts: vec!["the boxes around them lie beyond one side of what the camera sees".to_owned()],
+        facts: vec!["their bounding boxes lie outside one side of the camera's view".to_owned()],
     })
 }
 

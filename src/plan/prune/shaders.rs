@@ -19,7 +19,7 @@ pub(super) fn unused_light(plan: &mut Plan) -> Result<Omission, String> {
     }
     Ok(Omission {
         rule: Rule::UnusedLight,
-        what: format!("{left_out}, with what they interpolate"),
+        what: format!("{left_out}, with their interpolated variables"),
         reason: "no light reaches the threshold, so the comparison always comes out the same".to_owned(),
         facts,
     })

@@ -15,7 +15,7 @@ impl Charcoal {
             "charcoal",
             "RECIPE",
             Kind::Recipe(names_of::<CharcoalRecipe>()),
-            "Recipe: plain (the listing as it is), darker (density 85, contrast exponent 1.2, smudged), closure (density 35, contrast \
+            "Recipe: plain (the unchanged listing), darker (density 85, contrast exponent 1.2, smudged), closure (density 35, contrast \
              exponent 2, saturation 1.4); options given beside it override it",
             |_: &Self| CharcoalRecipe::default().text(),
             |charcoal, text| {
@@ -45,7 +45,7 @@ impl Charcoal {
                 "Random numbers: splitmix, or rand() as C libraries of the report's time had it: msvc, glibc",
                 |charcoal: &mut Self| &mut charcoal.random,
             )
-            .ours("V, section 5: rand(), without saying whose (V8)")
+            .ours("V, section 5: rand(), without naming the library (V8)")
             .labelled("random numbers"),
             Setting::field(
                 "density",
@@ -61,7 +61,7 @@ impl Charcoal {
                 "Exponent m that moves black pixels along t to t^m; more leaves fewer grains in light tones",
                 |charcoal: &mut Self| &mut charcoal.cet_exponent,
             )
-            .deduced("V, figure 3: the middle one of three; which the drawings have is not said")
+            .deduced("V, figure 3: the middle one of three; the text does not say which the drawings have")
             .range(1.0, 20.0, 1)
             .labelled("grain exponent"),
             Setting::field(
@@ -78,7 +78,7 @@ impl Charcoal {
             Setting::field(
                 "contrast-exponent",
                 "M",
-                "Exponent of the light's contrast; more darkens all but the brightest parts",
+                "Exponent of the light's contrast; more darkens everything except the brightest parts",
                 |charcoal: &mut Self| &mut charcoal.contrast_exponent,
             )
             .ours("V, section 2.1.2 asks for more than 1 (V7)")
@@ -168,7 +168,7 @@ impl Charcoal {
             Setting::field(
                 "noise",
                 "WHERE",
-                "What the noise sticks to: screen (as published), object (turns with the model)",
+                "The noise is fixed to: screen (as published), object (turns with the model)",
                 |charcoal: &mut Self| &mut charcoal.noise,
             )
             .printed("V, section 3.3: the paper's coordinate"),
@@ -179,7 +179,7 @@ impl Charcoal {
                  (proportion, tooth, two-sided, strokes; with all: everything); separated by commas",
                 |charcoal: &mut Self| &mut charcoal.improve,
             )
-            .printed("V, the listing as it stands")
+            .printed("V, the unchanged listing")
             .labelled("improved"),
         ];
         under(ALL_STYLES, common).chain(under(CHARCOAL, grain)).chain(under(CHARCOAL, drawing)).collect()

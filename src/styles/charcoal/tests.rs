@@ -84,7 +84,7 @@ fn nonsense_is_refused_by_the_options_name() {
         assert!(refused(Charcoal { lights: [front, Some(light)], ..base() }).starts_with("light-2"));
         assert!(refused(Charcoal { lights: [Some(light), None], ..base() }).starts_with("light-1"));
     }
-    assert!(refused(Charcoal { lights: [None, None], ..base() }).starts_with("light-2: without any light"));
+    assert!(refused(Charcoal { lights: [None, None], ..base() }).starts_with("light-2: the picture needs a light"));
     assert!(refused(Charcoal { density_percent: 101.0, ..base() }).starts_with("density"));
     assert!(refused(Charcoal { cet_exponent: 0.5, ..base() }).starts_with("cet-exponent"));
     let texture_size = Size { width: 5000, height: 1 };

@@ -1,7 +1,8 @@
 //! larnt on a mesh: league-larnt MODEL.obj CAMERA.json DRAWING.svg
 //!
-//! As its README's mesh example has it: `load_obj`, a scene, `render`, `to_svg`. It draws the visible parts of every triangle's edges,
-//! and has no silhouettes or creases. Lines are cut into steps as long as a pixel at the target, and each step is visible or not.
+//! As in its README's mesh example: `load_obj`, a scene, `render`, `to_svg`. It draws the visible parts of every triangle's
+//! edges, and has no silhouettes or creases. Lines are cut into steps as long as a pixel at the target, and each step is visible
+//! or not.
 
 use larnt::{Scene, Shape, Vector, load_obj};
 use serde_json::{Value, json};

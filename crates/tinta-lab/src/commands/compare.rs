@@ -58,7 +58,7 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    /// Of a job's options.
+    /// Reads a job's options.
     pub(super) fn of_job(job: &JobOptions) -> Result<Self> {
         job.refuse_unknown("compare", |name| Chosen::<OfHow>::has(name) || Chosen::<OfComparison>::has(name))?;
         Ok(Self {
@@ -104,7 +104,7 @@ impl HasSettings for CompareSettings {
     }
 }
 
-/// What a comparison of two styles has: no lines, no animation.
+/// The settings of a comparison of two styles: neither lines nor animation.
 struct OfComparison;
 
 impl Selection for OfComparison {
@@ -161,7 +161,7 @@ struct DrawingRecord {
     style: Style,
     /// Making the first plan: edge list, classes and planes included, where the style needs them.
     plan_ms: f64,
-    /// The frames after warm-up, each with a plan of its own, read-back included, milliseconds.
+    /// The frames after warm-up, each including its plan and reading back, milliseconds.
     frame_ms: Summary,
 }
 
@@ -247,7 +247,7 @@ fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &m
         let ink = InkMask::of(&renderer.draw(&scene, &lines)?);
         let picture = renderer.draw(&scene, &plan)?;
         renderer.time_frames(&scene, &plan, WARM_UP, 1)?;
-        // As when the view moves: silhouettes and light are due in every frame.
+        // As in a moving view: silhouettes and light are computed in every frame.
         let mut frame = || -> Result<f64> {
             let start = Instant::now();
             let plan = style.plan(&scene, Show::Final)?;

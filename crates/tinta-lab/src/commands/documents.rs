@@ -1,7 +1,7 @@
-//! The commands that the documents name are commands that this program takes: each is parsed as it stands, none is run.
+//! The commands named in the documents are commands of this program: the test parses each unchanged and runs none.
 //!
-//! In blocks of code a command must be whole; between backquotes it may lack what it needs (`tinta render`), for there it is
-//! named, not given. A command ends where two blanks or a `#` begin an explanation. Those of other programs are passed over.
+//! In blocks of code a command must be whole; between backquotes it may lack required parts (`tinta render`), because text there
+//! only names it. A command ends where two blanks or a `#` begin an explanation. Commands of other programs are skipped.
 
 use std::path::{Path, PathBuf};
 
@@ -66,7 +66,7 @@ fn commands(document: &Path) -> Vec<Named> {
     all
 }
 
-/// The words as a shell splits them, up to where it does something of its own with them.
+/// The words as a shell splits them, up to the first shell syntax.
 fn words(command: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut quote = None;

@@ -1,4 +1,4 @@
-//! `tinta figures`: the three texts' figures as pictures and plots of ours, and their claims with what is measured, on a page.
+//! `tinta figures`: the three texts' figures as our pictures and plots, and their claims with measurements, on a page.
 
 use crate::figures::page::{FigureRecord, PictureRecord, Shown, page, png_source, svg_source};
 use crate::figures::plot::{PLOT_SIZE, plot, title};
@@ -73,7 +73,7 @@ const BUILTIN_CHARACTER: &str = "builtin:soldier";
 /// Tones of figure 13, a plot each.
 const PLOTS: [u8; 3] = [1, 2, 3];
 
-/// What takes time, in the order of [`expected`].
+/// The kinds of work, in the order of [`expected`].
 enum Work {
     Panel,
     ClaimPictures,
@@ -82,10 +82,10 @@ enum Work {
     Claim,
 }
 
-/// How long it takes at first guess, seconds: what was seen with two cores and a software renderer, whose proportions are
-/// everyone's. What is measured says more as soon as it is.
+/// Its expected time, seconds: measured with two cores and a software renderer; the proportions are similar elsewhere. Actual
+/// times replace it as soon as they are known.
 fn expected(panels: usize, claims: usize, is_measured: bool, how: &HowToMeasure) -> [Steps; 5] {
-    /// A picture with its file, a turn of what is small, a triangle, a claim without and with its frames.
+    /// The time of a picture with its file, of a turn of a small model, of a triangle, of a claim without and with its frames.
     const PICTURE: f64 = 0.09;
     const TURN: f64 = 0.3;
     const TRIANGLE: f64 = 0.5e-6;
@@ -198,7 +198,7 @@ impl Arguments {
         HowToMeasure { size: self.size, frames: frames as usize, scenes }
     }
 
-    /// The model with a texture: the user's, or else the built-in one.
+    /// The model with a texture: the user's, or the built-in one.
     fn textured(&self) -> Result<Option<Arc<Mesh>>> {
         let path = self.model.as_deref().unwrap_or(BUILTIN_CHARACTER);
         let options = LoadOptions { skin: self.skin.clone(), ..LoadOptions::default() };
@@ -213,7 +213,7 @@ impl Arguments {
         }
     }
 
-    /// What that model is called on a command line.
+    /// The name of that model on a command line.
     fn textured_name(&self) -> Option<String> {
         let model = quoted(self.model.as_deref().unwrap_or(BUILTIN_CHARACTER));
         Some(match &self.skin {
@@ -229,7 +229,7 @@ impl Arguments {
         format!("tinta figures -o figures --only {id} --size {size} --frames {frames}{quick}")
     }
 
-    /// Draws a panel into its file; `None` where it needs a texture and there is none.
+    /// Draws a panel into its file; `None` if it needs a missing texture.
     fn drawn(
         &self,
         folder: &Folder<'_>,

@@ -39,11 +39,11 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "MODEL")]
     model: String,
 
-    /// Size in which an SVG is drawn, in pixels [default: its own]
+    /// Size of an SVG's picture, in pixels [default: its own]
     #[arg(long, value_name = "WxH")]
     size: Option<Size>,
 
-    /// What is ink: dark (on white), light (on black), alpha, or the colour of the lines [default: dark]
+    /// Which pixels are ink: dark (on white), light (on black), alpha, or the colour of the lines [default: dark]
     #[arg(long, value_name = "INK", default_value = "dark", hide_default_value = true)]
     ink: InkColor,
 
@@ -51,11 +51,11 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "PIXELS", default_value = "2", hide_default_value = true, allow_hyphen_values = true)]
     tolerance: f64,
 
-    /// Look for a shift of up to 5 % of the diagonal, a scale of up to 1.1 and a mirror image first, and say what was found [default: off]
+    /// Look for a shift of up to 5 % of the diagonal, a scale of up to 1.1 and a mirror image first, and print the result [default: off]
     #[arg(long)]
     fit: bool,
 
-    /// Folder for results.jsonl, to which rows are added, plots, pictures of the errors and report.html [default: none]
+    /// Folder for results.jsonl (rows are added), plots, pictures of the errors and report.html [default: none]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 
@@ -85,7 +85,7 @@ pub(super) struct Arguments {
     subject: Chosen<OfSubject>,
 }
 
-/// What the exact lines are asked, as `tinta measure` asks it.
+/// The settings of the exact lines, as in `tinta measure`.
 struct OfReference;
 
 impl Selection for OfReference {
@@ -96,7 +96,7 @@ impl Selection for OfReference {
     }
 }
 
-/// What is printed of a drawing with `--json`.
+/// The record printed with `--json`.
 #[derive(Serialize)]
 struct Record<'a> {
     version: &'static str,
@@ -110,7 +110,7 @@ struct Record<'a> {
 /// Files that are written into the folder, pictures of plots and errors aside.
 const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 
-/// Judges the drawings; exit code 1 where one looks like something else than lines of this view.
+/// Judges the drawings; exit code 1 if one looks like something other than lines of this view.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<Verdict> {
     let mut verdict = Verdict::Good;
     let names = names(arguments)?;
@@ -208,7 +208,7 @@ impl Subject {
     }
 }
 
-/// Says where a picture that tinta drew, as its recipe has it, shows the model from elsewhere than it is judged from; whether it does.
+/// Warns if the recipe of a picture by tinta has another view than the judge; returns whether it does.
 fn say_other_camera(drawing: &Path, scene: &Scene) -> bool {
     let Ok(recipe) = Recipe::read(drawing) else { return false };
     let options = camera_file::of_camera(recipe.options);
@@ -229,7 +229,7 @@ fn say_other_camera(drawing: &Path, scene: &Scene) -> bool {
 
 /// How far a corner of the scene moves at most if another camera sees it, pixels.
 fn largest_shift_px(scene: &Scene, other: &Camera) -> f64 {
-    /// Positions asked of each object.
+    /// Number of positions tested for each object.
     const ASKED: usize = 256;
     let size = DVec2::new(f64::from(scene.size.width), f64::from(scene.size.height));
     let [own, other] =
@@ -244,7 +244,7 @@ fn largest_shift_px(scene: &Scene, other: &Camera) -> f64 {
     shifts.fold(0.0, f64::max)
 }
 
-/// What the drawings are called, once what is said of each is known to be for as many.
+/// The drawings' names, after checking that each list of values has one for each drawing.
 fn names(arguments: &Arguments) -> Result<Vec<String>> {
     let count = arguments.drawings.len();
     let check = |option: &str, given: usize| match given {
@@ -292,7 +292,7 @@ fn in_words(name: &str, size: Size, judgement: &Judgement) -> String {
             format!("{chamfer:.2} px in the mean (Chamfer), {hausdorff:.2} px for 95 % of it (Hausdorff)"),
         );
     } else {
-        line("distance", format!("none: there is no ink from darkness {INK_FROM} of 255 on, or no line"));
+        line("distance", format!("none: no ink from darkness {INK_FROM} of 255 on, or no line"));
     }
     line("hidden lines", format!("{:.1} of {:.1} px are drawn", hidden.drawn_px, hidden.length_px));
     let classes: Vec<String> =

@@ -45,7 +45,7 @@ pub(super) const COMMAND: Command = Command {
 /// Measure every style's error and run time, as a table, plots and a page
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input, each measured by itself
+    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input, each measured separately
     #[arg(value_name = "MODEL", required_unless_present_any = ["suite", "merge", "against"])]
     models: Vec<String>,
 
@@ -71,7 +71,7 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    /// Of a job's options.
+    /// Reads a job's options.
     pub(super) fn of_job(job: &JobOptions) -> Result<Self> {
         let is_own = |name: &str| name == "merge" || Chosen::<OfHow>::has(name) || Chosen::<OfSubject>::has(name);
         job.refuse_unknown("measure", is_own)?;
@@ -101,7 +101,7 @@ impl Arguments {
         }
     }
 
-    /// The same as if it went on in the folder: a job's is there from an earlier try, or empty.
+    /// The same, continuing in the folder: a job's folder exists from an earlier try, or is empty.
     pub(super) fn resumed(mut self, output: PathBuf) -> Self {
         if self.merge.is_empty() {
             self.how.options.insert("resume".to_owned(), OptionValue::Switch(true));
@@ -109,7 +109,7 @@ impl Arguments {
         Self { output, ..self }
     }
 
-    /// Refuses what does not go together.
+    /// Refuses conflicting options.
     fn check(&self) -> Result<()> {
         let is_given = |name: &str| match name {
             "model" => !self.models.is_empty(),
@@ -131,7 +131,7 @@ impl Arguments {
 /// Files that a measurement writes, the pictures of its plots and errors aside.
 const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 
-/// Measures; `command` is what the report says it was made by.
+/// Measures; `command` is the command line stated in the report.
 pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -> Result<()> {
     arguments.check()?;
     if !arguments.merge.is_empty() {
@@ -147,14 +147,14 @@ pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -
     let (request, _) = arguments.subject.request_over(with_preset, &arguments.models, &below)?;
     let files: Vec<&str> = preset.into_iter().chain(camera.and_then(Path::to_str)).collect();
     Inputs::new(&request.models, &request.options, &files).keep_in(&arguments.output, WRITTEN)?;
-    // What a preset says of the measuring itself.
+    // A preset's options for the measuring itself.
     let mut asked = of_preset.map(|preset| preset.of(is_of_both).options).unwrap_or_default();
     asked.extend(arguments.how.options.clone());
     let asked = HowMeasured::from_options(&asked).map_err(|error| request.attributed(error))?;
     measured(arguments, &request, &asked, own_setting, command, session).map_err(|error| request.attributed(error))
 }
 
-/// What a preset says of the model and the camera; and its style, which is measured beside the others.
+/// A preset's layer for the model and the camera, and its style, which is measured with the others.
 fn of_preset_file(preset: &Preset) -> Result<(Layer, Option<Setting>)> {
     let is_of_subject = Chosen::<OfSubject>::has;
     let is_of_style = |name: &str| name == "style" || Style::table().has(name);
@@ -191,7 +191,7 @@ fn measured(
     let renderer = session.renderer(asked.backend)?;
     let expected = expected(renderer, &groups, settings.len(), how.frames)?;
     let seconds: f64 = expected.iter().copied().map(Steps::total).sum();
-    // Once nothing but the measuring can go wrong.
+    // Only now, when the measuring alone can fail.
     let mut results = Results::open(&arguments.output, asked.resume)?;
     results.refuse_other_terms(*against, how)?;
     tinta::cli::say(&format!(
@@ -201,7 +201,7 @@ fn measured(
         counted(asked.sizes.len(), "size"),
         counted(how.frames, "frame"),
         in_words(Duration::from_secs_f64(seconds)),
-        if results.is_empty() { "" } else { ", minus what is done already" }
+        if results.is_empty() { "" } else { ", minus those done already" }
     ));
     let progress = TimedProgress::new("measuring", &expected);
     for (number, group) in groups.into_iter().enumerate() {

@@ -1,11 +1,11 @@
-//! What a shell is offered for the options of all commands.
+//! A shell's suggestions for the options of all commands.
 
 use super::{program, stress};
 use clap::Command;
 use clap::error::ErrorKind;
 use tinta::cli::completions::with_values;
 
-/// What clap says of a value, if it refuses it.
+/// clap's error about a value, if any.
 fn refusal(command: &Command, option: &str, value: &str) -> Option<String> {
     let words = [command.get_name().to_owned(), format!("--{option}={value}")];
     let error = command.clone().try_get_matches_from(words).err()?;
@@ -29,7 +29,7 @@ fn every_name_offered_is_taken_and_every_choice_is_offered() {
                 assert_eq!(refusal(command, option, value), None, "{what} offers {value}");
                 names += 1;
             }
-            // A choice among names says so; all of them must be offered.
+            // The error for a choice lists its names; all of them must be offered.
             let Some(text) = refusal(command, option, "?") else { continue };
             if let Some(list) = text.split_once("choose ").map(|(_, list)| list.lines().next().unwrap()) {
                 assert!(!offered.is_empty(), "{what} is a choice ({list}): offer its names");

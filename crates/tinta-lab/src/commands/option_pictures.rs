@@ -1,9 +1,9 @@
 //! The pictures of docs/guide/options.md: the command below each heading draws them again, without the option of the heading and
 //! with it, side by side.
 //!
-//! `TINTA_UPDATE_PICTURES=1 cargo test -p tinta-lab --all-features option_pictures` writes them anew and then fails, so that nobody does so
-//! unnoticed; an option's name instead of 1 writes that one. All are drawn in one process by one context, which is what makes it cheap; the words are parsed, the models
-//! read and the plans made by the program's own functions.
+//! `TINTA_UPDATE_PICTURES=1 cargo test -p tinta-lab --all-features option_pictures` writes them anew and then fails, to make
+//! every update deliberate; an option's name instead of 1 writes that one. One process and one context draw all of them, which
+//! makes it cheap; the program's own functions parse the words, read the models and make the plans.
 
 use super::program;
 use std::collections::BTreeSet;
@@ -14,26 +14,25 @@ use tinta::cli::render;
 use tinta::request::{ModelCache, Request};
 use tinta::{Backend, Picture, Renderer, Size};
 
-/// A pixel counts as different beyond this, 1/255: what another driver rounds differently, and half a step of the fewer
-/// colours that the files have.
+/// A pixel counts as different beyond this, 1/255: the rounding of another driver, and half a step of the files' fewer colours.
 const LARGEST_DIFFERENCE: u8 = 12;
 
 /// Share of pixels that may be different: edges and grains fall on other pixels where another driver rasterises differently.
 const DIFFERENT_SHARE: f64 = 0.01;
 
-/// Share of a half that an option must change, or its picture shows nothing.
+/// Least share of a half that an option must change; below it the picture shows nothing.
 const LEAST_CHANGE: f64 = 0.001;
 
-/// What all pictures together may take, bytes.
+/// Largest size of all pictures together, bytes.
 const MOST_BYTES: u64 = 1536 * 1024;
 
 /// Width of the line between both halves, pixels.
 const GAP: u32 = 4;
 
-/// Colours of the squares behind what is transparent.
+/// Colours of the squares behind transparent pixels.
 const CHECKS: [u8; 2] = [235, 205];
 
-/// Commands whose options draw something.
+/// Commands with options that affect a drawing.
 const COMMANDS: [&str; 3] = ["render", "compare", "measure"];
 
 fn root() -> &'static Path {
@@ -44,7 +43,7 @@ fn page() -> String {
     std::fs::read_to_string(root().join("docs/guide/options.md")).unwrap()
 }
 
-/// A heading of the page with what stands below it.
+/// A heading of the page with the text below it.
 struct Section {
     /// Without its dashes.
     option: String,
@@ -86,7 +85,7 @@ fn without(section: &Section) -> Vec<String> {
     words
 }
 
-/// What the command draws.
+/// Returns the command's picture.
 fn drawn(renderer: &mut Renderer, words: &[String]) -> Picture {
     let refuse = |error: &dyn std::fmt::Display| -> ! { panic!("{}: {error}", words.join(" ")) };
     let folder = tempfile::tempdir().unwrap();
@@ -106,12 +105,12 @@ fn drawn(renderer: &mut Renderer, words: &[String]) -> Picture {
             }
             opaque(tiled(pictures(&request, renderer).unwrap_or_else(|error| refuse(&error))))
         }
-        // The picture of a comparison that has no times in it: whose line is whose.
+        // The picture of a comparison without times: it shows which drawing has each line.
         "compare" => {
             into("");
             Picture::read_png(&folder.path().join("lines.png")).unwrap()
         }
-        _ => panic!("{}: its picture is not known how to draw", words.join(" ")),
+        _ => panic!("{}: no known way to draw its picture", words.join(" ")),
     }
 }
 
@@ -129,7 +128,7 @@ fn rasterized(svg: &str, size: Size) -> Picture {
     Picture { size, pixels: map.data().to_vec() }
 }
 
-/// Four pictures in a square of half their size each; one as it is.
+/// Four pictures in a square of half their size each; a single one unchanged.
 fn tiled(mut pictures: Vec<Picture>) -> Picture {
     if pictures.len() == 1 {
         return pictures.remove(0);
@@ -151,7 +150,7 @@ fn tiled(mut pictures: Vec<Picture>) -> Picture {
     Picture { size, pixels }
 }
 
-/// Squares of two greys where nothing is drawn.
+/// Squares of two greys behind transparent pixels.
 fn opaque(mut picture: Picture) -> Picture {
     let width = picture.size.width as usize;
     for (number, pixel) in picture.pixels.chunks_exact_mut(4).enumerate() {
@@ -175,7 +174,7 @@ fn side_by_side(left: &Picture, right: &Picture) -> Picture {
     Picture { size: Size { width: 2 * width + GAP, height }, pixels }
 }
 
-/// With at most 256 colours, the fewest bits a channel that give so few: a third of the size of one with all.
+/// With at most 256 colours, in the fewest bits a channel that give so few: a third of the full size.
 fn write(picture: &Picture, path: &Path) {
     let reduced = |bits: u32| -> Vec<[u8; 3]> {
         let steps = (1u32 << bits) - 1;
@@ -255,7 +254,7 @@ fn the_pictures_of_the_options_are_what_their_commands_draw() {
             }
         }
     }
-    let how = "if the change is wanted: TINTA_UPDATE_PICTURES=1 cargo test -p tinta-lab --all-features option_pictures, and look at them; \
+    let how = "if you intended the change: TINTA_UPDATE_PICTURES=1 cargo test -p tinta-lab --all-features option_pictures, and look at them; \
                an option's name instead of 1 updates that one";
     assert!(failures.is_empty(), "{}\n{how}", failures.join("\n"));
     assert!(update.is_none(), "the pictures were written anew: look at them, then run without TINTA_UPDATE_PICTURES");
@@ -313,7 +312,7 @@ fn a_picture_of_fewer_colours_is_the_picture_within_the_tolerance_and_another_is
     let read = Picture::read_png(&path).unwrap();
     let colors: BTreeSet<&[u8]> = read.pixels.chunks_exact(4).collect();
     assert!(colors.len() <= 256, "{}", colors.len());
-    // At two bits a channel, of which the picture of many colours needs no more, half a step is 43.
+    // At two bits a channel, enough for the picture of many colours, half a step is 43.
     assert_eq!(different_share(&picture, &read, 43), 0.0);
     let mut moved = picture.clone();
     moved.pixels.rotate_right(4 * 9);

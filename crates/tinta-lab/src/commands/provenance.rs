@@ -1,4 +1,4 @@
-//! `tinta provenance`: whose each value of a style is.
+//! `tinta provenance`: the origin of each value of a style.
 
 use crate::provenance::{page, text};
 use tinta::cli::messages::print;

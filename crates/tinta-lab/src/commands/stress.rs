@@ -17,8 +17,8 @@ pub(super) const COMMAND: Command = Command {
 #[derive(clap::Args)]
 #[command(after_help = "\
 Files: stress.json has every case in every style by every backend, with its verdict and figures; stress.md is the same as a \
-table. A missing backend is skipped, and both files and standard error say so; without any backend nothing is \
-tried. Exit code: 0 if every case ends as it must, 1 otherwise. docs/results/stability.md explains the figures.")]
+table. A missing backend is skipped, and both files and standard error say so; without any backend no case \
+runs. Exit code: 0 if every case ends as it must, 1 otherwise. docs/results/stability.md explains the figures.")]
 pub(super) struct Arguments {
     /// Folder to write into; created if missing
     #[arg(short, long, value_name = "DIR")]

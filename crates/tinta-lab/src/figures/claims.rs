@@ -1,7 +1,7 @@
-//! The three texts' claims: every sentence that says something which can be measured, beside what is measured here.
+//! The three texts' claims: every measurable sentence, with the measurement here.
 //!
-//! A claim is plain data: where it stands, what it says, which rule decides, what shows it. The rule is a function of measured
-//! numbers; nobody writes a verdict down. [`measure_claims`] measures, `page` shows, [`markdown`] writes claims.md.
+//! A claim is plain data: its place, its sentence, its rule, the command that shows it. The rule is a function of measured
+//! numbers; no verdict is written by hand. [`measure_claims`] measures, `page` shows, [`markdown`] writes claims.md.
 
 mod claim;
 mod dachsbacher;
@@ -24,7 +24,7 @@ use serde::Serialize;
 use tinta::error::Result;
 use tinta::renderer::Renderer;
 
-/// A claim with what was found.
+/// A claim with its finding.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ClaimRecord {
     /// As [`Claim::id`].
@@ -64,8 +64,8 @@ pub fn claims(text: Text) -> Vec<Claim> {
     }
 }
 
-/// Measures claims; `numbers` are those of section 5, without which what follows from them is not testable, and `step` is called
-/// once for each claim.
+/// Measures claims; `numbers` are those of section 5, which some claims need to be testable. `step` is called once for each
+/// claim.
 ///
 /// # Errors
 ///

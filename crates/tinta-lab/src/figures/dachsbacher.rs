@@ -1,5 +1,5 @@
-//! The pictures of Dachsbacher's article. They have no numbers, and of each only its caption is known here: the captions below
-//! keep apart what the article says and what ours shows.
+//! The pictures of Dachsbacher's article. They have no numbers, and only their captions are known here: the captions below
+//! separate the article's statements from our pictures.
 //!
 //! All are drawn by the article's own rules, its normals among them (`--normals dachsbacher`).
 
@@ -60,7 +60,7 @@ fn edges() -> Figure {
         "dachsbacher-edges",
         "Second picture of the bust",
         "Edges alone",
-        "The article: “Beethoven has to make do with the edges of inking.” Faces in the background's colour hide what lies behind \
+        "The article: “Beethoven has to make do with the edges of inking.” Faces in the background's colour hide the lines behind \
          them.",
         vec![bust("dachsbacher-edges", "ink", ink_alone(), "--style inking --paint none")],
     )
@@ -120,7 +120,7 @@ fn ants() -> Figure {
         "The ants",
         "Ants painted by the ramp",
         "The article: “You render the faces of the ants with the shading from the picture on page 213”, the ramp above. Here each \
-         ant has a gradient of its own. Silhouettes are found by the listing's rule, one view vector for all edges; from here the \
+         ant has its own gradient. Silhouettes are found by the listing's rule, one view vector for all edges; from here the \
          exact rule draws nearly the same.",
         vec![
             panel("dachsbacher-ants", "ants", "builtin:ant", shot, style, "--style inking --ramp-row object")

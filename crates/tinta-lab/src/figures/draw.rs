@@ -23,16 +23,16 @@ impl Artist {
         Self { textured, ..Self::default() }
     }
 
-    /// Whether this panel can be drawn: all can but those of a textured model where there is none.
+    /// Whether this panel can be drawn: false only for a textured model without a texture.
     pub fn can_draw(&self, panel: &Panel) -> bool {
         !panel.needs_texture() || self.textured.is_some()
     }
 
-    /// Draws a panel; `None` where [`Artist::can_draw`] says no.
+    /// Draws a panel; `None` if [`Artist::can_draw`] is false.
     ///
     /// # Errors
     ///
-    /// As [`Renderer::draw`]; [`tinta::Error::Setting`] for a model that has no texture.
+    /// Those of [`Renderer::draw`]; [`tinta::Error::Setting`] for a model without a texture.
     pub fn draw(&mut self, renderer: &mut Renderer, panel: &Panel, size: Size) -> Result<Option<Picture>> {
         match &panel.drawing {
             Drawing::Grains { texture, .. } => texture.picture().map(Some),

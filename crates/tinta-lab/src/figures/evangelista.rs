@@ -1,5 +1,5 @@
-//! The figures of Evangelista et al. 2005: all fourteen, and the numbers of section 5. Figures 2 and 3 are other authors' pictures
-//! and not drawn; figure 4 is one too, but the paper says which two tones it has.
+//! The figures of Evangelista et al. 2005: all fourteen, and the numbers of section 5. Figures 2 and 3 are other authors'
+//! pictures and not drawn; figure 4 is one too, but the paper names its two tones.
 
 use super::figure::{Content, Figure, Panel, Shot, Text, panel};
 use tinta::styles::{Border, Cartoon, ClassColors, Filter, Inking, PaintMode, Phong, Show, Style, Tones};
@@ -11,7 +11,7 @@ fn pair(file: &str, label: &'static str, style: Style, options: &str) -> Panel {
     panel(file, label, BUST, Shot::view(20.0, 10.0, "--view 20,10"), style, options).times(2)
 }
 
-/// A filter's borders of that scene, whose maps are figure 9's.
+/// A filter's borders of that scene, with the maps of figure 9.
 fn filtered(file: &str, label: &'static str, filter: Filter, options: &str) -> Panel {
     let border = Some(Border { filter, ..Border::default() });
     pair(file, label, Style::ThreePass(Cartoon { border, ..Cartoon::default() }), options)
@@ -99,7 +99,7 @@ pub(super) fn figures() -> Vec<Figure> {
             "evangelista-6",
             "Figure 6",
             "Outer and inner borders of an open box",
-            "Where the outline runs lines are red, at creases blue. The figure explains which lines are meant, so ours \
+            "Where the outline runs lines are red, at creases blue. The figure explains which lines to find, so ours \
              takes them from the box's edges rather than from a map.",
             Content::Pictures(vec![panel(
                 "evangelista-6",
@@ -130,7 +130,7 @@ pub(super) fn figures() -> Vec<Figure> {
             "evangelista-9",
             "Figure 9",
             "Its normal and depth maps",
-            "What the first pass leaves in the framebuffer: normals as red, green and blue, depth in alpha, shown as \
+            "The first pass's framebuffer: normals as red, green and blue, depth in alpha, shown as \
              grey, dark is near.",
             Content::Pictures(vec![
                 pair("evangelista-9-normals", "normals", three_pass(), "").showing(Show::Normals, "normals"),
@@ -142,7 +142,7 @@ pub(super) fn figures() -> Vec<Figure> {
             "Figure 10",
             "Two filters of others",
             "At the left the Laplacian that Nienhaus uses, at the right the pixels that Mitchell's filter reads. The paper prints both \
-             matrices; below each is what it finds in the maps of figure 9.",
+             matrices; below each are the edges it finds in the maps of figure 9.",
             Content::Pictures(vec![
                 filtered(
                     "evangelista-10-laplacian8",
@@ -187,8 +187,8 @@ pub(super) fn figures() -> Vec<Figure> {
             "Figure 13",
             "Frames per second over triangles",
             "Six scenes from 3,039 to 122,646 triangles, one, two and three tones, two and three passes. Of the paper's \
-             curves its text prints the triangles of the first and the last scene and no frame rate, so that only ours \
-             are drawn.",
+             curves its text prints the triangles of the first and the last scene and no frame rate; only ours are \
+             drawn.",
             Content::Frames,
         ),
         figure(

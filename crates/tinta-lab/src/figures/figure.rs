@@ -6,7 +6,7 @@ use tinta::scene::Size;
 use tinta::styles::{Show, Style};
 use tinta::textures::ContrastTexture;
 
-/// Which of the three texts.
+/// One of the three texts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Text {
     /// Evangelista, Silva, Nery, Mota 2005.
@@ -45,21 +45,21 @@ impl Text {
 /// A figure of a text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// What `--only` takes, and how its files' names begin.
+    /// Its name for `--only`, and the prefix of its files' names.
     pub id: &'static str,
-    /// Where it stands.
+    /// Its text.
     pub text: Text,
-    /// The text's own number, or what takes its place where the text has none.
+    /// The text's own number, or its substitute where the text has none.
     pub number: &'static str,
-    /// What it is of, a few words.
+    /// Its subject, a few words.
     pub title: &'static str,
-    /// What the text's figure shows and what ours shows in its stead.
+    /// The contents of the text's figure and of ours.
     pub caption: &'static str,
-    /// What is drawn or measured.
+    /// The drawing or measurement.
     pub content: Content,
 }
 
-/// What a figure is made of.
+/// The contents of a figure.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Content {
     /// Pictures side by side.
@@ -72,7 +72,7 @@ pub enum Content {
     Passes,
     /// The text's claims, measured.
     Claims(Text),
-    /// Nothing, for this reason.
+    /// Not drawn, for this reason.
     NotDrawn(&'static str),
 }
 
@@ -81,7 +81,7 @@ pub enum Content {
 pub struct Panel {
     /// The file's name.
     pub file: String,
-    /// What tells it from its neighbours.
+    /// Its label among its neighbours.
     pub label: &'static str,
     /// How it is drawn.
     pub drawing: Drawing,
@@ -106,9 +106,9 @@ pub enum Drawing {
 /// A model in a style.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneDrawing {
-    /// What is drawn.
+    /// The model.
     pub model: Model,
-    /// By which rule its normals are made.
+    /// How its normals are made.
     pub normals: Normals,
     /// How often.
     pub copies: u32,
@@ -116,23 +116,23 @@ pub struct SceneDrawing {
     pub camera: CameraSettings,
     /// How.
     pub style: Style,
-    /// Which of the style's pictures.
+    /// The style's picture to draw.
     pub show: Show,
     /// The options of `tinta render` that say all this.
     pub options: String,
 }
 
-/// What a panel draws.
+/// The model of a panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Model {
     /// A built-in model by its whole name, `builtin:…`.
     Builtin(&'static str),
-    /// The user's model with a picture on it; there is none built in.
+    /// The user's model with a picture on it; no built-in model has one.
     Textured,
 }
 
 impl Figure {
-    /// Its pictures; none where it is measured.
+    /// Its pictures; empty if it is measured.
     pub fn panels(&self) -> &[Panel] {
         match &self.content {
             Content::Pictures(panels) => panels,
@@ -142,14 +142,14 @@ impl Figure {
         }
     }
 
-    /// Whether section 5 of Evangelista et al. has to be measured for it.
+    /// Whether it needs the measurements of section 5 of Evangelista et al.
     pub fn needs_numbers(&self) -> bool {
         matches!(self.content, Content::Frames | Content::OtherNumbers | Content::Claims(Text::Evangelista))
     }
 }
 
 impl Panel {
-    /// The command that draws this picture by itself; `textured` is the user's model and its skin.
+    /// The command that draws this picture alone; `textured` is the user's model and its skin.
     pub fn command(&self, size: Size, textured: Option<&str>) -> String {
         match &self.drawing {
             Drawing::Scene(scene) => {
@@ -184,7 +184,7 @@ impl Model {
 pub const NO_TEXTURED_MODEL: &str =
     "it shows a game's character with its own texture; name one with --model FILE, or builtin:soldier";
 
-/// A panel of a built-in model seen as `shot` says.
+/// A panel of a built-in model in the view of `shot`.
 pub(super) fn panel(
     file: &str,
     label: &'static str,
@@ -206,7 +206,7 @@ pub(super) fn panel(
 }
 
 impl Panel {
-    /// The same scene, another of its style's pictures; `option` is what `--show` says.
+    /// The same scene, another of its style's pictures; `option` is its name for `--show`.
     pub(super) fn showing(mut self, show: Show, option: &str) -> Self {
         if let Drawing::Scene(scene) = &mut self.drawing {
             scene.show = show;
@@ -215,7 +215,7 @@ impl Panel {
         self
     }
 
-    /// So many of the model.
+    /// With so many copies of the model.
     pub(super) fn times(mut self, copies: u32) -> Self {
         if let Drawing::Scene(scene) = &mut self.drawing {
             scene.copies = copies;
@@ -246,13 +246,13 @@ impl Shot {
         Self { camera: CameraSettings::default(), options: "" }
     }
 
-    /// By its angles.
+    /// A view by its angles.
     pub(super) fn view(azimuth_degrees: f64, elevation_degrees: f64, options: &'static str) -> Self {
         let view = tinta::camera::View { azimuth_degrees, elevation_degrees };
         Self { camera: CameraSettings { view, ..CameraSettings::default() }, options }
     }
 
-    /// By its eye, target and field of view.
+    /// A view by its eye, target and field of view.
     pub(super) fn eye(eye: [f64; 3], target: [f64; 3], fov_y_degrees: f64, options: &'static str) -> Self {
         let (eye, target) = (Some(eye.into()), Some(target.into()));
         Self { camera: CameraSettings { eye, target, fov_y_degrees, ..CameraSettings::default() }, options }

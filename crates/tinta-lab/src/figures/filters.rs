@@ -7,7 +7,7 @@ use tinta::styles::Filter;
 pub struct Kernel {
     /// Weights, the upper row first, as a text prints them.
     pub rows: [[i8; 3]; 3],
-    /// What all of them are divided by.
+    /// The common divisor.
     pub divisor: i8,
 }
 

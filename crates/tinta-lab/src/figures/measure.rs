@@ -1,6 +1,6 @@
-//! The numbers of Evangelista et al. 2005, section 5, measured here: figure 13, the filter's gain, two passes without the
-//! square, the shaders' throughput. Settings take turns, so that a busy moment hits all of them; reported are medians, and
-//! every raw time is kept.
+//! The numbers of Evangelista et al. 2005, section 5, measured here: figure 13, the filter's gain, two passes without the square,
+//! the shaders' throughput. Settings take turns, and a busy moment hits all of them; the report gives medians and keeps every raw
+//! time.
 
 use super::mix::{Kit, TRIANGLES};
 use super::numbers::{ARTICLE, BackgroundRow, FilterRow, FrameRow, Host, MixRow, Numbers};
@@ -25,13 +25,13 @@ pub struct HowToMeasure {
     pub scenes: usize,
 }
 
-/// Distances of the eye from the bust, of that at which it fills the picture.
+/// Distances of the eye from the bust, relative to the one at which the bust fills the picture.
 const DISTANCES: [f64; 4] = [0.35, 0.6, 1.0, 3.0];
 
 /// Tones and passes of figure 13.
 const CURVES: [(u8, u8); 6] = [(1, 2), (1, 3), (2, 2), (2, 3), (3, 2), (3, 3)];
 
-/// What [`measure`] has timed when it says so: a frame each of all that take turns, [`HowToMeasure::frames`] times.
+/// The work that [`measure`] has just timed: a frame of each setting in turn, [`HowToMeasure::frames`] times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turn {
     /// Scenes.
@@ -40,12 +40,12 @@ pub enum Turn {
     Squares,
 }
 
-/// How many frames of how many triangles are drawn in a turn of [`Turn::Scenes`], about: figure 13's scenes are most of them.
+/// About how many triangles a turn of [`Turn::Scenes`] draws, over all its frames: figure 13's scenes dominate.
 pub fn triangles_a_turn(how: &HowToMeasure) -> usize {
     TRIANGLES.into_iter().take(how.scenes).sum::<usize>() * CURVES.len() * 2
 }
 
-/// Measures; `step` is told of each turn.
+/// Measures; `step` receives each turn.
 ///
 /// # Errors
 ///

@@ -11,13 +11,13 @@ use tinta::mesh::{LoadOptions, Mesh, load};
 /// more than the one before it.
 pub const TRIANGLES: [usize; 6] = [3_039, 6_367, 13_338, 27_944, 58_542, 122_646];
 
-/// The models that are added, in this order and then anew.
+/// The models to add, in this order, repeated.
 const CYCLE: [&str; 3] = ["gear", "ant", "bust"];
 
-/// Gap between neighbours, whose largest extent is 1.
+/// Gap between neighbours with a largest extent of 1.
 const GAP: f64 = 0.15;
 
-/// What a scene is made of.
+/// The contents of a scene.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Mix {
     /// Triangles aimed at.
@@ -45,7 +45,7 @@ impl Kit {
     ///
     /// # Errors
     ///
-    /// As [`load`], which does not fail for built-in models.
+    /// Like [`load`], which does not fail for built-in models.
     pub(super) fn new() -> Result<Self> {
         let model = |name: &str| -> Result<Mesh> {
             Ok(of_one_size(load(&format!("builtin:{name}"), &LoadOptions::default())?.mesh))

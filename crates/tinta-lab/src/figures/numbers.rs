@@ -1,4 +1,4 @@
-//! What is measured of Evangelista et al. 2005, section 5, and beside it what the article prints.
+//! The measurements of Evangelista et al. 2005, section 5, with the numbers printed in the article.
 
 use super::mix::Mix;
 use super::series::{Series, gain_percent};
@@ -8,7 +8,7 @@ use tinta::gl::ContextInfo;
 use tinta::scene::Size;
 use tinta::styles::Filter;
 
-/// What the article's text prints.
+/// The numbers printed in the article's text.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Article {
     /// The card.
@@ -35,11 +35,11 @@ pub const ARTICLE: Article = Article {
 /// Everything measured.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Numbers {
-    /// What drew.
+    /// The driver and machine.
     pub host: Host,
     /// Picture size of the frames.
     pub size: Size,
-    /// A frame of nothing but a clear and the read-back.
+    /// A frame with only a clear and the read-back.
     pub empty: Series,
     /// The scenes of figure 13.
     pub scenes: Vec<MixRow>,
@@ -51,7 +51,7 @@ pub struct Numbers {
     pub backgrounds: Vec<BackgroundRow>,
     /// The shaders.
     pub shaders: Vec<ShaderRow>,
-    /// What the article's text prints.
+    /// The numbers printed in the article's text.
     #[serde(rename = "paper")]
     pub article: Article,
     /// Why ours differ, a few sentences for each number.
@@ -70,7 +70,7 @@ pub struct Reason {
 /// A scene of figure 13.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MixRow {
-    /// What it is made of.
+    /// Its contents.
     #[serde(flatten)]
     pub mix: Mix,
     /// Share of the picture's pixels that its models cover, 0 to 1.
@@ -94,7 +94,7 @@ pub struct FrameRow {
 /// A filter in the first scene, three passes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FilterRow {
-    /// Which.
+    /// The filter.
     pub filter: Filter,
     /// Its frames.
     #[serde(flatten)]
@@ -104,7 +104,7 @@ pub struct FilterRow {
 /// The bust from one distance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BackgroundRow {
-    /// The eye's distance, of that at which the bust fills the picture.
+    /// The eye's distance, relative to the one at which the bust fills the picture.
     pub distance: f64,
     /// Share of the picture's pixels that it covers, 0 to 1.
     pub covered: f64,
@@ -136,7 +136,7 @@ impl Numbers {
     }
 }
 
-/// What drew.
+/// The driver and machine.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Host {
     /// GL_RENDERER

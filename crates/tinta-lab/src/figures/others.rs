@@ -1,8 +1,9 @@
-//! The figures that are not drawn, with the reason, and each text's claims at its end: what no list of drawn figures has.
+//! The figures that are not drawn, with the reason, and each text's claims at its end: the parts missing in the lists of drawn
+//! figures.
 
 use super::figure::{Content, Figure, Text};
 
-/// Figures of other authors in Valente's report, each with the figure before which it stands.
+/// Figures of other authors in Valente's report, each with the figure that follows it.
 fn not_drawn() -> Vec<(&'static str, Figure)> {
     let figure = |id, number, title, caption, reason| Figure {
         id,
@@ -20,8 +21,8 @@ fn not_drawn() -> Vec<(&'static str, Figure)> {
                 "Figure 1",
                 "Charcoal drawings",
                 "Drawings by hand, among them a dog whose paws and muzzle are left to the viewer: the effect called closure.",
-                "they are pictures that Majumder and Gopi print, drawn by hand; figures 6 to 12 are what the technique makes of \
-                 models, and the recipe closure of figure 12 what it makes of outlines",
+                "they are pictures that Majumder and Gopi print, drawn by hand; figures 6 to 12 show the technique applied to models, \
+                 and the recipe closure of figure 12 applied to outlines",
             ),
         ),
         (
@@ -41,11 +42,11 @@ fn not_drawn() -> Vec<(&'static str, Figure)> {
 fn claims(text: Text) -> Figure {
     let (id, caption) = match text {
         Text::Evangelista => {
-            ("evangelista-claims", "What the paper says of its technique, beside what is measured here.")
+            ("evangelista-claims", "The paper's claims about its technique, beside the measurements here.")
         }
-        Text::Valente => ("valente-claims", "What the report says of its technique, beside what is measured here."),
+        Text::Valente => ("valente-claims", "The report's claims about its technique, beside the measurements here."),
         Text::Dachsbacher => {
-            ("dachsbacher-claims", "What the article says of its technique, beside what is measured here.")
+            ("dachsbacher-claims", "The article's claims about its technique, beside the measurements here.")
         }
     };
     Figure {

@@ -1,7 +1,7 @@
 //! The page that shows the figures by the texts' own numbers: one XHTML file with its style and its pictures in it.
 //!
-//! In: what was drawn and measured. Out: text. It needs no other file, no network and no script, and is as readable on a
-//! telephone. Its pictures have fewer colours than the files beside it, so that all of them fit into one page.
+//! Takes drawings and measurements, and returns text. It needs no other file, no network and no script, and is as readable on a
+//! telephone. Its pictures have fewer colours than the separate files, to fit all of them into one page.
 
 mod claims;
 mod diagrams;
@@ -17,24 +17,24 @@ use tinta::page::{Pictures, beginning};
 use tinta::scene::Size;
 use tinta_geometry::markup::escaped;
 
-/// A figure as it came out, for the page and for `figures.json`.
+/// A finished figure, for the page and for `figures.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FigureRecord {
-    /// As `--only` takes it.
+    /// Its name for `--only`.
     pub id: &'static str,
     /// The text it is in.
     pub text: &'static str,
     /// The text's own number.
     pub number: &'static str,
-    /// What it is of.
+    /// Its subject.
     pub title: &'static str,
-    /// What the text's figure shows and what ours shows.
+    /// The contents of the text's figure and of ours.
     pub caption: &'static str,
-    /// What was written.
+    /// The written pictures.
     pub pictures: Vec<PictureRecord>,
     /// Labels of pictures that were left out, each with the reason.
     pub left_out: Vec<String>,
-    /// Why none was drawn, where none is ever drawn.
+    /// The reason, for a figure that is never drawn.
     pub not_drawn: Option<&'static str>,
     /// The passes that it is a diagram of.
     pub passes: Vec<PassColumn>,
@@ -64,14 +64,14 @@ impl FigureRecord {
     }
 }
 
-/// What was drawn, measured and found.
+/// The drawings, measurements and findings.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown<'a> {
     /// The figures.
     pub figures: &'a [FigureRecord],
-    /// Section 5's numbers, where they were measured.
+    /// Section 5's numbers, if they were measured.
     pub numbers: Option<&'a Numbers>,
-    /// What was found of claims.
+    /// The findings of claims.
     pub claims: &'a [ClaimRecord],
     /// The pictures of claims, by their ids.
     pub claim_pictures: &'a [(&'static str, Vec<PictureRecord>)],
@@ -94,8 +94,8 @@ fn write(out: &mut String, shown: Shown<'_>, gl: &str, size: Size) -> std::fmt::
         out,
         "<p>Every figure of the three texts by its own number, diagrams included: drawn anew with models of our own, or named with \
          the reason why not. Drawn by tinta {version} at {size} pixels on {}; the files beside this page hold each picture in all \
-         its colours.</p>\n<p>The originals' pictures were not at hand: the texts were read as text alone, and what a figure shows \
-         is known from its caption and from what is said of it.</p>",
+         its colours.</p>\n<p>The originals' pictures were not at hand: the texts were read as text alone, so a figure's content is \
+         known from its caption and the text around it.</p>",
         escaped(gl)
     )?;
     if let Some(numbers) = numbers {

@@ -13,7 +13,7 @@ use tinta::styles::{Show, Style, StyleName};
 pub struct PassColumn {
     /// Its heading.
     pub title: &'static str,
-    /// What prints it.
+    /// The command that prints it.
     pub command: String,
     /// Its passes, from the first to the last.
     pub passes: Vec<PassSteps>,
@@ -24,7 +24,7 @@ pub struct PassColumn {
 pub struct PassSteps {
     /// Its name in reports and dumps.
     pub name: &'static str,
-    /// What it does, a line a step.
+    /// Its steps, a line each.
     pub steps: Vec<String>,
 }
 

@@ -14,14 +14,14 @@ const THREE_PASSES: RGBColor = RGBColor(30, 90, 170);
 ///
 /// # Errors
 ///
-/// [`Error::Gl`] when nothing was measured, or a rate is no number.
+/// [`Error::Gl`] without measurements, or with a rate that is not finite.
 pub fn plot(numbers: &Numbers, tones: u8) -> Result<String> {
     let rates = |passes| numbers.curve(tones, passes).map(|row| (row.triangles as f64, row.series.frames_per_second()));
-    // All plots have the same axes, so that they can be compared.
+    // All plots have the same axes for comparison.
     let all = || numbers.frames.iter().map(|row| (row.triangles as f64, row.series.frames_per_second()));
     let failed = |what: String| Error::gl("plotting figure 13", what);
     if all().next().is_none() || all().any(|(_, rate)| !rate.is_finite()) {
-        return Err(failed("there are no times to plot".to_owned()));
+        return Err(failed("no times to plot".to_owned()));
     }
     let triangles: Vec<f64> = numbers.scenes.iter().map(|scene| scene.mix.triangles as f64).collect();
     let range = |values: &mut dyn Iterator<Item = f64>| {

@@ -1,10 +1,10 @@
-//! Why our numbers are not the article's: sentences that follow from what was measured and from what GL says it is.
+//! Why our numbers differ from the article's: sentences that follow from the measurements and from GL's description of itself.
 
 use super::numbers::{FrameRow, Host, Numbers, Reason};
 use super::series::{EQUAL_PERCENT, gain_percent};
 use super::throughput::ShaderRow;
 
-/// All sentences, by what they are about.
+/// All sentences, by their subject.
 pub(super) fn reasons(numbers: &Numbers) -> Vec<Reason> {
     let about = |about, sentences: Vec<Option<String>>| {
         sentences.into_iter().flatten().map(move |sentence| Reason { about, sentence })
@@ -32,7 +32,7 @@ fn drawn_by(host: &Host) -> String {
     }
 }
 
-/// What a frame's time grows with.
+/// The quantity that a frame's time grows with.
 fn growth(numbers: &Numbers) -> Option<String> {
     let mut curve = numbers.curve(3, 3);
     let first = curve.next()?;
@@ -155,7 +155,7 @@ fn background(numbers: &Numbers) -> Option<String> {
     ))
 }
 
-/// What can be spared by leaving out the square.
+/// The time saved by leaving out the square.
 fn nature_of_square(numbers: &Numbers) -> Option<String> {
     let far = numbers.backgrounds.iter().min_by(|a, b| a.covered.total_cmp(&b.covered))?;
     let left = far.two_pass_without.median_ms;
@@ -170,7 +170,7 @@ fn nature_of_square(numbers: &Numbers) -> Option<String> {
     })
 }
 
-/// What the article's throughputs are.
+/// The meaning of the article's throughputs.
 fn nature_of_theirs() -> String {
     "The paper's four are reckoned by NVShaderPerf from the compiled fragment programs, 400 million pixels a second divided \
      by 1, 11, 14 and 25.5 steps of the chip; ours are times of squares that fill a picture, with the writing of every pixel."
@@ -201,18 +201,18 @@ fn joint(numbers: &Numbers) -> Option<String> {
     let verdict = if (ratio - 1.0).abs() * 100.0 <= EQUAL_PERCENT {
         "the same, as in the paper"
     } else if ratio < 1.0 {
-        "less: what is written, read and blended once more is spared"
+        "less: one write, read and blend are saved"
     } else {
         "more"
     };
     (ratio.is_finite() && ratio > 0.0).then(|| {
         format!(
-            "The joint shader costs {ratio:.2} times what the two others cost together (in the paper's numbers 1.02), {verdict}."
+            "The joint shader costs {ratio:.2} times the cost of the two others together (in the paper's numbers 1.02), {verdict}."
         )
     })
 }
 
-/// A whole number of per cent with its sign, nothing without one.
+/// A whole number of per cent with its sign; zero has none.
 pub(super) fn signed(percent: f64) -> String {
     let whole = percent.round();
     if whole == 0.0 { "0 %".to_owned() } else { format!("{whole:+} %") }

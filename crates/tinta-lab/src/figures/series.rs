@@ -1,4 +1,4 @@
-//! Frames that take turns, so that a busy moment hits all settings alike, and how two series of them compare.
+//! Frames that take turns, which makes a busy moment hit all settings alike, and the comparison of two series of them.
 
 use serde::Serialize;
 use std::sync::Arc;
@@ -68,8 +68,8 @@ pub(super) fn take_turns(
 ) -> Result<()> {
     for _ in 0..frames {
         for Contestant { scene, plan, times } in contestants.iter_mut() {
-            // A frame that follows one of another kind also clears up after that one: up to a fifth of a large scene's
-            // frame on a software renderer. So each is preceded by an untimed one of its own, as in an animation.
+            // A frame that follows one of another kind also clears up after that one: up to a fifth of a large scene's frame on a
+            // software renderer. Each frame therefore follows an untimed one of its kind, as in an animation.
             times.extend(renderer.time_frames(scene, plan, 1, 1)?);
         }
         step();

@@ -13,13 +13,13 @@ use tinta::styles::{Border, Cartoon, Filter, Show, Style};
 /// A shader of the article.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shader {
-    /// What it does.
+    /// Its task.
     pub name: &'static str,
-    /// The article's number, million pixels a second, where it prints one.
+    /// The article's number, million pixels a second, if it prints one.
     pub article_mpixels: Option<f64>,
     is_two_pass: bool,
     pass: &'static str,
-    /// With a factor other than the published one, so that both filters run in the same shader with settings.
+    /// With a factor other than the published one, to run both filters in the same shader with settings.
     filter: Option<Filter>,
 }
 
@@ -101,7 +101,7 @@ fn frame(square: Option<Step>) -> Plan {
     Plan::new(vec![pass])
 }
 
-/// The rows of what [`contestants`] measured.
+/// The rows measured by [`contestants`].
 pub(super) fn rows(contestants: &[Contestant]) -> Vec<ShaderRow> {
     let Some((without, with)) = contestants.split_last() else { return Vec::new() };
     let row = |(shader, contestant): (Shader, &Contestant)| {

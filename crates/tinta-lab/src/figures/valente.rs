@@ -1,6 +1,6 @@
 //! The figures of Valente 2007 that show a result of his: 2 to 4 and 6 to 12. Figures 1 and 5 are other authors' pictures.
 //!
-//! The originals' pictures were not at hand: what captions say of them is what the report's own text says.
+//! The originals' pictures were not at hand: captions repeat the report's own text about them.
 
 use super::figure::{Content, Drawing, Figure, Panel, Shot, Text, panel};
 use tinta::scene::Size;
@@ -74,7 +74,7 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
             "valente-4",
             "Figure 4",
             "Diffuse light and the contrast-enhanced model",
-            "The light of two lamps on a white surface, and the same raised to the contrast exponent: here 3, so that it shows. \
+            "The light of two lamps on a white surface, and the same raised to the contrast exponent: here 3, to make it visible. \
              The report shows the picture of the work it follows; ours is the bust.",
             vec![
                 face("valente-4-left", "diffuse light", base.clone(), "").showing(Show::Diffuse, "diffuse"),
@@ -86,15 +86,15 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
             "valente-6",
             "Figure 6",
             "A drawing without smudging",
-            "Grain by tone on paper, as the listing draws it. Exponent, lights and paper are ours, for the report gives none and \
-             its picture was not at hand.",
+            "Grain by tone on paper, as the listing draws it. Exponent, lights and paper are ours: the report gives none, and its \
+             picture was not at hand.",
             vec![face("valente-6", "without", base.clone(), "")],
         ),
         figure(
             "valente-7",
             "Figure 7",
             "The same drawing smudged",
-            "Multiplied by the enhanced light once more, which darkens all but the lights.",
+            "Multiplied by the enhanced light once more, which darkens everything except the lights.",
             vec![face("valente-7", "smudged", Charcoal { smudge: true, ..base.clone() }, " --smudge on")],
         ),
         figure(
@@ -118,8 +118,8 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
             "Figure 9",
             "Sand",
             "A Quake 2 character whose own texture, turned to sepia, is mixed with the charcoal drawing. Ours is a toy soldier in \
-             the same format, or the model that --model names; beside it the same with the weights that were probably meant, \
-             so that its texture is seen. The report's picture was not at hand.",
+             the same format, or the model that --model names; beside it the same with the weights probably intended, which show \
+             its texture. The report's picture was not at hand.",
             vec![
                 sand("valente-9", "sand", base.clone(), ""),
                 sand("valente-9-luminance", "luminance mended", luminance(), " --improve luminance"),
@@ -139,7 +139,7 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
             "valente-11",
             "Figure 11",
             "A detail of one of the models",
-            "Seen closer, the grain keeps its size, for it lies on the picture and not on the model.",
+            "Seen closer, the grain keeps its size because it lies on the picture, not on the model.",
             vec![drawn("valente-11", "detail", BUST, close(), base.clone(), "")],
         ),
         figure(

@@ -48,7 +48,7 @@ impl Distances {
 
 /// For each place the least of `values[other] + (place - other)^2`: the lower envelope of parabolas.
 fn lowest(values: &[f64]) -> Vec<f64> {
-    // The parabolas of the envelope, and where each begins to be the lowest.
+    // The parabolas of the envelope, each with the place where it begins to be the lowest.
     let mut envelope: Vec<(usize, f64)> = Vec::new();
     for (place, value) in values.iter().enumerate() {
         let meets = |other: usize| {

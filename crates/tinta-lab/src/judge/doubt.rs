@@ -1,6 +1,6 @@
 //! Whether a drawing can be judged at all: a shaded picture has areas instead of lines, and the lines of another camera lie elsewhere.
 //!
-//! In: a drawing's ink, the lines, and how much of both agree. Out: a [`Doubt`], which is a reason and no proof.
+//! Takes a drawing's ink, the lines, and how much of both agree; returns a [`Doubt`], which is a reason and no proof.
 
 use super::distances::Distances;
 use crate::compare::InkMask;
@@ -9,14 +9,14 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 use std::fmt::{Display, Formatter};
 
-/// Why a drawing's numbers probably say nothing of its lines.
+/// Why a drawing's numbers probably do not describe its lines.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Doubt {
     /// Most of the ink lies in areas wider than any line: its share.
     Shaded(f64),
-    /// Ink and lines agree by hardly more than chance: the larger of precision and recall, 0 where it is what chance gives and 1 where all
-    /// agrees.
+    /// Ink and lines agree by hardly more than chance: the larger of precision and recall, scaled to 0 at chance and 1 at full
+    /// agreement.
     Elsewhere(f64),
 }
 
@@ -27,15 +27,15 @@ const AREA_SIDE: f64 = 0.018;
 /// Its least side in small pictures, pixels: lines are as wide there as in large ones.
 const LEAST_SIDE_PX: usize = 8;
 
-/// Share of the ink in areas from which a drawing is taken for a shaded one.
+/// Least share of the ink in areas that marks a drawing as shaded.
 const SHADED: f64 = 0.5;
 
-/// Precision and recall, less what chance gives, below which lines are taken for another view's. Drawings of the right view lack lines or
-/// invent some, seldom both.
+/// Precision and recall, less the chance level, below which lines count as another view's. Drawings of the right view lack lines
+/// or have false ones, rarely both.
 const AGREEING: f64 = 0.35;
 
 impl Doubt {
-    /// What speaks against judging this ink by these lines, which agree so within the tolerance.
+    /// The reason against judging this ink by these lines, given their agreement within the tolerance.
     pub(super) fn of(ink: &Ink, reference: &Reference, lines: &LineError) -> Option<Self> {
         let shaded = share_in_areas(ink);
         if shaded > SHADED {
@@ -73,7 +73,7 @@ impl Display for Doubt {
     }
 }
 
-/// How much of the box around all of these masks lies within a distance of one of them: what of anything would be near it by chance.
+/// The share of the box around all of these masks within a distance of one of them: the chance level of being near it.
 fn share_near(mask: &InkMask, around: &[&InkMask], distance_px: f64) -> f64 {
     let width = mask.size.width as usize;
     let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);
@@ -99,7 +99,7 @@ fn share_in_areas(ink: &Ink) -> f64 {
     if count == 0 || side > width || side > height {
         return 0.0;
     }
-    // By its upper left corner, whether a square is full; then, whether any of the squares over a pixel is.
+    // First whether the square at an upper left corner is full; then whether any of the squares over a pixel is.
     let sums = Sums::of(&inked, width);
     let full: Vec<bool> = (0..width * height)
         .map(|index| {
@@ -150,7 +150,7 @@ mod tests {
     use super::*;
     use tinta::scene::Size;
 
-    /// A picture of 200 x 100 pixels, ink where this holds.
+    /// A picture of 200 x 100 pixels with ink where the condition holds.
     fn ink(is_ink: impl Fn(usize, usize) -> bool) -> Ink {
         let size = Size { width: 200, height: 100 };
         let darkness = (0..200 * 100).map(|index| if is_ink(index % 200, index / 200) { 255 } else { 0 });

@@ -1,4 +1,4 @@
-//! A drawing by any program, read as a picture: PNG and the like as they are, an SVG drawn by resvg.
+//! A drawing by any program, read as a picture: PNG and the like unchanged, an SVG drawn by resvg.
 //!
 //! ```
 //! use tinta_lab::judge::drawing;
@@ -20,7 +20,7 @@ use tinta_geometry::files;
 
 /// Reads a drawing; an SVG is drawn in this size, or in its own.
 ///
-/// Nothing that a drawing names outside itself is read: neither pictures nor fonts.
+/// External pictures and fonts that a drawing names are not read.
 ///
 /// # Errors
 ///
@@ -31,7 +31,7 @@ pub fn read(path: &Path, size: Option<Size>) -> Result<Picture> {
     of_bytes(&bytes, &path.to_string_lossy(), size)
 }
 
-/// The same of a file's bytes; `name` is for messages, and its extension tells formats that begin like nothing.
+/// The same for a file's bytes; `name` is for messages, and its extension identifies formats without a signature.
 ///
 /// # Errors
 ///
@@ -54,7 +54,7 @@ pub fn of_bytes(bytes: &[u8], name: &str, size: Option<Size>) -> Result<Picture>
     }
 }
 
-/// Whether the file begins as XML does, after what editors put before it.
+/// Whether the file begins like XML, after the marks that editors add.
 fn is_svg(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     bytes.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'<')

@@ -1,19 +1,19 @@
-//! A judged drawing as a row of measured settings, so that it lands in the same tables and plots.
+//! A judged drawing as a row of measured settings, for the same tables and plots.
 
 use super::Judgement;
 use crate::measure::{Row, RunTime};
 use tinta::scene::{Scene, Size};
 
-/// A drawing and what is known of it besides its ink.
+/// A drawing and its data besides its ink.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
-    /// What it is called, such as the program that drew it.
+    /// Its name, such as the program that drew it.
     pub name: String,
     /// The model as the user named it.
     pub model: String,
-    /// What the machine is called.
+    /// The machine's name.
     pub machine: String,
-    /// How long it took, seconds; 0 where nobody says.
+    /// Its drawing time, seconds; 0 if unknown.
     pub seconds: f64,
 }
 

@@ -20,16 +20,16 @@ pub const LARGEST_SCALE: f64 = 1.1;
 /// A place beyond this share of the diagonal is as far as any: where lines lack, they must not pull.
 const FARTHEST: f64 = 0.03;
 
-/// How much nearer a mirrored drawing's lines must be to be believed, as a share: symmetric models are their own mirror image.
+/// How much nearer a mirrored drawing's lines must be to count, as a share: symmetric models are their own mirror image.
 const MIRROR_GAIN: f64 = 0.8;
 
-/// Points of lines and of ink that are looked at, first for every start, then for the best of each mirroring.
+/// Number of points of lines and of ink tested, first for every start, then for the best of each mirroring.
 const POINTS: [usize; 2] = [300, 2000];
 
 /// The smallest step, pixels.
 const LEAST_STEP_PX: f64 = 0.01;
 
-/// What is done to a place of the exact lines' picture to come to the drawing's, around the picture's middle.
+/// The transformation from the exact lines' picture to the drawing, around the picture's middle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Fit {
     /// How much larger the drawing is.
@@ -98,7 +98,7 @@ impl Fit {
         middle + (px - middle - DVec2::from_array(self.shift_px)) * self.mirrors() / self.scale
     }
 
-    /// The same, moved so that the boxes around lines and ink have one middle and one size, as far as the limits allow.
+    /// The same, moved to give the boxes around lines and ink one middle and one size, as far as the limits allow.
     fn onto(self, lines: &[DVec2], ink: &[DVec2], size: Size) -> Self {
         let bounds = |points: &mut dyn Iterator<Item = DVec2>| {
             points.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], px| [low.min(px), high.max(px)])
@@ -140,13 +140,13 @@ fn diagonal(size: Size) -> f64 {
     f64::from(size.width).hypot(f64::from(size.height))
 }
 
-/// So many of the points at most, evenly.
+/// At most so many of the points, evenly chosen.
 fn some(points: &[DVec2], count: usize) -> Vec<DVec2> {
     let step = points.len().div_ceil(count).max(1);
     points.iter().copied().step_by(step).collect()
 }
 
-/// What distances are taken between.
+/// The points between which distances are taken.
 struct Points<'a> {
     lines: Vec<DVec2>,
     ink: Vec<DVec2>,

@@ -1,4 +1,4 @@
-//! Which colour of a drawing is its ink.
+//! The colour of a drawing's ink.
 
 use crate::measure::Ink;
 use std::str::FromStr;
@@ -7,16 +7,16 @@ use tinta::picture::Picture;
 use tinta::settings::Value as _;
 use tinta_geometry::values::Color;
 
-/// What of a picture counts as ink, and how much.
+/// Which parts of a picture count as ink, and how much.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum InkColor {
-    /// What is darker than white, in its darkest channel; what is transparent stands on white.
+    /// Pixels darker than white, by their darkest channel; transparent pixels stand on white.
     Dark,
-    /// What is lighter than black, in its lightest channel; what is transparent stands on black.
+    /// Pixels lighter than black, by their lightest channel; transparent pixels stand on black.
     Light,
-    /// What is opaque.
+    /// Opaque pixels.
     Alpha,
-    /// What is nearer to this colour than white is; on white.
+    /// Pixels nearer to this colour than white is; on white.
     Color(Color),
 }
 
@@ -59,7 +59,7 @@ impl FromStr for InkColor {
             "alpha" => Ok(Self::Alpha),
             _ => match Color::parse(text) {
                 Ok(Color(channels)) if channels.iter().all(|channel| *channel >= 1.0) => {
-                    Err(Error::setting("ink", "white ink on white is none; choose light for white ink on black"))
+                    Err(Error::setting("ink", "white ink on white is invisible; choose light for white ink on black"))
                 }
                 Ok(color) => Ok(Self::Color(color)),
                 Err(_) => {

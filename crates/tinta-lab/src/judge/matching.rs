@@ -1,14 +1,15 @@
 //! Pixels of two masks paired one to one, as many as can be: Hopcroft and Karp (SIAM Journal on Computing 2, 1973).
 //!
-//! The Berkeley benchmark solves an assignment of least cost in which staying alone costs more than any pair; it has as many pairs.
+//! The Berkeley benchmark solves an assignment of least cost with a penalty for unmatched pixels above the cost of any pair; it
+//! finds as many pairs.
 
 use crate::compare::InkMask;
 use std::collections::VecDeque;
 
-/// Nobody.
+/// No partner.
 const NONE: u32 = u32::MAX;
 
-/// How many pixels of `left` have a partner of their own in `right`, at most `distance_px` away.
+/// Number of pixels of `left` with a separate partner in `right`, at most `distance_px` away.
 pub fn matched(left: &InkMask, right: &InkMask, distance_px: f64) -> usize {
     let mut pairs = Pairs::new(left, right, distance_px);
     let mut count = pairs.take_nearest();
@@ -20,7 +21,7 @@ pub fn matched(left: &InkMask, right: &InkMask, distance_px: f64) -> usize {
 }
 
 struct Pairs {
-    /// Who may be whose partner: of each on the left those on the right, the nearest first; a range of `candidates` each.
+    /// The possible partners: for each pixel on the left those on the right, the nearest first; a range of `candidates` each.
     ranges: Vec<[u32; 2]>,
     candidates: Vec<u32>,
     of_left: Vec<u32>,
@@ -67,7 +68,7 @@ impl Pairs {
         }
     }
 
-    /// Pairs each with the nearest that is free: most of them at once.
+    /// Pairs each pixel with the nearest free one: most of them at once.
     fn take_nearest(&mut self) -> usize {
         let mut count = 0;
         for (left, [first, end]) in self.ranges.iter().enumerate() {
@@ -81,7 +82,7 @@ impl Pairs {
         count
     }
 
-    /// Layers of alternating paths from everyone who is alone; whether one of them ends at a free partner.
+    /// Builds layers of alternating paths from every unmatched pixel; returns whether one of them ends at a free partner.
     fn find_layers(&mut self) -> bool {
         let mut queue = VecDeque::new();
         for (left, partner) in self.of_left.iter().enumerate() {
@@ -130,7 +131,7 @@ impl Pairs {
                 }
             }
             if !goes_on {
-                // Nothing beyond: nobody need come here again in this round.
+                // A dead end: the search need not come here again in this round.
                 self.layer[left as usize] = NONE;
                 path.pop();
                 if let Some(before) = path.last() {
@@ -158,7 +159,7 @@ mod tests {
 
     const SIZE: Size = Size { width: 9, height: 7 };
 
-    /// As many pairs as can be, by trying every partner for each in turn (Kuhn's algorithm on a full table).
+    /// The largest number of pairs, by trying every partner for each in turn (Kuhn's algorithm on a full table).
     fn brute_force(left: &InkMask, right: &InkMask, distance_px: f64) -> usize {
         let points = |mask: &InkMask| -> Vec<(f64, f64)> {
             let inked = (0..mask.ink.len()).filter(|index| mask.ink[*index]);

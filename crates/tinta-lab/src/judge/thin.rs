@@ -1,4 +1,4 @@
-//! Ink thinned to lines a pixel wide that stay connected: what is counted pixel by pixel must not count a thick line twice.
+//! Ink thinned to lines a pixel wide that stay connected: a count of pixels must not count a thick line twice.
 //!
 //! The two-step parallel thinning of Guo and Hall (Communications of the ACM 32, 1989).
 
@@ -31,8 +31,8 @@ pub fn thinned(mask: &InkMask) -> InkMask {
     InkMask { size: mask.size, ink }
 }
 
-/// Whether a pixel with these neighbours may go in the first or the second step: it lies on that step's rim, ends no line and joins
-/// nothing.
+/// Whether a pixel with these neighbours may be removed in the first or the second step: it lies on that step's rim, ends no line
+/// and joins no parts.
 fn can_go([n, ne, e, se, s, sw, w, nw]: [bool; 8], is_second: bool) -> bool {
     let count = |pairs: [bool; 4]| pairs.into_iter().filter(|is_set| *is_set).count();
     let crossings = count([!n && (ne || e), !e && (se || s), !s && (sw || w), !w && (nw || n)]);

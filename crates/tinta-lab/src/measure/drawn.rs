@@ -1,4 +1,4 @@
-//! Exact lines as a row beside the styles: measured as lines, not as pixels.
+//! Exact lines as a row like the styles': measured as lines, not as pixels.
 
 use super::ink::Ink;
 use super::reference::{Reference, Sample, distance, fine_tree, samples_of, total};
@@ -14,13 +14,13 @@ use tinta::scene::{Scene, Size};
 use tinta::settings::Value;
 use tinta::styles::StyleName;
 
-/// What `tinta render` is given for the silhouettes that a rule finds, with options of the scene.
+/// The options of `tinta render` for the silhouettes that a rule finds, with options of the scene.
 pub fn line_options(silhouette: SilhouetteRule, scene_options: &str) -> String {
     format!("--style lines --classes silhouette --silhouette {}{scene_options}", silhouette.text())
 }
 
-/// Measures the silhouettes that style lines finds by a rule; `options` as by [`line_options`]. A frame is finding them, nothing known before but what belongs to the mesh alone,
-/// without drawing them.
+/// Measures the silhouettes that style lines finds by a rule; `options` as by [`line_options`]. A frame is finding them, with
+/// only the mesh's own data known before, without drawing them.
 ///
 /// # Errors
 ///
@@ -73,7 +73,7 @@ pub fn measure_lines(
     Ok(Measured { row, drawing, error_picture: Some(error_picture) })
 }
 
-/// The error of lines: as that of ink, every point of a line as dark as any.
+/// The error of lines: as for ink, with every point of a line equally dark.
 fn error(lines: &VisibleLines, reference: &Reference, tolerance_px: f64) -> LineError {
     let visible = lines.segments.iter().filter(|segment| segment.is_visible);
     let drawn: Vec<Sample> = visible.clone().flat_map(samples_of).collect();

@@ -12,7 +12,7 @@ use tinta::renderer::Renderer;
 use tinta::scene::{Scene, Size};
 use tinta::styles::{Show, Style};
 
-/// Darkness from which a pixel is ink, of 255: a quarter, so that faint lines count too.
+/// Least darkness of a pixel of ink, of 255: a quarter, to include faint lines.
 pub const INK_FROM: u8 = 64;
 
 /// A picture's ink: how dark each pixel is, of 255, row by row from the top.
@@ -33,12 +33,12 @@ pub struct InkVerdicts {
     pub missed: Vec<DVec2>,
 }
 
-/// What is said of a pixel of ink.
+/// The verdict on a pixel of ink.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// A visible line is near.
     Agreed,
-    /// None is.
+    /// No line is near.
     Invented,
     /// Only a soft crease is.
     Ignored,
@@ -49,7 +49,7 @@ impl Ink {
     ///
     /// # Errors
     ///
-    /// As [`Renderer::draw`], and the style's own.
+    /// Those of [`Renderer::draw`], and the style's own.
     pub fn of_style(renderer: &mut Renderer, scene: &Scene, style: &Style) -> Result<Option<Self>> {
         if !style.has_lines() {
             return Ok(None);
@@ -57,13 +57,13 @@ impl Ink {
         if !matches!(style, Style::TwoPass(_)) {
             return Ok(Some(Self::on_white(&renderer.draw(scene, &style.plan(scene, Show::Borders)?)?)));
         }
-        // Two passes never draw the border by itself: it is what their picture is darker than its tones.
+        // Two passes never draw the border separately: it is the part of their picture darker than the tones.
         let whole = renderer.draw(scene, &style.plan(scene, Show::Final)?)?;
         let tones = renderer.draw(scene, &style.plan(scene, Show::Tones)?)?;
         Ok(Some(Self::over(&tones, &whole)))
     }
 
-    /// Which pixels are ink.
+    /// The ink pixels.
     pub fn mask(&self) -> InkMask {
         InkMask::of_darkness(self.size, &self.darkness)
     }
@@ -74,7 +74,7 @@ impl Ink {
         Self { size: picture.size, darkness: picture.pixels.chunks_exact(4).map(darkness).collect() }
     }
 
-    /// The ink of a picture over the same one without: the share of each pixel's light that is gone, where there was any.
+    /// The ink of a picture over the same one without: the lost share of each pixel's light, if it had any.
     pub fn over(without: &Picture, with: &Picture) -> Self {
         let share = |(without, with): (&u8, &u8)| match without {
             0 => 0,
@@ -114,7 +114,7 @@ impl Ink {
     pub fn error(&self, reference: &Reference, tolerance_px: f64) -> LineError {
         let reach: Vec<u8> =
             reference.samples.iter().map(|sample| self.darkest_within(sample.px, tolerance_px)).collect();
-        // Every pixel with any ink once: whether it is near a line, or to be ignored.
+        // Every ink pixel once: whether it is near a line, or ignored.
         let pixels: Vec<(u8, Verdict, f64)> = self
             .pixels(1)
             .map(|(index, middle)| {
@@ -144,7 +144,7 @@ impl Ink {
         }
     }
 
-    /// Who has what, for a picture of the error.
+    /// Each pixel's verdict, for a picture of the error.
     pub fn verdicts(&self, reference: &Reference, tolerance_px: f64) -> InkVerdicts {
         let mut pixels = vec![None; self.darkness.len()];
         for (index, middle) in self.pixels(INK_FROM) {
@@ -177,7 +177,7 @@ fn average_precision(recall: impl Fn(u8) -> f64, precision: impl Fn(u8) -> f64) 
 }
 
 impl LineError {
-    /// From how far each sample of a reference is from what was drawn, and how far what was drawn is from the reference, with its weight.
+    /// From the distance of each reference sample to the drawing, and of each drawn sample to the reference, with its weight.
     pub(super) fn of_distances(
         reference: &Reference,
         tolerance_px: f64,
@@ -214,14 +214,14 @@ impl LineError {
     }
 }
 
-/// The share of all weight that those have of which something holds; 1 of none.
+/// The share of all weight for which the flag holds; 1 without any.
 fn share_of(weights: impl Iterator<Item = (bool, f64)>) -> f64 {
     let (held, all) = weights
         .fold((0.0, 0.0), |(held, all), (holds, weight)| (held + if holds { weight } else { 0.0 }, all + weight));
     if all > 0.0 { held / all } else { 1.0 }
 }
 
-/// Weighted mean and 95th percentile of values with their weights; `None` for none.
+/// Weighted mean and 95th percentile of values with their weights; `None` without values.
 fn mean_and_95th(mut values: Vec<(f64, f64)>) -> Option<[f64; 2]> {
     values.retain(|(value, _)| value.is_finite());
     values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));

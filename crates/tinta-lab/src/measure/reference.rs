@@ -12,11 +12,10 @@ use tinta::scene::{Scene, Size};
 /// Distance between points along a line, pixels: at a tolerance of 2 they see a distance by less than 0.001 too far.
 const STEP_PX: f64 = 0.125;
 
-/// The same where lines are compared with a contour in closed form, to which they come as near as thousandths of a pixel.
+/// The same for comparing lines with a contour in closed form, where distances are as small as thousandths of a pixel.
 const FINE_STEP_PX: f64 = 1.0 / 128.0;
 
-/// Creases between this angle and the reference's own threshold count neither as lines nor as none: filters of a picture
-/// answer to any angle.
+/// Creases between this angle and the reference's own threshold are ignored: filters of a picture may respond to any angle.
 pub const SOFT_CREASE_DEGREES: f64 = 20.0;
 
 /// The visible lines of a scene.
@@ -24,11 +23,11 @@ pub const SOFT_CREASE_DEGREES: f64 = 20.0;
 pub struct Reference {
     /// The picture's size.
     pub size: Size,
-    /// The lines; of a surface none.
+    /// The lines; empty for a surface.
     pub lines: VisibleLines,
-    /// What they are.
+    /// Their kind.
     pub against: Against,
-    /// From which angle an edge is a crease.
+    /// Least angle of a crease.
     pub crease_angle: CreaseAngle,
     /// Points along the lines.
     pub samples: Vec<Sample>,
@@ -37,7 +36,7 @@ pub struct Reference {
     ignored: RTree<Place>,
 }
 
-/// A point on a line that stands for a piece of it.
+/// A point on a line that represents a piece of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// Pixels from the upper left, y down.
@@ -86,7 +85,7 @@ impl Reference {
         Self::with_progress(scene, settings, &Progress::default())
     }
 
-    /// As [`Reference::of`], with what of the lines is hidden.
+    /// Like [`Reference::of`], with the hidden lines.
     ///
     /// # Errors
     ///
@@ -96,13 +95,13 @@ impl Reference {
         Self::of_lines(scene, VisibleLines::of(scene, &all)?, &all, &Progress::default())
     }
 
-    /// As [`Reference::of`], for whoever may want it to be given up.
+    /// Like [`Reference::of`], with progress and cancellation.
     ///
     /// # Errors
     ///
     /// As [`VisibleLines::with_progress`].
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
-        // Ink is held against what is seen.
+        // Ink is compared with visible lines.
         let seen = LineSettings { finds_hidden: false, ..settings.clone() };
         Self::of_lines(scene, VisibleLines::with_progress(scene, &seen, progress)?, settings, progress)
     }
@@ -128,8 +127,8 @@ impl Reference {
         Ok(Self { size: lines.size, crease_angle: settings.crease_angle, against, samples, nearest, ignored, lines })
     }
 
-    /// The visible contour of the surface that a scene's only object is a mesh of. Where an open surface ends, there is neither a line nor
-    /// none: its rims count as little as soft creases do.
+    /// The visible contour of the surface that the scene's only object is a mesh of. The rims of an open surface are ignored,
+    /// like soft creases.
     ///
     /// # Errors
     ///
@@ -153,7 +152,7 @@ impl Reference {
         })
     }
 
-    /// The same with each visible point moved; the lines themselves stay where they are.
+    /// The same with each visible point moved; the lines themselves do not move.
     #[must_use]
     pub fn moved(&self, to: impl Fn(DVec2) -> DVec2) -> Self {
         let samples: Vec<Sample> = self.samples.iter().map(|sample| Sample { px: to(sample.px), ..*sample }).collect();
@@ -204,12 +203,12 @@ fn middles(ends: [DVec2; 2], step_px: f64) -> impl Iterator<Item = DVec2> {
     (0..count as usize).map(move |index| ends[0].lerp(ends[1], (index as f64 + 0.5) / count))
 }
 
-/// A tree over points of lines so close that distances to them are those to the lines, but for thousandths of a pixel.
+/// A tree over points of lines, so dense that distances to them equal those to the lines within thousandths of a pixel.
 pub(super) fn fine_tree(lines: impl Iterator<Item = [DVec2; 2]>) -> RTree<Place> {
     tree(lines.flat_map(|ends| middles(ends, FINE_STEP_PX)))
 }
 
-/// The sum, of none 0: that of the standard library is -0.
+/// The sum, 0 if empty: the standard library's empty sum is -0.
 pub(super) fn total(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |sum, value| sum + value)
 }

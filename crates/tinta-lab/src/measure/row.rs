@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 pub struct Row {
     /// tinta's version.
     pub version: String,
-    /// Operating system, processor architecture and threads it runs at once, or what `--machine` says.
+    /// Operating system, processor architecture and parallel threads, or the value of `--machine`.
     pub machine: String,
     /// GL_RENDERER; `none` for lines found without GL.
     pub renderer: String,
@@ -26,14 +26,14 @@ pub struct Row {
     pub is_faithful: bool,
     /// How well its lines are those of the reference; `None` for a style without lines.
     pub lines: Option<LineError>,
-    /// How well its tones are those of the reference; `None` for a style without tones of its own.
+    /// The agreement of its tones with the reference's; `None` for a style without separate tones.
     pub tones: Option<ToneError>,
     /// How long it takes.
     pub time: RunTime,
 }
 
 impl Row {
-    /// What tells rows apart: machine, model, size and options.
+    /// The key of a row: machine, model, size and options.
     pub fn key(&self) -> String {
         format!(
             "{} | {} | {} | {}x{} | {}",
@@ -43,14 +43,14 @@ impl Row {
 }
 
 tinta_geometry::choices! {
-    /// What lines are compared with.
+    /// The reference of lines.
     #[derive(Default, Deserialize)]
     #[serde(rename_all = "lowercase")]
     pub enum Against {
         /// The exact visible lines of the mesh.
         #[default]
         Lines = "lines",
-        /// The visible contour of the smooth surface in closed form that the mesh stands for.
+        /// The visible contour of the smooth surface in closed form that the mesh approximates.
         Smooth = "smooth",
     }
 }
@@ -58,12 +58,12 @@ tinta_geometry::choices! {
 /// The error of a picture's ink against the visible lines.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LineError {
-    /// What is the reference.
+    /// The kind of reference.
     #[serde(default)]
     pub against: Against,
     /// Distance within which ink and line count as the same, pixels.
     pub tolerance_px: f64,
-    /// Darkness from which a pixel is ink, of 255.
+    /// Least darkness of a pixel that counts as ink, of 255.
     pub ink_from: u8,
     /// Angles between faces, degrees: creases between the two are neither missed nor invented.
     pub ignored_creases_degrees: [f64; 2],
@@ -73,9 +73,9 @@ pub struct LineError {
     pub ink_px: f64,
     /// Share of the reference's length with ink within the tolerance.
     pub recall: f64,
-    /// Share of the ink from that darkness on, weighted by it, within the tolerance of the reference; 1 without any ink.
+    /// Share of the ink of at least that darkness, weighted by it, within the tolerance of the reference; 1 without any ink.
     pub precision: f64,
-    /// The same share of all ink, however faint: what a threshold does not see.
+    /// The same share of all ink, however faint: it includes the ink below the threshold.
     pub precision_of_all: f64,
     /// Harmonic mean of recall and precision.
     pub f1: f64,
@@ -94,11 +94,11 @@ pub struct LineError {
 pub struct ToneError {
     /// Covered pixels farther than 1 pixel from every visible line.
     pub inner_px: usize,
-    /// Share of them whose tone differs; for continuous tones `None`.
+    /// Share of them with another tone; `None` for continuous tones.
     pub inner_differing: Option<f64>,
     /// Covered pixels within 1 pixel of a visible line.
     pub rim_px: usize,
-    /// Share of them whose tone differs; for continuous tones `None`.
+    /// Share of them with another tone; `None` for continuous tones.
     pub rim_differing: Option<f64>,
     /// Mean and largest difference of any channel over the inner pixels, of 255.
     pub mean_difference: f64,
@@ -106,12 +106,12 @@ pub struct ToneError {
     pub largest_difference: f64,
 }
 
-/// How long a setting takes, milliseconds of the clock unless said otherwise.
+/// Time of a setting, wall-clock milliseconds unless noted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunTime {
     /// Reading the model.
     pub load_ms: f64,
-    /// Finding its edges, where the style draws them; 0 otherwise.
+    /// Finding its edges, if the style draws them; 0 otherwise.
     pub edges_ms: f64,
     /// Making the plan, edges ready.
     pub plan_ms: f64,
@@ -132,8 +132,8 @@ pub struct RunTime {
 pub struct PassRow {
     /// Its name in the plan.
     pub name: String,
-    /// By the clock, until GL has finished it.
+    /// Wall-clock time until GL has finished it.
     pub cpu_ms: f64,
-    /// By a timer query; `None` where GL has none.
+    /// By a timer query; `None` if GL has none.
     pub gpu_ms: Option<f64>,
 }

@@ -16,7 +16,7 @@ use tinta::renderer::{Renderer, median, milliseconds_since};
 use tinta::scene::{Scene, Size};
 use tinta::styles::{Show, Style};
 
-/// A style with settings, and how the user asks for it.
+/// A style with settings, and the user's options for it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
     /// The style.
@@ -29,7 +29,7 @@ pub struct Setting {
     pub is_faithful: bool,
 }
 
-/// A scene with what its pictures are measured against.
+/// A scene with its references.
 #[derive(Debug)]
 pub struct Subject {
     /// The model as the user named it.
@@ -51,20 +51,20 @@ pub struct Subject {
 pub struct Measured {
     /// The numbers.
     pub row: Row,
-    /// What the style draws.
+    /// The style's drawing.
     pub drawing: Picture,
-    /// Agreed ink black, missed lines red, invented ink blue, what does not count grey; `None` without lines.
+    /// Agreed ink black, missed lines red, false ink blue, ignored ink grey; `None` without lines.
     pub error_picture: Option<Picture>,
 }
 
-/// How often and against what settings are measured.
+/// How settings are measured: repetitions and tolerances.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasureSettings {
     /// Distance within which ink and line count as the same, pixels. Default 2.
     pub tolerance_px: f64,
     /// Frames of each setting that are timed. Default 21.
     pub frames: usize,
-    /// What the machine is called in the rows.
+    /// The machine's name in the rows.
     pub machine: String,
 }
 
@@ -81,7 +81,7 @@ impl MeasureSettings {
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for a tolerance that is no distance, and for no frame.
+    /// [`Error::Setting`] for an invalid tolerance, and for zero frames.
     pub fn check(&self) -> Result<()> {
         if !(self.tolerance_px > 0.0 && self.tolerance_px <= 1000.0) {
             let problem = "it is a number of pixels above 0 and at most 1000";
@@ -111,7 +111,7 @@ impl Subject {
         Self::with_reference(model, scene, reference, load_ms)
     }
 
-    /// As [`Subject::new`], lines to be compared with the contour of the surface that the scene's only object is a mesh of.
+    /// Like [`Subject::new`], with lines compared with the contour of the surface that the scene's only object is a mesh of.
     ///
     /// # Errors
     ///
@@ -140,7 +140,7 @@ struct Contestant {
     measured: Measured,
 }
 
-/// What [`measure`] has done when it says so.
+/// The step that [`measure`] has just finished.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeasureStep {
     /// A setting was drawn and its errors measured: one for each setting.
@@ -149,9 +149,8 @@ pub enum MeasureStep {
     Turn,
 }
 
-/// Measures settings on a subject. Their errors one by one, their frames in turns, so that a busy moment hits all of them;
-/// `step` is told of each step. A setting that this scene cannot be drawn with is left out, and the reason
-/// returned beside the rows.
+/// Measures settings on a subject: their errors one by one, their frames in turns, which makes a busy moment hit all of them.
+/// `step` receives each step. A setting that cannot draw this scene is left out, and the reason returned with the rows.
 ///
 /// # Errors
 ///
@@ -198,7 +197,7 @@ pub fn measure(
     Ok((contestants.into_iter().map(|contestant| contestant.measured).collect(), left_out))
 }
 
-/// In how many turns so many frames of a setting are timed.
+/// The number of turns that time so many frames of a setting.
 pub fn turns(frames: usize) -> usize {
     frames.div_ceil(FRAMES_A_TURN)
 }

@@ -1,5 +1,4 @@
-//! The styles' shading of what a ray meets, in f64: the shaders' formulas on the same textures, with the coordinates that
-//! they mean.
+//! The styles' shading of a ray's hit, in f64: the shaders' formulas on the same textures, with the intended coordinates.
 
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
@@ -8,7 +7,7 @@ use tinta::picture::{MaterialPictures, Picture};
 use tinta::scene::Scene;
 use tinta::styles::{CetCoordinate, CetFilter, Charcoal, ContrastOperator, Noise, Phong, Style, Tones};
 
-/// What is known of the surface at a pixel.
+/// The surface at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Surface {
     /// Point and interpolated normal of any length, eye space, scene radii.
@@ -26,7 +25,7 @@ pub(super) struct Surface {
 
 /// How a style shades.
 pub(super) enum Shading<'a> {
-    /// In tones: a pixel has one or another.
+    /// In tones: a pixel has one of them.
     Tones(&'a Tones),
     Phong(&'a Phong),
     /// Noise, contrast-enhanced texture and paper; for sand each object's material pictures.
@@ -43,8 +42,8 @@ pub(super) enum Shading<'a> {
 pub(super) type Sand = Vec<Vec<Option<Arc<Picture>>>>;
 
 impl<'a> Shading<'a> {
-    /// A style's shading; `None` for one that is not computed here: charcoal read through mipmaps, with noise on the object,
-    /// another contrast operator or more than the text's flaws improved, and styles without shading of their own.
+    /// A style's shading; `None` for a style not computed here: charcoal read through mipmaps, with noise on the object, another
+    /// contrast operator or improvements beyond the text's flaws, and styles without shading.
     pub(super) fn of(style: &'a Style, scene: &Scene) -> Result<Option<Self>> {
         Ok(match style {
             Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => Some(Self::Tones(&cartoon.tones)),
@@ -74,7 +73,7 @@ impl<'a> Shading<'a> {
         })
     }
 
-    /// Whether it has tones, of which a pixel has the right one or another.
+    /// Whether it has tones, which makes each pixel's tone right or wrong.
     pub(super) fn is_of_tones(&self) -> bool {
         matches!(self, Self::Tones(_))
     }

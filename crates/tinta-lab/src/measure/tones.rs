@@ -1,7 +1,7 @@
 //! The error of a picture's shading against that of rays cast in f64.
 //!
-//! What the shaders compute at the vertices and interpolate is computed at the corners here too, in f64, and weighted by the
-//! place in the triangle that a ray through the pixel's middle meets.
+//! Values that the shaders compute at the vertices and interpolate are computed at the corners here too, in f64, and weighted by
+//! the place in the triangle where a ray through the pixel's middle hits.
 
 use super::ToneError;
 use super::reference::Reference;
@@ -17,13 +17,13 @@ use tinta::styles::Style;
 /// Pixels nearer to a visible line than this are counted apart: there one renderer's pixel may lie on another surface.
 const RIM_PX: f64 = 1.0;
 
-/// Where the articles' light stands, eye space, scene radii.
+/// The place of the articles' light, eye space, scene radii.
 const LIGHT: DVec3 = DVec3::ONE;
 
 /// Differences up to this come from rounding a colour twice, of 255.
 const ROUNDING: f64 = 1.5;
 
-/// What is seen at each pixel.
+/// The visible surface at each pixel.
 #[derive(Debug)]
 pub struct ReferenceLight {
     /// Row by row from the top.
@@ -48,7 +48,7 @@ impl ReferenceLight {
     ///
     /// # Errors
     ///
-    /// As the style's own when its textures cannot be had.
+    /// The style's own errors if its textures cannot be made.
     pub fn picture(&self, style: &Style, scene: &Scene) -> Result<Option<Picture>> {
         let Some(shading) = Shading::of(style, scene)? else { return Ok(None) };
         let pixel = |surface: &Option<Surface>| match surface {
@@ -66,7 +66,7 @@ impl ReferenceLight {
     ///
     /// # Errors
     ///
-    /// As the style's own when its textures cannot be had.
+    /// The style's own errors if its textures cannot be made.
     pub fn error(
         &self,
         picture: &Picture,
@@ -109,7 +109,7 @@ impl ReferenceLight {
     }
 }
 
-/// What a hit says of the surface; its place in the picture is left open.
+/// The surface at a hit; its place in the picture is left open.
 fn surface(scene: &Scene, rotation: &DMat3, hit: &Hit) -> Surface {
     let object = &scene.objects[hit.object as usize];
     let (mesh, face) = (&object.mesh, hit.face as usize);

@@ -1,4 +1,4 @@
-//! Values that no setting changes, and whose they are.
+//! Fixed values, and their origins.
 
 use tinta::settings::Provenance;
 use tinta::styles::StyleName::{self, Charcoal, Dietrich, Ink, Inking, Mrt, Phong, Sand, ThreePass, TwoPass};
@@ -8,13 +8,13 @@ use tinta::styles::StyleName::{self, Charcoal, Dietrich, Ink, Inking, Mrt, Phong
 pub struct Constant {
     /// The styles that draw with it.
     pub styles: &'static [StyleName],
-    /// What it is.
+    /// Its description.
     pub name: &'static str,
     /// Its value.
     pub value: &'static str,
-    /// Whose it is.
+    /// Its origin.
     pub provenance: Provenance,
-    /// What it does, so what changes if it were otherwise.
+    /// Its effect, and the change if it were otherwise.
     pub otherwise: &'static str,
 }
 
@@ -92,7 +92,7 @@ pub const CONSTANTS: &[Constant] = &[
         Provenance::deduced(
             "E, section 4.1 has blending enabled and the border as alpha of black; D prints this function for its lines",
         ),
-        "The border would be added or would replace what lies below",
+        "The border would be added to the colours below it, or would replace them",
     ),
     constant(
         IMAGE_SPACE,
@@ -134,7 +134,7 @@ pub const CONSTANTS: &[Constant] = &[
         "gradients in a ramp",
         "4, one above the other",
         Provenance::printed("D, Painting: four gradients of three steps"),
-        "More materials could have colours of their own",
+        "More materials could have their own colours",
     ),
     constant(
         &[Inking],
@@ -173,7 +173,7 @@ pub const CONSTANTS: &[Constant] = &[
     ),
     constant(
         &[Inking],
-        "order in which an edge's class is decided",
+        "precedence of the classes of an edge",
         "boundary, non-manifold, silhouette, crease",
         Provenance::ours("the listing only asks whether an edge is drawn"),
         "Edges of two classes would have the other's colour (--class-colors)",

@@ -1,4 +1,4 @@
-//! The numbers in shaders that are neither 0 nor 1, and whose they are.
+//! The numbers in shaders other than 0 and 1, and their origins.
 
 use tinta::settings::Provenance;
 
@@ -7,9 +7,9 @@ use tinta::settings::Provenance;
 pub struct ShaderNumbers {
     /// Below `glsl/`.
     pub path: &'static str,
-    /// As they are written there, without suffix.
+    /// As written there, without suffix.
     pub numbers: &'static [&'static str],
-    /// Whose they are.
+    /// Their origin.
     pub provenance: Provenance,
 }
 
@@ -62,7 +62,7 @@ pub const SHADERS: &[ShaderNumbers] = &[
     ours("improved/plane-map.frag", &["0.5", "255.0", "256.0", "65535.0"], "slope and depth of 16 bits in bytes"),
     ours("improved/plane-map.frag", &["0.99"], "a slope must differ from the background's 0"),
     ours("improved/slope-threshold.frag", &["2.0"], "the second difference 1, -2, 1"),
-    ours("improved/specks.frag", &["0.5", "1.5"], "between whole numbers of pixels, which are told apart there"),
+    ours("improved/specks.frag", &["0.5", "1.5"], "between whole numbers of pixels, which the listing distinguishes"),
     ours(
         "improved/specks.frag",
         &["16", "2"],
@@ -90,7 +90,7 @@ pub const SHADERS: &[ShaderNumbers] = &[
     ours(
         "valente/noise-function.frag",
         &["0.053", "0.071", "0.137", "0.211", "0.31"],
-        "places off the whole numbers, where gradient noise is 0 by itself",
+        "places off the whole numbers, where gradient noise is always 0",
     ),
     deduced("valente/paper.vert", &["0.5"], "V, section 3.2: coordinates from 0 to 1 over the screen"),
     printed("valente/sand.frag", &["0.0154", "0.0721", "0.1125", "0.6", "0.8", "1.2"], "V, section 4"),

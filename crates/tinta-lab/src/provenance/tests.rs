@@ -31,7 +31,7 @@ fn every_style_has_rows_and_each_is_a_phrase() {
     }
 }
 
-/// The numbers of a shader but 0 and 1, without suffixes, comments and what the preprocessor is told of its version.
+/// The numbers of a shader except 0 and 1, without suffixes, comments and the preprocessor's version lines.
 fn numbers(source: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     for line in source.lines() {

@@ -1,16 +1,16 @@
-//! The page's answer in a sentence: which setting to take.
+//! The page's answer in a sentence: the recommended setting.
 
 use super::plot::short;
 use super::settings::{Point, Points};
 
-/// F1 that may be given up for speed.
+/// Loss of F1 that speed may cost.
 const EQUALLY_GOOD: f64 = 0.002;
 
-/// The fastest of the settings whose F1 is within [`EQUALLY_GOOD`] of the best, and the same style as it was published.
+/// The fastest setting with an F1 within [`EQUALLY_GOOD`] of the best, and the same style as published.
 pub(super) fn answer(lines: &Points) -> Option<String> {
     let Points { points, models, .. } = lines;
     let best = points.iter().map(|point| point.error).min_by(f64::total_cmp)?;
-    // A little more, for the difference of two rounded numbers.
+    // A little more, because two rounded numbers differ by rounding.
     let is_good = |point: &&Point| point.error - best <= EQUALLY_GOOD + 1e-12;
     let fastest = points.iter().filter(is_good).min_by(|a, b| a.time_ms.total_cmp(&b.time_ms))?;
     let mean = if models.len() > 1 { format!(", means over {} models", models.len()) } else { String::new() };

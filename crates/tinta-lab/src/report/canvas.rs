@@ -8,7 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::ops::Range;
 use tinta::error::{Error, Result};
 
-/// What is written: the page gives these two colours others in the dark.
+/// Text: the page gives these two colours others in the dark.
 pub(super) const INK: RGBColor = RGBColor(0, 0, 0);
 pub(super) const BACKGROUND: RGBColor = RGBColor(255, 255, 255);
 /// Lines behind everything, and axes.
@@ -23,12 +23,12 @@ pub(super) enum Anchor {
     End,
 }
 
-/// Pixels a text takes at most, of a size in pixels: plotters without a font has no better estimate.
+/// Greatest width of a text, pixels, for a font size in pixels: plotters has no better estimate without a font.
 pub(super) fn text_width(text: &str, size_px: f64) -> f64 {
     text.chars().count() as f64 * size_px * 0.56
 }
 
-/// Lines of a text that is wider than the room, broken at spaces, in a word only where it has no room by itself.
+/// Lines of a text wider than the available width, broken at spaces, and within a word only if the word alone is too wide.
 pub(super) fn wrapped(text: &str, size_px: f64, room_px: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let longest = ((room_px / text_width("m", size_px)) as usize).max(1);
@@ -90,7 +90,7 @@ impl<'a> Canvas<'a> {
         // The backend divides sizes by this.
         let font = FontDesc::new(FontFamily::SansSerif, size_px * 1.24, style);
         let style = font.color(&INK).pos(Pos::new(horizontal, VPos::Center));
-        // plotters escapes what XML writes otherwise, but not what XML cannot hold.
+        // plotters escapes XML's special characters, but not those that XML forbids.
         let text = text.replace(tinta_geometry::markup::is_unprintable, "\u{FFFD}");
         drawn(self.area.draw(&Text::new(text, pixel(at), style)))
     }

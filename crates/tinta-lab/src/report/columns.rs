@@ -1,4 +1,4 @@
-//! The columns of the reports: one list for `results.csv`, the page's table and what each means.
+//! The columns of the reports: one list for `results.csv`, the page's table and the meaning of each.
 
 use crate::measure::{LineError, Row, ToneError};
 use std::borrow::Cow;
@@ -10,7 +10,7 @@ pub struct Column {
     pub name: Cow<'static, str>,
     /// Its title on the page.
     pub title: Cow<'static, str>,
-    /// What it means, with its unit.
+    /// Its meaning, with its unit.
     pub meaning: Cow<'static, str>,
     /// Digits after the point on the page; `results.csv` has all.
     pub(super) decimals: usize,
@@ -25,7 +25,7 @@ impl std::fmt::Debug for Column {
     }
 }
 
-/// What stands in a cell.
+/// The contents of a cell.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Value {
     Text(String),
@@ -101,7 +101,7 @@ fn tone(row: &Row, value: impl Fn(&ToneError) -> Option<f64>) -> Value {
 
 fn setting_columns() -> Vec<Column> {
     vec![
-        column("model", "Model", 0, |row| text(&row.model), "The model, as it was named.").main(),
+        column("model", "Model", 0, |row| text(&row.model), "The model's name, as given.").main(),
         column("style", "Style", 0, |row| text(&row.style), "The style drawn.").main(),
         column(
             "options",
@@ -208,7 +208,7 @@ fn line_columns() -> Vec<Column> {
             3,
             |row| line(row, |lines| Some(lines.f1)),
             "Harmonic mean of precision and recall of the picture's ink against the exact visible lines: 1 is full \
-             agreement, 0 is none.",
+             agreement, 0 no agreement.",
         )
         .main(),
         column(
@@ -216,7 +216,7 @@ fn line_columns() -> Vec<Column> {
             "Precision",
             3,
             |row| line(row, |lines| Some(lines.precision)),
-            "Share of the ink from the threshold (Ink from) on, weighted by darkness, within the tolerance of an exact line; the rest is invented.",
+            "Share of the ink at or above the threshold (Ink from), weighted by darkness, within the tolerance of an exact line; the rest is invented.",
         )
         .main(),
         column(
@@ -253,7 +253,7 @@ fn line_columns() -> Vec<Column> {
             "Ink from",
             0,
             |row| line(row, |lines| Some(lines.ink_from.into())),
-            "Darkness from which a pixel is ink, of 255.",
+            "Least darkness of a pixel that counts as ink, of 255.",
         ),
         column(
             "ignored_from_degrees",

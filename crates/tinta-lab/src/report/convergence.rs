@@ -1,5 +1,5 @@
-//! Error against the number of triangles, where lines are compared with the contour of a smooth surface: a plot for each surface, and
-//! the order in which each setting converges.
+//! Error against the number of triangles, for lines compared with the contour of a smooth surface: a plot for each surface, and
+//! the order of convergence of each setting.
 
 use super::canvas::{Anchor, Axes, Canvas, text_width, wrapped};
 use super::labels::Rectangle;
@@ -27,7 +27,7 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// By which power of the edges' length the error falls from the first mesh to the last.
+    /// The power of the edges' length by which the error falls from the first mesh to the last.
     pub fn order(&self) -> Option<f64> {
         let (first, last) = (self.points.first()?, self.points.last()?);
         // Edges are as long as the root of a triangle's area.
@@ -143,7 +143,7 @@ pub(super) fn plot(curves: &[Curve], surface: &str, shape: Shape) -> Result<Stri
         for point in &points {
             marks::draw(&canvas, &curve.style, *point, curve.is_faithful)?;
         }
-        // Its number right of the last mark, or beside the numbers that are there.
+        // Its number right of the last mark, or beside existing numbers.
         let label = (number + 1).to_string();
         let Some((x, y)) = points.last().copied() else { continue };
         let mut place = Rectangle {

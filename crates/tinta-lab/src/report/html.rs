@@ -1,7 +1,7 @@
-//! The report as one page that needs nothing else: plots, pictures, a table to sort, what every column means.
+//! The report as one self-contained page: plots, pictures, a sortable table, the meaning of every column.
 //!
-//! It is HTML that is well-formed XML too, so that an XML parser can check it, and it forbids itself the network. Without
-//! scripts everything is shown; `page.js` hides what was not chosen and sorts.
+//! It is HTML and well-formed XML, checkable by an XML parser, and it forbids itself the network. Without scripts everything is
+//! shown; `page.js` hides unchosen rows and sorts.
 
 use super::answer::answer;
 use super::columns::{Column, Value, columns};
@@ -90,7 +90,7 @@ fn answers(machines: &[Machine<'_>]) -> String {
     text
 }
 
-/// What is shown of models, styles and machines.
+/// The choices of models, styles and machines.
 fn choices(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
     let as_they_are = BTreeMap::new();
     let select = |id: &str, label: &str, all: &str, names: &[&str], shown: &BTreeMap<&str, String>| {
@@ -145,7 +145,7 @@ fn plots(models: &[&str], machines: &[Machine<'_>]) -> Result<String> {
     Ok(text)
 }
 
-/// Error against the number of triangles; nothing where no surface was measured with several meshes.
+/// Error against the number of triangles; empty unless a surface was measured with several meshes.
 fn convergence(machines: &[Machine<'_>]) -> Result<String> {
     let curves = machines.first().map(|machine| curves(&machine.rows)).unwrap_or_default();
     if curves.is_empty() {
@@ -167,7 +167,7 @@ fn convergence(machines: &[Machine<'_>]) -> Result<String> {
     Ok(text)
 }
 
-/// A cell of a table: what is read and, for a number, what sorts.
+/// A cell of a table: its text and, for a number, its sort key.
 struct Cell {
     text: String,
     number: Option<f64>,
@@ -221,7 +221,7 @@ fn options(text: &str) -> String {
     format!("<code>{}</code>", parts.join(" <span>--").replace("<span>--<span>", "<span>--"))
 }
 
-/// Times on every machine beside each other; nothing for one machine.
+/// Times on every machine side by side; empty for one machine.
 fn machine_table(machines: &[Machine<'_>]) -> String {
     if machines.len() < 2 {
         return String::new();
@@ -231,7 +231,7 @@ fn machine_table(machines: &[Machine<'_>]) -> String {
         machines[1..].iter().map(|machine| format!("{}, times the first", machine.name)).collect();
     let head = |title, meaning, is_number| Head { title, meaning, is_number, is_main: true };
     let mut heads = vec![
-        head("Setting", "The style and what differs from other settings.", false),
+        head("Setting", "The style and its differences from other settings.", false),
         head("Models", "Models measured on all of these machines.", true),
     ];
     heads.extend(times.iter().map(|title| head(title, "Geometric mean over those models of the median time.", true)));
@@ -259,7 +259,7 @@ fn pictures(info: &ReportInfo, models: &[&str]) -> String {
         return String::new();
     }
     let mut text =
-        "<section id=\"pictures\">\n<h2>What is drawn and where its errors lie</h2>\n<p>Beside each drawing its lines: black is ink on a line, red a line without ink, blue ink without a line, grey ink that does not count (soft creases). Shown are each style's published settings and the best. Press a picture to see it in full size.</p>\n\
+        "<section id=\"pictures\">\n<h2>Drawings and their errors</h2>\n<p>Beside each drawing its lines: black is ink on a line, red a line without ink, blue ink without a line, grey ink that does not count (soft creases). Shown are each style's published settings and the best. Press a picture to see it in full size.</p>\n\
                     <div class=\"pictures\">\n"
             .to_owned();
     let names = model_names(models.iter().copied());
@@ -286,7 +286,7 @@ fn pictures(info: &ReportInfo, models: &[&str]) -> String {
 fn row_table(rows: &[Row], machines: &[Machine<'_>]) -> String {
     let columns = columns();
     let names = model_names(rows.iter().map(|row| row.model.as_str()));
-    // What is the same everywhere tells nothing, what differs does.
+    // Only columns that differ are informative.
     let differs = |column: &Column| {
         let mut values = rows.iter().map(|row| column.value(row));
         let first = values.next();
@@ -368,13 +368,13 @@ fn meanings() -> String {
         (name, escaped(&column.meaning))
     });
     format!(
-        "<section id=\"columns\">\n<h2>What the columns mean</h2>\n<p>The second name is the column's in results.csv.</p>\n\
+        "<section id=\"columns\">\n<h2>Meaning of the columns</h2>\n<p>The second name is the column's in results.csv.</p>\n\
          {}</section>\n",
         definitions(entries)
     )
 }
 
-/// A list of names and what they are, both HTML already.
+/// A list of names with descriptions, both HTML already.
 fn definitions(entries: impl Iterator<Item = (String, String)>) -> String {
     let entries: String =
         entries.map(|(name, value)| format!("<div><dt>{name}</dt><dd>{value}</dd></div>\n")).collect();

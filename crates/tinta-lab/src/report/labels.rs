@@ -1,4 +1,4 @@
-//! Places for labels beside their points, so that none covers another one or a mark. Greedy: first come, first placed.
+//! Places for labels beside their points, with no label over another one or a mark. Greedy: first come, first placed.
 
 /// Pixels from the left and the top.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,7 +43,7 @@ pub(super) fn place(
     let (width, height) = size;
     let mut best: Option<(f64, Rectangle)> = None;
     for (step, distance) in DISTANCES.into_iter().enumerate() {
-        // Right above first: a front falls from the left to the right, so that side is the emptier one.
+        // Right above first: a front falls from left to right, and that side is emptier.
         for (turn, (x, y)) in
             [(1.0, -1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 1.0), (-1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (-1.0, -1.0)]
                 .into_iter()

@@ -1,5 +1,4 @@
-//! `results.jsonl`: a row a line, on disk as soon as it is known, so that an interruption loses the row in the making at
-//! most.
+//! `results.jsonl`: a row a line, on disk as soon as it is known; an interruption loses at most the current row.
 
 use crate::measure::Row;
 use std::fs::{File, OpenOptions};
@@ -22,11 +21,11 @@ impl RowLog {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] where there is one already or the folder may not be written.
+    /// [`Error::File`] if one exists or the folder cannot be written.
     pub fn create(folder: &Path) -> Result<Self> {
         let path = folder.join(ROWS_FILE);
         check(&path)?;
-        // A run that ended before its first row left nothing that could be lost.
+        // A run that ended before its first row left an empty file, which may be replaced.
         if path.metadata().is_ok_and(|file| file.len() > 0) {
             return Err(Error::output(
                 path,
@@ -39,13 +38,13 @@ impl RowLog {
         }
     }
 
-    /// Goes on with the folder's file and hands over its rows; begins one where there is none.
+    /// Continues the folder's file and returns its rows; begins one where it is missing.
     ///
     /// A last line that was half written when a run was interrupted is cut off.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] for a whole line that is no row, and for a file that may not be written.
+    /// [`Error::File`] for a complete line that is not a row, and for a file that cannot be written.
     pub fn resume(folder: &Path) -> Result<(Self, Vec<Row>)> {
         let path = folder.join(ROWS_FILE);
         check(&path)?;
@@ -72,7 +71,7 @@ impl RowLog {
     pub fn append(&mut self, row: &Row) -> Result<()> {
         let problem = |problem: String| Error::file(FileKind::Rows, &self.path, problem);
         let mut line = serde_json::to_string(row).map_err(|error| problem(error.to_string()))?;
-        // JSON has no NaN and no infinity: they would come back as something else, or not at all.
+        // JSON has neither NaN nor infinity: they would not be read back.
         if serde_json::from_str::<Row>(&line).ok().as_ref() != Some(row) {
             let key = row.key();
             return Err(problem(format!("the row of {key} holds a number that is not finite; please report this")));
@@ -117,7 +116,7 @@ fn read(path: &Path) -> Result<Vec<u8>> {
     })
 }
 
-/// Refuses what lies where the rows go and is no file: a pipe would wait for somebody to read it.
+/// Refuses anything but a file in the rows' place: a pipe would wait for a reader.
 fn check(path: &Path) -> Result<()> {
     match path.metadata() {
         Ok(metadata) if !metadata.is_file() => {

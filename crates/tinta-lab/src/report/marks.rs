@@ -1,4 +1,4 @@
-//! A style's mark in the plots, which stands in its row.
+//! A style's mark in the plots, taken from its row.
 
 use super::canvas::{BACKGROUND, Canvas};
 use plotters::style::{Color, RGBColor};
@@ -9,7 +9,7 @@ use tinta::styles::{Mark, Outline, StyleName};
 /// Half a mark's size, pixels.
 pub(super) const RADIUS: f64 = 6.0;
 
-/// What has no mark of its own.
+/// The mark of all others.
 const OTHER: Mark = Mark { rgb: [90; 3], outline: Outline::Circle };
 
 /// The marks as the legend has them.

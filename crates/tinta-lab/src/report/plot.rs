@@ -10,7 +10,7 @@ use super::settings::{Machine, Measure, Point, Points, model_names, pareto, poin
 use std::ops::Range;
 use tinta::error::Result;
 
-/// What a plot is drawn for.
+/// The destination of a plot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// A file, or a page on a screen: names stand beside their points.
@@ -42,7 +42,7 @@ impl Shape {
     }
 }
 
-/// What the plot is of: the models and the machine.
+/// The plot's subject: the models and the machine.
 pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
     let Points { models, left_out, .. } = points(&machine.rows, measure);
     let names = model_names(models.iter().map(String::as_str));
@@ -113,7 +113,7 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
     text((inner.right, inner.bottom + line_height * 2.0), Anchor::End, "time of a frame, ms (median) →")?;
     grid(&canvas, &axes, &scale, &inner, &layout)?;
     canvas.line(&steps, MIDDLE, 2)?;
-    // Hollow marks first, so that the published settings lie above them.
+    // Hollow marks first, to put the published settings above them.
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by_key(|index| (front.contains(index), points[*index].is_faithful));
     for index in order {
@@ -164,11 +164,11 @@ pub(super) fn short(number: f64) -> String {
     format!("{number:.*}", digits.clamp(0, 9) as usize)
 }
 
-/// What the axes reach over.
+/// The range of the axes.
 pub(super) struct Scale {
     pub(super) time_ms: Range<f64>,
     pub(super) error: Range<f64>,
-    /// Where no error at all is drawn, which a logarithmic axis does not have.
+    /// The place of zero error, which a logarithmic axis lacks.
     pub(super) zero: Option<f64>,
 }
 
@@ -251,7 +251,7 @@ pub(super) fn grid(canvas: &Canvas<'_>, axes: &Axes, scale: &Scale, inner: &Rect
     canvas.line(&[(inner.left, inner.top), (inner.left, inner.bottom), (inner.right, inner.bottom)], MIDDLE, 1)
 }
 
-/// The front's points from the fastest to the most exact; of equal ones the first.
+/// The front's points from the fastest to the most exact; the first of equal ones.
 fn front(points: &[Point]) -> Vec<usize> {
     let all: Vec<(f64, f64)> = points.iter().map(|point| (point.time_ms, point.error)).collect();
     let mut front: Vec<usize> = (0..all.len()).zip(pareto(&all)).filter(|(_, is_on)| *is_on).map(|(i, _)| i).collect();
@@ -260,7 +260,7 @@ fn front(points: &[Point]) -> Vec<usize> {
     front
 }
 
-/// The border between what some setting reaches and what none does.
+/// The border between the reached and the unreached times and errors.
 fn steps(front: &[(f64, f64)], inner: &Rectangle) -> Vec<(f64, f64)> {
     let mut line = Vec::new();
     let mut height = inner.top;
@@ -343,7 +343,7 @@ fn legend(points: &[Point], layout: &Layout) -> Vec<Item> {
     if points.iter().any(|point| !point.is_faithful) {
         items.push((Mark::Style(styles[0].to_owned(), false), "hollow: not the published settings".to_owned()));
     }
-    items.push((Mark::Front, "Pareto front: nothing is both faster and closer".to_owned()));
+    items.push((Mark::Front, "Pareto front: no setting is both faster and closer".to_owned()));
     let mut left = MARGIN;
     let mut line = 0;
     let mut placed = Vec::new();

@@ -10,7 +10,7 @@ pub(super) struct Ratio {
     pub(super) name: String,
     /// Models measured on every machine that has the setting.
     pub(super) models: usize,
-    /// Geometric mean over those models of the median time, milliseconds; `None` where it was not measured.
+    /// Geometric mean over those models of the median time, milliseconds; `None` if not measured.
     pub(super) times_ms: Vec<Option<f64>>,
 }
 

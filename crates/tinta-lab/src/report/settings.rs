@@ -1,9 +1,9 @@
-//! Rows brought together: by machine, and a setting's rows of several models into one point of a plot.
+//! Groups rows: by machine, and a setting's rows of several models into one point of a plot.
 
 use crate::measure::Row;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a plot holds against time.
+/// The quantity that a plot shows against time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Measure {
     /// How far the ink is from the exact lines: 1 - F1.
@@ -15,7 +15,7 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// All of them, with the name a file gets.
+    /// All of them, with their file names.
     pub const ALL: [(&'static str, Self); 3] =
         [("lines", Self::Lines), ("tones", Self::Tones), ("continuous-tones", Self::ContinuousTones)];
 
@@ -31,7 +31,7 @@ impl Measure {
         }
     }
 
-    /// What the plot shows.
+    /// The plot's title.
     pub(super) fn title(self) -> &'static str {
         match self {
             Self::Lines => "Lines: error against time",
@@ -59,7 +59,7 @@ pub struct Machine<'a> {
     pub rows: Vec<&'a Row>,
 }
 
-/// Machines in the order in which they first appear.
+/// Machines in the order of first appearance.
 pub fn machines(rows: &[Row]) -> Vec<Machine<'_>> {
     const NONE: &str = "none";
     let mut names: Vec<&str> = Vec::new();
@@ -88,7 +88,7 @@ pub fn machines(rows: &[Row]) -> Vec<Machine<'_>> {
     machines
 }
 
-/// Models in the order in which they first appear.
+/// Models in the order of first appearance.
 pub(super) fn models<'a>(rows: &[&'a Row]) -> Vec<&'a str> {
     let mut models = Vec::new();
     for row in rows {
@@ -99,7 +99,7 @@ pub(super) fn models<'a>(rows: &[&'a Row]) -> Vec<&'a str> {
     models
 }
 
-/// What each model is called: its file's name, where no other has the same.
+/// Each model's short name: its file's name, if unique.
 pub(super) fn model_names<'a>(models: impl Iterator<Item = &'a str>) -> BTreeMap<&'a str, String> {
     let file = |model: &str| {
         let name = std::path::Path::new(model).file_name();
@@ -125,7 +125,7 @@ pub struct Point {
     pub error: f64,
 }
 
-/// A plot's points, and what they are means of.
+/// A plot's points, with the models of their means.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Points {
     /// One for each setting measured on all of the models.
@@ -143,7 +143,7 @@ pub fn points(rows: &[&Row], measure: Measure) -> Points {
         .copied()
         .filter(|row| measure.error(row).is_some_and(f64::is_finite) && row.time.median_ms > 0.0)
         .collect();
-    // Of a setting measured twice on a model the last row counts.
+    // If a setting was measured twice on a model, the last row counts.
     let mut by_setting: BTreeMap<SettingKey<'_>, BTreeMap<&str, &Row>> = BTreeMap::new();
     let mut order = Vec::new();
     for row in &rows {
@@ -178,14 +178,14 @@ pub fn points(rows: &[&Row], measure: Measure) -> Points {
     Points { points, models, left_out }
 }
 
-/// What tells settings apart on a machine.
+/// The key of a setting on a machine.
 pub(super) type SettingKey<'a> = (&'a str, &'a str, [u32; 2]);
 
 pub(super) fn setting_key(row: &Row) -> SettingKey<'_> {
     (&row.style, &row.options, row.size)
 }
 
-/// Short names: the style and the options without dashes, what all settings share left out.
+/// Short names: the style and the options without dashes, without those that all settings share.
 pub(super) fn short_names<'a>(rows: &[&'a Row]) -> BTreeMap<SettingKey<'a>, String> {
     let keys: BTreeSet<SettingKey<'_>> = rows.iter().map(|row| setting_key(row)).collect();
     let mut count_of_option: BTreeMap<String, usize> = BTreeMap::new();
@@ -227,9 +227,9 @@ fn options_of(options: &str) -> Vec<String> {
     all
 }
 
-/// Which points no other one beats: none is at least as fast and as right, and better in one of both.
+/// Marks the points that no other one beats: none is at least as fast and as right, and better in one of both.
 ///
-/// In: time and error of each. A point with a NaN is never on the front.
+/// Takes the time and error of each. A point with a NaN is never on the front.
 pub fn pareto(points: &[(f64, f64)]) -> Vec<bool> {
     let beats = |a: &(f64, f64), b: &(f64, f64)| a.0 <= b.0 && a.1 <= b.1 && (a.0 < b.0 || a.1 < b.1);
     points

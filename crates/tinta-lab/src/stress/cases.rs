@@ -14,7 +14,7 @@ mod turntable;
 pub(super) use case::side_px;
 pub use case::{Case, Check, Content, Drawing, Expected, Group, Study, Work};
 
-/// All cases in the groups' order; `seed` decides the mixes, of which there are `mixes`.
+/// All cases in the groups' order; `seed` decides the `mixes` random ones.
 pub fn cases(seed: u64, mixes: usize) -> Vec<Case> {
     let mut all = scale::cases();
     all.extend(depth::cases());

@@ -1,4 +1,4 @@
-//! Draws a case by every backend, with and without pruning, and measures what it asks for.
+//! Draws a case by every backend, with and without pruning, and takes its measurements.
 
 use super::cases::{Drawing, Study, side_px};
 use super::figures::{Exact, Figures, covered_px, differing_px, non_finite};
@@ -18,23 +18,23 @@ use tinta::renderer::Renderer;
 use tinta::scene::{Scene, SceneSettings, Size};
 use tinta::styles::Show;
 
-/// Steps of a turn, and how many of them a full turn has: one degree in sixty.
+/// Steps of a turn, and the number of steps of a full turn: each is one degree in sixty.
 const STEPS: usize = 60;
 const STEPS_AROUND: u32 = 360 * 60;
 
-/// A drawing's scene and what is found out about it, once for all styles.
+/// A drawing's scene with its exact results, once for all styles.
 pub(super) struct Subject {
     scene: Scene,
     /// The scene without jitter, with it, and which edges flip.
     exact: Option<(Exact, Exact, Flips)>,
     /// The scene at every step of a turn.
     turn: Vec<Exact>,
-    /// The same shape as it is.
+    /// The same shape, unscaled.
     unit: Option<Exact>,
     figures: Figures,
 }
 
-/// What is known of a picture of one style by one backend.
+/// The results for a picture of one style by one backend.
 pub(super) struct Drawn {
     pub picture: Picture,
     pub figures: Figures,
@@ -68,7 +68,7 @@ impl Subject {
             }
         }
         if drawing.is_compared_with_unit {
-            // Not 1: a built-in model as it is would bring normals and materials of its own.
+            // Not 1: an unscaled built-in model would bring its normals and materials.
             let unit = Drawing { scale: 1.0 + f64::EPSILON, offset: DVec3::ZERO, ..drawing.clone() };
             subject.unit = Some(Exact::of(self::scene(&unit, largest, folder)?)?);
         }
@@ -82,7 +82,7 @@ impl Subject {
         Some(("unit_lines_differing", here.differing(&unit) as f64 / unit.count().max(1) as f64))
     }
 
-    /// Draws it in a style; `is_first` for the backend that also finds out what a jitter or a turn does.
+    /// Draws it in a style; `is_first` for the backend that also measures the effect of a jitter or a turn.
     pub(super) fn draw(&self, renderer: &mut Renderer, variant: &Variant, is_first: bool) -> Result<Drawn> {
         let style = &variant.style;
         let plan = style.plan(&self.scene, Show::Final)?;
@@ -135,7 +135,7 @@ impl Subject {
     }
 }
 
-/// A style's lines and its shading, each by itself.
+/// A style's lines and its shading, separately.
 struct Shown {
     ink: Option<Ink>,
     shading: Picture,
@@ -188,7 +188,7 @@ impl Sums {
     }
 }
 
-/// Writes what popped into the figures: drawn, and by the exact scene.
+/// Writes the popped ink into the figures: of the drawing, and of the exact scene.
 fn note(what: &'static str, popped: &Popped, figures: &mut Figures) {
     let names = match what {
         "jitter" => ["jitter_ink", "jitter_lines", "jitter_shades", "jitter_exact_shades"],
@@ -228,7 +228,7 @@ pub(super) fn outcomes(
     folder: &Path,
     mut report: impl FnMut(&Variant, &'static str, Outcome),
 ) {
-    // All backends but those of pictures of their own largest size draw the same scene.
+    // All backends draw the same scene, except cases with each backend's largest size.
     let mut subjects: Vec<(Size, std::result::Result<Subject, tinta::Error>)> = Vec::new();
     for (_, renderer) in renderers.iter() {
         let largest = renderer.context().largest_picture;

@@ -11,7 +11,7 @@ use tinta::gl::{Backend, Fault};
 use tinta::renderer::Renderer;
 use tinta::scene::{Scene, SceneSettings, Size};
 
-/// Draws a cube with the fault; then `sound`, another context of the same thread, must draw it as if nothing had been.
+/// Draws a cube with the fault; then `sound`, another context of the same thread, must draw it unaffected.
 pub(super) fn outcome(backend: Backend, fault: Fault, variant: &Variant, sound: &mut Renderer) -> Outcome {
     let mut attempt = || -> Result<Outcome> {
         let scene = scene()?;

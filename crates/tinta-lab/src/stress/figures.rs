@@ -20,7 +20,7 @@ const SEEN: u8 = 8;
 /// Distance within which ink and shades may move without having come or gone, pixels.
 const MOVED_PX: u32 = 1;
 
-/// A scene with what is exact about it.
+/// A scene with its exact lines.
 #[derive(Debug)]
 pub struct Exact {
     /// The scene.
@@ -49,7 +49,7 @@ impl Exact {
         self.light.picture(style, &self.scene)
     }
 
-    /// What is known of the scene whatever the style: edges by class, visible length, numbers that are not finite.
+    /// The figures of the scene in any style: edges by class, visible length, numbers that are not finite.
     pub fn figures(&self) -> Figures {
         let lines = &self.reference.lines;
         let mut counts = lines.edges;
@@ -77,7 +77,7 @@ pub(super) fn non_finite(scene: &Scene) -> usize {
         count += usize::from(!scene.view_from_object(object, arrays.centre).is_finite());
         count += arrays.vertices.iter().flatten().filter(|number| !number.is_finite()).count();
         count += arrays.texture_coordinates.iter().flatten().filter(|number| !number.is_finite()).count();
-        // A normal is a direction: one without length is none.
+        // A normal is a direction: a vector without length is invalid.
         let normal = |vertex: &&[f32; 6]| (Vec3::from_slice(&vertex[3..]).length() - 1.0).abs() > 1e-3;
         count += arrays.vertices.iter().filter(normal).count();
     }
@@ -88,16 +88,16 @@ fn non_finite_ends(lines: &VisibleLines) -> usize {
     lines.segments.iter().flat_map(|segment| segment.ends_px).filter(|end| !end.is_finite()).count()
 }
 
-/// How much of some ink came or went from one picture to the next, as a share of both pictures' ink: pixels with none of the
-/// other picture's ink in them or next to them.
+/// How much ink came or went from one picture to the next, as a share of both pictures' ink: pixels without ink of the other
+/// picture in them or next to them.
 pub(super) fn popped(before: &InkMask, after: &InkMask) -> f64 {
     let all = before.count() + after.count();
     let popped = before.count_far_from(after, MOVED_PX) + after.count_far_from(before, MOVED_PX);
     if all == 0 { 0.0 } else { popped as f64 / all as f64 }
 }
 
-/// Pixels whose colour is none that the other picture has there or next to it, as a share of those that either covers: what
-/// changed without having moved.
+/// Pixels with a colour that the other picture has neither there nor next to it, as a share of those that either covers: changes
+/// other than movement.
 pub(super) fn shades_popped(before: &Picture, after: &Picture) -> f64 {
     let covered = |picture: &Picture, index: usize| picture.pixels[index * 4..index * 4 + 3] != [u8::MAX; 3];
     let all = (0..before.size.pixel_count()).filter(|&index| covered(before, index) || covered(after, index)).count();
@@ -105,7 +105,7 @@ pub(super) fn shades_popped(before: &Picture, after: &Picture) -> f64 {
     if all == 0 { 0.0 } else { popped as f64 / (2 * all) as f64 }
 }
 
-/// Pixels of the first picture whose colour the second has nowhere near.
+/// Pixels of the first picture with a colour that is nowhere near in the second.
 fn colors_gone(first: &Picture, second: &Picture) -> usize {
     let (width, height) = (i64::from(first.size.width), i64::from(first.size.height));
     let near = i64::from(MOVED_PX);
@@ -121,7 +121,7 @@ fn colors_gone(first: &Picture, second: &Picture) -> usize {
     (0..height).map(|y| (0..width).filter(|x| is_gone(*x, y)).count()).sum()
 }
 
-/// Pixels that differ at all.
+/// Number of different pixels.
 pub(super) fn differing_px(first: &Picture, second: &Picture) -> f64 {
     first.difference(second).map_or(f64::NAN, |difference| difference.pixels as f64)
 }
@@ -159,7 +159,7 @@ mod tests {
         assert_eq!(shades_popped(&before, &before), 0.0);
         assert_eq!(shades_popped(&before, &grey([100, 200, 200, 200, 255])), 0.0);
         assert_eq!(shades_popped(&before, &grey([104, 100, 196, 200, 255])), 0.0);
-        // One of four covered pixels has a colour that was not there, and took none away that is not beside it.
+        // One of four covered pixels has a new colour, and every old colour is still in a neighbour.
         assert_eq!(shades_popped(&before, &grey([100, 150, 200, 200, 255])), 0.125);
     }
 }

@@ -1,4 +1,4 @@
-//! Moves a scene by a millionth of its size to find what is unstable in its picture.
+//! Moves a scene by a millionth of its size to find the unstable parts of its picture.
 
 use super::figures::{Exact, popped, shades_popped};
 use crate::compare::InkMask;
@@ -15,7 +15,8 @@ use tinta::styles::Style;
 /// How far vertices and camera are moved, scene radii.
 const JITTER: f64 = 1e-6;
 
-/// Share of a determinant's largest product by which plain f64 arithmetic may be off: below it a sign is not known here.
+/// Relative error bound of a determinant in plain f64 arithmetic, as a share of its largest product: below it the sign is unknown
+/// here.
 const UNKNOWN_SIGN: f64 = 64.0 * f64::EPSILON;
 
 /// Edges whose class changes when a scene is moved a little.
@@ -23,20 +24,20 @@ const UNKNOWN_SIGN: f64 = 64.0 * f64::EPSILON;
 pub struct Flips {
     /// All edges.
     pub edges: usize,
-    /// Those whose silhouette or static class is another, by exact arithmetic.
+    /// Edges whose exact silhouette or static class changed.
     pub exact: usize,
-    /// Those of which the listing's rule for silhouettes says something else than before.
+    /// Edges that change under the listing's rule for silhouettes.
     pub published: usize,
-    /// Those among `exact` for which no predicate that decides it changed its sign: there must be none.
+    /// Edges among `exact` without a sign change in any predicate that decides them: this must be 0.
     pub unexplained: usize,
 }
 
 /// How much came and went, in a picture and by the exact scene, as shares.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Popped {
-    /// Of a style's ink, and of the exact lines.
+    /// The popped share of a style's ink, and of the exact lines.
     pub ink: Option<[f64; 2]>,
-    /// Of a style's shading, and of the same formula in f64, where it is computed.
+    /// The popped share of a style's shading, and of the same formula in f64, if computed.
     pub shades: Option<[f64; 2]>,
 }
 

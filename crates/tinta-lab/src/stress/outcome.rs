@@ -1,9 +1,9 @@
-//! What came of a case: a picture with its figures, an error, or a panic.
+//! The outcome of a case: a picture with its figures, an error, or a panic.
 
 use super::figures::Figures;
 use tinta::error::Error;
 
-/// What came of a drawing.
+/// The outcome of a drawing.
 pub(super) enum Outcome {
     Rendered(Figures),
     Refused { kind: &'static str, sentence: String },

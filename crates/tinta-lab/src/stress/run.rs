@@ -16,16 +16,16 @@ use tinta::gl::context::witnesses;
 use tinta::renderer::Renderer;
 use tinta_geometry::threads::cores;
 
-/// What is attacked, and by which.
+/// The cases and their backends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StressSettings {
     /// Where the mixes' random numbers begin. Default 0.
     pub seed: u64,
     /// How many mixes. Default 24.
     pub mixes: usize,
-    /// Only cases whose name or group has this in it; default all.
+    /// Only cases with this text in their name or group; default all.
     pub only: Option<String>,
-    /// The backends, each of which must draw the same; one that is not there is left out. Default [`witnesses`].
+    /// The backends, each of which must draw the same; missing ones are left out. Default [`witnesses`].
     pub backends: Vec<Backend>,
 }
 
@@ -74,13 +74,13 @@ pub struct Row {
     pub style: String,
     /// The backend.
     pub backend: &'static str,
-    /// What came of it: rendered, or refused with a kind of error.
+    /// Its outcome: rendered, or refused with a kind of error.
     pub verdict: String,
-    /// What had to come of it.
+    /// The required outcome.
     pub expected: String,
     /// Whether it did, and every figure is as it must be.
     pub passed: bool,
-    /// What is wrong, or the error's sentence.
+    /// The fault, or the error's sentence.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remark: Option<String>,
     /// Its figures by name; see docs/results/stability.md.
@@ -94,7 +94,7 @@ pub struct Summary {
     pub version: &'static str,
     /// GL_RENDERER of each backend that took part.
     pub renderers: Vec<String>,
-    /// The backends that could not be had: nothing is known of them.
+    /// The missing backends, which have no results.
     pub missing: Vec<MissingBackend>,
     /// How many cases there were.
     pub case_count: usize,
@@ -102,24 +102,24 @@ pub struct Summary {
     pub cases: Vec<Row>,
 }
 
-/// A backend that could not be had.
+/// A backend that could not be opened.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct MissingBackend {
     /// Its backend's name.
     pub backend: &'static str,
-    /// What was tried and why it failed.
+    /// The attempts and why they failed.
     pub reason: String,
 }
 
 impl Summary {
-    /// Rows that did not end as their case says.
+    /// Rows that did not end as their case requires.
     pub fn failures(&self) -> impl Iterator<Item = &Row> {
         self.cases.iter().filter(|row| !row.passed)
     }
 }
 
-/// Figures that must be 0 wherever they are known: nothing infinite, no omission seen, no backend of its own mind, no edge
-/// that flips without cause.
+/// Figures that must be 0 wherever they are known: no infinite value, no visible omission, no difference between backends, no
+/// edge that flips without cause.
 const ALWAYS_NONE: [&str; 4] =
     ["non_finite", "pruned_differing_px", "backends_differing_px", "edges_flipped_unexplained"];
 
@@ -132,7 +132,7 @@ impl Expected {
         }
     }
 
-    /// What is wrong with an outcome, if anything is.
+    /// The fault of an outcome, if any.
     fn fault(&self, outcome: &Outcome) -> Option<String> {
         match (self, outcome) {
             (Self::Rendered | Self::Either(_), Outcome::Rendered(_)) => None,
@@ -184,7 +184,7 @@ fn row(case: &Case, style: &str, backend: &'static str, outcome: Outcome) -> Row
     }
 }
 
-/// A failure for a check whose figure no row has: it would check nothing.
+/// A failure for a check on a figure that no row has: it would check nothing.
 fn never_checked(case: &Case, rows: &[Row]) -> Option<Row> {
     let is_known = |figure: &str| rows.iter().any(|row| row.figures.contains_key(figure));
     let missing = case.checks.iter().find(|check| !is_known(check.figure))?;
@@ -193,12 +193,12 @@ fn never_checked(case: &Case, rows: &[Row]) -> Option<Row> {
     Some(Row { verdict, remark, passed: false, ..row(case, "", "", Outcome::Rendered(Figures::new())) })
 }
 
-/// Carries out all cases, on as many threads as the machine has; `progress` is told how many of how many are done.
+/// Carries out all cases, on as many threads as the machine has; `progress` receives the number done and the total.
 ///
 /// # Errors
 ///
-/// [`Error::NoContext`] when no backend can be had, [`Error::Setting`] when no case has such a name, [`Error::File`] when
-/// there is no place for the files that cases need.
+/// [`Error::NoContext`] without any backend, [`Error::Setting`] for an unknown case, [`Error::File`] if the cases' files cannot
+/// be placed.
 pub fn run(settings: &StressSettings, mut progress: impl FnMut(usize, usize)) -> Result<Summary> {
     let chosen = settings.cases()?;
     let folder = tempfile::tempdir().map_err(|error| {
@@ -206,7 +206,7 @@ pub fn run(settings: &StressSettings, mut progress: impl FnMut(usize, usize)) ->
         Error::output(std::env::temp_dir(), problem).because(&error)
     })?;
     let folder = folder.path();
-    // Before any work: a backend that is not there would fail every case.
+    // Before any work: a missing backend would fail every case.
     let Found { backends, renderers, missing } = find(&settings.backends)?;
     let (next, count) = (AtomicUsize::new(0), chosen.len());
     let mut rows: Vec<(usize, Vec<Row>)> = Vec::with_capacity(count);
@@ -240,14 +240,14 @@ fn take<'a>(next: &AtomicUsize, cases: &'a [Case]) -> Option<(usize, &'a Case)> 
     cases.get(index).map(|case| (index, case))
 }
 
-/// What there is of the backends asked for.
+/// The available ones of the requested backends.
 struct Found {
     backends: Vec<Backend>,
     renderers: Vec<String>,
     missing: Vec<MissingBackend>,
 }
 
-/// Tries each backend; that none is there is an error.
+/// Tries each backend; returns an error if none opens.
 fn find(asked: &[Backend]) -> Result<Found> {
     let (mut found, mut missing, mut all_attempts) = (Vec::new(), Vec::new(), Vec::new());
     for backend in asked {
@@ -306,7 +306,7 @@ impl Worker<'_> {
             }
         }));
         if attempt.is_err() {
-            // What a panic leaves behind is not to be trusted.
+            // State left behind by a panic cannot be trusted.
             self.renderers.clear();
             rows.push(row(case, "", "", Outcome::Panicked));
         }

@@ -8,7 +8,7 @@ use tinta::mesh::{LoadOptions, Material, Mesh, load};
 use tinta::picture::{Picture, write_rgba_png};
 use tinta::scene::Size;
 
-/// A shape by name; what has a parameter has it here.
+/// A shape by name, with its parameter if it has one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
     /// One of the models that need no file.
@@ -21,7 +21,7 @@ pub enum Shape {
     Cube,
     /// A cube from 0 to 1 and, before the middle of its front, another this much smaller.
     CubeAndSmaller(f64),
-    /// Nothing.
+    /// An empty mesh.
     Nothing,
     /// One triangle.
     Triangle,
@@ -29,13 +29,13 @@ pub enum Shape {
     Point,
     /// Three vertices on a line.
     Line,
-    /// A vertex of which one coordinate is this, in a square whose other corners are sound.
+    /// A vertex with this value as one coordinate, in a square whose other corners are sound.
     BadVertex(f64),
     /// A needle this much longer than wide, standing on a triangle.
     Needle(f64),
     /// A ball with triangles without area strewn over its edges.
     ZeroAreas,
-    /// A ball with triangles on its edges whose third corner lies between the others but for rounding.
+    /// A ball with triangles on its edges whose third corner lies between the others up to rounding.
     Slivers,
     /// Every triangle of a cube three times.
     Duplicates,
@@ -45,13 +45,13 @@ pub enum Shape {
     Fins(u32),
     /// A band with one side and one edge.
     Moebius,
-    /// A square beside two half as long, whose common corner lies on its side.
+    /// A square beside two half as long, with their common corner on its side.
     TJunction,
-    /// A cube that stands on another, with part of a face in common.
+    /// A cube standing on another, with part of a face in common.
     Contact,
     /// Two cubes that pass through one another.
     Piercing,
-    /// This many triangles that share nothing.
+    /// This many separate triangles.
     Isolated(u32),
     /// This many triangles around one vertex, in a plane.
     Fan(u32),
@@ -63,8 +63,8 @@ pub enum Shape {
     Flat,
     /// A square of two triangles with a picture on it.
     Textured,
-    /// A long strip that reaches from before the eye of these cases to far behind it, through the point (1, 1, 1) of eye
-    /// space, where the articles' light stands.
+    /// A long strip from in front of the eye of these cases to far behind it, through the point (1, 1, 1) of eye space, the place
+    /// of the articles' light.
     ThroughTheLight,
 }
 
@@ -77,7 +77,7 @@ impl Shape {
     ///
     /// # Errors
     ///
-    /// As a file's that holds the same triangles.
+    /// The errors of a file with the same triangles.
     pub fn mesh(self, scale: f64, offset: DVec3, folder: &Path) -> Result<Mesh> {
         let (positions, triangles) = match self {
             Self::Builtin(name) if scale == 1.0 && offset == DVec3::ZERO => {
@@ -278,7 +278,7 @@ fn moebius(steps: u32) -> Triangles {
     (points, faces.collect())
 }
 
-/// Small triangles on a grid, each turned by itself.
+/// Small triangles on a grid, each turned separately.
 fn isolated(count: u32) -> Triangles {
     let side = f64::from(count).sqrt().ceil();
     let corner = |index: u32, corner: u32| {
@@ -291,7 +291,7 @@ fn isolated(count: u32) -> Triangles {
     (points, (0..count).map(|index| [index * 3, index * 3 + 1, index * 3 + 2]).collect())
 }
 
-/// A sheet of squares in the plane z = 0 whose rim is wavy.
+/// A sheet of squares in the plane z = 0 with a wavy rim.
 fn sheet(side: u32) -> Triangles {
     let at = |x: u32, y: u32| {
         let (x, y) = (f64::from(x) / f64::from(side), f64::from(y) / f64::from(side));

@@ -4,7 +4,7 @@ use super::run::{MissingBackend, Row, Summary};
 use std::fmt::Write;
 
 impl Summary {
-    /// Every row: what had to come of it, what did, and its figures.
+    /// Every row: its required outcome, its actual one, and its figures.
     pub fn table(&self) -> String {
         let failed = self.failures().count();
         let mut text = format!(
@@ -33,7 +33,7 @@ impl Summary {
     }
 }
 
-/// A sentence for each backend that could not be had.
+/// A sentence for each missing backend.
 fn missing(missing: &[MissingBackend]) -> String {
     let sentence = |of: &MissingBackend| {
         format!("Without {}, which is not available ({}): no two backends were compared.\n\n", of.backend, of.reason)
@@ -41,7 +41,7 @@ fn missing(missing: &[MissingBackend]) -> String {
     missing.iter().map(sentence).collect()
 }
 
-/// The figures in a line, and what is remarked.
+/// The figures in a line, and the remark.
 fn numbers(row: &Row) -> String {
     let figures =
         row.figures.iter().map(|(name, value)| format!("{name} {value:.4}").trim_end_matches(".0000").to_owned());

@@ -1,4 +1,4 @@
-//! The styles as stiff cases meet them: each as published, and beside it the form that is meant to hold.
+//! The styles of stiff cases: each as published, with the form designed to withstand them.
 
 use tinta::edges::SilhouetteRule;
 use tinta::styles::{Border, Cartoon, Charcoal, Improvements, Inking, MapEncoding, Style, StyleName};
@@ -13,7 +13,7 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// A style with some options, which are said to make it.
+    /// A style under a name that states its options.
     pub fn new(name: impl Into<String>, style: Style) -> Self {
         Self { name: name.into(), style }
     }
@@ -32,7 +32,7 @@ impl Variant {
         all
     }
 
-    /// Those whose lines answer to geometry, faithful and mended: for cases that are too large to be drawn by all.
+    /// The styles with geometric lines, faithful and corrected: for cases too large to draw in all styles.
     pub fn of_lines() -> Vec<Self> {
         vec![Self::published(StyleName::ThreePass), Self::published(StyleName::Ink), Self::exact_inking()]
     }

@@ -19,7 +19,7 @@ use tinta::{Error, Result, Scene};
 ///
 /// # Errors
 ///
-/// [`Error::File`] for a name that has no place for a number, or means no drawing.
+/// [`Error::File`] for a name without a place for a number, or without a format of lines.
 pub(super) fn names(output: &str, format: Format) -> Result<NumberedName> {
     NumberedName::parse(output).filter(|_| format != Format::Json).ok_or_else(|| {
         Error::output(output, "this names one drawing; a turn has numbered ones such as frame-%04d.svg, .pdf or .png")
@@ -39,7 +39,7 @@ pub(super) fn run(
     let names = names(output, format)?;
     let style = request.line_style().unwrap_or_default();
     if request.options.contains_key("page") {
-        let problem = "each view would fill the paper by itself, and the turn pulse; leave it out, or say --width-mm";
+        let problem = "each view would be scaled to fill the paper, and the model change its size; leave it out, or say --width-mm";
         return Err(Error::setting("page", problem));
     }
     let ReadModels { meshes, ms: load_ms, .. } = request.models(&session.models)?;
@@ -91,7 +91,7 @@ pub(super) fn run(
     .map(|()| Verdict::Good)
 }
 
-/// What a signal has ended after some of the drawings.
+/// The verdict after a signal that came after some of the drawings.
 fn stopped(stop: Option<&Stop>, done: u32, views: u32) -> Verdict {
     say(&format!("tinta: stopped by a signal; {done} of {views} drawings were written"));
     Verdict::Stopped { signal: stop.map_or(0, Stop::signal) }

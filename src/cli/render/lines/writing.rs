@@ -11,7 +11,7 @@ use tinta::picture::Note;
 use tinta::record::lines_json;
 use tinta::{DrawingSettings, Picture, Result, Scene, Target, TextTarget, VisibleLines};
 
-/// Writes a drawing; a picture with what is said in it.
+/// Writes a drawing, a picture with its notes.
 pub(super) fn write(
     format: Format,
     output: &str,
@@ -33,7 +33,7 @@ pub(super) fn write(
     }
 }
 
-/// What a picture says of lines that are a part.
+/// The note in a picture of partial lines.
 pub(super) fn comment(text: String) -> Note {
     Note { keyword: "Comment", text }
 }
@@ -42,7 +42,7 @@ pub(super) fn is_stopped(stop: Option<&Stop>) -> bool {
     stop.is_some_and(Stop::is_asked)
 }
 
-/// The time that the lines may take, from now on.
+/// Progress of the lines, whose time limit starts now.
 pub(super) fn progress(rendering: &Rendering<'_>) -> LineProgress {
     let Some(seconds) = rendering.run.within else { return LineProgress::default() };
     let limit = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
@@ -52,7 +52,7 @@ pub(super) fn progress(rendering: &Rendering<'_>) -> LineProgress {
 /// How often the progress bar is looked after, and how long work takes before it gets one.
 const GLANCE: Duration = Duration::from_millis(200);
 
-/// Work on lines; a thread beside it says how far it is and looks after signals.
+/// Works on lines while another thread shows progress and watches for signals.
 pub(super) fn watched<T>(progress: &LineProgress, stop: Option<&Stop>, work: impl FnOnce() -> T) -> T {
     let (done, is_done) = std::sync::mpsc::channel::<()>();
     std::thread::scope(|scope| {
@@ -64,7 +64,7 @@ pub(super) fn watched<T>(progress: &LineProgress, stop: Option<&Stop>, work: imp
                     progress.cancel();
                 }
                 let (phase, (done, total)) = (progress.phase(), progress.state());
-                // Of each phase the time left is that of its own steps.
+                // The time left in a phase is computed from its own steps.
                 let (_, bar) = match bar.take().filter(|(known, _)| *known == phase) {
                     Some(known) => bar.insert(known),
                     None => bar.insert((phase, Progress::new(word(phase), 0))),
@@ -72,15 +72,15 @@ pub(super) fn watched<T>(progress: &LineProgress, stop: Option<&Stop>, work: imp
                 if total == 0 { bar.wait() } else { bar.set(done as u64, total as u64) }
             }
         };
-        // Without a thread nobody says how far it is.
+        // Without the thread progress is not shown.
         let _ = std::thread::Builder::new().spawn_scoped(scope, watch);
-        // Also where the work panics.
+        // Also if the work panics.
         let _done = done;
         work()
     })
 }
 
-/// What is done in a phase.
+/// The name of a phase's work.
 fn word(phase: Phase) -> &'static str {
     match phase {
         Phase::Preparing => "preparing lines",

@@ -105,7 +105,7 @@ impl FromStr for Length {
     fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
         let usage = || {
             "give a number of pixels, of millimetres on paper, or a share of the height: 2, 0.35mm or 0.3%; or a share and \
-             what it is on paper: 0.3%/0.35mm"
+             its width on paper: 0.3%/0.35mm"
                 .to_owned()
         };
         let number = |text: &str| text.trim().parse::<f64>().map_err(|_| usage());

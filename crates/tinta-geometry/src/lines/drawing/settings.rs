@@ -185,8 +185,8 @@ impl DrawingSettings {
             Setting::flag(
                 "pen",
                 "Draw for a plotter: order lines for short moves with the pen up, write dashes as separate lines, \
-                 leave out the background; an outline with a width of its own (--class-widths, --look technical) is \
-                 a layer for a second pen",
+                 leave out the background; an outline with its own width (--class-widths, --look technical) is a layer \
+                 for a second pen",
                 |svg: &Self| svg.is_for_pen,
                 |svg, is_on| svg.is_for_pen = is_on,
             ),

@@ -1,4 +1,4 @@
-//! Pictures of what a row's setting draws and where its errors lie, beside the page that shows them.
+//! Pictures of a row's drawing and of its errors, for the report page.
 
 use crate::measure::Row;
 use crate::report::ReportPicture;
@@ -7,18 +7,18 @@ use tinta::cli::make_folder;
 use tinta::picture::PictureFormat;
 use tinta::{Error, Picture, Result, Target};
 
-/// Whether the page shows where a row's errors lie: of each style's published settings, and of the best.
+/// Whether the page shows a row's errors: those of each style's published settings, and of the best.
 pub(super) fn is_shown(row: &Row) -> bool {
     let is_exact = row.options.starts_with("--style inking --silhouette exact")
         && !["smooth", "line-", "polygon", "classes", "ink-depth"].iter().any(|other| row.options.contains(other));
     row.lines.is_some() && (row.is_faithful || row.style == "ink" || is_exact)
 }
 
-/// What the names of drawings end with, and of pictures of errors.
+/// The endings of the names of drawings and of pictures of errors.
 const DRAWING: &str = "-drawing";
 const ERRORS: &str = "";
 
-/// What a drawing may take in the page, bytes: a hundred of them stay below five million in base 64.
+/// The largest size of a drawing in the page, bytes: a hundred of them stay below five million in base 64.
 const MOST_BYTES: usize = 36_000;
 
 /// Where a picture of a row lies.
@@ -33,7 +33,7 @@ fn path(folder: &Path, row: &Row, end: &str) -> PathBuf {
     folder.join("errors").join(name)
 }
 
-/// A name that every file system takes: of a long one the beginning, and a number that stands for the rest.
+/// A name that every file system accepts: a long one is cut, with a number for the rest.
 fn shortened(name: String) -> String {
     const MOST_LETTERS: usize = 120;
     if name.chars().count() <= MOST_LETTERS {

@@ -1,4 +1,4 @@
-//! What is measured: models at sizes, and how long that will take.
+//! The measurements: models at sizes, and their expected time.
 
 use crate::measure::{Against, frames_a_turn, turns};
 use std::time::Instant;
@@ -9,25 +9,25 @@ use tinta::renderer::milliseconds_since;
 use tinta::request::{ModelCache, Request};
 use tinta::{Error, LoadOptions, Renderer, Result, Scene, SceneSettings, Show, Size, Style, StyleName};
 
-/// Triangles of the surfaces' meshes, where none are named.
+/// Triangles of the surfaces' meshes by default.
 const SURFACE_TRIANGLES: [usize; 3] = [1_000, 10_000, 100_000];
 
-/// How long a setting takes besides its frames, seconds: its pictures compared with the references.
+/// Time of a setting besides its frames, seconds: its pictures are compared with the references.
 const SECONDS_A_SETTING: f64 = 0.35;
 
 /// How long a model's references take at first guess, seconds: exact lines and rays.
 const SECONDS_A_REFERENCE: f64 = 0.5;
 
-/// Frames of a setting that are drawn besides those of its turns.
+/// Frames of a setting besides those of its turns.
 const FRAMES_A_SETTING: f64 = 10.0;
 
-/// What is done for each model at each size, in the order of [`expected`]: references once, errors of each setting, turns.
+/// The work for each model at each size, in the order of [`expected`]: references once, errors of each setting, turns.
 pub(super) const KINDS: [usize; 3] = [0, 1, 2];
 
 /// A model at a size.
 pub(super) struct Group {
     pub(super) model: String,
-    /// The surface whose contour its lines are compared with, if they are.
+    /// The surface whose contour its lines are compared with, if any.
     pub(super) surface: Option<ClosedForm>,
     pub(super) scene: Scene,
     pub(super) load_ms: f64,
@@ -44,7 +44,7 @@ pub(super) fn groups(
     let mut groups = Vec::new();
     let options = &request.read;
     if against == Against::Smooth && options.up_axis != LoadOptions::default().up_axis {
-        let problem = "with --against smooth surfaces stand as their formulas say; leave it out";
+        let problem = "with --against smooth the formulas place the surfaces; leave it out";
         return Err(Error::setting("up", problem));
     }
     for model in models {
@@ -66,7 +66,7 @@ fn surface_of(model: &str) -> Result<ClosedForm> {
     surface.ok_or_else(|| {
         let names: Vec<&str> = BUILTINS.iter().filter(|it| it.closed_form().is_some()).map(|it| it.name).collect();
         let problem = format!(
-            "only surfaces in closed form have a true contour to measure against; choose of builtin:{}, or leave out \
+            "only surfaces in closed form have a true contour to measure against; choose from builtin:{}, or leave out \
              --against",
             names.join(", builtin:")
         );

@@ -16,13 +16,13 @@ use tinta::{LoadOptions, Renderer, Result, Style};
 /// Timed frames of a setting.
 const FRAMES: [usize; 2] = [21, 7];
 
-/// Times that exact lines are found to be timed.
+/// Number of timed searches for exact lines.
 const FRAMES_OF_LINES: usize = 3;
 
 /// Settings whose frames are timed in turns.
 const SETTINGS_IN_TURN: usize = 8;
 
-/// What is measured of every group.
+/// The measurements of every group.
 pub(super) struct Measuring {
     pub(super) settings: Vec<Setting>,
     pub(super) how: MeasureSettings,
@@ -32,7 +32,7 @@ pub(super) struct Measuring {
 }
 
 impl Measuring {
-    /// As asked, with the options of the scene; `own_setting` is a preset's style.
+    /// The measurement as requested, with the options of the scene; `own_setting` is a preset's style.
     pub(super) fn asked(asked: &HowMeasured, of_scene: &Options, own_setting: Option<Setting>) -> Result<Self> {
         let how = MeasureSettings {
             tolerance_px: asked.tolerance_px,
@@ -50,7 +50,7 @@ impl Measuring {
         if against == Against::Smooth && settings.iter().any(|setting| matches!(setting.style, Style::Inking(_))) {
             settings.push(smooth_inking()?);
         }
-        // A preset's style is measured beside the others, unless it is one of them.
+        // A preset's style is measured with the others, unless it is one of them.
         if let Some(setting) = own_setting.filter(|own| settings.iter().all(|other| other.style != own.style)) {
             settings.push(setting);
         }
@@ -58,7 +58,7 @@ impl Measuring {
         Ok(Self { settings, how, against, of_scene })
     }
 
-    /// Measures the group of this number, except what is in the results already.
+    /// Measures the group of this number, except settings already in the results.
     pub(super) fn measure(
         &self,
         renderer: &mut Renderer,
@@ -80,7 +80,7 @@ impl Measuring {
         let rules: Vec<(SilhouetteRule, String)> = rules.collect();
         progress.skip(errors, self.settings.len() - left.len());
         progress.skip(turn, (self.settings.len() - left.len()) * turns(self.how.frames));
-        // Settings take turns in groups, so that rows are on disk soon and an interruption costs little.
+        // Settings take turns in groups: rows reach the disk soon and an interruption costs little.
         for some in left.chunks(SETTINGS_IN_TURN) {
             let step = |step| progress.step(if step == MeasureStep::Errors { errors } else { turn });
             let (measured, left_out) = measure(renderer, &subject, some, &self.how, step)?;
@@ -94,7 +94,7 @@ impl Measuring {
         Ok(())
     }
 
-    /// The rules by which exact lines are measured too, each with its row's options.
+    /// The rules for measuring exact lines, each with its row's options.
     fn rules(&self) -> Vec<(SilhouetteRule, String)> {
         let rules: &[SilhouetteRule] = match self.against {
             Against::Lines => &[],
@@ -104,9 +104,9 @@ impl Measuring {
     }
 }
 
-/// Camera and model as the user asked for them: without these a row could not be drawn again.
+/// The user's options of camera and model, which are needed to draw a row again.
 fn scene_options(options: &Options) -> String {
-    // Whether defects are refused is nothing of a picture, and what lies outside is for whoever has it.
+    // The refusal of defects does not change a picture, and files outside the folder are the user's decision.
     let is_flag = |name: &str| {
         LoadOptions::table().settings.iter().any(|setting| setting.name == name && setting.kind == Kind::Flag)
     };

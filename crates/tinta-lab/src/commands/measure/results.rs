@@ -1,4 +1,4 @@
-//! What a measurement leaves in its folder: rows, pictures of errors, a report.
+//! A measurement's files: rows, pictures of errors, a report.
 
 use super::errors::{error_page, is_shown, known_picture};
 use super::words::counted;
@@ -19,7 +19,7 @@ pub(super) struct Results<'a> {
 }
 
 impl<'a> Results<'a> {
-    /// None yet, or those of an earlier run that is resumed; the folder is made if it is not there.
+    /// Starts without rows, or with those of an earlier run; creates the folder if missing.
     pub(super) fn open(folder: &'a Path, is_resumed: bool) -> Result<Self> {
         make_folder(folder)?;
         let (log, rows) = match is_resumed {
@@ -79,7 +79,7 @@ impl<'a> Results<'a> {
         self.pictures.extend(pictures);
     }
 
-    /// Writes a row down, and its picture where it is shown.
+    /// Writes a row, and its picture if it is shown.
     pub(super) fn keep(&mut self, Measured { row, drawing, error_picture }: Measured) -> Result<()> {
         self.log.append(&row)?;
         if let Some(picture) = error_picture.filter(|_| is_shown(&row)) {
@@ -89,7 +89,7 @@ impl<'a> Results<'a> {
         Ok(())
     }
 
-    /// Refuses rows that were measured otherwise: those of one folder have one yardstick.
+    /// Refuses rows measured on other terms: one folder has one yardstick.
     pub(super) fn refuse_other_terms(&self, against: Against, how: &MeasureSettings) -> Result<()> {
         let is_other = |row: &Row| row.lines.as_ref().is_some_and(|lines| lines.against != against);
         if self.rows.iter().any(is_other) {
@@ -115,7 +115,7 @@ impl<'a> Results<'a> {
         }
     }
 
-    /// Writes the report, and prints where it lies; `command` is what it says it was made by.
+    /// Writes the report, and prints its path; `command` is the command line stated in it.
     pub(super) fn report(self, command: &str) -> Result<()> {
         let info = ReportInfo {
             command: command.to_owned(),

@@ -1,4 +1,4 @@
-//! Which settings are measured: each as the options that `tinta render` takes, so that a row can be drawn again.
+//! The measured settings, each as the options of `tinta render`, which can draw a row again.
 
 use crate::measure::{Against, Setting};
 use std::sync::LazyLock;
@@ -80,7 +80,7 @@ impl HasSettings for HowMeasured {
     }
 }
 
-/// Values with commas between; a word for none.
+/// Values joined by commas; a word for an empty list.
 fn listed<T: ToString>(values: &[T], none: &str) -> String {
     match values {
         [] => none.to_owned(),
@@ -147,7 +147,7 @@ fn of_how() -> Vec<settings::Setting<HowMeasured>> {
     ]
 }
 
-/// What is measured besides even when it has to be quick.
+/// The additional settings of a quick measurement.
 const QUICK: [&str; 10] = [
     "--style ink",
     "--style ink --quality best",
@@ -161,7 +161,7 @@ const QUICK: [&str; 10] = [
     "--style mrt --cull back",
 ];
 
-/// What is measured besides when there is time.
+/// The additional settings of a full measurement.
 const FULL: [&str; 33] = [
     "--style inking --silhouette exact --polygon-offset 0,0",
     "--style inking --silhouette exact --classes boundary,non-manifold,silhouette,crease,material",
@@ -198,8 +198,8 @@ const FULL: [&str; 33] = [
     "--style dietrich --ink-threshold 0.15",
 ];
 
-/// The settings of some styles, all of them for none named: first the styles of the texts by default, then what is listed above, and
-/// styles of this project that are not.
+/// The settings of some styles, or of all if none is named: first the texts' styles by default, then the list above, and this
+/// project's styles that it lacks.
 pub(super) fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setting>> {
     let of_defaults = |is_own: bool| {
         let styles = StyleName::lines_first().into_iter().filter(|style| !style.draws_lines());
@@ -227,7 +227,7 @@ fn setting(text: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
         .chunks(2)
         .filter_map(|pair| Some((pair.first()?.strip_prefix("--")?.to_owned(), OptionValue::text(*pair.get(1)?))))
         .collect();
-    // How vertices are handed over is no part of a drawing.
+    // The submission of vertices is not part of a drawing.
     let submission = match options.remove("submission") {
         Some(OptionValue::Text(how)) => {
             how.parse().map_err(|problem: tinta::ParseError| Error::value("submission", how, problem))?
@@ -249,7 +249,7 @@ pub(super) fn smooth_inking() -> Result<Setting> {
 pub(super) fn setting_of(request: &Request) -> Result<Setting> {
     let style = request.style.clone();
     let is_faithful = style == Style::named(style.style_name());
-    // What is as by default is left out, as in the settings above.
+    // Default values are left out, as in the settings above.
     let mut changed = style.to_options()?;
     changed.remove("style");
     let words = changed.iter().flat_map(|(name, value)| option_words(name, value));

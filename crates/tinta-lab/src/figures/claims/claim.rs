@@ -1,4 +1,4 @@
-//! A claim: where a text says it, how it is measured, which rule decides.
+//! A claim: its place in a text, its measurement, its rule.
 
 use super::finding::Finding;
 use super::lab::Lab;
@@ -11,19 +11,19 @@ use tinta::error::Result;
 pub struct Claim {
     /// The letter of its text and a few words: its place on the page.
     pub id: &'static str,
-    /// Where it stands.
+    /// Its text.
     pub text: Text,
-    /// The text's own section, or its heading where sections have no numbers.
+    /// The text's own section, or its heading if sections have no numbers.
     pub section: &'static str,
     /// The line of the text's transcript.
     pub line: u32,
-    /// What it says, in our words.
+    /// Its sentence, in our words.
     pub says: &'static str,
     /// When it counts as confirmed.
     pub rule: &'static str,
-    /// What shows it.
+    /// The command that shows it.
     pub command: &'static str,
-    /// Pictures that show it; most have none.
+    /// Pictures that show it; usually empty.
     pub(super) panels: fn() -> Vec<Panel>,
     pub(super) measure: Measure,
 }
@@ -35,7 +35,7 @@ impl Claim {
     }
 }
 
-/// Makes the claims of a text, without pictures: id, section, line, what it says, the rule, what shows it, and how it is measured.
+/// Makes the claims of a text, without pictures: id, section, line, sentence, rule, command, and measurement.
 pub(super) fn of_text(
     text: Text,
 ) -> impl Fn(&'static str, &'static str, u32, &'static str, &'static str, &'static str, Measure) -> Claim {
@@ -59,7 +59,7 @@ pub(super) enum Measure {
     Section5(fn(&Numbers) -> Finding),
     /// Drawn, timed or counted for this claim.
     Here(fn(&mut Lab<'_>) -> Result<Finding>),
-    /// Nothing here could decide it, for this reason.
+    /// It cannot be decided here, for this reason.
     Nowhere(&'static str),
 }
 

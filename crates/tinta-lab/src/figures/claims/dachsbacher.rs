@@ -1,4 +1,4 @@
-//! What Dachsbacher's article says that can be measured.
+//! The measurable claims of Dachsbacher's article.
 
 mod edges;
 mod painting;
@@ -42,7 +42,7 @@ pub(super) fn claims() -> Vec<Claim> {
             "d-pushed-back",
             "Inking",
             279,
-            "Faces have to be pushed back a little, so that they hide the edges behind them and not their own.",
+            "Faces have to be pushed back a little to hide the edges behind them and not their own.",
             "pushed back, at least 5 % more ink is seen",
             "tinta render builtin:gear -o gear.png --style inking --paint none --polygon-offset 0,0",
             Here(pictures::pushed_back),
@@ -69,10 +69,10 @@ pub(super) fn claims() -> Vec<Claim> {
             "d-polygon-smooth",
             "Inking",
             310,
-            "Drivers such as GeForce's switch GL_POLYGON_SMOOTH on by themselves.",
+            "Drivers such as GeForce's switch GL_POLYGON_SMOOTH on unasked.",
             "asking such a driver would decide",
             "tinta info",
-            Nowhere("it is said of drivers of 2001, and none is here"),
+            Nowhere("the sentence is about drivers of 2001, and none is here"),
         ),
         claim(
             "d-flat-shows-triangles",
@@ -87,7 +87,7 @@ pub(super) fn claims() -> Vec<Claim> {
             "d-gouraud-gradients",
             "Painting",
             359,
-            "Gouraud shading gives gradients on single triangles, where few colours were wanted.",
+            "Gouraud shading gives gradients on single triangles instead of few colours.",
             "over most triangles in light it changes by more than 2 of 255",
             "tinta render builtin:bust -o gouraud.png --style inking --no-borders --paint gouraud",
             Here(painting::gouraud_gives_gradients),

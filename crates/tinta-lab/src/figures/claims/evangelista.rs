@@ -1,4 +1,4 @@
-//! What Evangelista et al. 2005 say that can be measured.
+//! The measurable claims of Evangelista et al. 2005.
 
 mod lines;
 mod maps;
@@ -22,7 +22,7 @@ pub(super) fn claims() -> Vec<Claim> {
             "Decaudin's way cannot be used in real time: a picture takes about six minutes.",
             "a measured time would decide",
             ALL,
-            Nowhere("it is said of another author's program on a machine of 1996"),
+            Nowhere("the sentence is about another author's program on a machine of 1996"),
         ),
         claim(
             "e-mitchell-precise",
@@ -49,7 +49,7 @@ pub(super) fn claims() -> Vec<Claim> {
             "Leaving out the specular component's attenuation factor makes it faster.",
             "a time with and without would decide",
             "tinta render builtin:bust -o phong.png --style phong",
-            Nowhere("the sentence does not say which factor is meant: docs/texts/errata.md, E14"),
+            Nowhere("the sentence does not name the factor: docs/texts/errata.md, E14"),
         ),
         claim(
             "e-tone-texture",
@@ -167,7 +167,7 @@ pub(super) fn claims() -> Vec<Claim> {
             "5",
             180,
             "Maps made in several passes would make finding borders dearer: it would read other textures too.",
-            "reading depth from a texture of its own makes a frame more than 3 % slower",
+            "reading depth from a separate texture makes a frame more than 3 % slower",
             "tinta render builtin:gear -o gear.png --style three-pass --map-encoding depth-texture --explain",
             Here(times::second_texture),
         ),
@@ -214,7 +214,7 @@ pub(super) fn claims() -> Vec<Claim> {
             "e-gain-varies",
             "5",
             190,
-            "That gain varies greatly with how the scene is looked at.",
+            "That gain varies greatly with the view of the scene.",
             "between the best and the worst case lie at least 20 points",
             NUMBERS,
             Section5(times::gain_varies),

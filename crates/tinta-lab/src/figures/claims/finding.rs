@@ -1,32 +1,32 @@
-//! What is found of a claim: a verdict and the numbers it follows from.
+//! The finding of a claim: a verdict and the numbers behind it.
 
 use serde::Serialize;
 
-/// What was found.
+/// A claim's verdict with its numbers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Finding {
     /// Whether the claim holds here.
     pub verdict: Verdict,
     /// The measured numbers, the one that decides first.
     pub numbers: Vec<Number>,
-    /// Why it cannot be tested, where it cannot.
+    /// Why it cannot be tested, if so.
     pub reason: Option<&'static str>,
 }
 
-/// What a rule makes of the numbers.
+/// The result of a rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// The numbers are as the text says.
+    /// The numbers agree with the text.
     Confirmed,
     /// They are not.
     Refuted,
-    /// There is nothing to measure here.
+    /// It cannot be measured here.
     NotTestable,
 }
 
 impl Verdict {
-    /// In words.
+    /// Its name in words.
     pub fn name(self) -> &'static str {
         match self {
             Self::Confirmed => "confirmed",
@@ -39,7 +39,7 @@ impl Verdict {
 /// A measured number.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Number {
-    /// What it is.
+    /// The number's description.
     pub what: String,
     /// It.
     pub value: f64,
@@ -72,7 +72,7 @@ impl Number {
 
 impl std::fmt::Display for Number {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        // Minus nothing is nothing.
+        // Minus zero prints as zero.
         let value = if format!("{:.*}", self.digits, self.value.abs()).parse() == Ok(0.0) { 0.0 } else { self.value };
         let blank = if self.unit.is_empty() { "" } else { " " };
         write!(out, "{}: {value:.*}{blank}{}", self.what, self.digits, self.unit)
@@ -80,10 +80,10 @@ impl std::fmt::Display for Number {
 }
 
 impl Finding {
-    /// Confirmed if the rule holds, refuted if not. A number that is none decides nothing.
+    /// Confirmed if the rule holds, refuted if not. A NaN decides nothing.
     pub(super) fn of(holds: bool, numbers: Vec<Number>) -> Self {
         if numbers.iter().any(|number| !number.value.is_finite()) {
-            return Self { numbers: Vec::new(), ..Self::nowhere("what was to be measured took no measurable time") };
+            return Self { numbers: Vec::new(), ..Self::nowhere("the measured work took no measurable time") };
         }
         let verdict = if holds { Verdict::Confirmed } else { Verdict::Refuted };
         Self { verdict, numbers, reason: None }

@@ -1,5 +1,5 @@
-//! What claims are measured with: scenes read once, pictures, ink against exact lines, frames that take turns, and a few
-//! numbers about pictures.
+//! The tools that measure claims: scenes read once, pictures, ink against exact lines, frames that take turns, and a few numbers
+//! about pictures.
 
 use super::finding::Number;
 use crate::figures::measure::HowToMeasure;
@@ -23,7 +23,7 @@ pub(super) const MODELS: [&str; 4] = ["builtin:bust", "builtin:gear", "builtin:a
 /// Distance within which ink and line are the same, pixels.
 pub(super) const TOLERANCE_PX: f64 = 2.0;
 
-/// A renderer and what was read and found with it so far.
+/// A renderer with the models and results so far.
 pub(super) struct Lab<'a> {
     pub(super) renderer: &'a mut Renderer,
     pub(super) size: Size,
@@ -38,7 +38,7 @@ impl<'a> Lab<'a> {
         Self { renderer, size: how.size, frames: how.frames, scenes, references }
     }
 
-    /// A built-in model by itself.
+    /// A built-in model alone.
     pub(super) fn mesh(&self, model: &str) -> Result<Arc<Mesh>> {
         Ok(Arc::new(load(model, &LoadOptions::default())?.mesh))
     }
@@ -136,7 +136,7 @@ pub(super) fn is_slower(percent: f64) -> bool {
     percent > EQUAL_PERCENT
 }
 
-/// Share of pixels of which a channel differs by more than `limit`; of those with a flag where there are flags.
+/// Share of pixels with a channel that differs by more than `limit`; with flags, of the flagged pixels.
 pub(super) fn changed(one: &Picture, other: &Picture, limit: u8, mask: Option<&[bool]>) -> f64 {
     let (mut changed, mut all) = (0usize, 0usize);
     for (index, (a, b)) in one.pixels.chunks_exact(4).zip(other.pixels.chunks_exact(4)).enumerate() {

@@ -16,14 +16,14 @@ impl Text {
     }
 }
 
-/// Where a claim stands: `E:145, section 4.1`.
+/// The place of a claim: `E:145, section 4.1`.
 pub(crate) fn place(text: Text, section: &str, line: u32) -> String {
     let section = if section.starts_with(char::is_numeric) { format!("section {section}") } else { section.to_owned() };
     format!("{}:{line}, {section}", text.letter())
 }
 
 impl Claim {
-    /// What of its row in claims.md no measurement changes: place, sentence, rule, command.
+    /// The part of its row in claims.md that no measurement changes: place, sentence, rule, command.
     pub fn cells(&self) -> [String; 4] {
         [
             place(self.text, self.section, self.line),
@@ -35,7 +35,7 @@ impl Claim {
 }
 
 impl ClaimRecord {
-    /// The measured numbers in a line, or why there are none.
+    /// The measured numbers in a line, or the reason for their absence.
     pub(crate) fn measured(&self) -> String {
         let numbers: Vec<String> = self.finding.numbers.iter().map(ToString::to_string).collect();
         match self.finding.reason {
@@ -87,9 +87,9 @@ const COLUMNS: &str = "\
 const HEAD: &str = "\
 # Claims
 
-Every sentence of the three texts that says something which can be measured, beside what is measured here. A rule in the code
-decides between confirmed and refuted; nobody wrote a verdict down. A verdict is about this program on this machine: the texts had
-other hardware, and what they measured they measured there.
+Every measurable sentence of the three texts, beside the measurement here. A rule in the code
+decides between confirmed and refuted; no verdict is written by hand. A verdict is about this program on this machine: the texts had
+other hardware, and measured there.
 
 E stands for Evangelista et al. 2005, V for Valente 2007, D for Dachsbacher; the number is the line of the transcript that this
 project was made from, and the section is the text's own. The words are ours. `tinta figures` measures them all, writes

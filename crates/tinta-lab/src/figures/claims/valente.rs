@@ -1,4 +1,4 @@
-//! What Valente's report of 2007 says that can be measured.
+//! The measurable claims of Valente's report of 2007.
 
 mod drawing;
 mod textures;
@@ -34,7 +34,7 @@ pub(super) fn claims() -> Vec<Claim> {
             "v-blur-softens",
             "2.1.3",
             78,
-            "The last step blurs the texture, so that it is softer.",
+            "The last step blurs the texture to make it softer.",
             "neighbouring texels differ less",
             "tinta textures -o textures --cet-blur 2",
             Here(textures::blur_softens),
@@ -89,7 +89,7 @@ pub(super) fn claims() -> Vec<Claim> {
             "2.2",
             122,
             "Density, both exponents, lights, coordinates, smudging and paper decide how the picture looks.",
-            "each of them, changed by itself, changes at least 1 % of the model's pixels by more than 3 of 255",
+            "each of them, changed alone, changes at least 1 % of the model's pixels by more than 3 of 255",
             "tinta render builtin:bust -o dense.png --style charcoal --density 85",
             Here(drawing::parameters_decide),
         ),
@@ -109,7 +109,7 @@ pub(super) fn claims() -> Vec<Claim> {
                 "3",
                 150,
                 "GL_LINEAR_MIPMAP_LINEAR tends to blur the grain.",
-                "neighbouring pixels of the grain differ by less than four fifths of what they do with GL_LINEAR",
+                "neighbouring pixels of the grain differ by less than four fifths of their difference with GL_LINEAR",
                 "tinta render builtin:bust -o mipmap.png --style charcoal --cet-filter mipmap",
                 Here(drawing::mipmap_blurs),
             )

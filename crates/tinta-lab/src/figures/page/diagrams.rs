@@ -1,4 +1,5 @@
-//! What of a figure is neither picture nor table of numbers: the passes of figure 7, the matrices of figures 10 and 11.
+//! The parts of figures that are neither pictures nor tables of numbers: the passes of figure 7, the matrices of figures 10
+//! and 11.
 
 use crate::figures::{PassColumn, kernels};
 use std::fmt::{Result, Write};

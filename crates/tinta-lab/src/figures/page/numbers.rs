@@ -1,4 +1,4 @@
-//! The measured numbers as tables, the article's beside ours, and why they differ.
+//! The measured numbers as tables with the article's, and the reasons for the differences.
 
 use crate::figures::numbers::Numbers;
 use crate::figures::reasons::signed;
@@ -7,7 +7,7 @@ use std::fmt::{Result, Write};
 use tinta::styles::Filter;
 use tinta_geometry::markup::escaped;
 
-/// What was measured on what, in a sentence.
+/// A sentence that names the measurements and the machine.
 pub(super) fn summary(numbers: &Numbers) -> String {
     let frames = numbers.empty.frames_ms.len();
     format!(
@@ -20,13 +20,13 @@ pub(super) fn summary(numbers: &Numbers) -> String {
     ) + if frames < ENOUGH_FRAMES { TOO_FEW } else { "" }
 }
 
-/// Frames from which medians and ratios begin to agree on a busy machine.
+/// Least number of frames that gives stable medians and ratios on a busy machine.
 const ENOUGH_FRAMES: usize = 11;
 
-const TOO_FEW: &str = " So few frames say little: times, gains and what is concluded from them below may contradict each \
-                       other; more frames settle it.";
+const TOO_FEW: &str = " So few frames say little: the times, gains and conclusions below may contradict each other; more frames \
+                       settle it.";
 
-/// What belongs to this figure.
+/// The tables of this figure.
 pub(super) fn tables(out: &mut String, id: &str, numbers: &Numbers) -> Result {
     match id {
         "evangelista-13" => {

@@ -1,4 +1,4 @@
-//! Pictures on the page: each within it, beside its label and, for filters, its matrices.
+//! Pictures on the page: each embedded, with its label and, for filters, its matrices.
 
 use super::diagrams;
 use base64::Engine;
@@ -13,24 +13,24 @@ use tinta_geometry::markup::escaped;
 /// A file of a figure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PictureRecord {
-    /// Its name, beside the page.
+    /// Its file name, beside the page.
     pub file: String,
-    /// What tells it from its neighbours.
+    /// Its label among its neighbours.
     pub label: String,
     /// Pixels.
     pub size: Size,
-    /// What draws it alone.
+    /// The command that draws it alone.
     pub command: Option<String>,
     /// The style and its settings, for drawn models.
     pub style: Option<Style>,
-    /// Which of the style's pictures.
+    /// The style's picture.
     pub show: Option<Show>,
-    /// What the page shows: [`png_source`] or [`svg_source`].
+    /// The page's source: [`png_source`] or [`svg_source`].
     #[serde(skip)]
     pub source: String,
 }
 
-/// What a picture of the page may take, bytes, unless it is grain all over: sixty of them and more stay below six million in
+/// The largest size of a picture of the page, bytes, unless it is all grain: more than sixty of them stay below six million in
 /// base 64.
 const MOST_BYTES: usize = 80_000;
 
@@ -45,7 +45,7 @@ pub fn svg_source(text: &str) -> String {
     format!("data:image/svg+xml;base64,{}", BASE64_STANDARD.encode(text))
 }
 
-/// Figures whose pictures stand beside their filters' matrices.
+/// Figures shown with their filters' matrices.
 const WITH_MATRICES: [&str; 2] = ["evangelista-10", "evangelista-11"];
 
 /// Pictures side by side.

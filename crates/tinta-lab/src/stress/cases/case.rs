@@ -1,4 +1,4 @@
-//! A case: what is done, what must come of it, which figures must have which values.
+//! A case: its work, its required outcome, and the required values of its figures.
 
 use crate::stress::{Shape, Variant};
 use glam::DVec3;
@@ -7,10 +7,10 @@ use tinta::camera::CameraSettings;
 use tinta::gl::Fault;
 use tinta::scene::Size;
 
-/// A side that stands for the largest one a backend draws, and that plus one for one more.
+/// Placeholders for the largest side that a backend draws, and for one pixel more.
 pub(super) const LARGEST: u32 = u32::MAX - 1;
 
-/// What is extreme about a case.
+/// The extreme property of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Group {
@@ -18,7 +18,7 @@ pub enum Group {
     Scale,
     /// Planes, angles and places of the camera.
     Depth,
-    /// Which faces meet where.
+    /// How faces meet.
     Topology,
     /// Settings and geometry at the very edge of a decision.
     Thresholds,
@@ -34,16 +34,16 @@ pub enum Group {
     Faults,
 }
 
-/// What must come of a case.
+/// The required outcome of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Expected {
     /// A picture, the same on every backend and with every omission, from finite numbers.
     Rendered,
-    /// An error of this kind whose sentence has these words in it.
+    /// An error of this kind whose sentence contains these words.
     Refused {
-        /// As [`tinta::Error::kind`] says it.
+        /// The name returned by [`tinta::Error::kind`].
         kind: &'static str,
-        /// What it must name.
+        /// The words it must contain.
         words: &'static str,
     },
     /// One or the other, but of these kinds only: for cases made by chance.
@@ -66,16 +66,16 @@ pub struct Check {
 pub enum Study {
     /// Only that it is drawn, the same everywhere: for scenes and pictures too large for more.
     Picture,
-    /// Also its exact lines, its error, and what a jitter does to both.
+    /// Also its exact lines, its error, and the effect of a jitter on both.
     Full,
     /// Instead of a jitter a turn by small steps.
     Turn,
 }
 
-/// A scene to draw. The camera is given around the shape as it is before it is scaled and moved.
+/// A scene to draw. The camera is given around the shape before scaling and moving.
 #[derive(Debug, Clone)]
 pub struct Drawing {
-    /// What is drawn.
+    /// The shape.
     pub shape: Shape,
     /// How much larger than it is.
     pub scale: f64,
@@ -87,22 +87,22 @@ pub struct Drawing {
     pub size: Size,
     /// How often it is repeated.
     pub copies: u32,
-    /// In which styles.
+    /// The styles.
     pub variants: Vec<Variant>,
     /// How much is found out.
     pub study: Study,
-    /// Whether its picture is compared with that of the shape as it is.
+    /// Whether its picture is compared with that of the unscaled shape.
     pub is_compared_with_unit: bool,
 }
 
 impl Drawing {
-    /// Whether its size follows from what a backend can draw.
+    /// Whether its size follows from a backend's limit.
     pub fn is_of_largest(&self) -> bool {
         self.size.width.max(self.size.height) >= LARGEST
     }
 }
 
-/// A side in pixels; the one that stands for the largest becomes that, and one more than it one more.
+/// A side in pixels; replaces the placeholders for the largest side, and for one pixel more.
 pub(in crate::stress) fn side_px(side: u32, largest: u32) -> u32 {
     match side.checked_sub(LARGEST) {
         None => side,
@@ -111,7 +111,7 @@ pub(in crate::stress) fn side_px(side: u32, largest: u32) -> u32 {
 }
 
 impl Default for Drawing {
-    /// The cube as it is, in all styles.
+    /// The unchanged cube, in all styles.
     fn default() -> Self {
         Self {
             shape: Shape::Cube,
@@ -127,20 +127,20 @@ impl Default for Drawing {
     }
 }
 
-/// What a model file holds.
+/// The contents of a model file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Content {
     /// These bytes.
     Bytes(Vec<u8>),
-    /// As many zeros, which take no room on most disks.
+    /// As many zeros, which take no space on most disks.
     Zeros(u64),
-    /// Nothing: it is a folder.
+    /// No content: it is a folder.
     Folder,
-    /// Nothing: it is not there.
+    /// No content: it is missing.
     Missing,
 }
 
-/// What is done.
+/// The work of a case.
 #[derive(Debug, Clone)]
 pub enum Work {
     /// A picture.
@@ -158,11 +158,11 @@ pub struct Case {
     pub name: String,
     /// Its group.
     pub group: Group,
-    /// What is done.
+    /// The work.
     pub work: Work,
-    /// What must come of it.
+    /// Its required outcome.
     pub expected: Expected,
-    /// Which figures must have which values.
+    /// The required values of figures.
     pub checks: Vec<Check>,
 }
 
@@ -194,7 +194,7 @@ impl Case {
         self
     }
 
-    /// The styles in which it is drawn.
+    /// The styles that draw it.
     pub fn variants(&self) -> &[Variant] {
         match &self.work {
             Work::Draw(drawing) => &drawing.variants,

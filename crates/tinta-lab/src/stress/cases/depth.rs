@@ -19,7 +19,7 @@ pub(super) fn cases() -> Vec<Case> {
         let drawing = Drawing { shape: Shape::Contact, camera, variants: encodings(), ..Drawing::default() };
         let name = format!("far {ratio:e} times as far as near");
         all.push(match ratio <= 1e5 {
-            // Normals show these cubes' edges; what is behind must not show through.
+            // Normals show these cubes' edges; the cubes behind must not show through.
             true => rendered(name, drawing).with("precision", 0.95, 1.0),
             false => Case::refused(Group::Depth, name, drawing, "setting", "--near"),
         });
@@ -85,8 +85,8 @@ fn rendered(name: String, drawing: Drawing) -> Case {
     Case::rendered(Group::Depth, name, drawing)
 }
 
-/// The three passes by every encoding of the map, with the filter as published and with the one that knows how exact a depth
-/// is, and the styles with depth of their own.
+/// The three passes with every encoding of the map, with the filter as published and with the one that knows the precision of a
+/// depth, and the styles with separate depth.
 fn encodings() -> Vec<Variant> {
     let filters = [("", false), ("--slope-threshold on ", true)];
     let three_passes = filters.iter().flat_map(|(option, slope_threshold)| {

@@ -1,4 +1,4 @@
-//! A driver that refuses, runs out of memory or loses its context: what src/gl/faults.rs puts in its place does so at will.
+//! A driver that refuses, runs out of memory or loses its context, simulated by src/gl/faults.rs.
 
 use super::case::{Case, Expected, Group, Work};
 use crate::stress::Variant;

@@ -1,4 +1,4 @@
-//! Model files that lie, are something else, or are not there. What fuzzing found besides stands in docs/dev/limits.md.
+//! Model files that lie, have another format, or are missing. docs/dev/limits.md has the other findings of fuzzing.
 
 use super::case::{Case, Content, Expected, Group, Work};
 
@@ -20,7 +20,7 @@ pub(super) fn cases() -> Vec<Case> {
     stl.extend([0; 50]);
     // IDP2, version 8, and counts of frames, vertices and triangles that no file could hold.
     let md2: Vec<u8> = b"IDP2".iter().copied().chain([8, 0, 0, 0]).chain([0x7f; 60]).collect();
-    // A chunk that says it is two gigabytes long, in one that says so too.
+    // A chunk that declares two gigabytes, inside one that also does.
     let three_ds =
         [&0x4d4d_u16.to_le_bytes()[..], &u32::MAX.to_le_bytes(), &0x3d3d_u16.to_le_bytes(), &u32::MAX.to_le_bytes()];
     vec![

@@ -7,7 +7,7 @@ use tinta::camera::CameraSettings;
 use tinta::random::Random;
 use tinta::scene::Size;
 
-/// What any of them may be made of.
+/// The shapes of the mixes.
 const SHAPES: [Shape; 16] = [
     Shape::Ball(3),
     Shape::InsideOut(2),

@@ -5,8 +5,8 @@ use crate::stress::{Shape, Variant};
 use tinta::scene::Size;
 use tinta::styles::StyleName;
 
-/// The longest side of a strip that Mesa's software renderer draws by every backend, pixels; which sizes a context can draw it
-/// says itself, and [`LARGEST`] stands for them.
+/// The longest side of a strip that Mesa's software renderer draws by every backend, pixels; each context reports its own limit,
+/// and [`LARGEST`] stands for it.
 const STRIP: u32 = 4096;
 
 pub(super) fn cases() -> Vec<Case> {
@@ -25,7 +25,7 @@ pub(super) fn cases() -> Vec<Case> {
     all.push(rendered("the widest picture".to_owned(), sized(LARGEST, 8)));
     all.push(rendered("the highest picture".to_owned(), sized(8, LARGEST)));
     for (name, width, height) in [("one pixel wider", LARGEST + 1, 8), ("one pixel higher", 8, LARGEST + 1)] {
-        // In tiles. Charcoal and sand as published need all of the picture in one viewport.
+        // In tiles. Charcoal and sand as published need the whole picture in one viewport.
         let mut wider = sized(width, height);
         wider.variants = Variant::all();
         wider.variants.retain(|variant| variant.name != StyleName::Charcoal.name());

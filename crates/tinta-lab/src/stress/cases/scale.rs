@@ -1,11 +1,11 @@
-//! Models of any size anywhere: what counts is a model's shape.
+//! Models of any size anywhere: only the shape counts.
 
 use super::case::{Case, Drawing, Group};
 use crate::stress::{Shape, Study, Variant};
 use glam::DVec3;
 use tinta::camera::CameraSettings;
 
-/// Share of the pixels that may differ from the picture of the model as it is: its coordinates round differently, and an edge
+/// Share of the pixels that may differ from the picture of the unscaled model: its coordinates round differently, and an edge
 /// that passes a pixel's middle by less than that falls on its other side.
 const ROUNDED: f64 = 0.002;
 

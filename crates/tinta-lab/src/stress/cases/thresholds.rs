@@ -28,8 +28,8 @@ fn geometry() -> Vec<Case> {
         let name = format!("a hinge {offset:e} degrees beyond the crease angle");
         all.push(rendered(name, drawing).with("crease", creases, creases));
     }
-    // The cube's right side is seen from beyond its plane only; then the outline goes around two faces. In its plane, or as
-    // good as in it, both outlines count: an eye just beside shows the one or the other.
+    // The cube's right side is visible only from beyond its plane; then the outline goes around two faces. In or nearly in its
+    // plane both outlines count: an eye just beside the plane sees one or the other.
     for (offset, silhouettes) in [(-1e-8, 4.0), (-1e-12, 7.0), (0.0, 7.0), (1e-12, 7.0), (1e-8, 6.0)] {
         let camera = CameraSettings {
             eye: Some(DVec3::new(1.0 + offset, 0.3, 5.0)),

@@ -12,7 +12,7 @@ pub(super) fn cases() -> Vec<Case> {
     let infinite = f64::INFINITY;
     vec![
         rendered("one triangle", Shape::Triangle).with("boundary", 3.0, 3.0),
-        // Its base lies on a side of the triangle, which is split there: what they have in common is no boundary.
+        // Its base lies on a side of the triangle, which is split there: their common side is no boundary.
         rendered("a needle a million times as long as wide", Shape::Needle(1e6)).with("boundary", 5.0, 5.0),
         rendered("triangles without area among others", Shape::ZeroAreas).with("boundary", 0.0, 0.0),
         rendered("triangles with next to no area among others", Shape::Slivers),

@@ -65,7 +65,7 @@ impl FormSettings {
                 "Least curvature, as the eye sees it, of an apparent ridge; more draws fewer",
                 |forms: &mut Self| &mut forms.apparent_ridge_threshold,
             )
-            .ours("looked at on public models")
+            .ours("chosen by eye on public models")
             .range(0.0, 1.0, 2),
             Setting::field(
                 "surface-crease-angle",
@@ -82,7 +82,7 @@ impl FormSettings {
                 "How far normals are smoothed before form lines are found, in edge lengths, 0 to 10; more draws fewer, longer lines",
                 |forms: &mut Self| &mut forms.smoothing,
             )
-            .ours("looked at on public models")
+            .ours("chosen by eye on public models")
             .range(0.0, LARGEST_SMOOTHING, 1),
         ];
         under("Style lines: form lines, with --classes suggestive, ridge, valley, apparent-ridge", settings).collect()

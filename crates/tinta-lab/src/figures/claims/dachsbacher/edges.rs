@@ -115,7 +115,7 @@ pub(super) fn threshold(lab: &mut Lab<'_>) -> Result<Finding> {
     ))
 }
 
-/// The listing's list: each side of each triangle is looked for among all edges so far. How many edges it finds.
+/// The listing's list: it searches all edges so far for each side of each triangle. Returns the number of edges.
 fn listings_search(mesh: &Mesh) -> usize {
     let mut edges: Vec<[u32; 2]> = Vec::with_capacity(mesh.triangles.len() * 3);
     for [a, b, c] in &mesh.triangles {
@@ -134,7 +134,7 @@ pub(super) fn computing(lab: &mut Lab<'_>) -> Result<Finding> {
     let start = Instant::now();
     let found = listings_search(&mesh);
     let search_ms = milliseconds_since(start);
-    // The search is what the listing's list is: as many edges as the library's.
+    // The search gives the listing's result: as many edges as the library's.
     debug_assert_eq!(found, EdgeList::new(&mesh).len());
     let scene = lab.scene("builtin:bust")?;
     let plan = Style::Inking(Inking::default()).plan(&scene, Show::Final)?;

@@ -1,4 +1,4 @@
-//! The claims about painting: the light of faces and of vertices, and the colours that come of it.
+//! The claims about painting: the light of faces and of vertices, and the resulting colours.
 
 use super::super::finding::{Finding, Number};
 use super::super::lab::{Lab, changed};
@@ -15,10 +15,10 @@ use tinta::styles::{Inking, LightOn, RampRow, Show, Style};
 /// A step or a change of light that is seen, of 1.
 const SEEN: f64 = 2.0 / 255.0;
 
-/// Share of pixels that may differ between pictures that are the same but for rounding.
+/// Share of pixels that may differ between pictures that are the same up to rounding.
 const SAME: f64 = 0.01;
 
-/// Light up to which a face is in shadow: the text clamps it there, and what is in shadow has one tone.
+/// Most light of a face in shadow: the text clamps it there, and shadow has one tone.
 const SHADOW: f64 = 0.1;
 
 /// The text's light: a normal's share in (0, 1, 1), seen from the eye, within 0.1 and 0.9.
@@ -72,7 +72,7 @@ pub(super) fn gouraud_gives_gradients(lab: &mut Lab<'_>) -> Result<Finding> {
         let light = |corner: &u32| f64::from(lights[*corner as usize][0]);
         let most = corners.iter().map(light).fold(f64::NEG_INFINITY, f64::max);
         let least = corners.iter().map(light).fold(f64::INFINITY, f64::min);
-        // In f32 the clamp is a hair beside the number.
+        // In f32 the clamp is slightly off the number.
         if most > SHADOW + f64::from(f32::EPSILON) {
             all += 1;
             gradients += usize::from(most - least > SEEN);

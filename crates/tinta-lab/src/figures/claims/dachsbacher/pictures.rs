@@ -1,4 +1,4 @@
-//! The claims about lines in the picture, and about Dietrich's way beside the text's.
+//! The claims about lines in the picture, and about Dietrich's method compared with the text's.
 
 use super::super::finding::{Finding, Number};
 use super::super::lab::{Error, Lab, MODELS, TOLERANCE_PX, is_slower};

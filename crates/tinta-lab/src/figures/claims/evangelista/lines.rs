@@ -8,7 +8,7 @@ use glam::DVec2;
 use tinta::error::Result;
 use tinta::styles::{Border, Cartoon, Filter, MapEncoding, Show, Style};
 
-/// From which share on lines are found, or ink is right, precisely.
+/// Least share of found lines, or of correct ink, that counts as precise.
 const PRECISELY: f64 = 0.9;
 
 fn with(filter: Filter) -> Style {

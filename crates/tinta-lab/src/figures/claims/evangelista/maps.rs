@@ -1,4 +1,4 @@
-//! The claims about passes, maps and tones: pictures compared with pictures, and what stands in plans and shaders.
+//! The claims about passes, maps and tones: pictures compared with pictures, and the contents of plans and shaders.
 
 use super::super::finding::{Finding, Number};
 use super::super::lab::{Lab, changed};
@@ -15,7 +15,7 @@ use tinta::renderer::milliseconds_since;
 use tinta::scene::{Background, Color, SceneSettings};
 use tinta::styles::{Cartoon, Filter, Mrt, Show, Style, ToneLookup, Tones};
 
-/// Share of pixels that may differ between pictures that are the same but for rounding.
+/// Share of pixels that may differ between pictures that are the same up to rounding.
 const SAME: f64 = 0.01;
 
 /// A pixel differs beyond this, of 255.
@@ -70,7 +70,7 @@ pub(super) fn tone_texture(lab: &mut Lab<'_>) -> Result<Finding> {
 pub(super) fn memory_of_edges(lab: &mut Lab<'_>) -> Result<Finding> {
     let kit = Kit::new()?;
     let map_bytes = lab.size.pixel_count() * 4;
-    // Both ends, both faces and a word how they lie: what `EdgeList` keeps of each edge, and the text of 2001 too.
+    // Both ends, both faces and a word for their arrangement: the contents of an edge in `EdgeList`, and in the text of 2001 too.
     let edge_bytes = size_of::<[u32; 2]>() * 2 + size_of::<Incidence>();
     let mut rows = Vec::new();
     for wanted in [TRIANGLES[0], TRIANGLES[TRIANGLES.len() - 1]] {
@@ -131,7 +131,7 @@ pub(super) fn reads(_: &mut Lab<'_>) -> Result<Finding> {
 
 pub(super) fn directions(_: &mut Lab<'_>) -> Result<Finding> {
     let [kernel] = kernels(Filter::Laplacian4)[..] else { return Ok(Finding::nowhere("it is no single matrix")) };
-    // The side of the step at which the filter stands is 0, the other 1.
+    // The filter's side of the step is 0, the other 1.
     let step = |is_beyond: &dyn Fn(usize, usize) -> bool| -> f64 {
         let cells = (0..3).flat_map(|row| (0..3).map(move |column| (row, column)));
         cells

@@ -14,13 +14,13 @@ use tinta::plan::Plan;
 use tinta::scene::{Scene, SceneSettings};
 use tinta::styles::{Border, Cartoon, Filter, MapEncoding, Show, Style};
 
-/// A percentage that the text prints counts as found again from this share of it on.
+/// Least share of a printed percentage that counts as reproducing it.
 const FOUND_AGAIN: f64 = 0.5;
 
-/// Frames a second from which the eye sees motion, as in the cinema.
+/// Least frames a second that the eye sees as motion, as in the cinema.
 const REAL_TIME: f64 = 24.0;
 
-/// By how many points the gain has to vary to vary greatly.
+/// How many points count as a great variation of the gain.
 const GREATLY: f64 = 20.0;
 
 fn three_pass(border: Border) -> Style {
@@ -99,7 +99,7 @@ pub(super) fn gain_varies(numbers: &Numbers) -> Finding {
     )
 }
 
-/// The gain where a row's distance is this, of that at which the bust fills the picture.
+/// The gain in the row with this distance, relative to the distance at which the bust fills the picture.
 fn gain_at(numbers: &Numbers, distance: f64) -> Option<f64> {
     let row = numbers.backgrounds.iter().find(|row| (row.distance - distance).abs() < 1e-9)?;
     Some(row.gain_percent())
@@ -130,7 +130,7 @@ pub(super) fn throughput(numbers: &Numbers) -> Finding {
         return Finding::nowhere("no shader was timed");
     };
     let ratio = joint.square_ms / (tones.square_ms + border.square_ms);
-    // What the paper's millions of pixels a second say of the same.
+    // The same from the paper's millions of pixels a second.
     let cost = |row: &crate::figures::ShaderRow| row.article_mpixels.map_or(f64::NAN, f64::recip);
     let printed = cost(joint) / (cost(tones) + cost(border));
     Finding::of(
@@ -173,7 +173,7 @@ fn row(lab: &Lab<'_>, direction: DVec3) -> Result<Vec<Arc<Mesh>>> {
     Ok((0..ROW.0).map(place).collect())
 }
 
-/// Two passes without the square against three, where four busts hide each other and where they do not.
+/// Two passes without the square against three, with four busts that hide each other and with four that do not.
 pub(super) fn hidden(lab: &mut Lab<'_>) -> Result<Finding> {
     let settings = SceneSettings { size: lab.size, ..SceneSettings::default() };
     let front = View { azimuth_degrees: 0.0, elevation_degrees: 0.0 };

@@ -18,10 +18,10 @@ const CHANGED: u8 = 3;
 /// Charcoal below this, of 255, leaves the sheet nearly bare.
 const BARE: f64 = 16.0;
 
-/// How far around a pixel of the outline charcoal is looked at, pixels: grain is about one wide.
+/// How far charcoal is sampled around a pixel of the outline, pixels: grain is about one wide.
 const AROUND: i64 = 2;
 
-/// As published, its textures as large as the picture, so that grain is a pixel wide.
+/// As published, with textures as large as the picture, which makes grain one pixel wide.
 fn published(lab: &Lab<'_>) -> Charcoal {
     Charcoal { texture_size: lab.size, ..Charcoal::default() }
 }
@@ -191,7 +191,7 @@ pub(super) fn saturation_is_a_factor(lab: &mut Lab<'_>) -> Result<Finding> {
     let mask = mask(lab)?;
     let mut cem = |saturation| draw(lab, &Charcoal { saturation, ..published(lab) }, Show::Cem);
     let [plain, saturated] = [cem(1.0)?, cem(1.2)?];
-    // Bright enough to round little, dark enough not to be clamped.
+    // Bright enough to round little, dark enough to avoid clamping.
     let pairs = greys(&plain, &mask).zip(greys(&saturated, &mask)).filter(|(plain, _)| (100.0..200.0).contains(plain));
     let factor = mean(pairs.map(|(plain, saturated)| saturated / plain));
     Ok(Finding::of((factor / 1.2 - 1.0).abs() <= 0.01, vec![Number::new("times as bright", factor, "", 3)]))
@@ -210,8 +210,8 @@ fn darkness(lab: &mut Lab<'_>, charcoal: &Charcoal) -> Result<f64> {
     Ok(mean(charcoal_on(lab, charcoal)?.into_iter().zip(mask).filter(|(_, is_in)| *is_in).map(|(value, _)| value)))
 }
 
-/// Charcoal along the outline: on the model's pixels next to the background, each with what of the model is near it. Its mean,
-/// of 255, and the share of the outline that it leaves nearly bare.
+/// Charcoal along the outline: on the model's pixels next to the background, each with the model's pixels around it. Returns its
+/// mean, of 255, and the share of the outline that it leaves nearly bare.
 fn outline(lab: &mut Lab<'_>, charcoal: &Charcoal) -> Result<[f64; 2]> {
     let mask = mask(lab)?;
     let values = charcoal_on(lab, charcoal)?;
@@ -243,7 +243,7 @@ fn pair(lab: &Lab<'_>, change: impl Fn(&mut Charcoal)) -> [Charcoal; 2] {
     [base, other]
 }
 
-/// One parameter changed, by what it does to the charcoal on the model.
+/// The effect of one changed parameter on the charcoal on the model.
 fn darkens(lab: &mut Lab<'_>, what: &'static str, change: impl Fn(&mut Charcoal)) -> Result<Finding> {
     let [base, other] = pair(lab, change);
     let [before, after] = [darkness(lab, &base)?, darkness(lab, &other)?];
@@ -268,8 +268,8 @@ pub(super) fn smaller_exponent_darkens(lab: &mut Lab<'_>) -> Result<Finding> {
     )
 }
 
-/// Another exponent with the lights chosen here and with two in one place: where their sum is above 1, its powers go the other
-/// way, and the report says nothing of its lights.
+/// Another exponent with the lights chosen here and with both lights in one place: where their sum is above 1, its powers go the
+/// other way, and the report does not describe its lights.
 fn with_both_lights(
     lab: &mut Lab<'_>,
     what: &'static str,
@@ -292,7 +292,7 @@ pub(super) fn smudging_darkens(lab: &mut Lab<'_>) -> Result<Finding> {
     darkens(lab, "smudged", |charcoal| charcoal.smudge = true)
 }
 
-/// One parameter changed, by what it does along the outline.
+/// The effect of one changed parameter along the outline.
 fn closes(lab: &mut Lab<'_>, what: &'static str, change: impl Fn(&mut Charcoal)) -> Result<Finding> {
     let [base, other] = pair(lab, change);
     let [[before, bare_before], [after, bare]] = [outline(lab, &base)?, outline(lab, &other)?];
@@ -374,7 +374,7 @@ pub(super) fn sand_has_a_texture(lab: &mut Lab<'_>) -> Result<Finding> {
         let charcoal = Charcoal { improve, ..published(lab) };
         let sand = lab.draw(&scene, &Style::Sand(charcoal.clone()), Show::Final)?;
         let drawn = lab.draw(&scene, &Style::Charcoal(charcoal), Show::Final)?;
-        // Blue, which is clamped least; what is left of it once the charcoal is taken away is the texture's.
+        // Blue, which is clamped least; without the charcoal, the texture's share of it remains.
         let blues = |picture: &Picture| -> Vec<f64> {
             picture.pixels.chunks_exact(4).map(|pixel| f64::from(pixel[2])).collect()
         };

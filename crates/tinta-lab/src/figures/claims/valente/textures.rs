@@ -1,4 +1,4 @@
-//! The claims about what is made before anything is drawn, and about GLSL's own noise.
+//! The claims about preparations before drawing, and about GLSL's own noise.
 
 use super::super::finding::{Finding, Number};
 use super::super::lab::{Lab, roughness};
