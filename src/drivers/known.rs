@@ -24,7 +24,7 @@ pub struct KnownFault {
 /// All that are known.
 pub const KNOWN: [KnownFault; 6] = [
     KnownFault {
-        name: "two contexts of one screen at work at once crash",
+        name: "two contexts of one screen crash when they work at once",
         first_seen: "Mesa 22.3.6, llvmpipe",
         last_seen: "Mesa 22.3.6, llvmpipe",
         workaround: "contexts of one software screen take turns; a second thread draws on its own screen",
@@ -40,7 +40,7 @@ pub const KNOWN: [KnownFault; 6] = [
         is_of: |info| info.backend == "osmesa",
     },
     KnownFault {
-        name: "a GALLIUM_DRIVER that it does not have ends in a crash",
+        name: "an unknown GALLIUM_DRIVER crashes it",
         first_seen: "Mesa 22.3.6, OSMesa",
         last_seen: "Mesa 22.3.6, OSMesa",
         workaround: "tinta refuses it with an error before it calls the library",
@@ -48,7 +48,7 @@ pub const KNOWN: [KnownFault; 6] = [
         is_of: |info| info.backend == "osmesa",
     },
     KnownFault {
-        name: "published charcoal and sand come out in other shades",
+        name: "published charcoal and sand change shade",
         first_seen: "Mesa 20.3.5, llvmpipe",
         last_seen: "Mesa 22.3.6, softpipe",
         workaround: "none; less so with texture-size as large as the picture",
