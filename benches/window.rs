@@ -1,5 +1,5 @@
-//! The window under Xvfb: time to the first picture, pictures a second while the model turns, the longest frame while a large
-//! model is read, and processor time at rest. docs/guide/window.md has the command and its results.
+//! The window under Xvfb: time to the first picture, pictures a second while the model turns, the longest frame while a large model is
+//! read, and processor time at rest. Run `cargo bench --bench window -- --model FILE --large FILE`.
 //!
 //! Each round starts a new process for each row. Raw values go to `target/bench/window.json`.
 

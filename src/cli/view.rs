@@ -51,7 +51,7 @@ pub(super) struct Arguments {
     #[arg(long, hide_short_help = true, value_name = "DIR", default_value = ".", hide_default_value = true)]
     folder: PathBuf,
 
-    /// Play a recording of events, one JSON object a line, take its pictures and quit; docs/guide/window.md has the format [default: none]
+    /// Play a recording of events, one JSON object a line, take its pictures and quit; docs/dev/testing.md has the format [default: none]
     #[arg(long, hide_short_help = true, value_name = "FILE")]
     replay: Option<PathBuf>,
 
