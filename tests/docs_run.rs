@@ -68,8 +68,8 @@ fn every_sentence_quoted_in_troubleshooting_is_said() {
     );
 }
 
-/// Runs the commands of the page, with those that measure or without.
-fn run_first_ten_minutes(is_measured: bool) {
+#[test]
+fn the_first_ten_minutes_go_as_they_are_written() {
     let folder = tempfile::tempdir().unwrap();
     for (from, to) in [("models/pawn.obj", "cow.obj"), ("models/pawn.ppm", "cow.ppm")] {
         std::fs::copy(root().join(from), folder.path().join(to)).unwrap();
@@ -77,7 +77,7 @@ fn run_first_ten_minutes(is_measured: bool) {
     let page = std::fs::read_to_string(root().join("docs/guide/first-ten-minutes.md")).unwrap();
     let mut count = 0;
     for command in page.lines().filter_map(|line| line.strip_prefix("    tinta ")) {
-        if command.starts_with("view") || command.starts_with("measure") && !is_measured {
+        if command.starts_with("view") {
             continue;
         }
         let output = Command::new(env!("CARGO_BIN_EXE_tinta"))
@@ -94,17 +94,4 @@ fn run_first_ten_minutes(is_measured: bool) {
         count += 1;
     }
     assert!(count >= 11, "only {count} commands were found");
-    assert!(folder.path().join("mine.toml").exists());
-    assert_eq!(folder.path().join("results/report.html").exists(), is_measured);
-}
-
-#[test]
-fn the_first_ten_minutes_but_for_the_measurement_go_as_they_are_written() {
-    run_first_ten_minutes(false);
-}
-
-#[test]
-#[ignore = "exhaustive: it measures every style"]
-fn the_first_ten_minutes_go_as_they_are_written() {
-    run_first_ten_minutes(true);
 }
