@@ -1,6 +1,7 @@
 //! Lines as they lie in the picture, and trees of them.
 
-use crate::bvh::{Box3, BoxTree, Exclusion, NO_GROUP};
+use crate::bvh::{Box3, BoxTree, Exclusion, NO_GROUP, Ray3};
+use crate::lines::visible::cover::PartWalk;
 use crate::lines::progress::Progress;
 use crate::lines::visible::space::Space;
 use crate::tolerances::TOUCH;
@@ -229,13 +230,18 @@ impl LineTree {
         self.tree.any(query, |place| visit(self.numbers[place as usize] as usize))
     }
 
-    /// The same without lines of some groups, as far as whole leaves of them are.
-    pub(in crate::lines) fn any_but(
+    /// Calls `visit` with each line a part of which may cross a part of another, perhaps several times, until it returns true; without
+    /// lines of some groups, as far as whole leaves of them are.
+    pub(in crate::lines) fn any_along(
         &self,
-        query: &Box3,
+        ray: Ray3,
+        part: [f64; 2],
         excluded: Exclusion,
         mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
-        self.tree.any_but(query, excluded, |place| visit(self.numbers[place as usize] as usize))
+        let visit = |place| visit(self.numbers[place as usize] as usize);
+        let mut walk = PartWalk { ray, part, visit, is_found: false };
+        self.tree.walk(excluded, &mut walk);
+        walk.is_found
     }
 }

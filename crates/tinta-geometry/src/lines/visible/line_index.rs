@@ -34,7 +34,7 @@ pub(in crate::lines) struct LineIndex<'a> {
     /// What single faces hide; `None` where none is large enough.
     pub(in crate::lines) pyramid: Option<&'a Pyramid>,
     /// What hides others; `None` where the faces as they are do.
-    occluders: Option<Occluders>,
+    pub(in crate::lines) occluders: Option<Occluders>,
     /// Which faces are nearest; `None` where little lies in front of one another.
     pub(in crate::lines) nearest_faces: Option<&'a NearestFaces>,
     /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.

@@ -94,6 +94,28 @@ impl OccluderProbe {
         }
     }
 
+    /// Whether the line is a side of a face.
+    pub(in crate::lines) fn holds(&self, numbers: [u32; 3]) -> bool {
+        let is_own = |number: u32| number == self.own_ends[0] || number == self.own_ends[1];
+        u8::from(is_own(numbers[0])) + u8::from(is_own(numbers[1])) + u8::from(is_own(numbers[2])) == 2
+    }
+
+    /// Whether all of the part lies beyond one of a face's sides by more than the rules forgive.
+    pub(in crate::lines) fn is_beside(&self, points: [DVec2; 3]) -> bool {
+        let [u, v] = [points[1] - points[0], points[2] - points[0]];
+        let sign = u.perp_dot(v).signum();
+        let rounding = points[0].abs().max_element().max(points[1].abs().max_element()).max(points[2].abs().max_element());
+        (0..3).any(|side| {
+            let (from, along) = (points[side], points[(side + 1) % 3] - points[side]);
+            let length = along.abs().element_sum();
+            if length <= 4.0 * self.touch_px {
+                return false;
+            }
+            let beyond = (3.0 * self.touch_px + (rounding + 1e4) * 1e-12) * length;
+            self.px.iter().all(|px| sign * along.perp_dot(*px - from) < -beyond)
+        })
+    }
+
     /// A range that a face hides, up to where the line ends in one of its corners, for there both touch, and nothing comes between; and up
     /// to any end that is very near.
     pub(in crate::lines) fn up_to_ends(&self, mut range: [f64; 2], corners: [u32; 3]) -> [f64; 2] {

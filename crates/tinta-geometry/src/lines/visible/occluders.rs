@@ -7,7 +7,7 @@
 //! And what hides others where many faces are seen edge-on: all but those. They have no image that could hide anything, and the lines in
 //! them lie on one another, where the nearest is asked for.
 
-use crate::bvh::{Box3, BoxTree, Exclusion};
+use crate::bvh::{Box3, BoxTree, Exclusion, Walk};
 use crate::lines::visible::faces::Faces;
 use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
@@ -99,6 +99,19 @@ impl Occluders {
             );
         }
         Some(Self { tree, places })
+    }
+
+    pub(in crate::lines) fn walk(&self, excluded: Exclusion, walk: &mut impl Walk) {
+        struct Places<'a, W>(&'a [u32], &'a mut W);
+        impl<W: Walk> Walk for Places<'_, W> {
+            fn enters(&self, around: &obvhs::aabb::Aabb) -> bool {
+                self.1.enters(around)
+            }
+            fn visit(&mut self, part: u32) -> bool {
+                self.1.visit(self.0[part as usize])
+            }
+        }
+        self.tree.walk(excluded, &mut Places(&self.places, walk));
     }
 
     /// As [`BoxTree::any_but`] of the faces' tree; a face may come several times.
