@@ -68,69 +68,62 @@ pub(crate) struct BoxTree {
     planes: Vec<u32>,
 }
 
-/// What a hierarchy is walked for.
+/// A search through a hierarchy, front to back.
 pub(crate) trait Walk {
     /// Whether anything in a box matters.
-    fn enters(&self, around: &Aabb) -> bool;
+    fn enters(&self, around: &Box3) -> bool;
 
     /// Looks at a thing; true ends the walk.
     fn visit(&mut self, place: u32) -> bool;
 }
 
-/// A straight line in the space of boxes, from 0 to 1.
+/// A straight line in the space of the boxes, its places from 0 to 1.
 #[derive(Clone, Copy)]
-pub(crate) struct Ray3 {
+pub(crate) struct Line3 {
     from: DVec3,
-    inverse: DVec3,
     along: DVec3,
     margin: f64,
     slack: f64,
-    /// Around all of it.
     around: Box3,
 }
 
-impl Ray3 {
-    /// Boxes are wider by `margin` in the first two directions; in the third the line enters what begins before it, or at most
-    /// `slack` behind.
+impl Line3 {
+    /// The line meets boxes within `margin` of it in the first two directions. In the third it meets those that begin before it, or
+    /// at most `slack` behind it.
     pub(crate) fn new([from, to]: [DVec3; 2], margin: f64, slack: f64) -> Self {
-        let along = to - from;
         let wide = DVec3::new(margin, margin, 0.0);
         let (low, high) = (from.min(to) - wide, from.max(to) + wide);
         let around = Box3::new(low.with_z(f64::NEG_INFINITY), high.with_z(high.z + slack));
-        Self { from, along, inverse: along.recip(), margin, slack, around }
+        Self { from, along: to - from, margin, slack, around }
     }
 
     /// Whether the line's own box meets a box.
-    pub(crate) fn is_near(&self, around: &Aabb) -> bool {
-        self.around.0.intersect_aabb(around)
+    pub(crate) fn is_near(&self, around: &Box3) -> bool {
+        self.around.overlaps(around)
     }
 
-    /// From where to where the line is in a box or behind it.
-    pub(crate) fn range(&self, around: &Aabb) -> Option<[f64; 2]> {
-        let (low, high) = (around.min.as_dvec3(), around.max.as_dvec3());
+    /// From where to where the line is in a box or behind it (Liang and Barsky 1984).
+    pub(crate) fn range(&self, around: &Box3) -> Option<[f64; 2]> {
+        let [low, high] = around.corners();
+        let (low, high) = (low - self.from, high - self.from);
         let mut range = [0.0f64, 1.0f64];
         for axis in 0..2 {
-            let (low, high) = (low[axis] - self.margin - self.from[axis], high[axis] + self.margin - self.from[axis]);
-            if self.along[axis] == 0.0 {
+            let (low, high, along) = (low[axis] - self.margin, high[axis] + self.margin, self.along[axis]);
+            if along == 0.0 {
                 if low > 0.0 || high < 0.0 {
                     return None;
                 }
                 continue;
             }
-            let (a, b) = (low * self.inverse[axis], high * self.inverse[axis]);
-            range = [range[0].max(a.min(b)), range[1].min(a.max(b))];
+            let (one, other) = (low / along, high / along);
+            range = [range[0].max(one.min(other)), range[1].min(one.max(other))];
         }
-        let low = low.z - self.slack - self.from.z;
-        if self.along.z == 0.0 {
-            if low > 0.0 {
-                return None;
-            }
-        } else {
-            let place = low * self.inverse.z;
-            match self.along.z > 0.0 {
-                true => range[0] = range[0].max(place),
-                false => range[1] = range[1].min(place),
-            }
+        let (nearest, along) = (low.z - self.slack, self.along.z);
+        match along {
+            0.0 if nearest > 0.0 => return None,
+            0.0 => {}
+            _ if along > 0.0 => range[0] = range[0].max(nearest / along),
+            _ => range[1] = range[1].min(nearest / along),
         }
         (range[0] <= range[1]).then_some(range)
     }
@@ -271,7 +264,7 @@ impl BoxTree {
         })
     }
 
-    /// Shows a walk the things whose boxes it enters, of two nodes the nearer first, without some groups as far as whole leaves are.
+    /// Shows a walk the things whose boxes it enters, the nearer of two nodes first. Leaves out whole nodes of excluded groups.
     pub(crate) fn walk(&self, excluded: Exclusion, walk: &mut impl Walk) {
         let nodes = &self.nodes.nodes;
         let is_left_out = |node: u32| {
@@ -281,7 +274,7 @@ impl BoxTree {
             };
             is_one(&self.planes, excluded.planes) || is_one(&self.high_valence, excluded.high_valence)
         };
-        if nodes.is_empty() || is_left_out(0) || !walk.enters(nodes[0].aabb()) {
+        if nodes.is_empty() || is_left_out(0) || !walk.enters(&Box3(*nodes[0].aabb())) {
             return;
         }
         let mut open = Stack::default();
@@ -293,18 +286,20 @@ impl BoxTree {
             if node.is_leaf() {
                 steps += u64::from(node.prim_count);
                 for place in range(node.first_index, node.prim_count) {
-                    if walk.enters(&self.boxes[place].0) && walk.visit(place as u32) {
+                    if walk.enters(&self.boxes[place]) && walk.visit(place as u32) {
                         break 'walk;
                     }
                 }
                 continue;
             }
             let (first, second) = (node.first_index, node.first_index + 1);
-            let [one, other] = [first, second].map(|child| nodes[child as usize].aabb());
+            let [one, other] = [first, second].map(|child| Box3(*nodes[child as usize].aabb()));
             let [enters_first, enters_second] =
-                [walk.enters(one) && !is_left_out(first), walk.enters(other) && !is_left_out(second)];
+                [walk.enters(&one) && !is_left_out(first), walk.enters(&other) && !is_left_out(second)];
             match (enters_first, enters_second) {
-                (true, true) if one.min.z <= other.min.z => [second, first].into_iter().for_each(|child| open.push(child)),
+                (true, true) if one.0.min.z <= other.0.min.z => {
+                    [second, first].into_iter().for_each(|child| open.push(child))
+                }
                 (true, true) => [first, second].into_iter().for_each(|child| open.push(child)),
                 (true, false) => open.push(first),
                 (false, true) => open.push(second),
@@ -340,7 +335,8 @@ impl BoxTree {
     /// The pairs of nodes just below two nodes; the two themselves where both are leaves, and nothing where no pair below is looked for.
     fn halves(&self, [first, second]: [u32; 2], wanted: &NodeSelection, mut push: impl FnMut([u32; 2])) {
         let [a, b] = [first, second].map(|node| &self.nodes.nodes[node as usize]);
-        let are_of_one = |groups: &[u32]| group(groups, first) != NO_GROUP && group(groups, first) == group(groups, second);
+        let are_of_one =
+            |groups: &[u32]| group(groups, first) != NO_GROUP && group(groups, first) == group(groups, second);
         let is_unwanted = !wanted.any_below(first) || !wanted.any_below(second);
         if is_unwanted
             || are_of_one(&self.high_valence)
@@ -392,9 +388,8 @@ impl BoxTree {
             steps += (firsts.len() + seconds.len()) as u64;
             let around = Box3(*b.aabb());
             is_found = firsts.filter(|first| self.boxes[*first].overlaps(&around)).any(|first| {
-                (seconds.start.max(first + 1)..seconds.end).any(|second| {
-                    self.boxes[first].overlaps(&self.boxes[second]) && visit(first as u32, second as u32)
-                })
+                (seconds.start.max(first + 1)..seconds.end)
+                    .any(|second| self.boxes[first].overlaps(&self.boxes[second]) && visit(first as u32, second as u32))
             });
             if is_found {
                 break;

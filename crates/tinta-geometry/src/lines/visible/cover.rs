@@ -1,20 +1,24 @@
-//! Which parts of a line faces hide for sure, and which they may hide: one walk of the faces' tree from front to back.
+//! The parts of a line that faces hide for sure, and those that they may hide: one walk of the tree of faces, front to back.
+//!
+//! The walk keeps the parts of the line that no face hides yet, and enters only boxes that one of these parts reaches. Each face
+//! in them answers with two ranges ([`Faces::hidden_ranges`](crate::lines::visible::faces::Faces)): where it hides the line by
+//! more than any tolerance, and where it may hide it. The walk ends when nothing is left. Only the parts that a face may hide
+//! need a ray and the exact rules.
 
-use crate::bvh::{Exclusion, Ray3, Walk};
+use crate::bvh::{Box3, Exclusion, Line3, Walk};
 use crate::lines::visible::face_image::FaceImage;
 use crate::lines::visible::image::Image;
-use crate::lines::visible::line_index::LineIndex;
+use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
 use crate::lines::visible::occluder_probe::{OccluderProbe, ProbedLine, SearchDepth};
 use crate::lines::visible::ranges::{gaps, hold, united};
-use obvhs::aabb::Aabb;
 
-/// Which parts of a line are hidden.
+/// The parts of a line that are hidden, and those that may be.
 #[derive(Default)]
 pub(in crate::lines) struct Cover {
-    /// Ascending parts that are hidden for sure.
-    pub hidden: Vec<[f64; 2]>,
-    /// Ascending parts of the others in which something may hide the line.
-    pub maybe: Vec<[f64; 2]>,
+    /// The parts that are hidden for sure.
+    hidden: Vec<[f64; 2]>,
+    /// The parts that something may hide.
+    maybe: Vec<[f64; 2]>,
     /// Ascending parts that are not hidden for sure.
     pub open: Vec<[f64; 2]>,
 }
@@ -25,59 +29,61 @@ impl Cover {
         hold(&self.hidden, place)
     }
 
-    /// Whether a place is seen for sure, as far as faces are concerned.
+    /// Whether no face hides a place, for sure.
     pub(in crate::lines) fn leaves_open(&self, place: f64) -> bool {
         !hold(&self.maybe, place)
     }
 
-    /// Hides a part more.
-    pub(in crate::lines) fn hide(&mut self, part: [f64; 2], least: f64) {
+    /// Hides another part. Parts of the rest that are no longer than `least` are no longer open.
+    fn hide(&mut self, part: [f64; 2], least: f64) {
         self.hidden.push(part);
-        let mut open = Vec::with_capacity(self.open.len() + 1);
-        for gap in self.open.drain(..) {
-            if part[1] <= gap[0] || part[0] >= gap[1] {
-                open.push(gap);
-                continue;
-            }
-            let rest = [[gap[0], part[0]], [part[1], gap[1]]];
-            open.extend(rest.into_iter().filter(|rest| rest[1] - rest[0] > least));
+        let is_outside = |gap: &[f64; 2]| part[1] <= gap[0] || part[0] >= gap[1];
+        if self.open.iter().all(is_outside) {
+            return;
         }
-        self.open = open;
+        let rest_of = |gap: [f64; 2]| match is_outside(&gap) {
+            true => [Some(gap), None],
+            false => {
+                [[gap[0], part[0]], [part[1], gap[1]]].map(|rest| Some(rest).filter(|rest| rest[1] - rest[0] > least))
+            }
+        };
+        self.open = std::mem::take(&mut self.open).into_iter().flat_map(rest_of).flatten().collect();
+    }
+
+    /// Ascending ranges, for lookup.
+    fn sorted(self) -> Self {
+        Self { hidden: united(self.hidden), maybe: united(self.maybe), open: self.open }
     }
 }
 
-static NOSEED: std::sync::LazyLock<bool> = std::sync::LazyLock::new(|| std::env::var("NOSEED").is_ok());
-/// The walk of one line.
+/// Faces that a walk remembers: a large face comes once for each of its parts.
+const REMEMBERED: usize = 256;
+
+/// The walk for one line.
 struct CoverWalk<'a> {
     lines: &'a LineIndex<'a>,
-    ray: Ray3,
+    line: Line3,
     probe: OccluderProbe,
     cover: Cover,
     least: f64,
-    /// Faces looked at lately: a large face comes in parts.
-    known: [u32; 256],
+    /// Whether the line's box tells as much as the line.
     is_short: bool,
-}
-
-/// Whether any of a few ranges meets another.
-fn meets(ranges: &[[f64; 2]], [from, to]: [f64; 2]) -> bool {
-    ranges.iter().any(|range| range[0] <= to && range[1] >= from)
+    remembered: [Option<u32>; REMEMBERED],
 }
 
 impl Walk for CoverWalk<'_> {
-    fn enters(&self, around: &Aabb) -> bool {
-        self.ray.is_near(around)
-            && (self.is_short && self.cover.hidden.is_empty()
-                || self.ray.range(around).is_some_and(|range| meets(&self.cover.open, range)))
+    fn enters(&self, around: &Box3) -> bool {
+        if !self.line.is_near(around) {
+            return false;
+        }
+        let is_whole = self.cover.hidden.is_empty();
+        let reaches = |[from, to]: [f64; 2]| self.cover.open.iter().any(|open| open[0] <= to && open[1] >= from);
+        self.is_short && is_whole || self.line.range(around).is_some_and(reaches)
     }
 
     fn visit(&mut self, face: u32) -> bool {
-        let numbers = self.lines.faces.triangles[face as usize];
-        if self.probe.holds(numbers) {
-            return false;
-        }
-        let known = &mut self.known[face as usize % 256];
-        if std::mem::replace(known, face) == face {
+        let remembered = &mut self.remembered[face as usize % REMEMBERED];
+        if self.probe.has_side_of(self.lines.faces.triangles[face as usize]) || remembered.replace(face) == Some(face) {
             return false;
         }
         let [sure, may] = self.lines.hidden_ranges(face, &self.probe);
@@ -90,93 +96,68 @@ impl Walk for CoverWalk<'_> {
 }
 
 impl LineIndex<'_> {
-    /// Which parts of a line between two places faces hide; some of which is known to be hidden.
+    /// The cover of a line whose faces nobody asked: anything may hide it. Some parts are known to be hidden.
+    pub(in crate::lines) fn unknown_cover(&self, inside: [f64; 2], hidden: &[[f64; 2]]) -> Cover {
+        Cover { hidden: hidden.to_vec(), maybe: vec![inside], open: gaps(inside, hidden) }
+    }
+
+    /// The cover of a line between two places, some parts of which are known to be hidden.
     pub(in crate::lines) fn cover(
         &self,
         index: usize,
         image: &Image,
         inside: [f64; 2],
-        hidden: Vec<[f64; 2]>,
+        hidden: &[[f64; 2]],
         search_depth: SearchDepth,
     ) -> Cover {
         let least = self.shortest_px / image.length();
         let is_long = |gap: &[f64; 2]| *gap == inside || gap[1] - gap[0] > least;
-        let open: Vec<[f64; 2]> = gaps(inside, &hidden).into_iter().filter(is_long).collect();
-        let mut cover = Cover { hidden, open, maybe: Vec::new() };
-        if let Some(nearest_faces) = self.nearest_faces.filter(|_| !*NOSEED) {
-            for gap in std::mem::take(&mut cover.open) {
-                cover.open.push(gap);
-                let probe = |part| {
-                    let feature = &self.features[index];
-                    let line = ProbedLine { own: feature.own, ends: feature.ends, weld: feature.weld };
-                    OccluderProbe::new(self.space, self.faces, line, image, part, search_depth)
-                };
-                for part in nearest_faces.hidden(self.space, self.faces, gap, probe, 4) {
-                    cover.hide(part, least);
-                }
-            }
+        let open: Vec<[f64; 2]> = gaps(inside, hidden).into_iter().filter(is_long).collect();
+        let cover = Cover { hidden: hidden.to_vec(), open, maybe: Vec::new() };
+        if cover.open.is_empty() {
+            return cover.sorted();
         }
-        if !cover.open.is_empty() {
-            let feature = &self.features[index];
-            let line = ProbedLine { own: feature.own, ends: feature.ends, weld: feature.weld };
-            let probe = OccluderProbe::new(self.space, self.faces, line, image, inside, search_depth);
-            let ray = self.ray(image, search_depth, 0.0);
-            let is_short = image.length() * 16.0 < self.space.size.max_element();
-            let mut walk = CoverWalk { lines: self, ray, probe, cover, least, known: [u32::MAX; 256], is_short };
-            match &self.occluders {
-                Some(occluders) => occluders.walk(Exclusion::planes(feature.planes), &mut walk),
-                None => self.faces.tree.walk(Exclusion::planes(feature.planes), &mut walk),
-            }
-            cover = walk.cover;
-        }
-        cover.hidden = united(cover.hidden);
-        cover.maybe = united(cover.maybe);
-        cover
-    }
-
-    /// A line as boxes are asked about it: of all that begins at most `slack` behind it, or of all.
-    pub(in crate::lines) fn ray(&self, image: &Image, search_depth: SearchDepth, slack: f64) -> Ray3 {
-        let keys = match search_depth {
-            SearchDepth::Nearer => image.keys,
-            SearchDepth::Any => [1e300; 2],
+        let feature = &self.features[index];
+        let line = ProbedLine { own: feature.own, ends: feature.ends, weld: feature.weld };
+        let mut walk = CoverWalk {
+            lines: self,
+            line: self.line(image, search_depth, 0.0),
+            probe: OccluderProbe::new(self.space, self.faces, line, image, inside, search_depth),
+            cover,
+            least,
+            is_short: image.length() * PARTS_OF_PICTURE < self.space.size.max_element(),
+            remembered: [None; REMEMBERED],
         };
-        let ends = [image.a.extend(keys[0]), image.b.extend(keys[1])];
-        Ray3::new(ends, image.touch_px(self.space), slack)
+        self.walk_occluders(Exclusion::planes(feature.planes), &mut walk);
+        walk.cover.sorted()
     }
 
-    /// What of a part of a line a face hides for sure, on both sides, and what it may hide.
+    /// Hides the parts of a line that lie in the picture on nearer lines.
+    pub(in crate::lines) fn hide_all(&self, cover: Cover, image: &Image, hidden: Vec<[f64; 2]>) -> Cover {
+        let mut cover = cover;
+        hidden.into_iter().for_each(|part| cover.hide(part, self.shortest_px / image.length()));
+        cover.sorted()
+    }
+
+    /// The line that boxes are tested against: what begins at most `slack` behind it counts, or everything at any depth.
+    pub(in crate::lines) fn line(&self, image: &Image, search_depth: SearchDepth, slack: f64) -> Line3 {
+        /// Behind everything.
+        const FARTHEST: f64 = 1e300;
+        let keys = if search_depth == SearchDepth::Any { [FARTHEST; 2] } else { image.keys };
+        Line3::new([image.a.extend(keys[0]), image.b.extend(keys[1])], image.touch_px(self.space), slack)
+    }
+
+    /// The part of a line that a face hides for sure, on both sides, and the part that it may hide.
     fn hidden_ranges(&self, face: u32, probe: &OccluderProbe) -> [Option<[f64; 2]>; 2] {
-        match self.nearest_faces {
-            Some(nearest_faces) => {
-                self.faces.hidden_ranges(self.space, face, &nearest_faces.image(self.space, self.faces, face), probe)
-            }
-            None => {
-                let points = self.faces.corners(face).map(|corner| self.space.project(corner).0);
-                let is_cut = !self.faces.cut_by_near.is_empty();
-                if !is_cut && probe.is_beside(points) {
-                    return [None; 2];
-                }
-                self.faces.hidden_ranges(self.space, face, &FaceImage::of(self.space, self.faces, face), probe)
-            }
+        if let Some(nearest_faces) = self.nearest_faces {
+            let image = nearest_faces.image(self.space, self.faces, face);
+            return self.faces.hidden_ranges(self.space, face, &image, probe);
         }
-    }
-}
-
-/// Calls a function with each thing whose box a part of a line enters, until that returns true.
-pub(in crate::lines) struct PartWalk<F> {
-    pub ray: Ray3,
-    pub part: [f64; 2],
-    pub visit: F,
-    pub is_found: bool,
-}
-
-impl<F: FnMut(u32) -> bool> Walk for PartWalk<F> {
-    fn enters(&self, around: &Aabb) -> bool {
-        self.ray.is_near(around) && self.ray.range(around).is_some_and(|range| meets(&[self.part], range))
-    }
-
-    fn visit(&mut self, place: u32) -> bool {
-        self.is_found = (self.visit)(place);
-        self.is_found
+        // Most faces lie beside the line, and this is sooner known than what else their images tell.
+        let points = self.faces.corners(face).map(|corner| self.space.project(corner).0);
+        if self.faces.cut_by_near.is_empty() && probe.is_beside(self.space, points) {
+            return [None; 2];
+        }
+        self.faces.hidden_ranges(self.space, face, &FaceImage::of(self.space, self.faces, face), probe)
     }
 }

@@ -104,8 +104,7 @@ pub(in crate::lines) fn intersections(
         progress.advance(count, steps().wrapping_sub(before));
         kept
     };
-    let mut chunks =
-        spread_chunks(node_pairs.len(), 8, cores(), |batches| counting_steps(|| in_batches(batches)));
+    let mut chunks = spread_chunks(node_pairs.len(), 8, cores(), |batches| counting_steps(|| in_batches(batches)));
     chunks.extend(around_high_valence(&meeting, is_seen, is_open, progress));
     let compared = chunks.iter().map(|(_, steps)| steps).sum();
     if progress.is_over() {

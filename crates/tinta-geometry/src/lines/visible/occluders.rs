@@ -101,17 +101,9 @@ impl Occluders {
         Some(Self { tree, places })
     }
 
+    /// As [`BoxTree::walk`] of the faces' tree; a face may come several times.
     pub(in crate::lines) fn walk(&self, excluded: Exclusion, walk: &mut impl Walk) {
-        struct Places<'a, W>(&'a [u32], &'a mut W);
-        impl<W: Walk> Walk for Places<'_, W> {
-            fn enters(&self, around: &obvhs::aabb::Aabb) -> bool {
-                self.1.enters(around)
-            }
-            fn visit(&mut self, part: u32) -> bool {
-                self.1.visit(self.0[part as usize])
-            }
-        }
-        self.tree.walk(excluded, &mut Places(&self.places, walk));
+        self.tree.walk(excluded, &mut OfParts { places: &self.places, walk });
     }
 
     /// As [`BoxTree::any_but`] of the faces' tree; a face may come several times.
@@ -122,5 +114,21 @@ impl Occluders {
         mut visit: impl FnMut(u32) -> bool,
     ) -> bool {
         self.tree.any_but(query, excluded, |part| visit(self.places[part as usize]))
+    }
+}
+
+/// A walk over faces that is shown their parts.
+struct OfParts<'a, W> {
+    places: &'a [u32],
+    walk: &'a mut W,
+}
+
+impl<W: Walk> Walk for OfParts<'_, W> {
+    fn enters(&self, around: &Box3) -> bool {
+        self.walk.enters(around)
+    }
+
+    fn visit(&mut self, part: u32) -> bool {
+        self.walk.visit(self.places[part as usize])
     }
 }

@@ -80,11 +80,11 @@ impl LineIndex<'_> {
     fn background(&self, index: usize, line: &Image, range: [f64; 2], aside: DVec2) -> Vec<[f64; 2]> {
         let image = &Image { a: line.a + aside, b: line.b + aside, ..*line };
         let touch_px = image.touch_px(self.space);
-        let cover = self.cover(index, image, range, Vec::new(), SearchDepth::Any);
+        let cover = self.cover(index, image, range, &[], SearchDepth::Any);
         let mut cuts = Vec::new();
         for gap in &cover.open {
-            let ray = self.ray(image, SearchDepth::Any, 0.0);
-            self.rims.any_along(ray, *gap, Exclusion::default(), |other_index| {
+            let line = self.line(image, SearchDepth::Any, 0.0);
+            self.rims.any_along(line, *gap, Exclusion::default(), |other_index| {
                 if let Some(other) = self.images[other_index] {
                     cuts.extend(image.meetings(&other, touch_px.max(other.touch_px(self.space))));
                 }

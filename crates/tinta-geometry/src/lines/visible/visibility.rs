@@ -12,12 +12,14 @@ use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
 use crate::lines::visible::occluder_probe::SearchDepth;
 use crate::lines::visible::overlapping_lines::OverlappingLines;
-use crate::lines::visible::ranges::united;
 use crate::threads::{cores, spread_chunks};
 use std::cell::LazyCell;
 
 /// Pieces of one line between two looks at the time.
 const PIECES_A_GLANCE: usize = 64;
+
+/// Cuts of a line above which all faces before the line are looked at in one walk. Up to that, a ray for each piece costs less.
+const MOST: usize = 24;
 
 impl LineIndex<'_> {
     /// The wanted lines' pieces, in the lines' order; with how many boxes were looked at. Of all lines, unless the time is over
@@ -49,12 +51,7 @@ impl LineIndex<'_> {
     }
 
     /// Adds the pieces of a line; `None`, and nothing, where the time is over before all are decided.
-    fn add_segments(
-        &self,
-        index: usize,
-        progress: &Progress,
-        segments: &mut Vec<LineSegment>,
-    ) -> Option<()> {
+    fn add_segments(&self, index: usize, progress: &Progress, segments: &mut Vec<LineSegment>) -> Option<()> {
         let feature = &self.features[index];
         let (Some(class), Some(image)) = (feature.class, self.images[index]) else { return Some(()) };
         let Some(inside) = image.inside(self.space.size, 0.0) else { return Some(()) };
@@ -62,22 +59,26 @@ impl LineIndex<'_> {
             return Some(());
         }
         let behind = self.behind_nearest(index, &image, inside);
-        let mut cover = self.cover(index, &image, inside, behind, SearchDepth::Nearer);
+        let overlapping = OverlappingLines::new(index, &image, inside);
+        let mut cuts = Vec::new();
+        let add = |cover: &Cover, most, cuts: &mut Vec<f64>| {
+            cover.open.iter().any(|gap| self.add_cuts(index, &image, &overlapping, *gap, most, cuts))
+        };
+        let mut cover = self.unknown_cover(inside, &behind);
+        if add(&cover, MOST, &mut cuts) {
+            cuts.clear();
+            cover = self.cover(index, &image, inside, &behind, SearchDepth::Nearer);
+            if !self.finds_hidden {
+                let mut hidden = Vec::new();
+                for gap in &cover.open {
+                    self.behind_overlapping_lines(index, &image, &overlapping, *gap, &mut hidden);
+                }
+                cover = self.hide_all(cover, &image, hidden);
+            }
+            add(&cover, usize::MAX, &mut cuts);
+        }
         if !self.finds_hidden && cover.open.is_empty() {
             return Some(());
-        }
-        let overlapping = OverlappingLines::new(index, &image, inside);
-        if !self.finds_hidden {
-            let mut hidden = Vec::new();
-            for gap in &cover.open {
-                self.behind_overlapping_lines(index, &image, &overlapping, *gap, &mut hidden);
-            }
-            hidden.into_iter().for_each(|part| cover.hide(part, self.shortest_px / image.length()));
-            cover.hidden = united(std::mem::take(&mut cover.hidden));
-        }
-        let mut cuts = Vec::new();
-        for gap in &cover.open {
-            self.add_cuts(index, &image, &overlapping, *gap, usize::MAX, &mut cuts);
         }
         self.add_piercings(index, &image, &mut cuts);
         if self.finds_hidden {
