@@ -62,11 +62,71 @@ pub(crate) struct BoxTree {
     nodes: Bvh2,
     /// The boxes, leaf by leaf.
     boxes: Vec<Box3>,
-    leaves: Vec<u32>,
     /// Each node's high-valence vertex, if all things below it have the same one, else [`NO_GROUP`]; empty without such vertices.
     high_valence: Vec<u32>,
     /// Likewise the plane in which all things below it lie.
     planes: Vec<u32>,
+}
+
+/// A search through a hierarchy, front to back.
+pub(crate) trait Walk {
+    /// Whether anything in a box matters.
+    fn enters(&self, around: &Box3) -> bool;
+
+    /// Looks at a thing; true ends the walk.
+    fn visit(&mut self, place: u32) -> bool;
+}
+
+/// A straight line in the space of the boxes, its places from 0 to 1.
+#[derive(Clone, Copy)]
+pub(crate) struct Line3 {
+    from: DVec3,
+    along: DVec3,
+    margin: f64,
+    slack: f64,
+    around: Box3,
+}
+
+impl Line3 {
+    /// The line meets boxes within `margin` of it in the first two directions. In the third it meets those that begin before it, or
+    /// at most `slack` behind it.
+    pub(crate) fn new([from, to]: [DVec3; 2], margin: f64, slack: f64) -> Self {
+        let wide = DVec3::new(margin, margin, 0.0);
+        let (low, high) = (from.min(to) - wide, from.max(to) + wide);
+        let around = Box3::new(low.with_z(f64::NEG_INFINITY), high.with_z(high.z + slack));
+        Self { from, along: to - from, margin, slack, around }
+    }
+
+    /// Whether the line's own box meets a box.
+    pub(crate) fn is_near(&self, around: &Box3) -> bool {
+        self.around.overlaps(around)
+    }
+
+    /// From where to where the line is in a box or behind it (Liang and Barsky 1984).
+    pub(crate) fn range(&self, around: &Box3) -> Option<[f64; 2]> {
+        let [low, high] = around.corners();
+        let (low, high) = (low - self.from, high - self.from);
+        let mut range = [0.0f64, 1.0f64];
+        for axis in 0..2 {
+            let (low, high, along) = (low[axis] - self.margin, high[axis] + self.margin, self.along[axis]);
+            if along == 0.0 {
+                if low > 0.0 || high < 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            let (one, other) = (low / along, high / along);
+            range = [range[0].max(one.min(other)), range[1].min(one.max(other))];
+        }
+        let (nearest, along) = (low.z - self.slack, self.along.z);
+        match along {
+            0.0 if nearest > 0.0 => return None,
+            0.0 => {}
+            _ if along > 0.0 => range[0] = range[0].max(nearest / along),
+            _ => range[1] = range[1].min(nearest / along),
+        }
+        (range[0] <= range[1]).then_some(range)
+    }
 }
 
 /// Below which nodes of a hierarchy there is something wanted: by default below all.
@@ -128,9 +188,8 @@ impl BoxTree {
         let mut nodes = if batches.len() == 1 { batches.swap_remove(0) } else { joined(&batches) };
         nodes.parents = Vec::new();
         let order = std::mem::take(&mut nodes.primitive_indices);
-        let leaves = (0..nodes.nodes.len() as u32).filter(|node| nodes.nodes[*node as usize].is_leaf()).collect();
         let boxes = order.iter().map(|index| boxes[*index as usize]).collect();
-        (Self { boxes, leaves, nodes, high_valence: Vec::new(), planes: Vec::new() }, order)
+        (Self { boxes, nodes, high_valence: Vec::new(), planes: Vec::new() }, order)
     }
 
     /// The things' boxes, by their places.
@@ -205,47 +264,139 @@ impl BoxTree {
         })
     }
 
-    /// How many batches of leaves [`BoxTree::pairs`] takes.
-    pub(crate) fn batch_count(&self) -> usize {
-        self.leaves.len()
-    }
-
-    /// Calls `visit` with each pair of things whose boxes overlap, one of them in one of these batches, until it returns true;
-    /// over all batches each pair comes once. Returns whether it did. Pairs around one high-valence
-    /// vertex, or in one plane, are left out as far as whole leaves are.
-    pub(crate) fn pairs(&self, batches: std::ops::Range<usize>, visit: impl FnMut(u32, u32) -> bool) -> bool {
-        self.selected_pairs(batches, &NodeSelection::default(), visit)
-    }
-
-    /// The same without what lies below nodes of which nothing is wanted.
-    pub(crate) fn selected_pairs(
-        &self,
-        batches: std::ops::Range<usize>,
-        wanted: &NodeSelection,
-        mut visit: impl FnMut(u32, u32) -> bool,
-    ) -> bool {
-        self.leaves[batches].iter().filter(|index| wanted.any_below(**index)).any(|index| {
-            let node = &self.nodes.nodes[*index as usize];
-            let own = range(node.first_index, node.prim_count);
-            let (vertex, plane) = (group(&self.high_valence, *index), group(&self.planes, *index));
-            let is_other = |node: u32| {
-                wanted.any_below(node)
-                    && (vertex == NO_GROUP || group(&self.high_valence, node) != vertex)
-                    && (plane == NO_GROUP || group(&self.planes, node) != plane)
+    /// Shows a walk the things whose boxes it enters, the nearer of two nodes first. Leaves out whole nodes of excluded groups.
+    pub(crate) fn walk(&self, excluded: Exclusion, walk: &mut impl Walk) {
+        let nodes = &self.nodes.nodes;
+        let is_left_out = |node: u32| {
+            let is_one = |groups: &[u32], excluded: [u32; 2]| {
+                let group = group(groups, node);
+                group != NO_GROUP && excluded.contains(&group)
             };
-            self.any_leaf(&Box3(*node.aabb()), is_other, |leaf| {
-                let other = range(leaf.first_index, leaf.prim_count);
-                if other.start < own.start {
-                    return false;
+            is_one(&self.planes, excluded.planes) || is_one(&self.high_valence, excluded.high_valence)
+        };
+        if nodes.is_empty() || is_left_out(0) || !walk.enters(&Box3(*nodes[0].aabb())) {
+            return;
+        }
+        let mut open = Stack::default();
+        open.push(0);
+        let mut steps = 0;
+        'walk: while let Some(index) = open.pop() {
+            let node = &nodes[index as usize];
+            steps += 1;
+            if node.is_leaf() {
+                steps += u64::from(node.prim_count);
+                for place in range(node.first_index, node.prim_count) {
+                    if walk.enters(&self.boxes[place]) && walk.visit(place as u32) {
+                        break 'walk;
+                    }
                 }
-                let around = Box3(*leaf.aabb());
-                own.clone().filter(|first| self.boxes[*first].overlaps(&around)).any(|first| {
-                    (other.start.max(first + 1)..other.end).any(|second| {
-                        self.boxes[first].overlaps(&self.boxes[second]) && visit(first as u32, second as u32)
-                    })
-                })
-            })
-        })
+                continue;
+            }
+            let (first, second) = (node.first_index, node.first_index + 1);
+            let [one, other] = [first, second].map(|child| Box3(*nodes[child as usize].aabb()));
+            let [enters_first, enters_second] =
+                [walk.enters(&one) && !is_left_out(first), walk.enters(&other) && !is_left_out(second)];
+            match (enters_first, enters_second) {
+                (true, true) if one.0.min.z <= other.0.min.z => {
+                    [second, first].into_iter().for_each(|child| open.push(child))
+                }
+                (true, true) => [first, second].into_iter().for_each(|child| open.push(child)),
+                (true, false) => open.push(first),
+                (false, true) => open.push(second),
+                (false, false) => {}
+            }
+        }
+        add_steps(steps);
+    }
+
+    /// Calls `visit` with each pair of things whose boxes overlap, the lower place first, once.
+    pub(crate) fn pairs(&self, mut visit: impl FnMut(u32, u32) -> bool) -> bool {
+        self.pairs_below(&[[0, 0]], &NodeSelection::default(), &mut visit)
+    }
+
+    /// Pairs of nodes below which all pairs of things lie whose boxes overlap, so many of them that they can be looked at apart.
+    pub(crate) fn node_pairs(&self, wanted: &NodeSelection) -> Vec<[u32; 2]> {
+        /// Pairs of nodes at least, where there are enough.
+        const ENOUGH: usize = 1024;
+        let mut pairs = vec![[0, 0]];
+        while !self.nodes.nodes.is_empty() && pairs.len() < ENOUGH {
+            let mut next = Vec::with_capacity(2 * pairs.len());
+            for pair in &pairs {
+                self.halves(*pair, wanted, |half| next.push(half));
+            }
+            if next.len() == pairs.len() {
+                break;
+            }
+            pairs = next;
+        }
+        pairs
+    }
+
+    /// The pairs of nodes just below two nodes; the two themselves where both are leaves, and nothing where no pair below is looked for.
+    fn halves(&self, [first, second]: [u32; 2], wanted: &NodeSelection, mut push: impl FnMut([u32; 2])) {
+        let [a, b] = [first, second].map(|node| &self.nodes.nodes[node as usize]);
+        let are_of_one =
+            |groups: &[u32]| group(groups, first) != NO_GROUP && group(groups, first) == group(groups, second);
+        let is_unwanted = !wanted.any_below(first) || !wanted.any_below(second);
+        if is_unwanted
+            || are_of_one(&self.high_valence)
+            || are_of_one(&self.planes)
+            || !a.aabb().intersect_aabb(b.aabb())
+        {
+            return;
+        }
+        match (a.is_leaf(), b.is_leaf()) {
+            (true, true) => push([first, second]),
+            (false, _) if first == second => {
+                let [left, right] = [a.first_index, a.first_index + 1];
+                [[left, left], [right, right], [left, right]].into_iter().for_each(push);
+            }
+            (false, is_leaf) if is_leaf || a.aabb().half_area() >= b.aabb().half_area() => {
+                [a.first_index, a.first_index + 1].into_iter().for_each(|child| push([child, second]));
+            }
+            _ => [b.first_index, b.first_index + 1].into_iter().for_each(|child| push([first, child])),
+        }
+    }
+
+    /// Calls `visit` with each pair of things whose boxes overlap, below one of some pairs of nodes, the lower place first, until it
+    /// returns true; returns whether it did. Pairs around one high-valence vertex, or in one plane, are left out as far as whole
+    /// nodes are, and what lies below nodes of which nothing is wanted.
+    pub(crate) fn pairs_below(
+        &self,
+        node_pairs: &[[u32; 2]],
+        wanted: &NodeSelection,
+        visit: &mut impl FnMut(u32, u32) -> bool,
+    ) -> bool {
+        if self.nodes.nodes.is_empty() {
+            return false;
+        }
+        let (mut open, mut steps, mut is_found) = (node_pairs.to_vec(), 0u64, false);
+        while let Some(pair) = open.pop() {
+            steps += 1;
+            let [a, b] = pair.map(|node| &self.nodes.nodes[node as usize]);
+            if !(a.is_leaf() && b.is_leaf()) {
+                self.halves(pair, wanted, |half| open.push(half));
+                continue;
+            }
+            let mut is_left_out = true;
+            self.halves(pair, wanted, |_| is_left_out = false);
+            if is_left_out {
+                continue;
+            }
+            let (a, b) = if a.first_index <= b.first_index { (a, b) } else { (b, a) };
+            let (firsts, seconds) = (range(a.first_index, a.prim_count), range(b.first_index, b.prim_count));
+            steps += (firsts.len() + seconds.len()) as u64;
+            let around = Box3(*b.aabb());
+            is_found = firsts.filter(|first| self.boxes[*first].overlaps(&around)).any(|first| {
+                (seconds.start.max(first + 1)..seconds.end)
+                    .any(|second| self.boxes[first].overlaps(&self.boxes[second]) && visit(first as u32, second as u32))
+            });
+            if is_found {
+                break;
+            }
+        }
+        add_steps(steps);
+        is_found
     }
 
     /// Calls `visit` with each leaf that overlaps and lies below no node to leave out, until it returns true.
@@ -434,7 +585,7 @@ mod tests {
             assert_eq!(found, [wanted]);
         }
         let mut pairs = Vec::new();
-        tree.pairs(0..tree.batch_count(), |first, second| {
+        tree.pairs(|first, second| {
             let [a, b] = [first, second].map(|place| order[place as usize]);
             pairs.push((a.min(b), a.max(b)));
             false

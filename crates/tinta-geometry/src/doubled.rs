@@ -53,7 +53,7 @@ pub fn doubled_faces(mesh: &Mesh) -> usize {
         faces.iter().map(|face| Box3::new(face.middle - face.near, face.middle + face.near)).collect();
     let (tree, order) = BoxTree::new(&boxes);
     let (mut doubled, mut looked_at) = (0, 0);
-    tree.pairs(0..tree.batch_count(), |first, second| {
+    tree.pairs(|first, second| {
         let [first, second] = [first, second].map(|place| &faces[order[place as usize] as usize]);
         doubled += usize::from(are_doubled(first, second));
         looked_at += 1;

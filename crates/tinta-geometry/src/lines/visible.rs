@@ -2,6 +2,7 @@
 
 pub(super) mod bundles;
 pub(super) mod cast;
+pub(super) mod cover;
 pub(super) mod crossings;
 pub(super) mod doubled;
 pub(super) mod face_image;
@@ -18,6 +19,5 @@ pub(super) mod overlapping_lines;
 pub(super) mod planes;
 pub(super) mod pyramid;
 pub(super) mod ranges;
-pub(super) mod search;
 pub(super) mod space;
 pub(super) mod visibility;

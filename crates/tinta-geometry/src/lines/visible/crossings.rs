@@ -5,6 +5,7 @@ use crate::bvh::Exclusion;
 use crate::lines::visible::faces::Own;
 use crate::lines::visible::image::Image;
 use crate::lines::visible::line_index::LineIndex;
+use crate::lines::visible::occluder_probe::SearchDepth;
 use crate::lines::visible::overlapping_lines::OverlappingLines;
 use crate::tolerances::CONTACT;
 use glam::DVec3;
@@ -24,11 +25,11 @@ impl LineIndex<'_> {
         let touch_px = image.touch_px(self.space);
         let keys = part.map(|place| image.key(place));
         let farthest = keys[0].max(keys[1]);
-        let nearer = [f64::NEG_INFINITY, farthest + farthest.abs() * (2.0 * CONTACT)];
+        let line = self.line(image, SearchDepth::Nearer, farthest.abs() * (2.0 * CONTACT));
         let start = cuts.len();
         // Lines from one position cross nowhere else.
         let excluded = Exclusion { planes: feature.planes, high_valence: feature.own.corners(self.faces) };
-        let are_too_many = self.rims.any_but(&image.part_box(part, touch_px, nearer), excluded, |other_index| {
+        let are_too_many = self.rims.any_along(line, part, excluded, |other_index| {
             if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
                 let touch_px = touch_px.max(other.touch_px(self.space));
                 let occludes = !feature.own.meets(self.features[other_index].own);

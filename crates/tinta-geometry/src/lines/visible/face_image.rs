@@ -24,6 +24,9 @@ const MOST: usize = 200_000;
 const MADE_AT_ONCE: usize = 4096;
 
 impl FaceImage {
+    /// Rounding error of a distance, as a share of the largest coordinate.
+    pub(in crate::lines) const ROUNDING: f64 = 1e-12;
+
     pub(in crate::lines) fn of(space: &Space, faces: &Faces, place: u32) -> Self {
         let points = faces.corners(place).map(|corner| space.project(corner).0);
         let area = (points[1] - points[0]).perp_dot(points[2] - points[0]);
@@ -32,7 +35,7 @@ impl FaceImage {
         let lengths_px = sides.map(DVec2::length);
         let inwards = [0, 1, 2].map(|side| sides[side].perp() * (area.signum() / lengths_px[side]));
         let starts_px = [0, 1, 2].map(|side| inwards[side].dot(points[side]));
-        Self { inwards, starts_px, lengths_px, rounding_px: reach * 1e-12 }
+        Self { inwards, starts_px, lengths_px, rounding_px: reach * Self::ROUNDING }
     }
 
     /// Of all faces by their places, or of none where these are too many to keep. Those that reach through the near plane have

@@ -1,6 +1,6 @@
 //! Lines as they lie in the picture, and trees of them.
 
-use crate::bvh::{Box3, BoxTree, Exclusion, NO_GROUP};
+use crate::bvh::{Box3, BoxTree, Exclusion, Line3, NO_GROUP, Walk};
 use crate::lines::progress::Progress;
 use crate::lines::visible::space::Space;
 use crate::tolerances::TOUCH;
@@ -229,13 +229,38 @@ impl LineTree {
         self.tree.any(query, |place| visit(self.numbers[place as usize] as usize))
     }
 
-    /// The same without lines of some groups, as far as whole leaves of them are.
-    pub(in crate::lines) fn any_but(
+    /// Calls `visit` with each line that may cross a part of another, perhaps several times, until it returns true; returns whether it
+    /// did. Leaves out whole leaves of excluded groups.
+    pub(in crate::lines) fn any_along(
         &self,
-        query: &Box3,
+        line: Line3,
+        part: [f64; 2],
         excluded: Exclusion,
         mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
-        self.tree.any_but(query, excluded, |place| visit(self.numbers[place as usize] as usize))
+        let visit = |place| visit(self.numbers[place as usize] as usize);
+        let mut walk = PartWalk { line, part, visit, is_found: false };
+        self.tree.walk(excluded, &mut walk);
+        walk.is_found
+    }
+}
+
+/// The walk along a part of a line.
+struct PartWalk<F> {
+    line: Line3,
+    part: [f64; 2],
+    visit: F,
+    is_found: bool,
+}
+
+impl<F: FnMut(u32) -> bool> Walk for PartWalk<F> {
+    fn enters(&self, around: &Box3) -> bool {
+        let reaches = |range: [f64; 2]| self.part[0] <= range[1] && self.part[1] >= range[0];
+        self.line.is_near(around) && self.line.range(around).is_some_and(reaches)
+    }
+
+    fn visit(&mut self, place: u32) -> bool {
+        self.is_found = (self.visit)(place);
+        self.is_found
     }
 }

@@ -76,16 +76,16 @@ pub(in crate::lines) fn intersections(
     let is_seen = |place: u32| seen.as_ref().is_none_or(|seen| seen[place as usize]);
     let wanted = seen.as_ref().map_or_else(NodeSelection::default, |seen| faces.tree.wanted(seen));
     let is_open = |ends: [DVec3; 2]| !pyramid.is_some_and(|pyramid| is_hidden(space, pyramid, ends));
-    const BATCHES: usize = 64;
+    let node_pairs = faces.tree.node_pairs(&wanted);
     const PAIRS_A_GLANCE: u32 = 1024;
-    progress.begin(Phase::Intersections, faces.tree.batch_count());
+    progress.begin(Phase::Intersections, node_pairs.len());
     let meeting = Meeting { space, faces, nearest_faces };
     let in_batches = |batches: std::ops::Range<usize>| {
         let (count, before) = (batches.len(), steps());
         let (mut kept, mut pairs) = (Findings::default(), 0u32);
         // Pairs come leaf by leaf, and the places in a leaf follow one another.
         let mut face_planes: [Option<FacePlane>; LARGEST_LEAF as usize] = Default::default();
-        faces.tree.selected_pairs(batches, &wanted, |first, second| {
+        faces.tree.pairs_below(&node_pairs[batches], &wanted, &mut |first, second| {
             pairs = pairs.wrapping_add(1);
             if pairs % PAIRS_A_GLANCE == 0 && progress.is_over() {
                 return true;
@@ -104,8 +104,7 @@ pub(in crate::lines) fn intersections(
         progress.advance(count, steps().wrapping_sub(before));
         kept
     };
-    let mut chunks =
-        spread_chunks(faces.tree.batch_count(), BATCHES, cores(), |batches| counting_steps(|| in_batches(batches)));
+    let mut chunks = spread_chunks(node_pairs.len(), 8, cores(), |batches| counting_steps(|| in_batches(batches)));
     chunks.extend(around_high_valence(&meeting, is_seen, is_open, progress));
     let compared = chunks.iter().map(|(_, steps)| steps).sum();
     if progress.is_over() {

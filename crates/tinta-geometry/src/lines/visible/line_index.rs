@@ -1,6 +1,6 @@
 //! All lines with their images, and the trees in which whatever hides or crosses one is found.
 
-use crate::bvh::{Box3, Exclusion, NO_GROUP};
+use crate::bvh::{Box3, Exclusion, NO_GROUP, Walk};
 use crate::error::Result;
 use crate::lines::input::feature::Feature;
 use crate::lines::progress::Progress;
@@ -31,8 +31,6 @@ pub(in crate::lines) struct LineIndex<'a> {
     pub(in crate::lines) piercings: HashMap<[u32; 2], Vec<DVec3>>,
     /// Where surfaces end: what any line may be crossed by.
     pub(in crate::lines) rims: LineTree,
-    /// What single faces hide; `None` where none is large enough.
-    pub(in crate::lines) pyramid: Option<&'a Pyramid>,
     /// What hides others; `None` where the faces as they are do.
     occluders: Option<Occluders>,
     /// Which faces are nearest; `None` where little lies in front of one another.
@@ -126,7 +124,6 @@ impl<'a> LineIndex<'a> {
             images,
             piercings: pierced,
             rims: rims.tree(progress),
-            pyramid,
             occluders,
             nearest_faces,
             overlapping: overlapping.tree(progress),
@@ -163,6 +160,15 @@ impl<'a> LineIndex<'a> {
         match &self.occluders {
             Some(occluders) => occluders.any_but(query, excluded, visit),
             None => self.faces.tree.any_but(query, excluded, visit),
+        }
+    }
+
+    /// Shows a walk the faces that may hide something, perhaps several times, without those in excluded groups, as far as whole groups
+    /// are.
+    pub(in crate::lines) fn walk_occluders(&self, excluded: Exclusion, walk: &mut impl Walk) {
+        match &self.occluders {
+            Some(occluders) => occluders.walk(excluded, walk),
+            None => self.faces.tree.walk(excluded, walk),
         }
     }
 

@@ -40,9 +40,8 @@ pub(in crate::lines) struct NearestFaces {
 }
 
 impl NearestFaces {
-    /// Faces that are asked about one part of a line, and about a line that is left out as a whole or not at all.
-    pub(in crate::lines) const ASKED: usize = 16;
-    const ASKED_OF_WHOLE: usize = 4;
+    /// Faces that are asked about a line.
+    const ASKED: usize = 4;
 
     /// `None` where little lies in front of one another; of some faces where the time is over before.
     pub(in crate::lines) fn new(space: &Space, faces: &Faces, progress: &Progress) -> Option<Self> {
@@ -108,7 +107,7 @@ impl NearestFaces {
 
     /// What of a part of a line the nearest faces hide for sure, ascending: asked in the middle of the longest gap that is left, as long as
     /// that finds something. `stretch` makes of a part what faces are asked about.
-    pub(in crate::lines) fn hidden(
+    fn hidden(
         &self,
         space: &Space,
         faces: &Faces,
@@ -153,7 +152,7 @@ impl NearestFaces {
         const WHOLE: [f64; 2] = [0.0, 1.0];
         let Some(image) = Image::of(space, line.ends) else { return false };
         let probe = |part: [f64; 2]| OccluderProbe::new(space, faces, line, &image, part, SearchDepth::Nearer);
-        self.hidden(space, faces, WHOLE, probe, Self::ASKED_OF_WHOLE) == [WHOLE]
+        self.hidden(space, faces, WHOLE, probe, Self::ASKED) == [WHOLE]
     }
 }
 

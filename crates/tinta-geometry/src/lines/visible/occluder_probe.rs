@@ -94,6 +94,27 @@ impl OccluderProbe {
         }
     }
 
+    /// Whether the line is a side of a face.
+    pub(in crate::lines) fn has_side_of(&self, numbers: [u32; 3]) -> bool {
+        let is_own = |number: u32| number == self.own_ends[0] || number == self.own_ends[1];
+        u8::from(is_own(numbers[0])) + u8::from(is_own(numbers[1])) + u8::from(is_own(numbers[2])) == 2
+    }
+
+    /// Whether the part lies beyond one side of a face's image by more than any rule forgives, as
+    /// [`Faces::hidden_ranges`] would find at more cost.
+    pub(in crate::lines) fn is_beside(&self, space: &Space, points: [DVec2; 3]) -> bool {
+        let sign = (points[1] - points[0]).perp_dot(points[2] - points[0]).signum();
+        let reach = points.iter().map(|px| px.abs().max_element()).fold(space.size.max_element(), f64::max);
+        let forgiven_px = 2.0 * self.touch_px + reach * FaceImage::ROUNDING;
+        (0..3).any(|side| {
+            let (from, along) = (points[side], points[(side + 1) % 3] - points[side]);
+            // No smaller than the length, and no root.
+            let length = along.abs().element_sum();
+            let is_side = along.abs().max_element() > 2.0 * self.touch_px;
+            is_side && self.px.iter().all(|px| sign * along.perp_dot(*px - from) < -forgiven_px * length)
+        })
+    }
+
     /// A range that a face hides, up to where the line ends in one of its corners, for there both touch, and nothing comes between; and up
     /// to any end that is very near.
     pub(in crate::lines) fn up_to_ends(&self, mut range: [f64; 2], corners: [u32; 3]) -> [f64; 2] {

@@ -7,7 +7,7 @@
 //! And what hides others where many faces are seen edge-on: all but those. They have no image that could hide anything, and the lines in
 //! them lie on one another, where the nearest is asked for.
 
-use crate::bvh::{Box3, BoxTree, Exclusion};
+use crate::bvh::{Box3, BoxTree, Exclusion, Walk};
 use crate::lines::visible::faces::Faces;
 use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
@@ -101,6 +101,11 @@ impl Occluders {
         Some(Self { tree, places })
     }
 
+    /// As [`BoxTree::walk`] of the faces' tree; a face may come several times.
+    pub(in crate::lines) fn walk(&self, excluded: Exclusion, walk: &mut impl Walk) {
+        self.tree.walk(excluded, &mut OfParts { places: &self.places, walk });
+    }
+
     /// As [`BoxTree::any_but`] of the faces' tree; a face may come several times.
     pub(in crate::lines) fn any_but(
         &self,
@@ -109,5 +114,21 @@ impl Occluders {
         mut visit: impl FnMut(u32) -> bool,
     ) -> bool {
         self.tree.any_but(query, excluded, |part| visit(self.places[part as usize]))
+    }
+}
+
+/// A walk over faces that is shown their parts.
+struct OfParts<'a, W> {
+    places: &'a [u32],
+    walk: &'a mut W,
+}
+
+impl<W: Walk> Walk for OfParts<'_, W> {
+    fn enters(&self, around: &Box3) -> bool {
+        self.walk.enters(around)
+    }
+
+    fn visit(&mut self, part: u32) -> bool {
+        self.walk.visit(self.places[part as usize])
     }
 }

@@ -9,21 +9,16 @@ mod runs;
 
 pub(in crate::lines) use runs::readable;
 
-use crate::bvh::Box3;
+use crate::bvh::{Box3, Exclusion};
 use crate::lines::visible::faces::{Faces, NO_FACE, Own, Probe};
 use crate::lines::visible::image::Image;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::SearchDepth;
-use crate::lines::visible::overlapping_lines::OverlappingLines;
 use crate::lines::visible::ranges::hold;
-use crate::lines::visible::search::OccluderCache;
 use crate::lines::visible::space::Space;
 use crate::tolerances::BESIDE;
 use glam::DVec2;
-
-/// Of boxes whose depth does not matter.
-const ANY_KEY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// How long a part is at least that is outline or not, in distances of background that makes it so: at an acute corner the parallel of a
 /// line reaches over the other's, for no more than that from eleven degrees on.
@@ -85,22 +80,21 @@ impl LineIndex<'_> {
     fn background(&self, index: usize, line: &Image, range: [f64; 2], aside: DVec2) -> Vec<[f64; 2]> {
         let image = &Image { a: line.a + aside, b: line.b + aside, ..*line };
         let touch_px = image.touch_px(self.space);
-        let add = |part, most, cuts: &mut Vec<f64>| {
-            let mut count = 0;
-            self.rims.any(&image.part_box(part, touch_px, ANY_KEY), |other_index| {
+        let cover = self.cover(index, image, range, &[], SearchDepth::Any);
+        let mut cuts = Vec::new();
+        for gap in &cover.open {
+            let line = self.line(image, SearchDepth::Any, 0.0);
+            self.rims.any_along(line, *gap, Exclusion::default(), |other_index| {
                 if let Some(other) = self.images[other_index] {
                     cuts.extend(image.meetings(&other, touch_px.max(other.touch_px(self.space))));
                 }
-                count += 1;
-                count > most
-            })
-        };
-        let open_parts = self.look(index, image, range, Vec::new(), SearchDepth::Any, &OccluderCache::default());
-        let mut cuts = self.search(index, image, open_parts, SearchDepth::Any, &OverlappingLines::none(), add);
+                false
+            });
+        }
         let mut background: Vec<[f64; 2]> = Vec::new();
-        for place in self.places(image, range, std::mem::take(&mut cuts.places)).windows(2) {
+        for place in self.places(image, range, cuts).windows(2) {
             let middle = (place[0] + place[1]) * 0.5;
-            if cuts.hides(middle) || self.faces.is_covered(self.space, &self.probe(index, image, middle), touch_px) {
+            if cover.hides(middle) || self.faces.is_covered(self.space, &self.probe(index, image, middle), touch_px) {
                 continue;
             }
             match background.last_mut() {

@@ -11,8 +11,8 @@ use std::cell::OnceCell;
 
 /// The lines that lie on one somewhere, looked for when somebody asks: of most hidden lines nobody does.
 pub(in crate::lines) struct OverlappingLines {
-    /// The line with its image, and between which of its places they matter; `None` where nobody's do.
-    asked: Option<(usize, Image, [f64; 2])>,
+    /// The line with its image, and the places between which they matter.
+    line: (usize, Image, [f64; 2]),
     found: OnceCell<Overlaps>,
 }
 
@@ -29,19 +29,12 @@ const MANY: usize = 12;
 
 impl OverlappingLines {
     pub(in crate::lines) fn new(index: usize, image: &Image, inside: [f64; 2]) -> Self {
-        Self { asked: Some((index, *image, inside)), found: OnceCell::new() }
-    }
-
-    /// No lines.
-    pub(in crate::lines) fn none() -> Self {
-        Self { asked: None, found: OnceCell::new() }
+        Self { line: (index, *image, inside), found: OnceCell::new() }
     }
 
     fn found(&self, lines: &LineIndex) -> &Overlaps {
-        self.found.get_or_init(|| match &self.asked {
-            Some((index, image, inside)) => lines.lying_on(*index, image, *inside),
-            None => Overlaps::Few(Vec::new()),
-        })
+        let (index, image, inside) = &self.line;
+        self.found.get_or_init(|| lines.lying_on(*index, image, *inside))
     }
 
     pub(in crate::lines) fn are_none(&self, lines: &LineIndex) -> bool {

@@ -303,11 +303,6 @@ impl Pyramid {
         nearest_key > self.key_between(low, high)
     }
 
-    /// Whether all between two pixels is covered by a face, at whatever depth.
-    pub(in crate::lines) fn covers(&self, low: DVec2, high: DVec2) -> bool {
-        self.key_between(low, high) < f64::INFINITY
-    }
-
     /// Whether a straight line between two pixels with these keys is hidden all along.
     pub(in crate::lines) fn hides_line(&self, [from, to]: [(DVec2, f64); 2]) -> bool {
         let is_open_at = |(px, key): (DVec2, f64)| !self.hides(px, px, key);

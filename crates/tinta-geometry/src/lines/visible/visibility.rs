@@ -6,17 +6,20 @@
 use crate::bvh::{counting_steps, steps};
 use crate::lines::progress::{Phase, Progress};
 use crate::lines::segment::LineSegment;
+use crate::lines::visible::cover::Cover;
 use crate::lines::visible::image::Image;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
 use crate::lines::visible::occluder_probe::SearchDepth;
 use crate::lines::visible::overlapping_lines::OverlappingLines;
-use crate::lines::visible::search::{Cuts, OccluderCache};
 use crate::threads::{cores, spread_chunks};
 use std::cell::LazyCell;
 
 /// Pieces of one line between two looks at the time.
 const PIECES_A_GLANCE: usize = 64;
+
+/// Cuts of a line above which all faces before the line are looked at in one walk. Up to that, a ray for each piece costs less.
+const MOST: usize = 24;
 
 impl LineIndex<'_> {
     /// The wanted lines' pieces, in the lines' order; with how many boxes were looked at. Of all lines, unless the time is over
@@ -27,13 +30,13 @@ impl LineIndex<'_> {
         // Not one after the other: what is left then takes as long as what is done, and a part is one of the whole picture.
         let parts = spread_chunks(self.features.len(), LINES, cores(), |range| {
             counting_steps(|| {
-                let (mut segments, last) = (Vec::new(), OccluderCache::default());
+                let mut segments = Vec::new();
                 for index in range {
                     if progress.is_over() {
                         break;
                     }
                     let before = steps();
-                    if self.add_segments(index, &last, progress, &mut segments).is_none() {
+                    if self.add_segments(index, progress, &mut segments).is_none() {
                         break;
                     }
                     progress.advance(1, steps().wrapping_sub(before));
@@ -48,13 +51,7 @@ impl LineIndex<'_> {
     }
 
     /// Adds the pieces of a line; `None`, and nothing, where the time is over before all are decided.
-    fn add_segments(
-        &self,
-        index: usize,
-        last: &OccluderCache,
-        progress: &Progress,
-        segments: &mut Vec<LineSegment>,
-    ) -> Option<()> {
+    fn add_segments(&self, index: usize, progress: &Progress, segments: &mut Vec<LineSegment>) -> Option<()> {
         let feature = &self.features[index];
         let (Some(class), Some(image)) = (feature.class, self.images[index]) else { return Some(()) };
         let Some(inside) = image.inside(self.space.size, 0.0) else { return Some(()) };
@@ -62,35 +59,49 @@ impl LineIndex<'_> {
             return Some(());
         }
         let behind = self.behind_nearest(index, &image, inside);
-        let open_parts = self.look(index, &image, inside, behind, SearchDepth::Nearer, last);
-        if !self.finds_hidden && open_parts.open.is_empty() {
+        let overlapping = OverlappingLines::new(index, &image, inside);
+        let mut cuts = Vec::new();
+        let add = |cover: &Cover, most, cuts: &mut Vec<f64>| {
+            cover.open.iter().any(|gap| self.add_cuts(index, &image, &overlapping, *gap, most, cuts))
+        };
+        let mut cover = self.unknown_cover(inside, &behind);
+        if add(&cover, MOST, &mut cuts) {
+            cuts.clear();
+            cover = self.cover(index, &image, inside, &behind, SearchDepth::Nearer);
+            if !self.finds_hidden {
+                let mut hidden = Vec::new();
+                for gap in &cover.open {
+                    self.behind_overlapping_lines(index, &image, &overlapping, *gap, &mut hidden);
+                }
+                cover = self.hide_all(cover, &image, hidden);
+            }
+            add(&cover, usize::MAX, &mut cuts);
+        }
+        if !self.finds_hidden && cover.open.is_empty() {
             return Some(());
         }
-        let overlapping = OverlappingLines::new(index, &image, inside);
-        let add = |part, most, cuts: &mut Vec<f64>| self.add_cuts(index, &image, &overlapping, part, most, cuts);
-        let mut cuts = self.search(index, &image, open_parts, SearchDepth::Nearer, &overlapping, add);
-        self.add_piercings(index, &image, &mut cuts.places);
+        self.add_piercings(index, &image, &mut cuts);
         if self.finds_hidden {
             // The box of one that is upright or level holds no other.
             let is_thin = (image.b - image.a).abs().min_element() < 1.0;
             let longest = if is_thin { f64::INFINITY } else { self.space.size.max_element() / PARTS_OF_PICTURE };
             for part in image.parts(inside, longest) {
-                self.add_overlaps(index, &image, &overlapping, part, usize::MAX, &mut cuts.places);
+                self.add_overlaps(index, &image, &overlapping, part, usize::MAX, &mut cuts);
             }
         }
         let mut pieces: Vec<Interval> = Vec::new();
-        let places = self.places(&image, inside, std::mem::take(&mut cuts.places));
+        let places = self.places(&image, inside, cuts);
         for (number, place) in places.windows(2).enumerate() {
             if number % PIECES_A_GLANCE == PIECES_A_GLANCE - 1 && progress.is_over() {
                 return None;
             }
             let [from, to] = [place[0], place[1]];
             let place = (from + to) * 0.5;
-            let is_hidden = cuts.hides(place);
+            let is_hidden = cover.hides(place);
             if is_hidden && !self.finds_hidden {
                 continue;
             }
-            let Some(is_visible) = self.state(index, &image, &overlapping, place, is_hidden, &cuts) else { continue };
+            let Some(is_visible) = self.state(index, &image, &overlapping, place, is_hidden, &cover) else { continue };
             match pieces.last_mut() {
                 Some(last) if last.is_visible == is_visible && last.to == from => last.to = to,
                 _ => pieces.push(Interval { from, to, is_visible, background: [false; 2] }),
@@ -129,7 +140,7 @@ impl LineIndex<'_> {
         overlapping: &OverlappingLines,
         place: f64,
         is_hidden: bool,
-        cuts: &Cuts,
+        cover: &Cover,
     ) -> Option<bool> {
         let probe = LazyCell::new(|| self.probe(index, image, place));
         let is_nearest =
@@ -138,6 +149,6 @@ impl LineIndex<'_> {
             let planes = self.features[index].planes;
             self.faces.leave_open(self.space, &probe, |column, visit| self.any_occluder(column, planes, visit))
         };
-        Some(is_nearest && !is_hidden && (cuts.leave_open(place) || leave_open()))
+        Some(is_nearest && !is_hidden && (cover.leaves_open(place) || leave_open()))
     }
 }

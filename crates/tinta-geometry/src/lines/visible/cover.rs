@@ -1,0 +1,163 @@
+//! The parts of a line that faces hide for sure, and those that they may hide: one walk of the tree of faces, front to back.
+//!
+//! The walk keeps the parts of the line that no face hides yet, and enters only boxes that one of these parts reaches. Each face
+//! in them answers with two ranges ([`Faces::hidden_ranges`](crate::lines::visible::faces::Faces)): where it hides the line by
+//! more than any tolerance, and where it may hide it. The walk ends when nothing is left. Only the parts that a face may hide
+//! need a ray and the exact rules.
+
+use crate::bvh::{Box3, Exclusion, Line3, Walk};
+use crate::lines::visible::face_image::FaceImage;
+use crate::lines::visible::image::Image;
+use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
+use crate::lines::visible::occluder_probe::{OccluderProbe, ProbedLine, SearchDepth};
+use crate::lines::visible::ranges::{gaps, hold, united};
+
+/// The parts of a line that are hidden, and those that may be.
+#[derive(Default)]
+pub(in crate::lines) struct Cover {
+    /// The parts that are hidden for sure.
+    hidden: Vec<[f64; 2]>,
+    /// The parts that something may hide.
+    maybe: Vec<[f64; 2]>,
+    /// Ascending parts that are not hidden for sure.
+    pub open: Vec<[f64; 2]>,
+}
+
+impl Cover {
+    /// Whether a place is hidden for sure.
+    pub(in crate::lines) fn hides(&self, place: f64) -> bool {
+        hold(&self.hidden, place)
+    }
+
+    /// Whether no face hides a place, for sure.
+    pub(in crate::lines) fn leaves_open(&self, place: f64) -> bool {
+        !hold(&self.maybe, place)
+    }
+
+    /// Hides another part. Parts of the rest that are no longer than `least` are no longer open.
+    fn hide(&mut self, part: [f64; 2], least: f64) {
+        self.hidden.push(part);
+        let is_outside = |gap: &[f64; 2]| part[1] <= gap[0] || part[0] >= gap[1];
+        if self.open.iter().all(is_outside) {
+            return;
+        }
+        let rest_of = |gap: [f64; 2]| match is_outside(&gap) {
+            true => [Some(gap), None],
+            false => {
+                [[gap[0], part[0]], [part[1], gap[1]]].map(|rest| Some(rest).filter(|rest| rest[1] - rest[0] > least))
+            }
+        };
+        self.open = std::mem::take(&mut self.open).into_iter().flat_map(rest_of).flatten().collect();
+    }
+
+    /// Ascending ranges, for lookup.
+    fn sorted(self) -> Self {
+        Self { hidden: united(self.hidden), maybe: united(self.maybe), open: self.open }
+    }
+}
+
+/// Faces that a walk remembers: a large face comes once for each of its parts.
+const REMEMBERED: usize = 256;
+
+/// The walk for one line.
+struct CoverWalk<'a> {
+    lines: &'a LineIndex<'a>,
+    line: Line3,
+    probe: OccluderProbe,
+    cover: Cover,
+    least: f64,
+    /// Whether the line's box tells as much as the line.
+    is_short: bool,
+    remembered: [Option<u32>; REMEMBERED],
+}
+
+impl Walk for CoverWalk<'_> {
+    fn enters(&self, around: &Box3) -> bool {
+        if !self.line.is_near(around) {
+            return false;
+        }
+        let is_whole = self.cover.hidden.is_empty();
+        let reaches = |[from, to]: [f64; 2]| self.cover.open.iter().any(|open| open[0] <= to && open[1] >= from);
+        self.is_short && is_whole || self.line.range(around).is_some_and(reaches)
+    }
+
+    fn visit(&mut self, face: u32) -> bool {
+        let remembered = &mut self.remembered[face as usize % REMEMBERED];
+        if self.probe.has_side_of(self.lines.faces.triangles[face as usize]) || remembered.replace(face) == Some(face) {
+            return false;
+        }
+        let [sure, may] = self.lines.hidden_ranges(face, &self.probe);
+        if let Some(sure) = sure {
+            self.cover.hide(sure, self.least);
+        }
+        self.cover.maybe.extend(may);
+        self.cover.open.is_empty()
+    }
+}
+
+impl LineIndex<'_> {
+    /// The cover of a line whose faces nobody asked: anything may hide it. Some parts are known to be hidden.
+    pub(in crate::lines) fn unknown_cover(&self, inside: [f64; 2], hidden: &[[f64; 2]]) -> Cover {
+        Cover { hidden: hidden.to_vec(), maybe: vec![inside], open: gaps(inside, hidden) }
+    }
+
+    /// The cover of a line between two places, some parts of which are known to be hidden.
+    pub(in crate::lines) fn cover(
+        &self,
+        index: usize,
+        image: &Image,
+        inside: [f64; 2],
+        hidden: &[[f64; 2]],
+        search_depth: SearchDepth,
+    ) -> Cover {
+        let least = self.shortest_px / image.length();
+        let is_long = |gap: &[f64; 2]| *gap == inside || gap[1] - gap[0] > least;
+        let open: Vec<[f64; 2]> = gaps(inside, hidden).into_iter().filter(is_long).collect();
+        let cover = Cover { hidden: hidden.to_vec(), open, maybe: Vec::new() };
+        if cover.open.is_empty() {
+            return cover.sorted();
+        }
+        let feature = &self.features[index];
+        let line = ProbedLine { own: feature.own, ends: feature.ends, weld: feature.weld };
+        let mut walk = CoverWalk {
+            lines: self,
+            line: self.line(image, search_depth, 0.0),
+            probe: OccluderProbe::new(self.space, self.faces, line, image, inside, search_depth),
+            cover,
+            least,
+            is_short: image.length() * PARTS_OF_PICTURE < self.space.size.max_element(),
+            remembered: [None; REMEMBERED],
+        };
+        self.walk_occluders(Exclusion::planes(feature.planes), &mut walk);
+        walk.cover.sorted()
+    }
+
+    /// Hides the parts of a line that lie in the picture on nearer lines.
+    pub(in crate::lines) fn hide_all(&self, cover: Cover, image: &Image, hidden: Vec<[f64; 2]>) -> Cover {
+        let mut cover = cover;
+        hidden.into_iter().for_each(|part| cover.hide(part, self.shortest_px / image.length()));
+        cover.sorted()
+    }
+
+    /// The line that boxes are tested against: what begins at most `slack` behind it counts, or everything at any depth.
+    pub(in crate::lines) fn line(&self, image: &Image, search_depth: SearchDepth, slack: f64) -> Line3 {
+        /// Behind everything.
+        const FARTHEST: f64 = 1e300;
+        let keys = if search_depth == SearchDepth::Any { [FARTHEST; 2] } else { image.keys };
+        Line3::new([image.a.extend(keys[0]), image.b.extend(keys[1])], image.touch_px(self.space), slack)
+    }
+
+    /// The part of a line that a face hides for sure, on both sides, and the part that it may hide.
+    fn hidden_ranges(&self, face: u32, probe: &OccluderProbe) -> [Option<[f64; 2]>; 2] {
+        if let Some(nearest_faces) = self.nearest_faces {
+            let image = nearest_faces.image(self.space, self.faces, face);
+            return self.faces.hidden_ranges(self.space, face, &image, probe);
+        }
+        // Most faces lie beside the line, and this is sooner known than what else their images tell.
+        let points = self.faces.corners(face).map(|corner| self.space.project(corner).0);
+        if self.faces.cut_by_near.is_empty() && probe.is_beside(self.space, points) {
+            return [None; 2];
+        }
+        self.faces.hidden_ranges(self.space, face, &FaceImage::of(self.space, self.faces, face), probe)
+    }
+}
