@@ -29,7 +29,7 @@ fn lists_whose_jobs_write_the_same_by_a_number_or_in_a_folder_are_refused_before
     );
     refuse(
         &[turn("a", "x/%02d.png", 12), turn("b", "x/1%d.png", 2)],
-        "line 2: output: x/1%d.png writes x/11.png, and so",
+        "line 2: output: x/1%d.png writes x/11.png, as does",
     );
     refuse(
         &[turn("a", "%d0.png", 12), one("b", "110.png")],

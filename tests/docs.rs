@@ -49,7 +49,7 @@ const FOLDERS: [&str; 20] = [
 fn named_paths(line: &str) -> impl Iterator<Item = &str> {
     let is_end =
         |letter: char| letter.is_whitespace() || matches!(letter, '`' | '(' | ')' | '[' | ']' | '"' | ',' | ';' | ':');
-    let words = line.split(is_end).map(|word| word.trim_end_matches('.'));
+    let words = line.split(is_end).map(|word| word.split('#').next().unwrap().trim_end_matches('.'));
     words.filter(|word| {
         FOLDERS.iter().any(|folder| word.starts_with(folder))
             && !word.contains(['*', '…', '%', '{', '<', '$', '|'])

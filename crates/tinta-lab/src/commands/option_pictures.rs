@@ -60,12 +60,12 @@ fn sections(page: &str) -> Vec<Section> {
             text.lines().find_map(|line| line.strip_prefix("    ")).unwrap_or_else(|| panic!("no command: {option}"));
         let picture = text
             .split("](")
-            .find(|rest| rest.starts_with("../pictures/"))
+            .find_map(|rest| rest.strip_prefix("../").filter(|rest| rest.starts_with("pictures/")))
             .and_then(|rest| rest.split(')').next())
             .unwrap_or_else(|| panic!("no picture: {option}"));
         let words: Vec<String> = command.split_whitespace().map(str::to_owned).collect();
         assert_eq!(words[0], "tinta", "{option}: {command}");
-        sections.push(Section { option, words, picture: root().join("docs/guide").join(picture) });
+        sections.push(Section { option, words, picture: root().join("docs").join(picture) });
     }
     sections
 }

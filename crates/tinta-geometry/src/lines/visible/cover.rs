@@ -29,9 +29,9 @@ impl Cover {
         hold(&self.hidden, place)
     }
 
-    /// Whether no face hides a place, for sure.
+    /// Whether no face hides a place, for sure. Unknown in rests too short to be open: the walk may end before it meets their faces.
     pub(in crate::lines) fn leaves_open(&self, place: f64) -> bool {
-        !hold(&self.maybe, place)
+        hold(&self.open, place) && !hold(&self.maybe, place)
     }
 
     /// Hides another part. Parts of the rest that are no longer than `least` are no longer open.
