@@ -49,17 +49,17 @@ use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// What a browser calls GL_CONTEXT_LOST.
+/// WebGL's name for GL_CONTEXT_LOST.
 const CONTEXT_LOST_WEBGL: u32 = 0x9242;
 
-/// The loaded GL functions of one context, what it says about itself, and how many of its objects are alive.
+/// One context's loaded GL functions, its information, and the number of its live objects.
 pub(crate) struct Gl {
     glow: Rc<glow::Context>,
     legacy: Legacy,
     /// What draws without buffers; else the name of the first function of it that the driver lacks.
     immediate: std::result::Result<Immediate, String>,
     info: ContextInfo,
-    /// What stands for the surface of a context without one.
+    /// The framebuffer object that replaces the surface in a context without one.
     #[cfg(any(target_os = "macos", test))]
     surface: Option<context::SurfaceFramebuffer>,
     live_objects: Cell<usize>,
@@ -70,7 +70,7 @@ pub(crate) struct Gl {
 }
 
 impl Gl {
-    /// The framebuffer that is the context's own: 0, or what stands for it.
+    /// The context's own framebuffer: 0, or the framebuffer object that replaces it.
     fn own_framebuffer(&self) -> Option<glow::Framebuffer> {
         #[cfg(any(target_os = "macos", test))]
         return self.surface.as_ref().map(context::SurfaceFramebuffer::id);
@@ -97,7 +97,7 @@ impl Gl {
         Ok(())
     }
 
-    /// Refuses to go on with a context that is lost.
+    /// Returns an error if the context is lost.
     pub(crate) fn refuse_if_lost(&self, during: &str) -> Result<()> {
         match self.lost.get() {
             None => Ok(()),

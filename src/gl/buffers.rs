@@ -1,4 +1,4 @@
-//! What of scenes lies on the device: meshes, lists of faces, paint, edges.
+//! Scene data on the device: meshes, lists of faces, paint, edges.
 
 use super::objects::Buffer;
 use crate::mesh::{Mesh, Part};

@@ -1,4 +1,4 @@
-//! Edges drawn by GL: indices into the objects' own vertices, so that a line lies where the faces beside it do.
+//! Edges drawn by GL from indices into the objects' own vertices. Lines therefore lie exactly on the faces next to them.
 
 use super::Gl;
 use super::buffers::EdgeIndices;
@@ -162,7 +162,7 @@ impl Resources {
     }
 }
 
-/// What a mark is drawn as, and the capability that smooths it.
+/// The GL primitive of a mark, and the capability that smooths it.
 fn smoothed(mark: Mark) -> (u32, u32) {
     match mark {
         Mark::Lines => (glow::LINES, glow::LINE_SMOOTH),

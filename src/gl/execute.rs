@@ -29,7 +29,7 @@ pub(crate) struct Resources {
     pub(super) coordinates: Vec<OfVertices<[f32; 2]>>,
     pub(super) colors: Vec<OfVertices<[f32; 4]>>,
     pub(super) squares: Option<Buffer>,
-    /// What is drawn of the whole, which is as large as the picture or a multiple of it.
+    /// The tile of the whole surface, whose size is the picture's or a multiple of it.
     pub(super) tile: Tile,
     /// How many times as wide and high as the picture the whole is.
     supersample: u32,
@@ -38,7 +38,7 @@ pub(crate) struct Resources {
     /// Whether the steps draw into textures instead of the framebuffer.
     into_textures: bool,
     pub(super) textures: Textures,
-    /// Whether what has no shaders is drawn by the driver, as in OpenGL 2.1, or by shaders that do the same.
+    /// Whether the driver draws steps without shaders, as in OpenGL 2.1; otherwise equivalent shaders draw them.
     pub(super) has_pipeline: bool,
     /// The edges last drawn as lines and as points, as indices on the device.
     pub(super) edges: [Option<EdgeIndices>; 2],
@@ -68,7 +68,7 @@ impl Resources {
         }
     }
 
-    /// Compiles, uploads and sets up whatever this plan needs that is not there yet, and lets go of other scenes' meshes.
+    /// Compiles, uploads and sets up whatever this plan still lacks, and releases other scenes' meshes.
     pub(crate) fn prepare(&mut self, scene: &Scene, plan: &Plan) -> Result<()> {
         let gl = self.gl.clone();
         // SAFETY: the context is current; these are state calls of GL 2.1 with valid names.
@@ -109,14 +109,14 @@ impl Resources {
         gl.check("setting up")
     }
 
-    /// What of a prepared plan the steps that follow draw: all of it, or one of its tiles.
+    /// Selects the part of a prepared plan that the following steps draw: all of it, or one tile.
     pub(crate) fn begin_tile(&mut self, plan: &Plan, tile: Tile) -> Result<()> {
         self.tile = tile;
         self.supersample = plan.supersample;
         self.targets.prepare(&self.gl.clone(), plan, tile.size())
     }
 
-    /// What the steps that follow draw into, of a prepared plan, and the pixels they may change.
+    /// Selects the target of the following steps of a prepared plan, and the pixels they may change.
     pub(crate) fn begin(&mut self, target: Target, scissor: Option<Rectangle>) -> Result<()> {
         self.pass_scissor = scissor;
         self.into_textures = matches!(target, Target::Textures(_));
@@ -167,7 +167,7 @@ impl Resources {
             }
             _ => [corner[0], corner[1], viewport.width as i32, viewport.height as i32],
         };
-        // SAFETY: the context is current; the size is within its limits, by which tiles are made.
+        // SAFETY: the context is current; tiles keep the size within its limits.
         unsafe { self.gl.glow.viewport(x, y, width, height) };
         self.set_state(draw);
         self.bind_textures(draw)?;
@@ -193,7 +193,7 @@ impl Resources {
             }
             Geometry::BackgroundSquare { color } => {
                 let far_away = Mat4::from_translation(Vec3::new(0.0, 0.0, -BACKGROUND_DISTANCE));
-                // x and y as they are, depth that of the far plane: a parallel projection that fills the picture.
+                // x and y unchanged, depth that of the far plane: a parallel projection that fills the picture.
                 let flat = Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::ZERO, Vec4::new(0.0, 0.0, 1.0, 1.0));
                 self.draw_square(0, *color, &far_away, &self.in_tile(flat))?;
             }
@@ -262,7 +262,8 @@ impl Resources {
         Ok(())
     }
 
-    /// What a copying step copies: all of the tile, or what its pass is confined to; nothing is read beyond that.
+    /// The rectangle that a copying step copies: the whole tile, or the part its pass is confined to; pixels outside are never
+    /// read.
     fn copied_part(&self) -> Option<Rectangle> {
         self.pass_scissor.and_then(|scissor| self.tile.part(scissor))
     }
@@ -288,7 +289,7 @@ impl Resources {
         // SAFETY: the context is current; the names are of GL 2.1.
         unsafe {
             if self.has_pipeline {
-                // Drivers can be told to smooth every polygon, which C. Dachsbacher's article warns of (errata D13).
+                // Driver settings can smooth every polygon; C. Dachsbacher's article warns of this (errata D13).
                 gl.disable(glow::POLYGON_SMOOTH);
             }
             match draw.depth {
@@ -386,7 +387,7 @@ impl Resources {
         self.gl.check(during)
     }
 
-    /// Refuses to go on with a context that is lost.
+    /// Returns an error if the context is lost.
     pub(crate) fn refuse_if_lost(&self, during: &str) -> Result<()> {
         self.gl.refuse_if_lost(during)
     }
@@ -421,7 +422,7 @@ impl Resources {
         paths
     }
 
-    /// Compiles a shader by itself and lets go of it; in a browser, which compiles whole programs alone, it is only rewritten.
+    /// Compiles a single shader and releases it. In a browser, which compiles only whole programs, the shader is only rewritten.
     pub(crate) fn compile(&self, path: &str) -> Result<()> {
         let source = sources::of_shader(&self.gl, path)?;
         if legacy::HAS_PIPELINE { Shader::new(&self.gl, &source).map(drop) } else { Ok(()) }
@@ -432,7 +433,7 @@ impl Resources {
         *self = Self::new(&self.gl.clone());
     }
 
-    /// Lets go of everything without a word to GL, for a context that is lost.
+    /// Drops everything without calling GL, for a lost context.
     pub(crate) fn forget(&mut self) {
         std::mem::forget(std::mem::replace(self, Self::new(&self.gl.clone())));
     }

@@ -10,12 +10,12 @@ mod stand_ins;
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) use stand_ins::{Faults, set_current};
 
-/// What is to go wrong.
+/// The fault to simulate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
-    /// The driver refuses to make a context: it is asked for an OpenGL that does not exist.
+    /// The driver refuses to make a context: an OpenGL version that does not exist is requested.
     ContextRefused,
-    /// The driver refuses to compile a shader, the one after `after` others: it is given a text that is none.
+    /// The driver refuses to compile a shader, the one after `after` others: it gets an invalid text.
     ShaderRefused {
         /// How many it takes before.
         after: u32,
@@ -25,13 +25,13 @@ pub enum Fault {
         /// How many there is room for before.
         after: u32,
     },
-    /// The context is lost, as when a device is reset, after `after` uploads, clears and draws. From then on nothing is done,
-    /// no object made, and GL_CONTEXT_LOST is the answer to every question after errors, for ever (KHR_robustness).
+    /// The context is lost, as after a device reset, after `after` uploads, clears and draws. From then on every call does
+    /// nothing, and every query for errors returns GL_CONTEXT_LOST (KHR_robustness).
     ContextLost {
         /// How many are done before.
         after: u32,
     },
-    /// The same, but nothing is said unless the driver is asked for its reset status (ARB_robustness).
+    /// The same, but only the reset status reports it (ARB_robustness).
     ContextReset {
         /// How many are done before.
         after: u32,

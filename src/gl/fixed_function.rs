@@ -34,7 +34,7 @@ pub(super) fn program_of(draw: &Draw, has_pipeline: bool) -> Option<Program> {
     }
 }
 
-/// What a texture unit's sampler is called where the program is one of these.
+/// The sampler name of a texture unit, if the program is one of these.
 pub(super) fn sampler(draw: &Draw, program: &Program, unit: u32) -> Option<&'static str> {
     if draw.program.as_ref() == Some(program) { None } else { SAMPLERS.get(unit as usize).copied() }
 }

@@ -1,7 +1,7 @@
-//! glBegin to glEnd: the calls by which vertices reached GL before buffers, loaded by name, as glow lacks them.
+//! glBegin to glEnd: the calls that passed vertices to GL before buffers. They are loaded by name, as glow lacks them.
 //!
-//! In: vertices on this side, in the order they are drawn. Out: the same picture as by buffers, by a call for each vertex and
-//! attribute. Only what a draw reads is sent: normals go to shaders, texture coordinates to the units that have them.
+//! In: vertices in main memory, in drawing order. Out: the same picture as with buffers, by a call for each vertex and attribute.
+//! Only data that a draw reads is sent: normals to shaders, texture coordinates to the units that have them.
 
 use super::legacy::FIXED_UNITS;
 use std::ffi::{CStr, c_void};
@@ -49,7 +49,7 @@ pub(super) enum Places<'a> {
 }
 
 impl<'a> Vertices<'a> {
-    /// Vertices that have neither colours nor texture coordinates of their own.
+    /// Vertices without colours and texture coordinates.
     pub(super) fn new(mode: u32, places: Places<'a>, indices: &'a [u32]) -> Self {
         Self { mode, places, indices, colors: None, coordinates: [None; FIXED_UNITS as usize] }
     }

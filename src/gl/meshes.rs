@@ -14,7 +14,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 impl Resources {
-    /// Uploads the scene's meshes that are not there yet and lets go of others.
+    /// Uploads the scene's missing meshes and releases the others.
     pub(super) fn upload_meshes(&mut self, scene: &Scene) -> Result<()> {
         let is_used = |buffers: &MeshBuffers| {
             buffers.unit == scene.radius && scene.objects.iter().any(|object| Arc::ptr_eq(&object.mesh, &buffers.mesh))
@@ -28,7 +28,7 @@ impl Resources {
         Ok(())
     }
 
-    /// Uploads the texture coordinates and colours this plan paints by that are not there yet and lets go of others.
+    /// Uploads the missing texture coordinates and colours that this plan paints with, and releases the others.
     pub(super) fn upload_paint(&mut self, plan: &Plan) -> Result<()> {
         let (mut coordinates, mut colors) = (Vec::new(), Vec::new());
         for (_, step) in plan.steps() {
@@ -46,7 +46,7 @@ impl Resources {
         upload(&self.gl, &mut self.colors, &colors)
     }
 
-    /// Uploads the lists of faces this plan draws that are not there yet and lets go of others.
+    /// Uploads the missing lists of faces that this plan draws, and releases the others.
     pub(super) fn upload_faces(&mut self, scene: &Scene, plan: &Plan) -> Result<()> {
         let lists: Vec<(usize, &Arc<FaceList>)> = plan
             .steps()
@@ -194,7 +194,7 @@ struct RunOfFaces<'a> {
     has_normals: bool,
 }
 
-/// Uploads lists that are not there yet and lets go of those not wanted.
+/// Uploads missing lists and releases unused ones.
 fn upload<T: bytemuck::NoUninit>(gl: &Rc<Gl>, present: &mut Vec<OfVertices<T>>, wanted: &[&Arc<Vec<T>>]) -> Result<()> {
     present.retain(|present| wanted.iter().any(|list| Arc::ptr_eq(list, &present.list)));
     for list in wanted {
@@ -212,7 +212,7 @@ fn buffer_of<'a, T>(present: &'a [OfVertices<T>], list: &Arc<Vec<T>>) -> Result<
     found.map(|present| &present.buffer).ok_or_else(of_another_scene)
 }
 
-/// What a paint has for each vertex of an object.
+/// A paint's data for each vertex of an object.
 #[derive(Clone, Copy, Default)]
 struct PaintLists<'a> {
     coordinates: Option<&'a Arc<Vec<[f32; 2]>>>,

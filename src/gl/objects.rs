@@ -106,7 +106,7 @@ impl Texture {
         }
     }
 
-    /// Its name, for what it is attached to.
+    /// The texture's name, for attaching it.
     pub(super) fn id(&self) -> glow::Texture {
         self.id
     }

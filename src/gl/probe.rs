@@ -1,6 +1,6 @@
-//! Whether a driver does as OpenGL says in what the styles rest on: alpha, copies, polygon offset, smoothed lines.
+//! Probes whether a driver follows OpenGL where the styles depend on it: alpha, copies, polygon offset, smoothed lines.
 //!
-//! In: a context that is current, with a surface of [`SIDE`] pixels. Out: a [`Probe`] for each question, with what was counted.
+//! In: a current context with a surface of [`SIDE`] pixels. Out: a [`Probe`] with counts for each feature.
 
 use super::Gl;
 use super::immediate::{Places, Vertices};
@@ -25,11 +25,11 @@ const LINE_SHARE: [f64; 2] = [0.8, 1.25];
 /// A question to a driver, and its answer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Probe {
-    /// What was asked about.
+    /// The probed feature.
     pub name: &'static str,
     /// Whether the driver does as it should.
     pub passed: bool,
-    /// What was counted.
+    /// The counts.
     pub counted: String,
 }
 
@@ -42,7 +42,7 @@ impl Probe {
 /// Asks all of it.
 pub(crate) fn probes(gl: &Rc<Gl>) -> Result<Vec<Probe>> {
     let side = SIDE as i32;
-    // SAFETY: the context is current; this is the state of a new one but for the viewport.
+    // SAFETY: the context is current and in its initial state, except for the viewport.
     unsafe {
         gl.legacy.load_matrix(MODELVIEW, &glam::Mat4::IDENTITY);
         gl.legacy.load_matrix(PROJECTION, &glam::Mat4::IDENTITY);
@@ -71,7 +71,7 @@ fn pixels(gl: &Gl) -> Vec<u8> {
     pixels
 }
 
-/// Each of the 256 alphas comes back as it was cleared to.
+/// Each of the 256 alphas reads back as the value it was cleared to.
 fn alpha(gl: &Gl) -> Probe {
     let comes_back = |value: &u8| {
         // SAFETY: the context is current.
@@ -98,7 +98,7 @@ fn clear_columns(gl: &Gl, clear: impl Fn(u8)) {
     unsafe { gl.glow.disable(glow::SCISSOR_TEST) };
 }
 
-/// What a texture holds into which all of the surface was copied.
+/// Returns a texture's contents after copying the whole surface into it.
 fn copied(gl: &Rc<Gl>, format: u32, bytes_per_pixel: u32) -> Result<Vec<u8>> {
     let texture = Texture::new(gl, glow::TEXTURE_2D, Sampling::NearestClamped)?;
     texture.bind(0);
@@ -186,7 +186,7 @@ fn polygon_offset(gl: &Gl) -> Result<Probe> {
     Ok(Probe { name: "polygon offset", passed: behind == [all, 0], counted })
 }
 
-/// A slanted line one pixel wide has pixels partly covered, and as much ink in all as it is long.
+/// A slanted line one pixel wide has partly covered pixels, and its total ink equals its length.
 fn smooth_line(gl: &Gl) -> Result<Probe> {
     const ENDS: [[f32; 4]; 2] = [[-0.75, -0.5, 0.0, 1.0], [0.75, 0.25, 0.0, 1.0]];
     // SAFETY: the context is current.

@@ -3,9 +3,9 @@
 use crate::scene::Size;
 use glam::{Vec2, Vec4};
 
-/// Four corners a line, in clip space: the line's image widened at right angles to itself.
+/// Returns four corners per line in clip space: the line's image, widened at right angles to the line.
 ///
-/// `ends` are in clip space; what lies before the near plane is cut off, lines seen end-on have no image.
+/// `ends` are in clip space. Parts before the near plane are cut off; lines seen end-on have no image.
 pub(super) fn line_quads(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, width_px: f32) -> Vec<[f32; 4]> {
     let pixels = half_size(size);
     ends.filter_map(behind_near_plane)

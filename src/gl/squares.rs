@@ -1,4 +1,4 @@
-//! The squares that fill the picture, and what lies on their corners.
+//! The squares that fill the picture, and the values at their corners.
 
 use super::execute::Resources;
 use super::immediate::{Places, Vertices};
@@ -29,7 +29,7 @@ impl Resources {
         Ok(())
     }
 
-    /// The square from this corner on.
+    /// Draws the square that starts at this corner.
     pub(super) fn draw_square(
         &self,
         first: u32,
@@ -46,7 +46,7 @@ impl Resources {
         self.draw_corners(legacy::QUADS, first, 4)
     }
 
-    /// What lies on some corners of the squares.
+    /// Draws some corners of the squares.
     pub(super) fn draw_corners(&self, mode: u32, first: u32, count: u32) -> Result<()> {
         if self.submission != Submission::Buffers {
             let indices: Vec<u32> = (first..first + count).collect();

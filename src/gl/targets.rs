@@ -23,7 +23,7 @@ pub(super) struct Targets {
 }
 
 impl Targets {
-    /// Makes what the plan draws into where there is none of this size yet.
+    /// Makes the plan's targets, unless they exist at this size.
     pub(super) fn prepare(&mut self, gl: &Rc<Gl>, plan: &Plan, size: Size) -> Result<()> {
         check(&gl.info, plan)?;
         if !legacy::COPIES_DEPTH && plan.steps().any(|(_, step)| *step == Step::CopyDepth) {
@@ -35,14 +35,14 @@ impl Targets {
         let attachments = plan.attachments();
         let is_there = |drawn: &TextureTargets| drawn.size == size && drawn.attachments == attachments;
         if !attachments.is_empty() && !self.drawn.as_ref().is_some_and(is_there) {
-            // The old ones first: at the largest sizes there is no room for both.
+            // Drop the old targets first: at the largest sizes the memory cannot hold both.
             self.drawn = None;
             self.drawn = Some(TextureTargets::new(gl, size, attachments)?);
         }
         Ok(())
     }
 
-    /// What is drawn next goes there.
+    /// Makes the target current for the following draws.
     pub(super) fn begin(&self, gl: &Gl, target: Target) -> Result<()> {
         let framebuffer = match target {
             Target::Framebuffer => None,
@@ -140,7 +140,7 @@ fn copy(gl: &Rc<Gl>, copied: &mut Option<Copied>, format: u32, size: Size, part:
 struct TextureTargets {
     size: Size,
     attachments: Vec<&'static Attachments>,
-    /// One for each of `attachments`; dropped before what they draw into.
+    /// One for each of `attachments`; dropped before the textures they draw into.
     framebuffers: Vec<Framebuffer>,
     textures: Vec<(Drawn, Format, Texture)>,
     /// Kept for the framebuffers, which draw into it.

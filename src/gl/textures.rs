@@ -1,4 +1,4 @@
-//! The textures of plans and materials on the device, kept while they are wanted.
+//! The textures of plans and materials on the device, kept while they are in use.
 
 use super::Gl;
 use super::legacy;
@@ -25,7 +25,7 @@ pub(super) struct Textures {
 }
 
 impl Textures {
-    /// Uploads what this plan reads and is not there yet, and lets go of what it does not read.
+    /// Uploads the missing textures that this plan reads, and releases the others.
     pub(super) fn prepare(&mut self, gl: &Rc<Gl>, scene: &Scene, plan: &Plan) -> Result<()> {
         if !plan.tables.is_empty() && !self.tables.iter().map(|(table, _)| table).eq(&plan.tables) {
             self.tables.clear();
@@ -84,7 +84,7 @@ impl Textures {
         self.white.as_ref()
     }
 
-    /// Binds the picture on a material, white where there is none.
+    /// Binds a material's picture, or white if it has none.
     pub(super) fn bind_material(&self, object: &Object, material: u32, unit: u32) {
         let pictures = self.materials.of(object);
         let picture = if material == NONE { None } else { pictures.get(material as usize).and_then(Option::as_ref) };

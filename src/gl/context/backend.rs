@@ -4,8 +4,8 @@ use super::ContextInfo;
 use serde::Serialize;
 
 tinta_geometry::choices! {
-    /// Which way to take. Those of other systems are refused with a sentence when they are asked for: a recipe or a script that
-    /// names one is understood everywhere.
+    /// The way to an OpenGL context. Recipes and scripts may name every backend on every system; a backend of another system
+    /// fails when it is opened.
     #[derive(Default)]
     #[non_exhaustive]
     pub enum Backend {
@@ -15,7 +15,7 @@ tinta_geometry::choices! {
         Auto = "auto",
         /// EGL on a device, without a window system; hardware first.
         Egl = "egl",
-        /// EGL on Mesa's surfaceless platform: another screen of the same driver, so that two contexts need not take turns.
+        /// EGL on Mesa's surfaceless platform: another screen of the same driver, for two contexts that need not take turns.
         Surfaceless = "surfaceless",
         /// Mesa's off-screen library, which Mesa has no more since 25.1.
         OsMesa = "osmesa",
@@ -31,7 +31,7 @@ tinta_geometry::choices! {
 pub struct Attempt {
     /// The library, and the device where there is a choice.
     pub device: String,
-    /// What came of it: the context, or why there is none.
+    /// The result: the context, or the reason for its failure.
     #[serde(flatten)]
     pub outcome: Outcome,
 }

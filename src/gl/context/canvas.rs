@@ -28,7 +28,7 @@ pub(crate) struct Current<'a> {
 }
 
 impl Drop for Current<'_> {
-    /// Nothing is released; where drivers' contexts end to be current, this one's user says so too.
+    /// WebGL releases nothing here. Drivers' contexts end being current at this place, so callers drop this one too.
     fn drop(&mut self) {}
 }
 
@@ -37,7 +37,7 @@ pub fn attempts(_: Backend) -> Vec<Attempt> {
     Vec::new()
 }
 
-/// A page gives its canvas; there is nothing to choose from.
+/// The page provides its canvas, the only choice.
 pub fn witnesses() -> [Backend; 2] {
     [Backend::Auto; 2]
 }
@@ -49,7 +49,7 @@ impl Context {
         Err(Error::NoContext { attempts })
     }
 
-    /// There is no other.
+    /// The canvas is the only context.
     pub(crate) fn open_for(_: Backend, _: Option<Fault>, _: Size, _: &[&str]) -> Option<Self> {
         None
     }
@@ -88,7 +88,7 @@ impl Context {
         &self.gl
     }
 
-    /// Makes the canvas this large; refuses what the context cannot draw.
+    /// Resizes the canvas; an error if the size exceeds the context's limits.
     pub(crate) fn resize(&mut self, size: Size) -> Result<()> {
         let limit = self.info().largest_picture;
         let too_large = |limit: Size| Error::PictureTooLarge {
@@ -117,7 +117,7 @@ impl Context {
     }
 }
 
-/// What a context has, and what it says about itself; an error is why it cannot serve.
+/// Loads a context's functions and properties; the error says why the context cannot serve.
 fn load(raw: WebGlRenderingContext) -> std::result::Result<Gl, String> {
     let named = raw.get_extension("WEBGL_debug_renderer_info").ok().flatten().is_some();
     let glow = Rc::new(glow::Context::from_webgl1_context(raw.clone()));
@@ -128,7 +128,7 @@ fn load(raw: WebGlRenderingContext) -> std::result::Result<Gl, String> {
     // Those of a context before it was lost and restored.
     // SAFETY: as any question; a browser that is broken could report errors for ever, hence the bound.
     (0..16).take_while(|_| unsafe { glow.get_error() } != glow::NO_ERROR).count();
-    // What glow does not ask for by itself.
+    // glow does not request these extensions.
     let has_floats = ["OES_texture_float", "WEBGL_color_buffer_float"].iter().all(|name| turn_on(&raw, name));
     let has_halves = ["OES_texture_half_float", "EXT_color_buffer_half_float"].iter().all(|name| turn_on(&raw, name));
     turn_on(&raw, "EXT_float_blend");

@@ -16,7 +16,7 @@ pub(super) struct ContextGuard {
     _guard: MutexGuard<'static, ()>,
 }
 
-/// Those of EGL's software device, of which Mesa has one.
+/// The lock of EGL's software device; Mesa has one.
 pub(super) static OF_EGL: ContextLock = ContextLock(Mutex::new(()));
 
 /// Those of EGL's surfaceless platform, whose screen is another one.
@@ -37,7 +37,7 @@ pub(super) static OF_OSMESA: ContextLock = ContextLock(Mutex::new(()));
 impl ContextLock {
     /// Waits for the lock. A thread that holds it must not ask for it again.
     pub(super) fn lock(&'static self) -> ContextGuard {
-        // Nothing is guarded that a panic could leave half done.
+        // The lock guards no data that a panic could leave half done.
         ContextGuard { _guard: self.0.lock().unwrap_or_else(PoisonError::into_inner) }
     }
 

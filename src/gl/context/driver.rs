@@ -19,7 +19,7 @@ use crate::scene::Size;
 use std::mem::ManuallyDrop;
 use std::rc::Rc;
 
-/// The OpenGL that contexts are asked for.
+/// The OpenGL version requested for contexts.
 pub(super) const VERSION: (u8, u8) = (2, 1);
 
 /// One that no driver has, for [`Fault::ContextRefused`].
@@ -128,13 +128,13 @@ pub fn attempts(backend: Backend) -> Vec<Attempt> {
         .collect()
 }
 
-/// A context of every way of this backend, one after the other, by its device's name; else why there is none.
+/// Returns a context for every way of this backend, one after the other, with its device's name; or the reason for its failure.
 pub(crate) fn each(backend: Backend) -> impl Iterator<Item = (String, std::result::Result<Context, String>)> {
     Candidate::all(backend).into_iter().map(|candidate| (candidate.name.clone(), candidate.open(None)))
 }
 
-/// Two backends of this system, for what is drawn twice and compared: its own, and OSMesa or where there is none another screen of
-/// the first one's driver.
+/// Two backends of this system for comparing two drawings of one picture: its own, and OSMesa. Without OSMesa the second is
+/// another screen of the first one's driver.
 pub fn witnesses() -> [Backend; 2] {
     let own = match () {
         () if cfg!(windows) => Backend::Wgl,
@@ -163,8 +163,8 @@ impl Context {
         Err(Error::NoContext { attempts })
     }
 
-    /// The first way of this backend, but for these devices, that draws surfaces of this size, or the one that draws the
-    /// largest; `None` where no other works.
+    /// Returns this backend's first context, except on these devices, that draws surfaces of this size; otherwise the one that
+    /// draws the largest. `None` if every other way fails.
     pub(crate) fn open_for(backend: Backend, fault: Option<Fault>, surface: Size, but: &[&str]) -> Option<Self> {
         let mut largest: Option<Self> = None;
         for candidate in Candidate::all(backend).into_iter().filter(|other| !but.contains(&other.name.as_str())) {
@@ -216,7 +216,7 @@ impl Context {
         &self.gl
     }
 
-    /// Makes the surface this large; refuses what the context cannot draw.
+    /// Resizes the surface; an error if the size exceeds the context's limits.
     pub(crate) fn resize(&mut self, size: Size) -> Result<()> {
         let limit = self.info().largest_picture;
         if !self.draws(size) {

@@ -15,7 +15,7 @@ pub(super) const LIBRARIES: [&str; 2] = ["libEGL.so.1", "libEGL.so"];
 #[cfg(windows)]
 pub(super) const LIBRARIES: [&str; 2] = ["libEGL.dll", "atioglxx.dll"];
 
-/// What of it is called here and by glutin, which takes for granted that a library of this name has it.
+/// The EGL functions called here and by glutin, which assumes that a library of this name has them.
 const FUNCTIONS: [&CStr; 15] = [
     c"eglBindAPI",
     c"eglChooseConfig",
@@ -50,7 +50,7 @@ pub(super) fn check_library() -> Result<(), String> {
                 }
             };
             for function in FUNCTIONS {
-                // SAFETY: the symbol is only looked for.
+                // SAFETY: this looks the symbol up without calling it.
                 let found = unsafe { library.get::<*const c_void>(function.to_bytes_with_nul()) };
                 found.map_err(|error| format!("the library lacks a function ({error})"))?;
             }
@@ -64,7 +64,7 @@ pub(super) fn check_library() -> Result<(), String> {
 /// A device EGL knows.
 pub(super) struct Device {
     device: device::Device,
-    /// For people: EGL and what the device calls itself.
+    /// The name to display: EGL and the device's own name.
     pub name: String,
 }
 
@@ -116,7 +116,7 @@ fn largest_surface(display: &glutin::display::Display, config: &glutin::config::
         let mut value = 0;
         // SAFETY: display and config are alive, and the attribute is one integer.
         let known = unsafe { egl.egl().GetConfigAttrib(raw.cast(), config.cast(), attribute as i32, &mut value) };
-        // Some drivers leave it at 0 and mean "no limit of its own".
+        // Some drivers leave it at 0, meaning no limit.
         if known == 0 || value <= 0 { u32::MAX } else { value as u32 }
     };
     const MAX_PBUFFER_HEIGHT: u32 = 0x302A;

@@ -1,4 +1,4 @@
-//! What a context says about itself.
+//! The properties that a context reports.
 
 use crate::scene::Size;
 use serde::Serialize;
@@ -18,7 +18,7 @@ pub fn is_software(renderer: &str) -> bool {
     ["llvmpipe", "softpipe", "swrast", "swiftshader", "software", "gdi generic"].iter().any(|n| renderer.contains(n))
 }
 
-/// What a context says about itself.
+/// The properties that a context reports.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ContextInfo {
     /// `egl`, `surfaceless`, `osmesa`, `wgl` or `cgl`, in a browser `webgl`.
@@ -59,14 +59,14 @@ pub struct ContextInfo {
     pub draw_buffers: u32,
     /// Whether passes can draw into floating-point textures.
     pub float_targets: bool,
-    /// Bits to which a vertex is placed within a pixel; OpenGL promises 4.
+    /// Bits of a vertex's position within a pixel; OpenGL promises 4.
     pub subpixel_bits: u32,
     /// Whether passes can be timed on the device.
     pub timer_queries: bool,
 }
 
 impl ContextInfo {
-    /// Why its framebuffer cannot hold what the styles draw into it; `None` where it can.
+    /// Why its framebuffer lacks bits that the styles need; `None` if it has them.
     pub(super) fn lacks_bits(&self) -> Option<String> {
         (self.alpha_bits < ALPHA_BITS || self.depth_bits < DEPTH_BITS).then(|| {
             format!(
@@ -81,8 +81,7 @@ impl ContextInfo {
         is_software(&self.renderer)
     }
 
-    /// Whether GL draws lines, and points to join them, this wide; what is narrower or wider it draws at the nearest width it
-    /// can.
+    /// Whether GL draws lines, and points to join them, at this width; it draws other widths at the nearest it can.
     pub fn draws_edges(&self, width_px: f32, is_smooth: bool) -> bool {
         let ranges = match is_smooth {
             false => [self.aliased_line_width, self.aliased_point_size],

@@ -1,4 +1,4 @@
-//! The loading of a context's functions, and the questions it is asked.
+//! Loads a context's functions and queries its properties.
 
 use super::super::Gl;
 use super::super::faults::Faults;
@@ -34,8 +34,7 @@ pub(super) fn load_functions(
     };
     // SAFETY: the platform's context is current, and its loader returns GL functions of that context.
     let mut legacy = unsafe { Legacy::load(load) }?;
-    // Before anything else is asked: glow takes for granted that a context knows its version.
-    // SAFETY: the context is current.
+    // Checked first, because glow assumes that a context knows its version. SAFETY: the context is current.
     let version = unsafe { legacy.string(glow::VERSION) }.ok_or("it reports no version")?;
     match version_numbers(&version) {
         Some((major, minor)) if (major, minor) >= (2, 1) => {}
@@ -114,7 +113,7 @@ pub(super) fn load_functions(
         replaced_shaders: RefCell::default(),
         lost,
     };
-    // A core profile answers the questions about alpha and lines with an error: it lacks what the articles use.
+    // A core profile answers the queries about alpha and lines with an error: it lacks features that the articles use.
     gl.check("asking the context about itself").map_err(|error| match error {
         Error::ContextLost { what, .. } => format!("the context was lost at once ({what})"),
         _ => "it is not a compatibility context".to_owned(),

@@ -100,7 +100,7 @@ fn find_functions(name: &'static str, library: &'static Library) -> Result<Funct
 /// The drivers inside OSMesa; GALLIUM_DRIVER may choose one.
 const DRIVERS: [&str; 3] = ["", "llvmpipe", "softpipe"];
 
-/// Refuses a GALLIUM_DRIVER that OSMesa does not have: Mesa itself then goes on without a driver, into a crash.
+/// Refuses a GALLIUM_DRIVER that OSMesa lacks: Mesa would continue without a driver and crash.
 fn check_driver(chosen: Option<&str>) -> Result<(), String> {
     match chosen {
         Some(chosen) if !DRIVERS.contains(&chosen) => Err(format!(
@@ -123,11 +123,10 @@ pub(super) struct OsMesaContext {
 
 /// Small blocks of memory, held while a surface of another size is made current.
 ///
-/// OSMesa then frees its record of the old surface and allocates one for the new. If that comes to lie where the old one lay,
-/// Mesa takes the old surface, which it knows by that address, for one still in use, and keeps its textures for as long as
-/// that goes on: 170 KB for every other picture of 64 and 128 pixels. The allocators of C hand out first what was freed last;
-/// glibc's `calloc` does so only where its list of freed blocks of that size, seven long, is full. So all that is free of
-/// such sizes is taken before.
+/// OSMesa then frees its record of the old surface and allocates one for the new. Mesa knows a surface by its record's address.
+/// If the new record gets the old address, Mesa takes the old surface for one still in use and keeps its textures: 170 KB leak
+/// with every other picture of 64 and 128 pixels. C allocators first return the block freed last; glibc's `calloc` returns it
+/// only if its list of freed blocks of that size, seven long, is full. So all free blocks of such sizes are taken first.
 struct SmallBlocks {
     _blocks: Vec<Vec<u8>>,
 }
@@ -153,7 +152,7 @@ impl OsMesaContext {
         let [major, minor] = [major, minor].map(i32::from);
         // OSMESA_FORMAT RGBA, DEPTH_BITS 24, STENCIL_BITS 0, ACCUM_BITS 0, PROFILE compatibility, VERSION, end.
         let attributes = [0x22, 0x1908, 0x30, 24, 0x31, 0, 0x32, 0, 0x33, 0x35, 0x36, major, 0x37, minor, 0, 0];
-        // SAFETY: the list ends with 0 and nothing is shared with another context.
+        // SAFETY: the list ends with 0, and the context shares no objects with another.
         let context = unsafe { (functions.create_context)(attributes.as_ptr(), ptr::null_mut()) };
         if context.is_null() {
             return Err(format!("making a GL {major}.{minor} context failed"));

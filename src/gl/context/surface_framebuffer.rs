@@ -1,13 +1,14 @@
-//! A framebuffer object in the place of a surface, for contexts that have none: those of macOS.
+//! A framebuffer object in place of a surface, for contexts without one, as on macOS.
 //!
-//! It has what a surface is asked for, 8 bits of alpha and 24 of depth, and is bound wherever another context's own framebuffer
-//! would be. Drawing, copying and reading back do not see the difference but in lines, which Mesa draws from below there; a test compares by EGL.
+//! Like a surface it has 8 bits of alpha and 24 of depth. It is bound wherever another context binds its own framebuffer.
+//! Drawing, copying and reading back give the same results except for lines, which Mesa draws from below there; a test compares
+//! by EGL.
 
 use super::super::legacy;
 use crate::scene::Size;
 use glow::HasContext;
 
-/// The framebuffer object and what it draws into; it goes with its context.
+/// The framebuffer object and its attachments; it is destroyed with its context.
 pub(in crate::gl) struct SurfaceFramebuffer {
     id: glow::Framebuffer,
     color: glow::Renderbuffer,

@@ -15,7 +15,7 @@ use windows_sys::Win32::UI::WindowsAndMessaging::{
 };
 use windows_sys::w;
 
-/// A window that is never shown. Windows ties it to the thread that made it, to which a context belongs too.
+/// A hidden window. Windows ties it to the thread that made it, as it does contexts.
 pub(super) struct HiddenWindow {
     window: HWND,
     handle: RawWindowHandle,
@@ -67,6 +67,6 @@ pub(super) fn open(version: (u8, u8)) -> Result<Pbuffer<HiddenWindow>, String> {
         surfaces: ConfigSurfaceTypes::WINDOW | ConfigSurfaceTypes::PBUFFER,
         hint: "; Windows' own OpenGL has none, a graphics card's driver or Mesa's for Windows has",
     };
-    // Making one says where the limit is; what the driver's viewport and textures allow is asked elsewhere.
+    // A failed pbuffer shows its limit; another check covers the driver's viewport and textures.
     Pbuffer::open(makes, version, |_, _| Size { width: u32::MAX, height: u32::MAX }, window)
 }

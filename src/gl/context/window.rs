@@ -1,7 +1,7 @@
-//! A window's own OpenGL: a context that egui paints its shapes with, and the window it shows them in.
+//! A window's OpenGL context, which egui paints its shapes with, and the window itself.
 //!
-//! Models are not drawn here but by [`crate::Renderer`] without a window; their pictures come as textures. So a pane's
-//! pixels do not depend on what the window system does with its buffers, and a picture can have any size.
+//! [`crate::Renderer`] draws the models without a window and passes their pictures as textures. So a pane's pixels do not depend
+//! on the window system's buffers, and a picture can have any size.
 
 use super::context_lock::ContextLock;
 #[cfg(windows)]
@@ -26,7 +26,7 @@ const GROUND: [f32; 4] = [0.2, 0.2, 0.2, 1.0];
 
 /// The window's context, its surface, and what paints into it.
 pub(crate) struct WindowGl {
-    // Dropped in this order, each before what it was made from.
+    // Dropped in this order, each before the object it was made from.
     painter: egui_glow::Painter,
     surface: Surface<WindowSurface>,
     context: PossiblyCurrentContext,
@@ -37,7 +37,7 @@ pub(crate) struct WindowGl {
 
 /// Shapes on their way to the screen.
 pub(crate) struct Shapes {
-    /// What is painted.
+    /// The shapes to paint.
     pub primitives: Vec<egui::ClippedPrimitive>,
     /// Textures to be made, changed and let go of.
     pub textures: egui::TexturesDelta,
@@ -131,7 +131,7 @@ impl WindowGl {
         }
     }
 
-    /// Paints a frame of this size and shows it; if asked for, what it shows is returned.
+    /// Paints a frame of this size and shows it; returns its pixels if `is_wanted`.
     ///
     /// # Errors
     ///
@@ -158,7 +158,7 @@ impl WindowGl {
 
     /// Contexts of several libraries may live in this process: none stays current while another may be entered.
     fn release(&mut self) {
-        // Fails only when the display is gone, and then there is nothing to release.
+        // Fails only if the display is gone; then nothing needs releasing.
         let _ = self.context.make_not_current_in_place();
     }
 }

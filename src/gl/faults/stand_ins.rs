@@ -6,12 +6,12 @@ use std::collections::HashMap;
 use std::ffi::{CStr, CString, c_char, c_void};
 use std::rc::Rc;
 
-/// What a stand-in is called for.
+/// The kind of GL call that a stand-in replaces.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Call {
     /// Takes memory on the device.
     Allocation,
-    /// Changes what is drawn.
+    /// A call that changes the picture.
     Drawing,
     /// Does nothing once the context is lost.
     Other,
@@ -32,7 +32,7 @@ thread_local! {
     static CURRENT: RefCell<Option<Rc<Faults>>> = const { RefCell::new(None) };
 }
 
-/// Says whose stand-ins are called from now on: those of the context just made current, or of none.
+/// Selects the stand-ins to call: those of the context just made current, or none.
 pub(in crate::gl) fn set_current(faults: Option<&Rc<Faults>>) {
     CURRENT.with(|current| current.replace(faults.cloned()));
 }

@@ -1,5 +1,5 @@
-//! The fixed-function pipeline where there is none: WebGL draws with shaders alone. Its state is kept here, and handed to them as
-//! uniforms and attributes of the names that [`crate::glsl::es`] gives to what they read of it.
+//! The fixed-function pipeline for WebGL, which draws with shaders alone. Its state is kept here and passed to the shaders as
+//! uniforms and attributes; [`crate::glsl::es`] names them.
 
 use super::{FIXED_UNITS, MODELVIEW, PROJECTION, QUADS};
 use crate::glsl::es::{ATTRIBUTES, UNIFORMS};
@@ -18,7 +18,7 @@ pub(in crate::gl) const HAS_PIPELINE: bool = false;
 /// Whether the depth buffer can be copied into a texture.
 pub(in crate::gl) const COPIES_DEPTH: bool = false;
 
-/// What a table of a plan is: a picture a texel high.
+/// The texture target of a plan's tables: a picture one texel high.
 pub(in crate::gl) const TABLE_TARGET: u32 = glow::TEXTURE_2D;
 
 /// Luminance and alpha, 8 bits each.
@@ -33,7 +33,7 @@ pub(in crate::gl) const REPEATS_POWERS_OF_TWO_ONLY: bool = true;
 /// `GL_HALF_FLOAT_OES`
 const HALF_FLOAT: u32 = 0x8D61;
 
-/// The texels of what is drawn into, as they are and as they are handed over: of 8 bits, of 16 and 32 of floating point.
+/// The internal format and the type of texels drawn into: 8 bits, then floating point of 16 and 32 bits.
 pub(in crate::gl) const DRAWN_TEXELS: [(u32, u32); 3] =
     [(glow::RGBA, glow::UNSIGNED_BYTE), (glow::RGBA, HALF_FLOAT), (glow::RGBA, glow::FLOAT)];
 
@@ -52,7 +52,7 @@ type Locations = [Option<glow::UniformLocation>; UNIFORMS.len()];
 /// The pipeline's state.
 pub(in crate::gl) struct Legacy {
     gl: Rc<glow::Context>,
-    /// The same context, for what glow does not ask.
+    /// The same context, for queries that glow lacks.
     raw: WebGlRenderingContext,
     view_from_object: Cell<Mat4>,
     clip_from_view: Cell<Mat4>,
@@ -80,7 +80,7 @@ impl Legacy {
         self.raw.is_context_lost()
     }
 
-    /// The width and height of what is drawn into, pixels.
+    /// The width and height of the current drawing surface, pixels.
     pub(in crate::gl) fn surface(&self) -> [u32; 2] {
         [self.raw.drawing_buffer_width(), self.raw.drawing_buffer_height()].map(|side| side.max(0) as u32)
     }
@@ -203,12 +203,12 @@ impl Legacy {
         }
     }
 
-    /// What is drawn next is drawn by this program.
+    /// Records the program that the following draws use.
     pub(in crate::gl) fn program_bound(&self, program: glow::Program) {
         self.program.set(Some(program));
     }
 
-    /// Nothing to be said before a picture is uploaded.
+    /// WebGL needs no call before a picture is uploaded.
     ///
     /// # Safety
     ///
@@ -288,7 +288,7 @@ impl Legacy {
         }
     }
 
-    /// Sets what the bound program reads of the pipeline's state.
+    /// Sets the uniforms through which the bound program reads the pipeline's state.
     unsafe fn hand_over(&self, gl: &glow::Context) {
         let Some(program) = self.program.get() else { return };
         let mut all = self.locations.borrow_mut();

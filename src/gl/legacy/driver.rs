@@ -10,7 +10,7 @@ pub(in crate::gl) const HAS_PIPELINE: bool = true;
 /// Whether the depth buffer can be copied into a texture.
 pub(in crate::gl) const COPIES_DEPTH: bool = true;
 
-/// What a table of a plan is.
+/// The texture target of a plan's tables.
 pub(in crate::gl) const TABLE_TARGET: u32 = glow::TEXTURE_1D;
 
 /// Luminance and alpha, 8 bits each.
@@ -22,7 +22,7 @@ pub(in crate::gl) const PICTURE_TEXELS: u32 = glow::RGB8;
 /// Whether a texture that repeats has to have powers of two for sides.
 pub(in crate::gl) const REPEATS_POWERS_OF_TWO_ONLY: bool = false;
 
-/// The texels of what is drawn into, as they are and as they are handed over: of 8 bits, of 16 and 32 of floating point.
+/// The internal format and the type of texels drawn into: 8 bits, then floating point of 16 and 32 bits.
 pub(in crate::gl) const DRAWN_TEXELS: [(u32, u32); 3] =
     [(glow::RGBA8, glow::UNSIGNED_BYTE), (glow::RGBA16F, glow::FLOAT), (glow::RGBA32F, glow::FLOAT)];
 
@@ -133,7 +133,7 @@ impl Legacy {
         }
     }
 
-    /// glGetGraphicsResetStatusARB: why the context is lost, GL_NO_ERROR if it is not or nobody knows.
+    /// glGetGraphicsResetStatusARB: why the context is lost. GL_NO_ERROR if it is not lost or the cause is unknown.
     ///
     /// # Safety
     ///
@@ -271,10 +271,10 @@ impl Legacy {
         unsafe { (self.point_size)(size_px) }
     }
 
-    /// Programs are whole as they are linked.
+    /// Programs need no further parts before linking.
     pub(in crate::gl) fn before_linking(&self, _: &glow::Context, _: glow::Program) {}
 
-    /// The pipeline knows by itself which program is bound.
+    /// The driver's pipeline already knows the bound program.
     pub(in crate::gl) fn program_bound(&self, _: glow::Program) {}
 
     /// A program is gone.

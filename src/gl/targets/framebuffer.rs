@@ -22,7 +22,7 @@ pub(super) fn bind(gl: &Gl, framebuffer: Option<&Framebuffer>) {
     }
 }
 
-/// Clears each of the bound framebuffer's colours to one of its own, and depth to 1.
+/// Clears each of the bound framebuffer's textures to its given colour, and depth to 1.
 pub(crate) fn clear_each(gl: &Gl, colors: &[[f32; 4]]) {
     for (index, [red, green, blue, alpha]) in colors.iter().enumerate() {
         let mut buffers = vec![glow::NONE; colors.len()];
@@ -74,7 +74,7 @@ impl Framebuffer {
         Ok(framebuffer)
     }
 
-    /// Whether the driver can draw into what it was given.
+    /// Whether the driver can draw into these attachments.
     pub(super) fn is_complete(&self) -> bool {
         // SAFETY: the context is current, this framebuffer alive; the context's own is bound again.
         unsafe {
