@@ -219,12 +219,12 @@ impl Style {
         self.style_name().name()
     }
 
-    /// The style that options name, three-pass where they name none, with the settings they set. What is for other styles, or
-    /// no style's, is left alone, as the command line does.
+    /// Returns the style that the options name, by default three-pass, with the settings they give. Options of other styles, or
+    /// of no style, are ignored, as on the command line.
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] for a style or value that there is not, [`crate::Error::File`] for a file that cannot be read.
+    /// [`crate::Error::Setting`] for an unknown style or value, [`crate::Error::File`] for a file that cannot be read.
     pub fn from_options(options: &Options) -> Result<Self> {
         let name = match options.get("style") {
             None => StyleName::ThreePass,
@@ -249,19 +249,20 @@ impl Style {
         Ok(style)
     }
 
-    /// The options that make this style with these settings: its name, and what differs from the default; so one option alone
-    /// is the published style.
+    /// Returns the options that make this style with these settings: its name, and every setting that differs from the default.
+    /// One option alone is the published style.
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] for what no text says: a file whose name is none, no class of lines at all.
+    /// [`crate::Error::Setting`] for settings that cannot be written as text: a file name that is not text, an empty set of line
+    /// classes.
     pub fn to_options(&self) -> Result<Options> {
         let mut options = Self::table().options(self, &Self::named(self.style_name()))?;
         options.insert("style".to_owned(), OptionValue::text(self.name()));
         Ok(options)
     }
 
-    /// What is to be known of this scene's pictures in this style, a sentence each.
+    /// Returns remarks on this scene's pictures in this style, a sentence each.
     pub fn remarks(&self, scene: &Scene) -> Vec<String> {
         let mut remarks = match self {
             // It needs the edges in any case.
@@ -287,7 +288,7 @@ impl Style {
         is_free && !draws_own && !has_none && scene.objects.iter().any(brings)
     }
 
-    /// Whether its tones can be shown by themselves.
+    /// Whether the style can show its tones alone.
     pub fn has_tones(&self) -> bool {
         self.style_name().info().shows.contains(&Show::Tones)
     }
@@ -352,11 +353,11 @@ impl StyleName {
         Self::ALL.into_iter().filter(|(_, style)| !style.draws_lines())
     }
 
-    /// The one of this name among them.
+    /// Returns the style of this name among them.
     ///
     /// # Errors
     ///
-    /// The name that was meant, or the names that there are.
+    /// The nearest name, or the list of names.
     pub fn named_of_passes(name: &str) -> std::result::Result<Self, ParseError> {
         let names: Vec<&str> = Self::of_passes().map(|(name, _)| name).collect();
         let found = Self::of_passes().find(|(known, _)| *known == name).map(|(_, style)| style);
@@ -379,7 +380,7 @@ impl StyleName {
         self.info().name
     }
 
-    /// Whether it draws lines that can be shown by themselves, as published.
+    /// Whether the style draws lines that it can show alone, as published.
     pub fn has_lines(self) -> bool {
         self.info().shows.contains(&Show::Borders)
     }

@@ -14,15 +14,15 @@ pub struct Border {
     pub filter: Filter,
     /// What its response is multiplied by. Default 0.2; more makes fainter edges darker.
     pub detection_factor: f32,
-    /// Width of a line, where the map has a step; `None` leaves the filter's taps where the listing
-    /// has them, 2 pixels (1 with Roberts' cross). Default none; more pixels also join what lies near each other.
+    /// Width of a line at a step of the map. `None`, the default, keeps the listing's taps: 2 pixels, or 1 with Roberts' cross.
+    /// More pixels also join neighbouring lines.
     pub width: Option<LineWidth>,
     /// Whether depth answers by a threshold that knows the surface's slope instead of by the filter. Default no.
     pub slope_threshold: bool,
 }
 
-/// The least step in depth that is a line: widths of a picture's pixel on the surface, and steps of the map's rounding,
-/// by 2 of which a second difference can be off.
+/// The smallest step in depth that is a line: widths of a picture's pixel on the surface, and rounding steps of the map. Rounding
+/// shifts a second difference by up to 2 of these.
 const LEAST_GAP: [f32; 2] = [1.5, 2.0];
 
 tinta_geometry::choices! {
@@ -111,7 +111,7 @@ impl Border {
         under(CARTOON, filter).chain(under(IMAGE_SPACE, vec![width])).collect()
     }
 
-    /// Whether these are the constants of the listing, so that the listing itself can run.
+    /// Whether these are the listing's constants, for which the listing itself can run.
     fn is_published(&self) -> bool {
         *self == Self::default()
     }
@@ -141,7 +141,7 @@ impl Border {
         }
     }
 
-    /// A filter's shader and what it calls.
+    /// A filter's shader and the shaders it calls.
     fn parts(&self, filter: &'static str, encoding: MapEncoding) -> [&'static str; 4] {
         let tap = if self.width.is_some() { "improved/tap-apart.frag" } else { "evangelista/tap-next.frag" };
         let depth = match self.slope_threshold {
@@ -182,7 +182,7 @@ impl Border {
                     reach_px: Some(self.reach_px(scene, surface)),
                     // No difference is an alpha of 0.
                     where_even: Some(WhereEven::Unchanged),
-                    // The slope's threshold is black or white by itself.
+                    // The slope's threshold alone is black or white.
                     adds_nothing: (self.detection_factor == 0.0 && !self.slope_threshold)
                         .then(|| "the detection factor is 0".to_owned()),
                     ..Facts::plain()
@@ -214,7 +214,7 @@ impl Border {
         vec![texture_unit(surface)]
     }
 
-    /// The uniforms of the filters with settings, for a map of this size.
+    /// Returns the uniforms of the filters with settings, for a map of this size.
     pub(super) fn uniforms(&self, scene: &Scene, surface: Size, encoding: MapEncoding) -> Vec<Uniform> {
         let scale = surface.width / scene.size.width;
         let mut uniforms = Self::published_uniforms(surface);

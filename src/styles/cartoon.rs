@@ -1,7 +1,7 @@
 //! `three-pass` and `two-pass`: Evangelista et al. 2005.
 //!
-//! With the article's settings the published shaders run; any other setting runs their twins in which the constants are
-//! uniforms (`*-settings.frag`). A test shows that the twins draw the same picture.
+//! With the article's settings the published shaders run. Other settings run their twins (`*-settings.frag`), which have uniforms
+//! in place of the constants. A test shows that the twins draw the same picture.
 
 use super::textured::textured;
 use super::{
@@ -22,8 +22,8 @@ pub struct Cartoon {
     /// Whether a square of the background's colour is drawn behind the scene, as the article does in every scene.
     /// Default yes; without it the two-pass style loses the outer half of every silhouette (errata E10).
     pub background_square: bool,
-    /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
-    /// picture of closed models. Default no.
+    /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
+    /// outlines. Default no.
     pub cull_back_faces: bool,
     /// How normals and depth are stored between the passes. Default as in the listing.
     pub map_encoding: MapEncoding,
@@ -113,7 +113,7 @@ impl Cartoon {
         self.check(scene, show)?;
         let border = self.border.filter(|_| show != Show::Tones);
         let Some(border) = border.filter(|_| !shows_map(show) && show != Show::Borders) else {
-            // Its map, tones and borders by themselves are those of the three passes.
+            // The three passes draw its map, tones and borders when shown alone.
             return self.three_pass(scene, show);
         };
         if scene.background == Background::Transparent && self.background_square {

@@ -1,7 +1,7 @@
 //! `charcoal` and `sand`: Valente 2007, after Majumder and Gopi 2002.
 //!
-//! One pass: the paper over the whole picture, then the objects, dark grain where little light falls. The published listings
-//! run unless a setting is none of their uniforms; then their parts do, each of which can be exchanged alone
+//! One pass: the paper over the whole picture, then the objects, dark grain where little light falls. The published listings run
+//! if their uniforms cover the settings. Otherwise the listing's parts run, each of which can be exchanged
 //! (`glsl/valente/charcoal-parts.frag`). A test shows that listing and parts draw the same picture.
 
 mod choices;
@@ -32,16 +32,16 @@ use std::sync::Arc;
 /// Settings of `charcoal` and `sand`; the defaults are the text's where it gives them, ours elsewhere (errata V7).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Charcoal {
-    /// Exponent m of the contrast operator, above 0. Default 1.5, ours; more darkens all but the lights.
+    /// Exponent m of the contrast operator, above 0. Default 1.5, ours; more darkens everything except the lights.
     pub contrast_exponent: f32,
-    /// What the contrast-enhanced light is multiplied by, at least 0. Default 1; 1.2 lightens by a fifth, so that faint
-    /// lines vanish: the text's closure.
+    /// Factor on the contrast-enhanced light, at least 0. Default 1; 1.2 lightens by a fifth, which hides faint lines: the text's
+    /// closure.
     pub saturation: f32,
     /// Whether the drawing is multiplied by the light again, which darkens. Default no.
     pub smudge: bool,
-    /// Directions towards the two lights, eye space, of any length above 0; `None` leaves one out, not both. Default two,
-    /// the text's, in directions of ours: from above and from the lower left, 122 degrees apart, so that together they
-    /// nowhere exceed 1; nearer to each other they wrap (errata V3).
+    /// Directions towards the two lights, eye space, of any length above 0. `None` leaves one out, not both. The text has two
+    /// lights; our default directions, from above and from the lower left, are 122 degrees apart. At that angle their sum never
+    /// exceeds 1; closer lights wrap (errata V3).
     pub lights: [Option<[f32; 3]>; 2],
     /// Share of black in the contrast-enhanced texture before its grains are moved, percent. Default 60: the text says
     /// "density 60" without a unit, which is read as percent here (errata V10); more is darker.
@@ -54,8 +54,8 @@ pub struct Charcoal {
     pub cet_blur_px: f64,
     /// Where the random numbers of all textures begin. Default 0.
     pub seed: u64,
-    /// Where the random numbers of all textures come from. Default SplitMix64, ours; the text's are its platform's `rand()`,
-    /// of which two are here to try (errata V8).
+    /// Source of the random numbers of all textures. Default SplitMix64, ours. The text uses its platform's `rand()`; two of
+    /// these are available (errata V8).
     pub random: Generator,
     /// Size of the textures made here, pixels. Default 512 x 512. Noise and paper are stretched once over the picture, as
     /// published: more is finer grain.
@@ -69,7 +69,7 @@ pub struct Charcoal {
     pub paper: TextureSource,
     /// How the contrast-enhanced texture is filtered. Default linear, as published.
     pub cet_filter: CetFilter,
-    /// By which light its rows are read. Default that before saturation, as published.
+    /// The light that selects its rows. Default the light before saturation, as published.
     pub cet_coordinate: CetCoordinate,
     /// What enhances contrast. Default the power, as published.
     pub operator: ContrastOperator,
@@ -120,11 +120,11 @@ const CET: usize = 1;
 const PAPER: usize = 2;
 const TOOTH: usize = 3;
 
-/// The ground of the light and the contrast-enhanced model, shown by themselves.
+/// The ground under the light or the contrast-enhanced model when shown alone.
 const WHITE: [f32; 4] = [1.0; 4];
 
-/// A light whose length the shader's `normalize` can compute: as it is, or one as long as 1 where the square of its length is
-/// beyond f32.
+/// Returns a light whose length the shader's `normalize` can compute: unchanged, or scaled to length 1 if its squared length
+/// exceeds f32.
 fn measurable(light: [f32; 3]) -> [f32; 3] {
     const SQUARES: std::ops::RangeInclusive<f32> = 1e-30..=1e30;
     if SQUARES.contains(&light.iter().map(|x| x * x).sum()) {
@@ -259,7 +259,7 @@ impl Charcoal {
         }
         if show != Show::Paper {
             let objects = self.objects(show, is_sand, &layout);
-            // The text's sand has textures of its own way.
+            // The text's sand already has textures in its own way.
             let own = textured(scene, &objects).filter(|_| show == Show::Final && !is_sand);
             steps.push(Step::Draw(objects));
             steps.extend(own);
@@ -282,7 +282,7 @@ impl Charcoal {
         ]);
         let mut textures = Vec::new();
         if is_sand && show == Show::Final {
-            // First, for the first unit's coordinates are those the listing reads.
+            // First, because the listing reads the first unit's coordinates.
             textures.push(("origTexture", Texture::Material));
         }
         textures.extend([
@@ -335,7 +335,7 @@ impl Charcoal {
         if self.supersample == Supersample::One { "valente/grain-sample.frag" } else { "valente/grain-pixel.frag" }
     }
 
-    /// The listing in parts, each the one that is asked for.
+    /// Returns the listing in parts, each with the selected variant.
     fn parts(&self, show: Show, is_sand: bool) -> Program {
         let either = |condition: bool, yes, no| if condition { yes } else { no };
         let improve = &self.improve;

@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// The direction towards the light, eye space, before it is given length 1: the listing's.
 const LIGHT_DIRECTION: DVec3 = DVec3::new(0.0, 1.0, 1.0);
 
-/// What the listing clamps the light to.
+/// The range that the listing clamps the light to.
 const LIGHT_RANGE: [f32; 2] = [0.1, 0.9];
 
 /// The gradients of a ramp, and which of them each surface of a scene gets.

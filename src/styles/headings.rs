@@ -1,8 +1,8 @@
-//! What the settings of styles are listed under, and those that several styles have.
+//! The headings of styles' settings, and the settings that several styles share.
 
 use crate::settings::Setting;
 
-/// What the settings are listed under, in this order.
+/// The headings of the settings, in this order.
 pub(super) const HEADINGS: [&str; 8] =
     [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE, INK, SUGGESTIVE, CHARCOAL];
 

@@ -29,21 +29,21 @@ pub struct Ink {
     pub supersample: Option<Supersample>,
     /// Whether lines are drawn at all. Default yes.
     pub is_inked: bool,
-    /// From which angle between planes there is a crease. Default 30 degrees; more draw fewer lines.
+    /// Smallest angle between planes at a crease. Default 30 degrees; more draws fewer lines.
     pub crease_angle: CreaseAngle,
-    /// What of a surface turns at a crease. Default its planes.
+    /// The property of a surface that changes at a crease. Default its planes.
     pub crease_by: CreaseBy,
     /// Whether ink that touches no other and is at most twice as long as a line is wide is left out; `None` is as the quality
     /// has it: a look at the neighbours of all ink takes about half of the picture's time again with a software driver. Default none.
     pub removes_specks: Option<bool>,
-    /// Width of the lines. Default 2 pixels; more also joins what lies near each other.
+    /// Width of the lines. Default 2 pixels; more also joins neighbouring lines.
     pub line_width: LineWidth,
     /// Width of the lines that do not border on the background; `None` for that of all. Default none.
     pub inner_width: Option<LineWidth>,
     /// The least step from one surface to another that is a line, in widths of a pixel. Default 1.5; more draws fewer lines.
     pub least_gap_px: f32,
-    /// What is added to it for each unit of a surface's slope towards the eye, which the map knows less exactly the steeper.
-    /// Default 0.3; more draws fewer lines near outlines.
+    /// Added to it per unit of a surface's slope towards the eye, because the map is less exact on steep surfaces. Default 0.3;
+    /// more draws fewer lines near outlines.
     pub gap_per_slope: f32,
     /// The direction towards a light that is far away, eye space, of any length; `None` is the listing's, near at (1, 1, 1). Default
     /// none.
@@ -63,8 +63,8 @@ tinta_geometry::choices! {
         /// The planes of the triangles: every fold of a model, also the small ones of scans.
         #[default]
         Planes = "planes",
-        /// The model's normals, where they are split: where none are in the file, along edges that the smoothing angle exceeds and that go
-        /// on from vertex to vertex.
+        /// The model's split normals. If the file has none, normals are split along edges that exceed the smoothing angle and
+        /// continue from vertex to vertex.
         Normals = "normals",
     }
 }
@@ -395,7 +395,7 @@ impl Ink {
         }
     }
 
-    /// Width and height up to which ink is a speck, in pixels of what is drawn: a mark not twice as long as wide is no stroke.
+    /// Largest width and height of a speck, in drawn pixels: a mark less than twice as long as wide is no stroke.
     fn speck_size(&self, scene: &Scene) -> u32 {
         (2 * self.line_width.pixels(scene.size) * self.supersample().factor()).min(LARGEST_SPECK)
     }
@@ -405,7 +405,7 @@ impl Ink {
 /// a round surface make such steps. It is the default step's share of the line of `print` at 1200 pixels.
 const LEAST_GAP_SHARE: f32 = 0.375;
 
-/// Largest speck, pixels of what is drawn: looking farther costs time, and what is larger is seldom one.
+/// Largest speck, in drawn pixels. Larger marks are rarely specks, and a wider search costs time.
 const LARGEST_SPECK: u32 = 16;
 
 /// The ground for ink alone: white, or nothing.

@@ -1,8 +1,8 @@
 //! `inking`: lines from an edge list over painted faces. C. Dachsbacher, *Beethoven aus Bits und Bytes*.
 //!
-//! Faces first, pushed back by polygon offset; then the edges worth drawing as GL lines, and GL points at their ends so
-//! that lines of some width join. All of it in the fixed-function pipeline, as in the text, but for the variant whose
-//! vertex shader computes the light.
+//! Faces first, pushed back by polygon offset; then the selected edges as GL lines, with GL points at their ends to join wide
+//! lines. As in the text, everything uses the fixed-function pipeline, except for the variant whose vertex shader computes the
+//! light.
 
 mod runs;
 
@@ -29,7 +29,7 @@ pub struct Inking {
     /// Which classes of edges are drawn. Default boundary, silhouette and crease; the text names the others but its
     /// listing leaves them out.
     pub classes: ClassSet,
-    /// From which angle between faces an edge is a crease. Default a cosine of 0.4; more degrees draw fewer lines.
+    /// Smallest angle between faces at a crease. Default a cosine of 0.4; more degrees draw fewer lines.
     pub crease_angle: CreaseAngle,
     /// How silhouettes are found. Default the listing's rule.
     pub silhouette: SilhouetteRule,
@@ -40,8 +40,8 @@ pub struct Inking {
     /// Whether points are drawn at the lines' ends, which join them. Default yes, as in the text; without them lines of
     /// some width have notches where they meet, thin ones hardly any.
     pub has_joints: bool,
-    /// Whether edges both of whose faces are turned away are drawn. Default yes, as in the text; on a closed model the faces
-    /// in front hide them but for what polygon offset and their width let through.
+    /// Whether to draw edges whose two faces are both turned away. Default yes, as in the text. On a closed model the front faces
+    /// hide them, except where polygon offset or line width lets them through.
     pub back_edges: bool,
     /// How lines get their width. Default as GL draws them.
     pub line_drawing: LineDrawing,
@@ -63,8 +63,8 @@ pub struct Inking {
     pub light: LightOn,
     /// Whether the model's own texture is multiplied in, by the second texture stage. Default no.
     pub has_texture: bool,
-    /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
-    /// picture of closed models. Default no.
+    /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
+    /// outlines. Default no.
     pub cull_back_faces: bool,
     /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge, lines are as wide.
     pub supersample: Supersample,
@@ -208,8 +208,8 @@ tinta_geometry::choices! {
         Ramp = "ramp",
         /// By the light on each face, looked up in the ramp once a face: flat shading, which shows the triangles.
         FlatShaded = "flat-shaded",
-        /// By the light at each vertex, looked up in the ramp there; between vertices the colours are mixed: Gouraud shading, in
-        /// which there are more colours than the ramp has.
+        /// By the light at each vertex, looked up in the ramp. Between vertices the colours are mixed (Gouraud shading), which
+        /// gives more colours than the ramp has.
         Gouraud = "gouraud",
     }
 }
@@ -259,7 +259,7 @@ impl Inking {
         Ok(self.supersample.finish(Plan { pictures, ..Plan::new(passes) }, scene.size))
     }
 
-    /// How many pixels of what is drawn lie along one of the picture.
+    /// Drawn pixels per picture pixel, along a side.
     fn scale(&self) -> f32 {
         self.supersample.factor() as f32
     }

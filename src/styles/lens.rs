@@ -120,7 +120,7 @@ mod tests {
             let depth = |z: f64| clip_from_view.project_point3(DVec3::new(0.0, 0.0, z)).z * 0.5 + 0.5;
             for share in [0.1, 0.5, 0.9] {
                 let z = -(camera.near + share * (camera.far - camera.near));
-                // As wide as a pixel: what a step of 2 / 512 in the picture is at this distance.
+                // One pixel wide: the length at this distance of a step of 2 / 512 in the picture.
                 let width = 2.0 / 512.0 * (clip_from_view * DVec4::new(0.0, 0.0, z, 1.0)).w / clip_from_view.y_axis.y;
                 let step = (depth(z - width * 1e-3) - depth(z + width * 1e-3)) / 2e-3;
                 let Value::Vec2([x, y]) = footprint(&scene, scene.size, DepthRange::of_camera(&scene)).value else {

@@ -35,7 +35,7 @@ impl LineWidth {
         }
     }
 
-    /// Refuses what cannot be drawn, by the setting's name.
+    /// Returns an error, with the setting's name, for a width that cannot be drawn.
     pub(super) fn check(self, name: &'static str) -> Result<()> {
         let is_drawable = match self {
             Self::Pixels(pixels) => (1..=WIDEST).contains(&pixels),

@@ -1,8 +1,8 @@
 //! `mrt`: the three passes' picture with one pass over the geometry, which draws tones and map into two targets at once.
 //!
-//! The future work of Evangelista et al. 2005 (section 6). The tones' texture is then the target of the border, which is
-//! blended over it as in the third pass, and it is read back itself: nothing is copied. The background needs no square:
-//! both textures are cleared to what the square would leave in them.
+//! The future work of Evangelista et al. 2005 (section 6). The border is blended over the tones' texture, as in the third pass,
+//! and that texture is read back without a copy. The background needs no square: each texture is cleared to the value the square
+//! would leave.
 
 use super::cartoon::background_square;
 use super::map::MAP_TEXTURE;
@@ -22,11 +22,11 @@ pub struct Mrt {
     pub tones: Tones,
     /// The border; `None` draws the tones alone.
     pub border: Option<Border>,
-    /// Whether the map holds behind the scene what the article's square leaves there, a normal towards the eye. Default yes;
-    /// without it outer borders are fainter where the surface is seen at a grazing angle.
+    /// Whether the map's background holds the value of the article's square, a normal towards the eye. Default yes. Without it
+    /// outer borders are fainter at grazing angles.
     pub background_square: bool,
-    /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
-    /// picture of closed models. Default no.
+    /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
+    /// outlines. Default no.
     pub cull_back_faces: bool,
     /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge and makes lines finer.
     pub supersample: Supersample,
@@ -93,7 +93,7 @@ const TONES_AND_MAP: Attachments = Attachments {
     instead_draws: Some("the same picture except for rounding"),
 };
 
-/// What the border is blended over while it reads the map.
+/// The target that the border is blended over while it reads the map.
 const TONES_ALONE: Attachments = Attachments { colors: &[TONES], has_depth: false, ..TONES_AND_MAP };
 
 impl Mrt {
@@ -103,7 +103,7 @@ impl Mrt {
         // Textures are multiplied with the tones alone, while here tones and map are drawn at once.
         let at_once = show == Show::Final && !scene.has_textured_surfaces();
         let Some(border) = self.border.filter(|_| at_once) else {
-            // Its map, tones and borders by themselves are those of the three passes.
+            // The three passes draw its map, tones and borders when shown alone.
             return cartoon.three_pass(scene, show);
         };
         cartoon.check(scene, show)?;

@@ -16,8 +16,8 @@ pub struct Phong {
     pub specular: f32,
     /// Exponent of the highlight. Default 24; more makes it smaller.
     pub shininess: f32,
-    /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
-    /// picture of closed models. Default no.
+    /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
+    /// outlines. Default no.
     pub cull_back_faces: bool,
     /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge.
     pub supersample: Supersample,

@@ -12,7 +12,7 @@ use std::sync::{Arc, LazyLock};
 /// Rows of a ramp: as many as the text's picture has.
 pub(super) const ROWS: u32 = 4;
 
-/// Light in which a gradient shows its base colour.
+/// The light at which a gradient shows its base colour.
 pub(super) const MIDDLING_LIGHT: f32 = 0.6;
 
 /// A picture of four gradients one above the other, dark at the left.
@@ -76,7 +76,7 @@ impl Ramp {
     }
 }
 
-/// What the built-in ramp is called.
+/// The name of the built-in ramp.
 const BUILT_IN: &str = "built-in";
 
 impl Value for Ramp {
@@ -131,7 +131,7 @@ pub enum RampRow {
     Material,
     /// Each object the next one.
     Object,
-    /// Each colour of a material its own, in the tones of the built-in ramp: nothing is read from [`Ramp`].
+    /// Each of a material's colours in the tones of the built-in ramp; [`Ramp`] is ignored.
     Own,
     /// This one for all, 0 to 3.
     Row(u8),
@@ -159,7 +159,7 @@ impl FromStr for RampRow {
 const BASES: [[f32; 3]; ROWS as usize] =
     [[0.93, 0.74, 0.52], [0.80, 0.36, 0.24], [0.60, 0.49, 0.38], [0.46, 0.58, 0.72]];
 
-/// Light from which the base colour and the highlight hold.
+/// The smallest light of the base colour and of the highlight.
 const TONES_FROM: [f32; 2] = [0.45, 0.82];
 
 /// Columns of a ramp made here.
@@ -172,7 +172,7 @@ fn built_in() -> Picture {
     Picture { size, pixels: BASES.iter().flat_map(lines).collect() }
 }
 
-/// A line of pixels: a colour in shadow, as it is, and as a highlight.
+/// Returns a row of pixels: a colour in shadow, unchanged, and as a highlight.
 pub(super) fn gradient(base: [f32; 3]) -> Vec<u8> {
     let pixel = |x: u32| {
         let light = (x as f32 + 0.5) / WIDTH as f32;

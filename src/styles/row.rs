@@ -1,4 +1,4 @@
-//! What stands in a style's row, and the macro that makes the styles of their rows.
+//! The contents of a style's row, and the macro that makes the styles from their rows.
 
 use super::{LineStyle, Show, Style, StyleName};
 use crate::error::Result;
@@ -6,7 +6,7 @@ use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::settings::Setting;
 
-/// A style's row: what is known of it besides its settings, which stand beside their struct.
+/// A style's row: its properties other than settings, which are declared with their struct.
 #[derive(Debug)]
 pub struct StyleInfo {
     /// Which style.
@@ -46,8 +46,8 @@ pub enum Origin {
     Own,
 }
 
-/// A style's mark in plots: a colour and a shape, so that neither is needed alone. The colours can be told apart by the
-/// colour-blind (Okabe and Ito 2008) and be seen on white and near black.
+/// A style's mark in plots: a colour and a shape, either of which is sufficient. The colours suit the colour-blind (Okabe and Ito
+/// 2008) and are visible on white and near black.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mark {
     /// Red, green and blue.
@@ -95,7 +95,7 @@ macro_rules! styles {
             }
         }
 
-        /// Every style, in the order in which they are listed.
+        /// Every style, in listing order.
         static STYLES: [StyleInfo; StyleName::ALL.len()] = [$(StyleInfo {
             style: StyleName::$style,
             name: $name,
@@ -119,7 +119,7 @@ macro_rules! styles {
                 }
             }
 
-            /// Whether it draws lines that can be shown by themselves.
+            /// Whether the style draws lines that it can show alone.
             pub fn has_lines(&self) -> bool {
                 match self {
                     $(Self::$style(settings) => {
@@ -129,12 +129,12 @@ macro_rules! styles {
                 }
             }
 
-            /// What GL has to do for this scene.
+            /// Returns the plan: GL's steps for this scene.
             ///
             /// # Errors
             ///
-            /// [`crate::Error::Setting`] when a setting is nonsense, by itself or with this scene or `show`, and for a style that
-            /// draws exact lines.
+            /// [`crate::Error::Setting`] for an invalid setting, alone or with this scene or `show`, and for a style that draws
+            /// exact lines.
             pub fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
                 match self {
                     $(Self::$style(settings) => {

@@ -1,8 +1,8 @@
-//! Flat and Gouraud shading in the ramp's tones: what the section "Painting" of C. Dachsbacher's article tries first, to be
-//! shown beside the ramp.
+//! Flat and Gouraud shading in the ramp's tones, for comparison with the ramp. The section "Painting" of C. Dachsbacher's article
+//! tries them first.
 //!
-//! Light and tones are the ramp's. Flat shading looks a tone up once a face, Gouraud shading once a vertex, and GL mixes them
-//! between; the ramp as a texture is looked up at every pixel.
+//! Light and tones are the ramp's. Flat shading looks a tone up once a face, Gouraud shading once a vertex, with GL mixing
+//! between vertices; the ramp as a texture is looked up at every pixel.
 
 use super::gradients::{Gradients, Light, VertexLists};
 use crate::mesh::Part;

@@ -21,7 +21,7 @@ tinta_geometry::choices! {
 }
 
 impl Supersample {
-    /// What the setting does.
+    /// The setting's help text.
     pub(super) const HELP: &'static str = "Smooth edges: draw 1 to 4 times larger and shrink";
 
     /// The setting of a style that always has a factor.
@@ -42,7 +42,7 @@ impl Supersample {
         }
     }
 
-    /// The size of what is drawn for a picture of this size.
+    /// Returns the size of the drawing surface for a picture of this size.
     pub(super) fn surface(self, picture: Size) -> Size {
         picture.times(self.factor())
     }
@@ -52,7 +52,7 @@ impl Supersample {
         if self == Self::One {
             return plan;
         }
-        // What was drawn into a texture is read there.
+        // A picture drawn into a texture is read from that texture.
         let (mut steps, samples) = match plan.picture_target() {
             Target::Framebuffer => (vec![Step::CopyFramebuffer], Texture::BorderMap),
             Target::Textures(attachments) => (Vec::new(), Texture::Drawn(attachments.colors[0].name)),

@@ -11,7 +11,7 @@ use crate::tolerances::UNREACHED_LIGHT;
 pub struct Tones {
     /// How many tones, 1 to 3: the first, then the diffuse one, then the highlight. Default 3, the listing.
     pub count: u8,
-    /// Diffuse value, in [0, 1], from which the second tone holds. Default 0.8; more shrinks the lit part.
+    /// Smallest diffuse value of the second tone, in [0, 1]. Default 0.8; more shrinks the lit part.
     pub diffuse_threshold: f32,
     /// Specular value, in [0, 1], above which the third tone holds. Default 0.65; more shrinks the highlight.
     pub specular_threshold: f32,
@@ -98,7 +98,7 @@ const STEPS: &str = "evangelista/tone-steps.frag";
 const TABLE_SIZE: usize = 1024;
 
 impl Tones {
-    /// Whether these are the constants of the listing, so that the listing itself can run.
+    /// Whether these are the listing's constants, for which the listing itself can run.
     pub(super) fn are_published(&self) -> bool {
         *self == Self::default()
     }
@@ -161,7 +161,7 @@ impl Tones {
         Some(Shorter { program, without, because })
     }
 
-    /// Its uniforms; on the `background` every tone is 1, so that the square has the colour it was given.
+    /// Returns its uniforms. On the `background` every tone is 1, which leaves the square its given colour.
     pub(super) fn uniforms(&self, background: bool) -> Vec<Uniform> {
         match self.lookup {
             ToneLookup::Steps => vec![
@@ -193,7 +193,7 @@ impl Tones {
             let [_, specular_threshold] = self.thresholds();
             let texel = |index: usize| {
                 let light = index as f32 / (TABLE_SIZE - 1) as f32;
-                // 0 says "no highlight", so a black highlight is as dark as can be told from that.
+                // 0 means no highlight, so a black highlight gets the darkest other value.
                 let highlight = if light > specular_threshold { byte(self.levels[2]).max(1) } else { 0 };
                 [byte(self.tone(light, f32::NEG_INFINITY)), highlight]
             };

@@ -1,7 +1,7 @@
 //! The charcoal drawing's choices that have names.
 
 tinta_geometry::choices! {
-    /// Ways to draw: the listing as it is, and the two that the text's conclusions name.
+    /// A way to draw: the published listing, or one of the two that the text's conclusions name.
     #[derive(Default)]
     pub enum CharcoalRecipe {
         /// The default settings: the listing, with values of ours where the text gives none (errata V7).
@@ -27,7 +27,7 @@ tinta_geometry::choices! {
 }
 
 tinta_geometry::choices! {
-    /// By which light the rows of the contrast-enhanced texture are read.
+    /// The light that selects the rows of the contrast-enhanced texture.
     #[derive(Default)]
     pub enum CetCoordinate {
         /// Before saturation, as published.

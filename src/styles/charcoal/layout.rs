@@ -1,4 +1,4 @@
-//! How the textures lie on the picture: what the shaders' parts are told of sizes.
+//! The position of the textures on the picture: the sizes passed to the shaders' parts.
 //!
 //! In: the textures and the picture's size. Out: uniforms.
 
@@ -41,7 +41,7 @@ impl Layout {
         ]
     }
 
-    /// What the parts read.
+    /// Returns the uniforms that the parts read.
     pub(super) fn uniforms(&self) -> Vec<Uniform> {
         let (picture, shorter) = (self.picture, shorter(self.picture));
         let sides = [picture.width, picture.height].map(|side| side as f32);

@@ -51,7 +51,7 @@ impl TextureSource {
     }
 }
 
-/// What a texture that is made is called.
+/// The name of a generated texture.
 const MADE: &str = "made";
 
 impl Value for TextureSource {
@@ -81,14 +81,14 @@ impl PartialEq for CharcoalPictures {
     }
 }
 
-/// What the textures follow from.
+/// The settings that determine the textures.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TextureSettings {
     pub contrast: ContrastTexture,
     pub noise: NoiseTexture,
     /// Of noise, contrast-enhanced texture and paper.
     pub sources: [TextureSource; 3],
-    /// Whether the paper's height is wanted.
+    /// Whether the drawing needs the paper's height.
     pub has_tooth: bool,
 }
 
@@ -98,7 +98,7 @@ pub(super) struct Made {
     pub noise: Arc<Picture>,
     pub cet: Arc<Picture>,
     pub paper: Arc<Picture>,
-    /// The paper's height, where it is wanted.
+    /// The paper's height, if the drawing needs it.
     pub tooth: Option<Arc<Picture>>,
 }
 
@@ -113,7 +113,7 @@ impl CharcoalPictures {
                 format!("a texture has 1 to {LARGEST_SIDE_PX} pixels on each side"),
             ));
         }
-        // What is behind the lock is replaced as a whole, so a panic elsewhere leaves nothing half done.
+        // The value behind the lock is replaced as a whole, so a panic elsewhere leaves it intact.
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((known, made)) = kept.as_ref()
             && *known == settings

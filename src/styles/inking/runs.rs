@@ -1,7 +1,7 @@
 //! The edges that `inking` draws of a scene.
 //!
-//! In: a scene and the settings. Out: runs of lines, object by object and class by class. Edges share the vertices of the faces, so that their
-//! depths agree with them; smooth silhouettes run through faces and have vertices of their own.
+//! In: a scene and the settings. Out: runs of lines, object by object and class by class. Edges share the vertices of the faces,
+//! so their depths agree. Smooth silhouettes run through faces and have separate vertices.
 
 use super::Inking;
 use crate::edges::{Class, Side, SilhouetteRule, side_of_face};
@@ -83,7 +83,7 @@ impl Inking {
     }
 }
 
-/// Lines with vertices of their own, each of these once.
+/// Lines with separate vertices, each vertex once.
 #[derive(Debug, Default)]
 struct OwnLines {
     vertices: Vec<[f32; 6]>,
