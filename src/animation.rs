@@ -116,7 +116,7 @@ pub struct AnimationWriter {
     worker: Option<JoinHandle<Result<Written>>>,
 }
 
-/// What was written.
+/// The finished animation's numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Written {
     /// Encoding each picture, milliseconds; on its own thread beside the drawing.
@@ -126,13 +126,13 @@ pub struct Written {
 }
 
 impl AnimationWriter {
-    /// Begins an animation of `frames` pictures, each shown for `delay_ms` milliseconds, the whole over and over.
+    /// Begins an animation of `frames` pictures, each shown for `delay_ms` milliseconds, in an endless loop.
     ///
-    /// GIF counts hundredths of a second: there delays differ by one, so that the animation takes as long as it should.
+    /// GIF counts hundredths of a second, so its delays may differ by one to keep the total duration.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] when there is no frame, or no thread to encode on.
+    /// [`Error::File`] for zero frames, or if the encoder's thread cannot start.
     pub fn new(target: AnimationTarget, frames: u32, delay_ms: u16) -> Result<Self> {
         if frames == 0 {
             return Err(target.error("an animation has at least one picture; ask for more".to_owned()));
@@ -236,7 +236,7 @@ impl Encoder {
     }
 }
 
-/// The encoder's thread: nothing is written unless all pictures came.
+/// The encoder's thread: it writes the file only after all pictures have come.
 fn write(target: &AnimationTarget, pictures: &Receiver<Picture>, frames: u32, delay_ms: u16) -> Result<Written> {
     let mut encode_ms = Vec::new();
     let mut encoder: Option<(Size, Encoder)> = None;

@@ -125,7 +125,7 @@ sources![
     "valente/wrap-repeat.frag",
 ];
 
-/// The text of a shader; `None` if there is none of that path.
+/// Returns the text of a shader; `None` for an unknown path.
 pub fn source(path: &str) -> Option<&'static str> {
     SOURCES.iter().find(|(name, _)| *name == path).map(|(_, text)| *text)
 }

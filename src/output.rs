@@ -49,7 +49,7 @@ impl TextTarget {
         Ok(Self::File(file))
     }
 
-    /// Writes the text; a file appears complete or stays as it was.
+    /// Writes the text; a file is replaced completely or stays unchanged.
     ///
     /// # Errors
     ///
@@ -58,7 +58,7 @@ impl TextTarget {
         self.write_bytes(text.as_bytes())
     }
 
-    /// Writes what is no text, as [`TextTarget::write`] does.
+    /// Writes bytes, like [`TextTarget::write`].
     ///
     /// # Errors
     ///
@@ -133,7 +133,7 @@ pub struct Staged {
 }
 
 impl Staged {
-    /// Writes the contents beside the place of `path`, which stays as it is.
+    /// Writes the contents to a temporary file beside `path`, which stays unchanged.
     ///
     /// # Errors
     ///
@@ -171,8 +171,8 @@ impl Staged {
     /// As [`Staged::new`].
     pub(crate) fn settle(&mut self) -> Result<()> {
         let Ok(metadata) = self.path.metadata() else { return Ok(()) };
-        // A file that is replaced keeps its permissions. And what replaces it must have reached the disk: a power
-        // cut would otherwise leave neither. Of a new file nothing is lost, so nothing waits for it.
+        // A replaced file keeps its permissions. The replacement must reach the disk first: otherwise a power cut could destroy
+        // both. A new file replaces nothing, so it need not wait.
         let file = self.temporary.file();
         let settled = file.set_permissions(metadata.permissions()).and_then(|()| file.sync_data());
         settled.map_err(|error| refused(&self.path, &error))
@@ -188,7 +188,7 @@ impl Staged {
     }
 }
 
-/// Writes a file whole, or leaves what is there.
+/// Writes a complete file, or leaves the existing one unchanged.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     Staged::new(path, bytes)?.put_in_place()
 }
@@ -197,7 +197,7 @@ fn refused(path: &Path, error: &std::io::Error) -> Error {
     Error::output(path, cannot_write(path, error)).because(error)
 }
 
-/// The file a link at `path` points to, so that the link stays.
+/// Returns the file that a link at `path` points to; writing there keeps the link.
 fn resolved(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
 }

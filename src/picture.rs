@@ -133,7 +133,7 @@ impl Picture {
         }
     }
 
-    /// The bytes of a file; where the format is PNG, with a note in it. The error is what the encoder says.
+    /// Returns the bytes of a file, for PNG with a note in it. The error is the encoder's text.
     fn file(&self, format: PictureFormat, note: Option<&Note>) -> std::result::Result<Vec<u8>, String> {
         match note.filter(|_| format == PictureFormat::Png) {
             Some(Note { keyword, text }) => {
@@ -159,13 +159,13 @@ impl Picture {
             .map_err(|error| Error::output("-", format!("the picture cannot be encoded ({error}); draw a smaller one")))
     }
 
-    /// Writes the picture to a file, in the format that the name's extension says. The file appears complete or stays as it
-    /// was. [`Target::check`] finds what keeps it from being written before the work.
+    /// Writes the picture to a file, in the format of the name's extension. The file is replaced completely or stays unchanged.
+    /// [`Target::check`] finds obstacles to writing before the work.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] for an unknown extension, a directory, a folder that is missing or may not be written, and for a
-    /// picture that is not opaque in a format without transparency; [`Error::File`].
+    /// [`Error::File`] for an unknown extension, a directory, a missing or write-protected folder, a failed write, and for a
+    /// picture that is not opaque in a format without transparency.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         Target::of_file(path.as_ref(), !self.is_opaque())?.write(self)
     }
@@ -284,7 +284,7 @@ impl Target {
         Ok(Self::File { path: file.to_owned(), format })
     }
 
-    /// Writes the picture; a file appears complete or stays as it was.
+    /// Writes the picture; a file is replaced completely or stays unchanged.
     ///
     /// # Errors
     ///
@@ -340,7 +340,7 @@ impl Target {
 /// A text that a PNG carries beside its pixels.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
-    /// What it is found by, 1 to 79 letters.
+    /// The note's keyword, 1 to 79 letters.
     pub keyword: &'static str,
     /// ASCII.
     pub text: String,

@@ -58,16 +58,16 @@ pub struct Plan {
     pub supersample: u32,
     /// How its vertices are handed to GL.
     pub submission: Submission,
-    /// What of [`Plan::picture_target`] is the picture.
+    /// The part of [`Plan::picture_target`] that is the picture.
     pub output: Output,
 }
 
-/// Steps that belong together, under the name by which reports and dumps know them.
+/// Steps that belong together. Reports and dumps use its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pass {
     /// `map`, `tones`, `border` …
     pub name: &'static str,
-    /// What it draws into.
+    /// The target that the pass draws into.
     pub target: Target,
     /// The pixels that its steps may clear, draw and copy; `None` for all. A step's own scissor lies within.
     pub scissor: Option<Rectangle>,
@@ -91,7 +91,7 @@ pub enum Step {
         /// Whether depth is cleared, to the farthest.
         depth: bool,
     },
-    /// Clear each of the pass's textures to a colour of its own, and depth.
+    /// Clear each of the pass's textures to its given colour, and depth.
     ClearEach {
         /// Red, green, blue, alpha of each, in the order of [`Attachments::colors`].
         colors: Vec<[f32; 4]>,
@@ -107,18 +107,18 @@ pub enum Step {
 /// One draw with all the state it needs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draw {
-    /// What is drawn.
+    /// The geometry to draw.
     pub geometry: Geometry,
     /// With which shaders; `None` for the fixed-function pipeline, without lighting.
     pub program: Option<Program>,
     /// The uniforms of that program.
     pub uniforms: Vec<Uniform>,
-    /// The textures it reads, by the name of their sampler; each gets a texture unit of its own, in this order. Without a
-    /// fragment shader the units' colours are multiplied with each other and with the geometry's.
+    /// The textures it reads, by the name of their sampler. Each gets its own texture unit, in this order. Without a fragment
+    /// shader the units' colours are multiplied with each other and with the geometry's.
     pub textures: Vec<(&'static str, Texture)>,
     /// How it meets the depth buffer.
     pub depth: Depth,
-    /// How the colour meets what is there.
+    /// How the colour is combined with the target's.
     pub blend: Blend,
     /// Whether faces turned away from the eye (clockwise in the picture) are left out.
     pub cull_back_faces: bool,
@@ -128,7 +128,7 @@ pub struct Draw {
     pub scissor: Option<Rectangle>,
     /// Which faces of [`Geometry::Objects`] are drawn, an entry for each of the scene's objects; `None` for all.
     pub faces: Option<Arc<Vec<Faces>>>,
-    /// What may be assumed of its shaders.
+    /// Facts about its shaders that others may rely on.
     pub facts: Facts,
 }
 
@@ -153,7 +153,7 @@ pub struct FaceList {
 }
 
 impl Draw {
-    /// A draw that tests and writes depth and does nothing else besides, of whose shaders nothing is assumed.
+    /// Returns a draw that only tests and writes depth and states no facts about its shaders.
     pub fn new(geometry: Geometry, program: Option<Program>) -> Self {
         Self {
             geometry,
@@ -171,7 +171,7 @@ impl Draw {
     }
 }
 
-/// What can be drawn.
+/// Geometry to draw.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Geometry {
@@ -220,13 +220,14 @@ pub enum Paint {
 pub struct EdgeRun {
     /// The object's number in the scene.
     pub object: usize,
-    /// What they are: a class of edges.
+    /// The name of their class of edges.
     pub name: &'static str,
     /// Red, green, blue, alpha.
     pub color: [f32; 4],
     /// Both ends of each, as indices into [`EdgeRun::vertices`].
     pub ends: Vec<[u32; 2]>,
-    /// Vertices of its own, for lines that run through faces, like [`crate::mesh::VertexArrays::vertices`]; `None` for those of the object.
+    /// Separate vertices for lines that run through faces, in the form of [`crate::mesh::VertexArrays::vertices`]; `None` for
+    /// lines on the object's vertices.
     pub own_vertices: Option<Vec<[f32; 6]>>,
 }
 
@@ -237,7 +238,7 @@ impl EdgeRun {
     }
 }
 
-/// What of an edge is drawn.
+/// The parts of an edge to draw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
     /// GL_LINES
@@ -261,17 +262,17 @@ tinta_geometry::choices! {
 /// How a draw meets the depth buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
-    /// Drawn where nearer than what is there (GL_LESS), and written.
+    /// Drawn if nearer than the stored depth (GL_LESS), and written.
     TestAndWrite,
-    /// Drawn where nearer than what is there (GL_LESS), not written.
+    /// Drawn if nearer than the stored depth (GL_LESS), not written.
     TestOnly,
-    /// Drawn where exactly as near as what is there (GL_EQUAL), not written: on what an earlier draw left to be seen.
+    /// Drawn if exactly at the stored depth (GL_EQUAL), not written: over the visible pixels of an earlier draw.
     Equal,
     /// Neither tested nor written.
     Ignore,
 }
 
-/// How a colour meets what is there.
+/// How a colour is combined with the target's.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Blend {
     /// It takes its place.
@@ -286,13 +287,13 @@ pub enum Blend {
 /// Two functions of one number as a one-dimensional texture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlanTable {
-    /// What it is, for those who read the plan.
+    /// Its name for readers of the plan.
     pub name: &'static str,
     /// Luminance and alpha, in 1/255, for the numbers 0 to 1 at the texels' centres.
     pub texels: Vec<[u8; 2]>,
 }
 
-/// What of the target the picture shows.
+/// The part of the target that the picture shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Output {
     /// All four channels.
@@ -360,7 +361,7 @@ impl Draw {
 }
 
 impl Plan {
-    /// Drops what was stated of draws by any of these shaders, because they are not those that the style knew.
+    /// Drops the facts of draws that use any of these shaders, because their texts were replaced.
     pub fn forget_facts_of(&mut self, shaders: &[String]) {
         let has_one = |program: &Program| shaders.iter().any(|path| program.has_shader(path));
         let steps = self.passes.iter_mut().flat_map(|pass| &mut pass.steps);
@@ -374,7 +375,7 @@ impl Plan {
 }
 
 impl Plan {
-    /// What holds the picture: what the last pass drew into.
+    /// The target that holds the picture: that of the last pass.
     pub fn picture_target(&self) -> Target {
         self.passes.last().map_or(Target::Framebuffer, |pass| pass.target)
     }
@@ -392,7 +393,7 @@ impl Plan {
         all
     }
 
-    /// What the picture is, in words.
+    /// Writes the picture's description.
     fn write_picture(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let holder = match self.picture_target() {
             Target::Framebuffer => "the framebuffer".to_owned(),

@@ -42,7 +42,7 @@ pub struct Record {
     pub style: Style,
     /// The picture's size.
     pub size: Size,
-    /// What is behind the objects.
+    /// The background behind the objects.
     pub background: Background,
     /// The camera, world space.
     pub camera: CameraRecord,
@@ -80,16 +80,16 @@ pub struct PictureMade {
     pub passes: Vec<PassTime>,
     /// How vertices were handed to GL.
     pub submission: Submission,
-    /// What of the published plan was left out, and why.
+    /// The parts of the published plan that were left out, with reasons.
     pub omissions: Vec<Omission>,
-    /// What was not, and why.
+    /// The rules that left everything in, with reasons.
     pub kept: Vec<Kept>,
     /// Making the plan: for the style inking that is edge list, classes, silhouettes and light.
     pub plan_ms: f64,
     /// Opening the context; on its own thread beside the loading.
     pub context_ms: f64,
-    /// Drawing one triangle while the models were still being read, so that the driver compiles its shaders meanwhile;
-    /// `null` where they were read before.
+    /// Time to draw one triangle while the models were still being read, which compiles the driver's shaders meanwhile; `null` if
+    /// they were read first.
     pub warm_up_ms: Option<f64>,
     /// The first frame: uploads included, and the driver's compiling unless it was warmed up.
     pub first_frame_ms: f64,
@@ -106,7 +106,7 @@ pub struct ModelRecord {
     pub vertices: usize,
     /// Triangles with area.
     pub triangles: usize,
-    /// What was wrong with the file.
+    /// The file's defects.
     pub defects: Defects,
 }
 
@@ -144,13 +144,12 @@ pub struct EdgeRecord {
     pub load: LoadOptions,
     /// Edges, each once.
     pub edges: usize,
-    /// How many are of each class; an edge of several counts in each. Where faces pass through one another is not looked for,
-    /// and has no key.
+    /// Number of edges in each class; an edge of several counts in each. Intersections of faces are not searched and have no key.
     #[serde(serialize_with = "without_intersections")]
     pub classes: ClassCounts,
     /// Inner edges whose faces are wound against each other.
     pub reversed_edges: usize,
-    /// From which angle between faces an edge is a crease.
+    /// Smallest angle between faces at a crease.
     pub crease_angle_degrees: f64,
     /// Its cosine.
     pub crease_cosine: f64,

@@ -36,7 +36,7 @@ use crate::scene::Size;
 /// The longest side of a texture, pixels: what every OpenGL 2.1 driver in use takes.
 pub const LARGEST_SIDE_PX: u32 = 4096;
 
-/// The size of textures where none is asked for.
+/// The default size of textures.
 const DEFAULT_SIZE: Size = Size { width: 512, height: 512 };
 
 fn check_size(size: Size) -> Result<()> {

@@ -1,9 +1,9 @@
-//! Animated GIF, looping. The gif crate is known here only; the image crate's encoder quantizes every picture by itself,
-//! so that tones would flicker.
+//! Animated GIF, looping. Only this module uses the gif crate. The image crate's encoder quantizes every picture separately,
+//! which would make tones flicker.
 //!
-//! GIF knows no half-transparent pixels. The rule: a pixel with at least half its alpha is kept, opaque, in its own
-//! straight colour; the others are dropped. So ink stays ink up to its edge on any background, with neither a white nor
-//! a black fringe, and edges are hard: APNG keeps them soft.
+//! GIF has no half-transparent pixels. A pixel with at least half its alpha is kept, opaque, in its own straight colour; the
+//! others are dropped. So ink stays ink up to its edge on any background, without a white or black fringe. Edges are hard; APNG
+//! keeps them soft.
 
 use super::changes::Rectangle;
 use super::palette::{Palette, TRANSPARENT};

@@ -15,7 +15,7 @@ impl NumberedName {
     /// Finds the first `%d` or `%0Nd` (N from 1 to 9) in the file name of a picture format or a drawing, `.svg` or `.pdf`; `None`
     /// without one.
     ///
-    /// Only there: a per cent sign that means nothing, in a folder's name or before anything else, stays what it is.
+    /// Other per cent signs, and those in folder names, stay unchanged.
     pub fn parse(name: &str) -> Option<Self> {
         let file_name = Path::new(name).file_name()?.to_str()?;
         let is_drawing = |name: &str| [".svg", ".pdf"].iter().any(|end| name.to_ascii_lowercase().ends_with(end));
@@ -46,7 +46,7 @@ impl NumberedName {
         (self.with(number) == name).then_some(number)
     }
 
-    /// What stands before the number, how many digits it has at least, and what stands after it.
+    /// Returns the text before the number, its least count of digits, and the text after it.
     pub fn parts(&self) -> (&str, usize, &str) {
         (&self.before, self.digits, &self.after)
     }

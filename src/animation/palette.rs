@@ -8,7 +8,7 @@ use super::quantize::{Histogram, Mix, Packed, choose, distance, mix};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// The index of no colour, where pictures have holes: the first, so that it stays when colours are added.
+/// The index of the transparent colour in pictures with holes. It is the first, so added colours do not move it.
 pub(super) const TRANSPARENT: u8 = 0;
 
 pub(super) struct Palette {
@@ -49,7 +49,7 @@ impl Palette {
         self.is_exact = true;
     }
 
-    /// Makes the palette serve these RGBA pixels, of which those with alpha 0 do not count.
+    /// Adapts the palette to these RGBA pixels; those with alpha 0 are ignored.
     pub(super) fn fit(&mut self, pixels: &[u8]) {
         let histogram = histogram(pixels);
         let room = 256 - usize::from(self.transparent);

@@ -1,6 +1,6 @@
-//! The 256 colours that stand best for thousands: flat tones exactly, then boxes cut where colours vary most (after
-//! Heckbert's median cut, 1982), then moved to the means of what they stand for (Lloyd). Crates for it bring large
-//! dependencies or shift flat tones.
+//! Chooses the 256 colours that best replace thousands: flat tones exactly, then boxes cut where colours vary most (after
+//! Heckbert's median cut, 1982), then moved to the means of their colours (Lloyd). Crates for this bring large dependencies or
+//! shift flat tones.
 
 /// A colour as one number, red in the high byte.
 pub(super) type Packed = u32;
@@ -25,7 +25,7 @@ const FLAT_SHARE: f64 = 1.0 / 512.0;
 /// … but no more than this share of the palette.
 const FLAT_ENTRIES: f64 = 0.5;
 
-/// Rounds in which entries move to the means of their colours.
+/// Rounds that move entries to the means of their colours.
 const ROUNDS: usize = 3;
 
 fn channels(color: Packed) -> [i32; 3] {
@@ -142,9 +142,9 @@ fn nearest(color: Packed, colors: &[Packed]) -> usize {
     best.0
 }
 
-/// The two entries from `first_color` on, and their shares, whose mix comes nearest to a colour without being rough.
+/// Returns two entries, at `first_color` or later, and their shares; their mix is nearest to a colour without being rough.
 pub(super) fn mix(color: Packed, colors: &[Packed], first_color: usize) -> Mix {
-    /// What the difference of the two entries counts against that of their mean and the colour.
+    /// The weight of the entries' difference against the difference between their mean and the colour.
     const ROUGHNESS: f32 = 0.25;
     let first = first_color + nearest(color, &colors[first_color..]);
     let single = distance(color, colors[first]);

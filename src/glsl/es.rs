@@ -42,9 +42,9 @@ impl Stage {
 /// A piece of a shader.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Piece {
-    /// As it stands in the shader.
+    /// The original text in the shader.
     pub original: String,
-    /// What it became; the same where nothing had to change.
+    /// The rewritten text; equal to the original if no change was needed.
     pub text: String,
 }
 
@@ -58,7 +58,7 @@ impl Piece {
 /// A name of the fixed-function pipeline: in 1.20, its type, and the name here.
 type Name = (&'static str, &'static str, &'static str);
 
-/// What the fixed-function pipeline hands to shaders for a whole draw.
+/// Inputs that the fixed-function pipeline gives shaders for a whole draw.
 pub const UNIFORMS: [Name; 4] = [
     ("gl_ModelViewMatrix", "mat4", "tinta_ModelViewMatrix"),
     ("gl_ProjectionMatrix", "mat4", "tinta_ProjectionMatrix"),
@@ -66,7 +66,7 @@ pub const UNIFORMS: [Name; 4] = [
     ("gl_NormalMatrix", "mat3", "tinta_NormalMatrix"),
 ];
 
-/// What it hands to vertex shaders for each vertex, in the order of their places.
+/// Inputs that it gives vertex shaders for each vertex, in the order of their locations.
 pub const ATTRIBUTES: [Name; 5] = [
     ("gl_Vertex", "vec4", "tinta_Vertex"),
     ("gl_Normal", "vec3", "tinta_Normal"),
@@ -81,23 +81,23 @@ const COLORS: [Name; 2] = [
     ("gl_FrontSecondaryColor", "gl_SecondaryColor", "tinta_FrontSecondaryColor"),
 ];
 
-/// The colour of back faces, which nobody reads where lighting is not two-sided.
+/// The colour of back faces, unused because lighting is one-sided.
 const BACK_COLOR: (&str, &str) = ("gl_BackColor", "tinta_BackColor");
 
 /// Texture coordinates on their way.
 const COORDINATES: (&str, &str) = ("gl_TexCoord", "tinta_TexCoord[2]");
 
-/// What a vertex shader's `main` is called here, for another does what the pipeline does after it.
+/// The new name of a vertex shader's `main`: another function calls it and then does the pipeline's work.
 const MAIN: &str = "tinta_main";
 
 /// How often a loop of unknown length goes round at most: far more than any here does.
 const LONGEST_LOOP: u32 = 1024;
 
-/// A shader in pieces, by itself.
+/// Rewrites one shader and returns its pieces.
 ///
 /// # Errors
 ///
-/// A sentence about what this language has no words for.
+/// A sentence that names the part this language cannot express.
 pub fn transcribed(stage: Stage, text: &str) -> Result<Vec<Piece>, String> {
     let tokens = tokens(text);
     let mut texts = rewritten(stage, &tokens)?;
@@ -161,7 +161,7 @@ fn words<'a>(tokens: &[Token<'a>]) -> HashSet<&'a str> {
     tokens.iter().filter(|token| token.kind == Kind::Word).map(|token| token.text).collect()
 }
 
-/// What stands before all else: version, extensions, precision, and what the pipeline had declared.
+/// Returns the shader's first lines: version, extensions, precision, and declarations that the pipeline made.
 fn head(stage: Stage, words: &HashSet<&str>) -> String {
     let has = |name: &str| words.contains(name);
     let mut head = "#version 100\n".to_owned();
@@ -205,7 +205,7 @@ fn head(stage: Stage, words: &HashSet<&str>) -> String {
     head
 }
 
-/// What the pipeline does after a vertex shader: colours are clamped, points are a pixel wide.
+/// Returns the pipeline's work after a vertex shader: it clamps colours and makes points a pixel wide.
 fn vertex_main(words: &HashSet<&str>) -> String {
     let mut main = format!("\nvoid main() {{\n    {MAIN}();\n    gl_PointSize = 1.0;\n");
     for (written, _, new) in COLORS {
@@ -219,7 +219,7 @@ fn vertex_main(words: &HashSet<&str>) -> String {
 /// What becomes of each token, by its place.
 fn rewritten(stage: Stage, tokens: &[Token<'_>]) -> Result<Vec<String>, String> {
     let mut texts: Vec<String> = tokens.iter().map(|token| token.text.to_owned()).collect();
-    // The places of what is not between.
+    // The places of tokens that are not white space or comments.
     let places: Vec<usize> = (0..tokens.len()).filter(|place| tokens[*place].kind != Kind::Between).collect();
     for (number, place) in places.iter().enumerate() {
         let text = tokens[*place].text;
@@ -241,7 +241,7 @@ fn rewritten(stage: Stage, tokens: &[Token<'_>]) -> Result<Vec<String>, String> 
     for place in floats(tokens, &places) {
         texts[place].push_str(".0");
     }
-    // Last, for what a loop does after each round moves with all that became of it.
+    // Last, because the text after each round of a loop moves with all its changes.
     for number in (0..places.len()).filter(|number| tokens[places[*number]].text == "for") {
         bound_loop(tokens, &places[number..], &mut texts)?;
     }
@@ -283,7 +283,7 @@ fn sample_table(tokens: &[Token<'_>], places: &[usize], texts: &mut [String]) ->
     Ok(())
 }
 
-/// A loop has to begin at a number here and go on to one: another goes round up to [`LONGEST_LOOP`] times, and ends by its
+/// Bounds a loop, which must run here from one number to another. Other loops run up to [`LONGEST_LOOP`] times and end by their
 /// own condition. `places` begins with the word `for`.
 fn bound_loop(tokens: &[Token<'_>], places: &[usize], texts: &mut [String]) -> Result<(), String> {
     let text = |place: usize| tokens[places[place]].text;
@@ -356,7 +356,7 @@ fn closing(tokens: &[Token<'_>], places: &[usize], open: usize) -> Option<usize>
     (open + 1..places.len()).find(|place| depth(tokens, &places[open..=*place]) == 0)
 }
 
-/// What stands at a shader's top, each a text without comments: directives, declarations, functions.
+/// Returns a shader's top-level items, each a text without comments: directives, declarations, functions.
 fn items(tokens: &[Token<'_>], texts: &[String]) -> Vec<String> {
     let (mut items, mut item, mut depth) = (Vec::new(), String::new(), 0);
     let mut was_directive = false;

@@ -15,7 +15,7 @@ pub(super) enum StagedFile {
     /// No name leads to it.
     #[cfg(target_os = "linux")]
     Unnamed(File),
-    /// Under a name of its own.
+    /// With a temporary name.
     Named(NamedTempFile),
 }
 
@@ -71,7 +71,7 @@ fn unnamed(folder: &Path) -> Result<Option<File>> {
     match open(folder, flags, Mode::from_raw_mode(0o666)) {
         Ok(file) => {
             let file = File::from(file);
-            // Without /proc there is no way to name it.
+            // Without /proc the file cannot be named.
             Ok(door(&file).symlink_metadata().is_ok().then_some(file))
         }
         // The file system's answer, and those of kernels that do not know the flag.

@@ -24,7 +24,7 @@ enum Source<'a> {
 pub struct MaterialPictures(Vec<(ObjectIdentity, Vec<Option<Arc<Picture>>>)>);
 
 impl MaterialPictures {
-    /// Reads what these objects have and is not there yet, and lets go of what is no longer theirs.
+    /// Reads these objects' missing pictures and releases unused ones.
     ///
     /// # Errors
     ///
@@ -87,7 +87,7 @@ pub fn material_pictures(materials: &[Material]) -> Result<Vec<Option<Arc<Pictur
     Ok(pictures)
 }
 
-/// Puts what a texture's alpha leaves out on white.
+/// Blends a texture's transparent parts with white.
 fn flatten(picture: &mut Picture, alpha: TextureAlpha) {
     const WHITE: u32 = 255;
     let share = |own: u8| match alpha {

@@ -11,7 +11,7 @@ const HEADER_BYTES: usize = 128;
 const PALETTE_BYTES: usize = 1 + 256 * 3;
 const PALETTE_MARK: u8 = 12;
 const MANUFACTURER: u8 = 10;
-/// A byte from here on is how often, in its lower six bits, the next one stands there.
+/// Bytes from this value up are counts: the lower six bits say how often the next byte repeats.
 const RUN: u8 = 0xc0;
 
 const CUT_OFF: &str = "it is cut off or damaged; save it again";

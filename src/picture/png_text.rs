@@ -1,4 +1,4 @@
-//! PNG with a text in it, written and read: what the image crate does not do.
+//! Writes and reads PNG files with a text in them, which the image crate cannot do.
 
 use crate::values::Size;
 use png::{BitDepth, ColorType, Compression, Encoder, Filter};
@@ -7,7 +7,8 @@ use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 #[cfg(feature = "recipes")]
 const LARGEST_BYTES: usize = 4 << 20;
 
-/// Encodes as the image crate is asked to elsewhere, with a `tEXt` chunk; `text` is ASCII. Opaque pixels have three bytes, others four.
+/// Encodes with the image crate's settings used elsewhere, and adds a `tEXt` chunk; `text` is ASCII. Opaque pixels have three
+/// bytes, others four.
 pub(super) fn encode(
     Size { width, height }: Size,
     pixels: &[u8],

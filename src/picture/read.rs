@@ -12,7 +12,7 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 use std::path::Path;
 
-/// How TGA files may end since 1989; the older ones say nothing of what they are.
+/// The footer of TGA files since 1989; older files have no signature.
 const TGA_END: &[u8] = b"TRUEVISION-XFILE.\0";
 
 impl Picture {
@@ -73,7 +73,7 @@ fn decode(bytes: &[u8], extension: &str, most: u64) -> std::result::Result<Pictu
     let mut limits = Limits::default();
     limits.max_image_width = Some(PICTURE_SIDE_PX);
     limits.max_image_height = Some(PICTURE_SIDE_PX);
-    // Twice the pixels' memory, as they may have 16 bits a channel in the file, and what the decoder needs itself.
+    // Twice the pixels' memory, because files may have 16 bits per channel, and the decoder's own memory.
     limits.max_alloc = Some(2 * PICTURE_BYTES.max((bytes.len() * MEMORY_FACTOR) as u64) + MEMORY_SLACK_BYTES as u64);
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);

@@ -1,8 +1,7 @@
-//! What is wrong with a plan, found without a GL context: what it reads before it writes it, targets and textures that are
-//! not there, sizes that do not fit.
+//! Finds a plan's mistakes without a GL context: reads before writes, missing targets and textures, wrong sizes.
 //!
-//! In: a plan and the scene it is to be drawn for. Out: nothing, or the first [`Flaw`], a sentence. The renderer asks before it
-//! draws: what an earlier plan left in a texture or a buffer never becomes part of a picture.
+//! In: a plan and the scene it will draw. Out: the first [`Flaw`], a sentence, if any. The renderer checks before it draws, which
+//! keeps the contents that an earlier plan left in a texture or a buffer out of the picture.
 
 use super::{Blend, Depth, Draw, Drawn, Faces, Format, Geometry, Paint, Plan, Step, Target, Texture};
 use crate::scene::{Rectangle, Scene, Size};
@@ -11,10 +10,10 @@ use crate::scene::{Rectangle, Scene, Size};
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Flaw {
-    /// There is nothing to draw.
+    /// The plan has no passes.
     #[error("it has no pass; give it one that draws a picture")]
     NoPass,
-    /// A step reads a texture that a later step makes, or draws over what no step has cleared.
+    /// A step reads a texture that a later step makes, or draws over pixels that no step has cleared.
     #[error("the pass {pass} reads {what} before a step has written it; clear, draw or copy it earlier")]
     ReadBeforeWritten {
         /// The pass.
@@ -22,7 +21,7 @@ pub enum Flaw {
         /// The texture or buffer.
         what: String,
     },
-    /// A step reads or draws into what the plan does not have.
+    /// A step reads or draws into a part that the plan lacks.
     #[error("the pass {pass} needs {what}, which the plan does not have; add it, or do without")]
     Missing {
         /// The pass.
@@ -141,7 +140,7 @@ impl Plan {
     }
 }
 
-/// What the steps so far have written.
+/// The targets and textures that the steps so far have written.
 #[derive(Default)]
 struct Written {
     /// Textures that passes leave.

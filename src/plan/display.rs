@@ -8,7 +8,7 @@ use crate::scene::Rectangle;
 use std::fmt;
 
 impl fmt::Display for Plan {
-    /// Step by step; as `{:#}` with what is stated of each draw below it.
+    /// Prints step by step; `{:#}` adds the facts stated of each draw below it.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.supersample > 1 {
             writeln!(out, "everything drawn {} times as wide and high as the picture", self.supersample)?;

@@ -1,8 +1,8 @@
-//! What a style states of its draws, so that `prune` can shorten plans without knowing a shader.
+//! Facts that a style states of its draws. With them `prune` can shorten plans without knowing a shader.
 //!
-//! A draw's state says how it meets the depth buffer or what it is blended with; what its shaders do only their author knows.
-//! So a style states it beside the draw. A plan draws the same whatever it states: nobody but `prune` reads this, and what is
-//! not stated is not assumed. Where a shader is replaced by another text, its draws' facts are dropped.
+//! A draw's state includes its depth test and blending, but only the author knows the effect of its shaders. So the style states
+//! that effect beside the draw. A plan draws the same whatever it states: only `prune` reads the facts, and it assumes nothing
+//! else. When a shader is replaced by another text, its draws' facts are dropped.
 
 use super::Program;
 use std::fmt;
@@ -25,7 +25,7 @@ pub struct Facts {
     pub keeps_pixels: bool,
     /// All its pixels get this colour: red, green, blue, alpha.
     pub constant_color: Option<[f32; 4]>,
-    /// It leaves every pixel's colour and depth as they are, for this reason.
+    /// It leaves every pixel's colour and depth unchanged, for this reason.
     pub adds_nothing: Option<String>,
     /// How far from its own pixel it reads the textures that passes leave, at most, pixels.
     pub reach_px: Option<u32>,
@@ -38,10 +38,10 @@ pub struct Facts {
     pub shorter: Option<Shorter>,
 }
 
-/// What a filter makes of a pixel around which there is nothing to find.
+/// A filter's result for a pixel whose surroundings are uniform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum WhereEven {
-    /// It is left as it is.
+    /// The pixel stays unchanged.
     Unchanged,
     /// It gets this colour: red, green, blue, alpha.
     Color([f32; 4]),
@@ -52,7 +52,7 @@ pub enum WhereEven {
 pub struct Shorter {
     /// Its shaders.
     pub program: Program,
-    /// What they do not compute.
+    /// The uniform or value that they do not compute.
     pub without: &'static str,
     /// Why that makes no difference.
     pub because: String,
@@ -71,7 +71,7 @@ impl Facts {
 }
 
 impl fmt::Display for Facts {
-    /// `keeps places, keeps pixels`; nothing where nothing is stated.
+    /// `keeps places, keeps pixels`; empty without facts.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let color = |[r, g, b, a]: [f32; 4]| format!("({r}, {g}, {b}, {a})");
         let facts = [

@@ -1,4 +1,4 @@
-//! Shaders that a draw runs, and what they read.
+//! The shaders that a draw runs, and the uniforms they read.
 
 use super::target::Drawn;
 use crate::picture::Picture;
@@ -34,14 +34,14 @@ pub enum Value {
     Vec3([f32; 3]),
     /// int
     Int(i32),
-    /// vec2: how far apart the texels of what a pass leaves are, 1 / its size in pixels. That of a tile is a tile's.
+    /// vec2: the distance between texels of a pass's result, 1 / its size in pixels. In a tile it is the tile's.
     TexelSize([f32; 2]),
-    /// vec2: a place on what is drawn, in pixels from its lower left corner. In a tile it is counted from the tile's.
+    /// vec2: a place on the surface, in pixels from its lower left corner. In a tile it is counted from the tile's.
     PixelPlace([f32; 2]),
 }
 
 impl Value {
-    /// [`Value::TexelSize`] of what is this large.
+    /// Returns the [`Value::TexelSize`] of a surface of this size.
     pub fn texel_size(size: Size) -> Self {
         Self::TexelSize([1.0 / size.width as f32, 1.0 / size.height as f32])
     }
@@ -75,7 +75,7 @@ impl Program {
 /// A picture as a texture, its lowest row at coordinate 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanPicture {
-    /// What it is, for those who read the plan.
+    /// Its name for readers of the plan.
     pub name: &'static str,
     /// The picture.
     pub picture: Arc<Picture>,

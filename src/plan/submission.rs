@@ -1,7 +1,7 @@
 //! How a plan's vertices reach GL: the same picture by the calls of two times.
 
 tinta_geometry::choices! {
-    /// How vertices are handed to GL. The picture is the same, byte for byte; what it costs is not.
+    /// How vertices are passed to GL. The picture is the same, byte for byte; the cost differs.
     #[derive(Default)]
     pub enum Submission {
         /// Vertex buffers, uploaded once, and one call for each run of faces or edges (OpenGL 1.5).

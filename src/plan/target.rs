@@ -2,37 +2,37 @@
 
 use std::fmt;
 
-/// What a pass draws into.
+/// The target of a pass.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Target {
     /// The framebuffer, 8 bits a channel.
     #[default]
     Framebuffer,
-    /// Textures as large as what is drawn, and a depth buffer that all passes into textures share.
+    /// Textures as large as the surface, with a depth buffer that all passes into textures share.
     Textures(&'static Attachments),
 }
 
 /// The textures of one framebuffer object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Attachments {
-    /// In the order of gl_FragData; the first is what is read where a pass's picture is.
+    /// In the order of gl_FragData; the first holds the pass's picture.
     pub colors: &'static [Attachment],
     /// Whether there is a depth buffer.
     pub has_depth: bool,
-    /// What asks for them, for a driver that has none.
+    /// The setting that needs them, for a driver without them.
     pub asked_by: SettingValue,
     /// What to choose instead there.
     pub instead: SettingValue,
-    /// What that draws, where it is not quite the same.
+    /// The picture that the alternative draws, if it differs.
     pub instead_draws: Option<&'static str>,
 }
 
 /// A texture that is drawn into: RGBA, NEAREST, CLAMP_TO_EDGE. Within a plan a name has one format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Attachment {
-    /// By which steps read it.
+    /// The name by which steps read it.
     pub name: Drawn,
-    /// What a channel holds.
+    /// The format of its channels.
     pub format: Format,
 }
 
@@ -49,7 +49,7 @@ pub struct SettingValue {
     pub value: &'static str,
 }
 
-/// What asks for a copy of the depth buffer, each with what to choose instead where there is none.
+/// The settings that need a copy of the depth buffer, each with the alternative for drivers without one.
 pub(crate) const DEPTH_COPIES: [[SettingValue; 2]; 2] = [
     [
         SettingValue { setting: "map-encoding", value: "depth-texture" },
@@ -58,7 +58,7 @@ pub(crate) const DEPTH_COPIES: [[SettingValue; 2]; 2] = [
     [SettingValue { setting: "crease-by", value: "normals" }, SettingValue { setting: "crease-by", value: "planes" }],
 ];
 
-/// What a channel of a texture that is drawn into holds.
+/// The format of the channels of a texture that is drawn into.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// 8 bits, from 0 to 1, as in the framebuffer.

@@ -1,27 +1,27 @@
-//! Pictures in tiles: parts of what is drawn, one after the other, for pictures larger than a driver can draw at once.
+//! Pictures in tiles: parts of the surface, drawn one after the other, for pictures larger than a driver can draw at once.
 //!
-//! In: a plan, the size of what is drawn, what a driver can draw. Out: [`Tile`]s that cover it, each with so much around it as the
-//! plan's filters read. A tile is drawn with the whole picture's viewport, shifted, so that its pixels lie on the same places of
-//! the model as in one piece.
+//! In: a plan, the surface's size, the driver's limits. Out: [`Tile`]s that cover the surface, each with the margin that the
+//! plan's filters read. A tile is drawn with the whole picture's viewport, shifted. Its pixels therefore sample the same places
+//! of the model as in one piece.
 
 use super::{Geometry, Plan, Step, Texture, Value};
 use crate::scene::{Rectangle, Size};
 use glam::{DMat4, DVec3, Mat4};
 
-/// A part of what is drawn, in pixels of the whole, counted from its lower left corner.
+/// A part of the surface, in pixels of the whole, counted from its lower left corner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tile {
     /// The size of the whole.
     pub whole: Size,
-    /// What is drawn: what is kept, and as much around it as filters read.
+    /// The rectangle to draw: `kept`, and the margin that filters read.
     pub drawn: Rectangle,
-    /// What of that becomes part of the picture.
+    /// The part of it that enters the picture.
     pub kept: Rectangle,
-    /// What the viewport spans: the whole, or as much of it around the tile as the driver's viewport can.
+    /// The viewport: the whole, or as much of it around the tile as the driver's viewport can span.
     pub viewport: Rectangle,
 }
 
-/// What a driver can draw at once.
+/// The largest surface and viewport that a driver can draw at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TileLimits {
     /// Largest surface.
@@ -46,12 +46,12 @@ impl Tile {
         *self == Self::whole(self.whole)
     }
 
-    /// The size of what is drawn of it.
+    /// The size of the drawn rectangle.
     pub fn size(&self) -> Size {
         Size { width: self.drawn.width, height: self.drawn.height }
     }
 
-    /// What of a rectangle of the whole is drawn here, counted from the tile's own corner; `None` for nothing.
+    /// Returns the part of a rectangle of the whole that lies in this tile, counted from the tile's own corner; `None` if empty.
     pub fn part(&self, of: Rectangle) -> Option<Rectangle> {
         let common = of.within(self.drawn)?;
         Some(Rectangle { x: common.x - self.drawn.x, y: common.y - self.drawn.y, ..common })
@@ -73,7 +73,7 @@ impl Tile {
         Some((DMat4::from_translation(DVec3::new(shift_x, shift_y, 0.0)) * scale).as_mat4())
     }
 
-    /// What a uniform of the whole is in this tile.
+    /// Converts a uniform of the whole to this tile.
     pub fn value(&self, value: Value) -> Value {
         match value {
             Value::TexelSize(_) if !self.is_whole() => Value::texel_size(self.size()),
@@ -150,7 +150,7 @@ struct Span {
     viewport: [u32; 2],
 }
 
-/// A side cut into about equal lengths, none of which with its margins is longer than `largest`.
+/// Cuts a side into about equal lengths; none exceeds `largest`, margins included.
 fn spans(side: u32, largest: u32, margin: u32, viewport: u32) -> Option<Vec<Span>> {
     let most = match side <= largest {
         true => side,

@@ -13,12 +13,12 @@ use std::fmt::Write;
 pub struct LinesMade {
     /// How many edges there are of each class, each counted in its first one.
     pub edges: ClassCounts,
-    /// Where along smooth silhouettes what is seen begins and ends; absent with others.
+    /// Places along smooth silhouettes where visibility changes; absent with other silhouettes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changes: Option<VisibilityChanges>,
     /// How many lines are missing because the time was over.
     pub undecided: usize,
-    /// Pieces of lines, and what they were chained to.
+    /// Pieces of lines, and the numbers after chaining.
     pub counts: LineCounts,
     /// Topology, silhouettes, visibility.
     #[serde(flatten)]
@@ -36,7 +36,7 @@ pub struct LineCounts {
     pub hidden_segments: usize,
     /// Polylines seen.
     pub visible_paths: usize,
-    /// Polylines hidden, as far as they are drawn: none without `--hidden`, and none of what lies under other lines.
+    /// Hidden polylines that are drawn: none without `--hidden`, and none under other lines.
     pub hidden_paths: usize,
 }
 

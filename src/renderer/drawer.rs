@@ -1,4 +1,4 @@
-//! One context with what it holds: plans go in, frames come out.
+//! One context and its resources: plans go in, frames come out.
 
 use crate::error::{Error, Result};
 use crate::gl::context::{Context, Current};
@@ -27,7 +27,7 @@ impl Drawer {
         Self { resources, context, surface: None, pixels: Vec::new(), confined_to: None }
     }
 
-    /// Draws what is larger than this in tiles that are not.
+    /// Draws larger surfaces in tiles of at most this size.
     pub(super) fn confine(&mut self, largest: Option<Size>) {
         self.confined_to = largest;
     }
@@ -40,7 +40,7 @@ impl Drawer {
             && self.confined_to.is_none_or(is_within)
     }
 
-    /// What of a surface of this size is drawn at once, one after the other; `None` where it cannot be drawn.
+    /// Returns the tiles of a surface of this size, drawn one after the other; `None` if it cannot be drawn.
     pub(super) fn tiles(&self, plan: &Plan, surface: Size) -> Option<Vec<Tile>> {
         match self.draws_at_once(surface) {
             true => Some(vec![Tile::whole(surface)]),
@@ -110,7 +110,7 @@ impl Drawer {
         });
         let explained = self.resources.explain("drawing", result);
         if explained.is_err() {
-            // What was half made must not be taken for whole by the next picture.
+            // The next picture must not use half-made resources.
             self.resources.clear();
         }
         drop(current);
@@ -121,7 +121,7 @@ impl Drawer {
     pub(super) fn replace_shaders(&mut self, shaders: &HashMap<String, String>) -> Result<()> {
         let _current = self.context.enter()?;
         let before = self.resources.replace_shaders(shaders.clone());
-        // In a fixed order: of several mistakes the same one is said every time.
+        // Sorted, to report the same one of several mistakes every time.
         let mut paths: Vec<&String> = shaders.keys().collect();
         paths.sort();
         let compiled = paths.into_iter().try_for_each(|path| self.resources.compile(path));
@@ -146,7 +146,7 @@ impl Drop for Drawer {
     }
 }
 
-/// So many bytes of 0, or that there is no memory for them.
+/// Returns this many bytes of 0, or an error if memory is short.
 fn memory(bytes: usize) -> Result<Vec<u8>> {
     let mut memory = Vec::new();
     memory.try_reserve_exact(bytes).map_err(|_| Error::gl("reading the picture back", "not enough memory"))?;
@@ -158,7 +158,7 @@ fn memory(bytes: usize) -> Result<Vec<u8>> {
 pub(super) struct Frame<'a> {
     pub(super) resources: &'a mut Resources,
     pub(super) pixels: &'a mut Vec<u8>,
-    /// What is drawn at once, one after the other.
+    /// The tiles, drawn one after the other.
     pub(super) tiles: Vec<Tile>,
     scene: &'a Scene,
     plan: &'a Plan,
@@ -175,7 +175,7 @@ impl Frame<'_> {
         Ok(())
     }
 
-    /// Carries out one step of a tile and puts what it drew, or for a copy the copy, where it belongs.
+    /// Carries out one step of a tile and puts its result, or for a copy the copy, into its place.
     pub(super) fn step(&mut self, pass: &Pass, step: &Step, tile: Tile, times: u32, canvas: &mut Canvas) -> Result<()> {
         self.resources.begin(pass.target, pass.scissor)?;
         self.resources.step(self.scene, step)?;
@@ -197,7 +197,7 @@ impl Frame<'_> {
         self.resources.check(pass.name)
     }
 
-    /// Reads back what the picture has of a tile.
+    /// Reads back a tile's part of the picture.
     pub(super) fn read_back(&mut self, tile: Tile) -> Result<Rectangle> {
         self.resources.begin(self.plan.picture_target(), None)?;
         let (part, place) = shrunk(tile, self.plan.supersample);

@@ -2,7 +2,7 @@
 
 use crate::scene::Size;
 
-/// What lies above the first row and below the last.
+/// The values above the first row and below the last.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Rows {
     /// The rows at the other end.
@@ -41,8 +41,8 @@ pub(super) fn gaussian(values: &[f32], size: Size, deviation_px: f64, rows: Rows
     down
 }
 
-/// An odd number of weights with the sum 1, whole multiples of 2^-16: what a library's `exp` does to the last bit of one is
-/// rounded away, and sums of them times bytes are exact.
+/// Returns an odd number of weights with the sum 1, in whole multiples of 2^-16. The rounding hides differences of libraries'
+/// `exp` in the last bit, and makes sums of weights times bytes exact.
 fn weights(deviation_px: f64) -> Vec<f32> {
     const UNIT: f64 = 65_536.0;
     if deviation_px <= 0.0 {

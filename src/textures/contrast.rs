@@ -22,8 +22,8 @@ pub struct ContrastTexture {
     /// Share of pixels that are made black before they are moved, percent. Default 60: the text says "density 60" without a
     /// unit, which is read as percent here (errata V10). More is darker.
     pub density_percent: f64,
-    /// The exponent m of t^m, at least 1. Default 5.5, the middle one of figure 3's three (1.3, 5.5, 15); which one the text
-    /// draws with it does not say. More gathers the grains at the darkest tones, so that the drawing has fewer.
+    /// The exponent m of t^m, at least 1. Default 5.5, the middle one of figure 3's three (1.3, 5.5, 15); the text does not say
+    /// which one it draws with. More gathers the grains at the darkest tones and leaves fewer in the drawing.
     pub exponent: f64,
     /// Standard deviation of the final blur, pixels. Default 0.8; the text gives none (errata V7). More is softer.
     pub blur_px: f64,
@@ -96,12 +96,12 @@ impl ContrastTexture {
 
     /// Makes the texture.
     ///
-    /// It repeats along s, where the drawing's random numbers reach over the edge. It does not along t: there the blur
-    /// ends with the picture (ours, errata V11), for the darkest row is no neighbour of the lightest and would put specks into the lights.
+    /// It repeats along s, where the drawing's random numbers cross the edge. It does not repeat along t: there the blur ends
+    /// with the picture (ours, errata V11). Otherwise the darkest row would mix with the lightest and put specks into the lights.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] by the option's name for nonsense.
+    /// [`Error::Setting`] by the option's name for an invalid value.
     pub fn picture(&self) -> Result<Picture> {
         let grains = self.grains()?;
         let white: Vec<f32> = grains.counts.iter().map(|count| if *count > 0 { 0.0 } else { 255.0 }).collect();
@@ -208,7 +208,7 @@ mod tests {
         let grains = texture.grains().unwrap();
         let edge = |row: i32| (f64::from(row) / 64.0).powf(1.0 / 5.5) * 64.0;
         for row in 0..64 {
-            // What comes from each row is the part of it between the two edges, taken back before they were moved.
+            // Each row contributes the part between its two edges, at their places before they were moved.
             let (low, high) = (edge(row), edge(row + 1));
             let part = |from: i32| (high.min(f64::from(from + 1)) - low.max(f64::from(from))).max(0.0);
             let white: f64 = (0..64).map(|from| 1.0 - 0.6 * part(from)).product();

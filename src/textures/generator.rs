@@ -1,7 +1,7 @@
-//! The generators of random numbers that textures are made with: ours, and the `rand()` of two C libraries of the report's time.
+//! The random number generators of the textures: ours, and the `rand()` of two C libraries of the report's time.
 //!
-//! The report makes its textures with `rand()`, does not say whose, and supposes that a better generator would change little
-//! (Valente 2007, section 5; errata V8). Both are here after their published definitions, so that it can be tried.
+//! The report makes its textures with `rand()` of an unnamed library, and supposes that a better generator would change little
+//! (Valente 2007, section 5; errata V8). Both libraries' generators follow their published definitions and allow a test of that.
 
 use crate::random::Random;
 
@@ -27,8 +27,8 @@ pub(super) enum Numbers {
 }
 
 impl Numbers {
-    /// The numbers of a seed. What they are for makes other numbers of ours; a C program's begin at its `srand`, of which the
-    /// seed's lower 32 bits are the argument.
+    /// Starts the numbers of a seed. Our generator also varies them by `purpose`. A C program's begin at its `srand`, whose
+    /// argument is the seed's lower 32 bits.
     pub(super) fn new(generator: Generator, seed: u64, purpose: &str) -> Self {
         match generator {
             Generator::SplitMix => Self::SplitMix(Random::new(seed, purpose)),
@@ -80,7 +80,7 @@ impl Numbers {
     }
 }
 
-/// Microsoft's: state * 214013 + 2531011, of which bits 16 to 30 are the number.
+/// Microsoft's: state * 214013 + 2531011; bits 16 to 30 are the number.
 pub(super) struct Msvc(u32);
 
 impl Msvc {
@@ -90,7 +90,7 @@ impl Msvc {
     }
 }
 
-/// GNU's: r[i] = r[i - 3] + r[i - 31], of which all but the lowest bit are the number.
+/// GNU's: r[i] = r[i - 3] + r[i - 31]; all bits except the lowest are the number.
 pub(super) struct Glibc {
     words: [u32; 31],
     /// The word that is replaced next; the oldest.
@@ -111,9 +111,9 @@ impl Glibc {
             }
             this
         });
-        // The words 31 to 33 are the first three again, so that the fourth is the oldest.
+        // The words 31 to 33 repeat the first three, which makes the fourth the oldest.
         let mut made = Self { words, oldest: 3 };
-        // What the library throws away.
+        // The library discards these.
         for _ in 0..310 {
             made.next();
         }

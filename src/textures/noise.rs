@@ -10,7 +10,7 @@ use serde::Serialize;
 /// Settings of the noise texture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NoiseTexture {
-    /// Pixels. Default 512 x 512; one as large as the drawing gives every pixel a number of its own.
+    /// Pixels. Default 512 x 512. A texture as large as the drawing gives every pixel a separate number.
     pub size: Size,
     /// Where the random numbers begin. Default 0; another seed is another texture of the same kind.
     pub seed: u64,

@@ -1,7 +1,7 @@
-//! The paper the drawing is made on: ours, for the text shows none it could be made from (errata V7).
+//! The paper under the drawing. It is ours, because the text does not specify one (errata V7).
 //!
-//! A sheet of drawing paper lit flatly from the upper left: its tooth (fine and coarse grain) as relief, fibres in the
-//! pulp, cloudy where it is thicker, slightly yellow. It repeats in both directions.
+//! A sheet of drawing paper lit flatly from the upper left: its tooth (fine and coarse grain) as relief, fibres in the pulp,
+//! cloudy where it is thicker, slightly yellow. It repeats in both directions.
 
 use super::blur::{Rows, gaussian};
 use super::generator::{Generator, Numbers};
@@ -40,7 +40,7 @@ const TOOTH: f32 = 1.5;
 const FIBRES: f32 = 1.0;
 const CLOUDS: f32 = 1.1;
 
-/// What is smaller than this in a picture of paper is taken for its tooth, pixels.
+/// Details smaller than this in a picture of paper count as its tooth, pixels.
 const COARSEST_TOOTH_PX: f64 = 4.5;
 
 /// Steps of 255 a standard deviation of the height.
@@ -216,7 +216,7 @@ fn steps(side: u32, cells: usize) -> Vec<(usize, usize, f32)> {
     (0..side).map(step).collect()
 }
 
-/// How much the surface rises towards the upper left: light from there falls on what rises away from it.
+/// Returns how much the surface rises towards the upper left: light from there falls on the opposite slopes.
 fn slope(height: &[f32], size: Size) -> Vec<f32> {
     let (width, rows) = (size.width as usize, size.height as usize);
     let at = |x: usize, y: usize| height[y % rows * width + x % width];

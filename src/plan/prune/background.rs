@@ -6,7 +6,7 @@ use crate::plan::{Blend, Depth, Draw, Geometry, Pass, Plan, Step, Target, Textur
 use crate::scene::Rectangle;
 use crate::tolerances::EIGHT_BIT_TIE;
 
-/// Clears to what the background square would draw.
+/// Replaces the background square by a clear to its values.
 pub(super) fn square(plan: &mut Plan) -> Result<Omission, String> {
     let mut passes = Vec::new();
     let mut kept = "no step draws one".to_owned();
@@ -43,7 +43,7 @@ pub(super) fn square(plan: &mut Plan) -> Result<Omission, String> {
     })
 }
 
-/// Whether a channel of what is drawn into has 8 bits.
+/// Whether the target has 8 bits per channel.
 fn has_eight_bits(target: Target) -> bool {
     match target {
         Target::Framebuffer => true,
@@ -76,7 +76,7 @@ pub(super) fn empty_pixels(plan: &mut Plan, situation: &Situation<'_>) -> Result
         let Some((place, reach)) = confined else { continue };
         let needed = situation.extent().map(|extent| extent.grown(reach, situation.surface));
         let count = needed.map_or(0, Rectangle::pixel_count);
-        // Nothing is saved by a frame of single pixels.
+        // A frame of single pixels saves no time.
         if count * 20 > whole * 19 {
             continue;
         }
@@ -121,7 +121,7 @@ fn confine_maps(plan: &mut Plan, situation: &Situation<'_>) {
         let clears_all = |pass: &Pass| {
             matches!(pass.steps.first(), Some(Step::Clear { color: Some(_), depth: true })) && pass.scissor.is_none()
         };
-        // What the pass itself draws must be gone, or read by these textures alone.
+        // The pass's own picture must be gone, or read by these textures alone.
         let is_gone = match pass.target {
             Target::Framebuffer => later().find(|pass| pass.target == Target::Framebuffer).is_some_and(clears_all),
             Target::Textures(_) => !later().any(|later| later.target != Target::Framebuffer),
@@ -164,8 +164,8 @@ fn copied(step: &Step) -> Option<Texture> {
     }
 }
 
-/// How far from objects, in pixels, a square may change something: where it leaves pixels as they are, or as they were cleared,
-/// wherever the map is the same all around; `None` for any other draw.
+/// Returns the distance from objects, in pixels, within which a square may change pixels. Beyond it the square leaves them
+/// unchanged, or as cleared, wherever the surrounding map is uniform. `None` for any other draw.
 fn reach_beyond_objects(draw: &Draw, before: &[Step], ground: &Ground) -> Option<u32> {
     let is_square = matches!(draw.geometry, Geometry::ScreenSquare | Geometry::BackgroundSquare { .. });
     let is_seen = match draw.facts.where_even? {

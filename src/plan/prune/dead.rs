@@ -55,7 +55,7 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
             }
             match &step {
                 Step::CopyFramebuffer | Step::CopyDepth => framebuffer_is_read = true,
-                // What was there before is gone.
+                // The clear erases the earlier contents.
                 Step::Clear { color: Some(_), depth: true } | Step::ClearEach { .. } if !is_partial => {
                     match pass.target {
                         Target::Framebuffer => framebuffer_is_read = false,
@@ -119,20 +119,20 @@ pub(super) fn unread_textures(plan: &mut Plan) -> Result<Omission, String> {
     })
 }
 
-/// What is left of a list, and what is not.
+/// The parts of a list that remain, and the others.
 struct Left<T> {
     is_read: Vec<bool>,
     dropped: Vec<T>,
 }
 
 impl<T> Left<T> {
-    /// The number now of what had this number.
+    /// Returns the new number of the item that had this number.
     fn number(&self, old: usize) -> usize {
         self.is_read[..old].iter().filter(|is_read| **is_read).count()
     }
 }
 
-/// Leaves in a list what is read of it, by number.
+/// Drops a list's unread items, by number.
 fn drop_unread<T: Clone>(list: &mut Vec<T>, is_read: impl Fn(usize) -> bool) -> Left<T> {
     let is_read: Vec<bool> = (0..list.len()).map(is_read).collect();
     let of =

@@ -3,7 +3,7 @@
 use crate::plan::{Blend, Depth, Draw, Geometry, Step, Target, Texture, WhereEven};
 use crate::scene::Rectangle;
 
-/// What of a plan holds one value wherever no object is near, as far as its steps have been followed.
+/// The parts of a plan that hold one value wherever no object is near, after the steps followed so far.
 #[derive(Default)]
 pub(super) struct Ground {
     /// Of these colours all that is farther than so many pixels from the objects is the same.
@@ -87,7 +87,7 @@ impl Ground {
         }
     }
 
-    /// How far from the objects a draw leaves all pixels as they are; `None` where it may change any.
+    /// Returns the distance from the objects beyond which a draw leaves all pixels unchanged; `None` if it may change any.
     fn unchanged_beyond(&self, draw: &Draw) -> Option<u32> {
         let reach = draw.facts.reach_px.filter(|_| draw.facts.where_even == Some(WhereEven::Unchanged))?;
         self.even_beyond(draw)?.checked_add(reach)

@@ -1,4 +1,4 @@
-//! What rules of pruning are, what they know of a scene, and what they leave out.
+//! The rules of pruning, the facts they use of a scene, and the parts they leave out.
 
 use crate::choice::Choice;
 use crate::plan::Plan;
@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::cell::OnceCell;
 
 tinta_geometry::choices! {
-    /// A kind of thing that can be left out, in the order in which the rules are applied.
+    /// A kind of part that can be left out. The rules apply in this order.
     #[non_exhaustive]
     pub enum Rule {
         /// Draws that add nothing: the border's square where its filter is multiplied by 0.
@@ -46,10 +46,9 @@ pub struct Pruning {
     pub keep: Vec<Rule>,
     /// Whether GL draws on the processor, where faces left out here are worth the search for them. Default yes.
     pub is_software: bool,
-    /// Bits to which GL places a vertex within a pixel. Default 4, as many as every driver has.
+    /// Bits of a vertex's position within a pixel. Default 4, the number that every driver has.
     pub subpixel_bits: u32,
-    /// Shaders, by their paths, whose texts are no longer those that the styles know: what a plan states of draws by them
-    /// does not count. Default none.
+    /// Shaders, by path, whose texts have been replaced: facts of draws that use them are ignored. Default none.
     pub replaced_shaders: Vec<String>,
 }
 
@@ -65,7 +64,7 @@ pub struct Omission {
     /// Its name.
     #[serde(rename = "name")]
     pub rule: Rule,
-    /// What is not done any more.
+    /// The work that is left out.
     pub what: String,
     /// Why the picture is the same without it.
     pub reason: String,
@@ -73,10 +72,10 @@ pub struct Omission {
     pub facts: Vec<String>,
 }
 
-/// What is known of the scene, found out when first asked for.
+/// The facts about a scene, computed on first use.
 pub(super) struct Situation<'a> {
     pub scene: &'a Scene,
-    /// The size of what is drawn into.
+    /// The size of the drawing surface.
     pub surface: Size,
     pub pruning: &'a Pruning,
     pub extent: OnceCell<Option<Rectangle>>,
