@@ -1,13 +1,13 @@
 //! OpenGL 2.1: contexts without a window, the fixed-function calls glow lacks, objects with owners, plans carried out.
 //!
 //! All `unsafe` code of the drawing is here. In: a [`crate::plan::Plan`] and a [`crate::scene::Scene`]. Out: pixels and times.
-//! It knows no style. Every `unsafe` block here rests on two facts, which its comment names: the context these functions
-//! were loaded from is current on this thread, and the objects passed are alive.
+//! It knows no style. Every `unsafe` block here rests on two facts, which its comment names: the functions'
+//! context is current on this thread, and the objects passed are alive.
 //!
 //! ```
 //! use tinta::gl::context::{Attempt, Outcome, attempts};
 //!
-//! // Every way to a context on this machine, and what came of it.
+//! // Every way to a context on this machine, and its outcome.
 //! for Attempt { device, outcome } in attempts(tinta::Backend::Auto) {
 //!     match outcome {
 //!         Outcome::Context(info) => println!("{device}: {}", info.renderer),

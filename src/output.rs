@@ -1,8 +1,8 @@
 //! Atomic output: a path is checked before the work, written to a temporary file, then renamed into place.
 //!
-//! Pictures, animations and texts all go through here. Nothing half is left however the program ends, without handling
-//! signals: what is written is complete in memory first, and on the disk before it gets its name. The price is its size in
-//! memory. What holds when, and what no program can promise: docs/dev/limits.md.
+//! Pictures, animations and texts all go through here. No incomplete file remains however the program ends, even
+//! without signal handling: the contents are complete in memory first, and on the disk before the file gets its name. The price
+//! is their size in memory. Guarantees and limits: docs/dev/limits.md.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {

@@ -1,7 +1,7 @@
-//! What a style wants GL to do, as plain data: passes of steps, each with all the state it needs.
+//! The work of a style for GL, as plain data: passes of steps, each with all the state it needs.
 //!
-//! A style makes it from a scene, `gl` carries it out, and anybody can print, compare or check it without a GPU. What a style
-//! knows of its shaders it states beside each draw ([`Facts`]), for those who leave out what a scene does not need ([`prune`]).
+//! A style makes the plan from a scene and `gl` carries it out. A plan can be printed, compared and checked without a GPU. Beside
+//! each draw a style states facts about its shaders ([`Facts`]); [`prune`] uses them to drop steps that a scene does not need.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -14,9 +14,9 @@
 //! let plan = Style::named(StyleName::ThreePass).plan(&scene, Show::Final)?;
 //! let passes: Vec<&str> = plan.passes.iter().map(|pass| pass.name).collect();
 //! assert_eq!(passes, ["map", "tones", "border"]);
-//! // A plan prints as what it does, step by step.
+//! // A plan prints as its steps.
 //! assert!(plan.to_string().contains("copy the framebuffer into the texture BorderMap"));
-//! // What a style states of its draws is printed by `{:#}`.
+//! // `{:#}` also prints the facts that a style states of its draws.
 //! assert!(format!("{plan:#}").contains("reads no further than 2 px"));
 //! # Ok(())
 //! # }

@@ -1,4 +1,4 @@
-//! A GL context and what it holds: scenes and styles go in, pictures and times come out.
+//! A GL context and its resources: scenes and styles go in, pictures and times come out.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -143,8 +143,8 @@ impl Renderer {
         Ok(Self { backend, fault, drawers: vec![Drawer::new(context)], used: 0, confined_to: None })
     }
 
-    /// Draws what is larger than this in tiles that are not, as if the context could draw no larger ones: less memory, more time.
-    /// `None` is as large as the contexts can, the default.
+    /// Draws larger surfaces in tiles of at most this size, which takes less memory and more time.
+    /// `None`, the default, draws the largest tiles that the contexts can.
     ///
     /// ```
     /// # fn main() -> tinta::Result<()> {

@@ -2,9 +2,9 @@
 //!
 //! In: settings with a size and a seed. Out: opaque [`Picture`]s whose edges meet where GL repeats them. No GL here.
 //!
-//! The same settings give the same bytes on every machine: the numbers come from a generator of our own, or from a `rand()` that
-//! is the same everywhere, instead of that of the platform (errata V8), sums are done in a fixed order, and nothing that a platform's mathematics library
-//! rounds in its own way reaches a byte unrounded.
+//! The same settings give the same bytes on every machine. The numbers come from our generator, or from a fixed `rand()` instead
+//! of the platform's (errata V8). Sums have a fixed order. Results of the platform's mathematics library are rounded before they
+//! reach a byte.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {

@@ -1,11 +1,11 @@
 //! Shaders in OpenGL ES's language of WebGL 1: GLSL 1.20 rewritten word by word as GLSL ES 1.00.
 //!
-//! In: the text of a shader in `glsl/`. Out: the same program for a browser, in pieces that tell what was changed. What is the
-//! fixed-function pipeline's in 1.20 (matrices, the vertex's attributes, its colours) becomes uniforms, attributes and varyings
-//! of the names in [`UNIFORMS`] and [`ATTRIBUTES`].
+//! In: the text of a shader in `glsl/`. Out: the same program for a browser, in pieces that show the changes. The
+//! fixed-function pipeline's variables in 1.20 (matrices, the vertex's attributes, its colours) become uniforms, attributes and
+//! varyings with the names in [`UNIFORMS`] and [`ATTRIBUTES`].
 //!
-//! The words are enough: all that needs a type is which whole numbers are floats, and a statement says so. The parsers of GLSL
-//! that there are lose the comments, which a reader of the page wants to see beside the program.
+//! Rewriting words suffices: only the whole numbers that are floats need a type, and their statement shows it. The existing GLSL
+//! parsers lose comments, which the page shows beside the program.
 //!
 //! ```
 //! use tinta::glsl::es::{Stage, linked, transcribed};
@@ -15,7 +15,7 @@
 //! let original: String = pieces.iter().map(|piece| piece.original.as_str()).collect();
 //! assert_eq!(original, filter);
 //! assert!(pieces.iter().any(|piece| piece.original == "0.2f" && piece.text == "0.2"));
-//! // Several shaders linked together are one there.
+//! // Several shaders linked together become one.
 //! assert!(linked(Stage::Fragment, &[filter])?.starts_with("#version 100\n"));
 //! # Ok::<(), String>(())
 //! ```

@@ -7,7 +7,7 @@
 use super::Program;
 use std::fmt;
 
-/// What may be assumed of a draw's shaders. The default is nothing.
+/// Facts about a draw's shaders. The default states none.
 ///
 /// ```
 /// use tinta::plan::{Draw, Facts, Geometry, Paint, Program};

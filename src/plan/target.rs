@@ -19,7 +19,7 @@ pub struct Attachments {
     pub colors: &'static [Attachment],
     /// Whether there is a depth buffer.
     pub has_depth: bool,
-    /// The setting that needs them, for a driver without them.
+    /// The setting that needs them, named in the error of a driver without them.
     pub asked_by: SettingValue,
     /// What to choose instead there.
     pub instead: SettingValue,
@@ -30,7 +30,7 @@ pub struct Attachments {
 /// A texture that is drawn into: RGBA, NEAREST, CLAMP_TO_EDGE. Within a plan a name has one format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Attachment {
-    /// The name by which steps read it.
+    /// The name that steps read it by.
     pub name: Drawn,
     /// The format of its channels.
     pub format: Format,

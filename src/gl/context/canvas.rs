@@ -28,7 +28,7 @@ pub(crate) struct Current<'a> {
 }
 
 impl Drop for Current<'_> {
-    /// WebGL releases nothing here. Drivers' contexts end being current at this place, so callers drop this one too.
+    /// WebGL has nothing to release. The driver's twin stops being current here.
     fn drop(&mut self) {}
 }
 

@@ -33,7 +33,7 @@ pub(in crate::gl) const REPEATS_POWERS_OF_TWO_ONLY: bool = true;
 /// `GL_HALF_FLOAT_OES`
 const HALF_FLOAT: u32 = 0x8D61;
 
-/// The internal format and the type of texels drawn into: 8 bits, then floating point of 16 and 32 bits.
+/// The format and the type of texels drawn into: 8 bits, then floating point of 16 and 32 bits.
 pub(in crate::gl) const DRAWN_TEXELS: [(u32, u32); 3] =
     [(glow::RGBA, glow::UNSIGNED_BYTE), (glow::RGBA, HALF_FLOAT), (glow::RGBA, glow::FLOAT)];
 

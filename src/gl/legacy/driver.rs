@@ -22,7 +22,7 @@ pub(in crate::gl) const PICTURE_TEXELS: u32 = glow::RGB8;
 /// Whether a texture that repeats has to have powers of two for sides.
 pub(in crate::gl) const REPEATS_POWERS_OF_TWO_ONLY: bool = false;
 
-/// The internal format and the type of texels drawn into: 8 bits, then floating point of 16 and 32 bits.
+/// The format and the type of texels drawn into: 8 bits, then floating point of 16 and 32 bits.
 pub(in crate::gl) const DRAWN_TEXELS: [(u32, u32); 3] =
     [(glow::RGBA8, glow::UNSIGNED_BYTE), (glow::RGBA16F, glow::FLOAT), (glow::RGBA32F, glow::FLOAT)];
 
