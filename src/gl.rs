@@ -56,7 +56,7 @@ const CONTEXT_LOST_WEBGL: u32 = 0x9242;
 pub(crate) struct Gl {
     glow: Rc<glow::Context>,
     legacy: Legacy,
-    /// What draws without buffers; else the name of the first function of it that the driver lacks.
+    /// The calls that draw without buffers; otherwise the name of the first function that the driver lacks.
     immediate: std::result::Result<Immediate, String>,
     info: ContextInfo,
     /// The framebuffer object that replaces the surface in a context without one.
@@ -92,7 +92,7 @@ impl Gl {
     /// Draws vertices by glBegin and glEnd, if the driver has them.
     fn draw_in_immediate_mode(&self, vertices: &Vertices<'_>) -> Result<()> {
         let immediate = self.immediate()?;
-        // SAFETY: the context is current, and glBegin and glEnd are called in pairs and nowhere else.
+        // SAFETY: the context is current, and only this code calls glBegin and glEnd, in pairs.
         unsafe { immediate.send(vertices) };
         Ok(())
     }
@@ -105,7 +105,7 @@ impl Gl {
         }
     }
 
-    /// Returns the error GL noted since the last call, if any, as ours. That the context is lost goes before any other.
+    /// Returns GL's error since the last call, if any, as ours. A lost context takes precedence over other errors.
     pub(crate) fn check(&self, during: &str) -> Result<()> {
         // SAFETY: the context is current: only its holder calls this, between make_current and release.
         let code = unsafe { self.glow.get_error() };
@@ -123,8 +123,8 @@ impl Gl {
         if code == glow::NO_ERROR {
             return Ok(());
         }
-        // One call may leave several flags; they must not be blamed on the next.
-        // SAFETY: as above. A driver that is broken could report errors for ever, hence the bound.
+        // One call may leave several flags; clear them all before the next. SAFETY: as above. A broken driver could report errors
+        // for ever, hence the bound.
         (0..16).take_while(|_| unsafe { self.glow.get_error() } != glow::NO_ERROR).count();
         let what = match code {
             glow::INVALID_ENUM => "GL_INVALID_ENUM".to_owned(),

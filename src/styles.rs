@@ -238,7 +238,7 @@ impl Style {
         Self::with_options(name, options)
     }
 
-    /// The style of this name with the settings that options set, whatever style they name.
+    /// Returns the style of this name with the settings that the options give; a style among the options is ignored.
     ///
     /// # Errors
     ///
@@ -277,7 +277,7 @@ impl Style {
         remarks
     }
 
-    /// Whether the scene brings textures, and they could be drawn and are not.
+    /// Whether the scene has textures that this style could draw but does not.
     fn leaves_textures_out(&self, scene: &Scene) -> bool {
         let draws_own = matches!(self, Self::Inking(inking) if inking.has_texture || inking.paint == PaintMode::None);
         let brings = |object: &crate::scene::Object| {
@@ -315,7 +315,7 @@ impl Serialize for Style {
     }
 }
 
-/// The settings of all styles, each declared beside its struct; those of a heading begin with the styles that have lines.
+/// Returns the settings of all styles, each declared beside its struct. Within a heading, styles with lines come first.
 pub(crate) fn settings() -> Vec<Setting<Style>> {
     let mut settings: Vec<Setting<Style>> =
         StyleName::lines_first().into_iter().flat_map(|style| (style.info().settings)()).collect();

@@ -35,7 +35,7 @@ pub(super) struct FaceIndices {
     pub(super) buffer: Buffer,
 }
 
-/// Something of each of an object's vertices on the device: its texture coordinate, its colour.
+/// A value for each of an object's vertices on the device: its texture coordinate or its colour.
 pub(super) struct OfVertices<T> {
     pub(super) list: Arc<Vec<T>>,
     pub(super) buffer: Buffer,

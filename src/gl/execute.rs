@@ -321,7 +321,7 @@ impl Resources {
                 Blend::Replace => gl.disable(glow::BLEND),
                 Blend::Over => {
                     gl.enable(glow::BLEND);
-                    // Colour as the article blends; alpha adds up to the picture's coverage, which plain blending would square.
+                    // Colour blends as in the article. Alpha adds up to the picture's coverage; plain blending would square it.
                     gl.blend_func_separate(
                         glow::SRC_ALPHA,
                         glow::ONE_MINUS_SRC_ALPHA,
@@ -346,7 +346,7 @@ impl Resources {
         unsafe { self.gl.glow.read_pixels(x, y, width, height, glow::RGBA, glow::UNSIGNED_BYTE, target) };
     }
 
-    /// Reads the texture that this copying step filled, as [`Resources::read_framebuffer`] does; of depth as grey.
+    /// Reads the texture that this copying step filled, as [`Resources::read_framebuffer`] does; depth becomes grey.
     pub(crate) fn read_copy(&self, step: &Step, size: Size, pixels: &mut [u8]) {
         assert_eq!(pixels.len(), size.pixel_count() * 4, "memory for {size} pixels");
         let is_depth = *step == Step::CopyDepth;
@@ -392,7 +392,7 @@ impl Resources {
         self.gl.refuse_if_lost(during)
     }
 
-    /// What came of some work, and GL's own error where the work has met none. That the context is lost explains any other.
+    /// Returns the result of some work, or GL's own error if the work reported none. A lost context explains any other error.
     pub(crate) fn explain<T>(&self, during: &str, result: Result<T>) -> Result<T> {
         match (result, self.check(during)) {
             (Err(lost @ Error::ContextLost { .. }), _) | (_, Err(lost @ Error::ContextLost { .. })) => Err(lost),
@@ -401,8 +401,8 @@ impl Resources {
         }
     }
 
-    /// Takes shaders from these texts where they are among them, and links all programs anew when they are needed.
-    /// Returns those used so far.
+    /// Uses these texts for the shaders they name, and relinks all programs when they are next needed. Returns the texts used so
+    /// far.
     pub(crate) fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> HashMap<String, String> {
         self.programs.clear();
         self.gl.replaced_shaders.replace(shaders)
@@ -413,7 +413,7 @@ impl Resources {
         self.gl.replaced_shaders.borrow().clone()
     }
 
-    /// The built-in shaders in whose place there is another text, in order of their paths.
+    /// Returns the built-in shaders that other texts replace, sorted by path.
     pub(crate) fn replaced_shaders(&self) -> Vec<String> {
         let replaced = self.gl.replaced_shaders.borrow();
         let is_other = |(path, text): &(&String, &String)| glsl::source(path).is_some_and(|built_in| built_in != *text);

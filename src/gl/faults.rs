@@ -1,8 +1,8 @@
 //! Fault injection: imitates a failing driver, for tests and for `tinta stress`.
 //!
-//! GL's functions are loaded by name, so a context made with a [`Fault`] gets stand-ins for a few of them: they count, fail
-//! when it is their turn, and otherwise call the driver's. Everything else is the code and the driver of every day. Each
-//! such context counts for itself, and none without a fault is touched, on the same thread or another.
+//! GL's functions are loaded by name, so a context made with a [`Fault`] gets stand-ins for a few of them. They count, fail when
+//! it is their turn, and otherwise call the driver's. All other code and the driver stay the same. Each such context counts
+//! separately. Contexts without a fault are unaffected, on the same thread or another.
 
 #[cfg(not(target_arch = "wasm32"))]
 mod stand_ins;
@@ -20,7 +20,7 @@ pub enum Fault {
         /// How many it takes before.
         after: u32,
     },
-    /// Memory on the device runs out once: GL_OUT_OF_MEMORY for the texture, buffer or renderbuffer after `after` others.
+    /// Device memory runs out once: GL_OUT_OF_MEMORY for the texture, buffer or renderbuffer after `after` others.
     OutOfMemory {
         /// How many there is room for before.
         after: u32,
@@ -36,6 +36,6 @@ pub enum Fault {
         /// How many are done before.
         after: u32,
     },
-    /// The driver has no glBegin, as in a core profile, and otherwise all that is needed.
+    /// The driver lacks glBegin, as in a core profile, and has everything else.
     NoImmediateMode,
 }

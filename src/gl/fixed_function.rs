@@ -1,4 +1,4 @@
-//! Shaders in place of the fixed-function pipeline, for drivers that have none: those in `glsl/fixed/`.
+//! Shaders that replace the fixed-function pipeline on drivers without one: those in `glsl/fixed/`.
 
 use crate::plan::{Draw, Geometry, LineDrawing, Mark, Program};
 

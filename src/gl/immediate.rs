@@ -88,8 +88,7 @@ impl Immediate {
     ///
     /// The context is current, and nothing stands between glBegin and glEnd.
     pub(super) unsafe fn send(&self, vertices: &Vertices<'_>) {
-        // SAFETY: the caller's promise; every pointer is to as many numbers as the function's name says, which the arrays'
-        // types give.
+        // SAFETY: the caller's promise; the arrays' types give every pointer as many numbers as the function's name says.
         unsafe {
             (self.begin)(vertices.mode);
             for index in vertices.indices {

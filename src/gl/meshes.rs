@@ -77,7 +77,7 @@ impl Resources {
         self.meshes.iter().find(|buffers| Arc::ptr_eq(&buffers.mesh, mesh))
     }
 
-    /// Draws the objects, or the faces of them that the draw lists; their own texture coordinates go to this unit.
+    /// Draws the objects, or the faces that the draw lists; this unit gets their own texture coordinates.
     pub(super) fn draw_objects(
         &mut self,
         scene: &Scene,
@@ -240,7 +240,7 @@ pub(super) fn of_another_scene() -> Error {
 }
 
 impl MeshBuffers {
-    /// Makes the mesh's arrays those that are drawn; its own texture coordinates go to this unit.
+    /// Binds the mesh's arrays for drawing; this unit gets its own texture coordinates.
     pub(super) fn bind(&self, gl: &Gl, material_unit: Option<u32>) {
         self.vertices.bind();
         // SAFETY: the context is current and the bound buffer holds interleaved positions and normals.

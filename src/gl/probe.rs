@@ -18,8 +18,8 @@ pub(crate) const SIDE: u32 = 64;
 /// Columns of other colours, or depths, that copies are tried with.
 const COLUMNS: i32 = 16;
 
-/// Least and most of a smoothed line's ink, as a share of its length times its width: drivers weigh its pixels otherwise, and its ends
-/// may count or not.
+/// Least and most ink of a smoothed line, as a share of its length times its width: drivers weight pixels differently, and may or
+/// may not count its ends.
 const LINE_SHARE: [f64; 2] = [0.8, 1.25];
 
 /// A question to a driver, and its answer.
@@ -155,7 +155,7 @@ fn draw(gl: &Gl, mode: u32, places: &[[f32; 4]], color: [f32; 4]) -> Result<()> 
     Ok(())
 }
 
-/// A steep square drawn with an offset is behind the same square drawn without, everywhere; without offset nowhere.
+/// A steep square drawn with an offset lies everywhere behind the same square without one; with no offset, nowhere.
 fn polygon_offset(gl: &Gl) -> Result<Probe> {
     const SQUARE: [[f32; 4]; 4] =
         [[-1.0, -1.0, -0.9, 1.0], [1.0, -1.0, 0.7, 1.0], [1.0, 1.0, 0.9, 1.0], [-1.0, 1.0, -0.7, 1.0]];

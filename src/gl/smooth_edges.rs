@@ -87,7 +87,7 @@ fn points(ends: impl Iterator<Item = Vec4>, size: Size, size_px: f32) -> Corners
 }
 
 impl Resources {
-    /// What GL_LINE_SMOOTH and GL_POINT_SMOOTH draw, by the program of [`fixed_function::smooth`], which is bound.
+    /// Draws the equivalent of GL_LINE_SMOOTH and GL_POINT_SMOOTH with the bound program of [`fixed_function::smooth`].
     pub(super) fn draw_smooth_edges(
         &mut self,
         scene: &Scene,

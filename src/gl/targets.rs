@@ -84,8 +84,8 @@ impl Targets {
     }
 }
 
-/// Refuses a plan that this context has no framebuffer objects, draw buffers or texture formats for, by the option that
-/// asks for them.
+/// Returns an error, with the option at fault, if this context lacks framebuffer objects, draw buffers or texture formats for a
+/// plan.
 pub(super) fn check(info: &ContextInfo, plan: &Plan) -> Result<()> {
     for attachments in plan.attachments() {
         let count = attachments.colors.len();
@@ -136,7 +136,7 @@ fn copy(gl: &Rc<Gl>, copied: &mut Option<Copied>, format: u32, size: Size, part:
     Ok(())
 }
 
-/// The textures a plan's passes draw into, one a name, and the framebuffer objects that share them and a depth buffer.
+/// The textures a plan's passes draw into, one per name, and the framebuffer objects that share them and a depth buffer.
 struct TextureTargets {
     size: Size,
     attachments: Vec<&'static Attachments>,
@@ -188,7 +188,7 @@ fn empty_texture(gl: &Rc<Gl>, size: Size, format: Format) -> Result<Texture> {
         Format::Float32 => floats,
     };
     let (width, height) = (size.width as i32, size.height as i32);
-    // SAFETY: the context is current, the texture just bound; no texels are given, so none are read.
+    // SAFETY: the context is current, the texture just bound; the null pointer makes GL read no texels.
     unsafe {
         let none = glow::PixelUnpackData::Slice(None);
         let (target, format) = (glow::TEXTURE_2D, format as i32);

@@ -101,7 +101,7 @@ impl Textures {
     }
 }
 
-/// A picture as a texture, its lowest row first, as GL counts; opaque, for alpha would be multiplied into the picture drawn.
+/// Uploads a picture as a texture, lowest row first, as GL counts; opaque, because alpha would be multiplied into the drawing.
 fn upload(gl: &Rc<Gl>, picture: &Picture, sampling: Sampling) -> Result<Texture> {
     let Size { width, height } = picture.size;
     let largest = gl.info.largest_texture;

@@ -12,12 +12,12 @@ use crate::settings::{ON_OFF, Setting, under};
 pub struct Border {
     /// The filter. Default laplacian4, the article's.
     pub filter: Filter,
-    /// What its response is multiplied by. Default 0.2; more makes fainter edges darker.
+    /// Factor on its response. Default 0.2; more makes fainter edges darker.
     pub detection_factor: f32,
     /// Width of a line at a step of the map. `None`, the default, keeps the listing's taps: 2 pixels, or 1 with Roberts' cross.
     /// More pixels also join neighbouring lines.
     pub width: Option<LineWidth>,
-    /// Whether depth answers by a threshold that knows the surface's slope instead of by the filter. Default no.
+    /// Whether a threshold that accounts for the surface's slope, instead of the filter, decides on depth. Default no.
     pub slope_threshold: bool,
 }
 
@@ -34,8 +34,8 @@ tinta_geometry::choices! {
         Laplacian8 = "laplacian8",
         /// The centre against its diagonal neighbours (figure 10, right; Mitchell 2002).
         Mitchell = "mitchell",
-        /// The same in two programs, as Mitchell's shading language made him: one reads the normals, one the depth, and each is
-        /// blended (section 4.1). Where both answer, the line is fainter than with one program.
+        /// The same in two programs, a limit of Mitchell's shading language: one reads the normals, one the depth, and each is
+        /// blended (section 4.1). Where both respond, the line is fainter than with one program.
         MitchellTwo = "mitchell-two",
         /// Sobel's gradient.
         Sobel = "sobel",
@@ -194,7 +194,7 @@ impl Border {
         self.filter.programs().iter().map(square).collect()
     }
 
-    /// How far the filter looks in a map of this size, pixels; one more costs nothing.
+    /// How far the filter reads in a map of this size, pixels; one more costs nothing.
     pub(super) fn reach_px(&self, scene: &Scene, surface: Size) -> u32 {
         let [before, behind] = taps(self.width_px(scene.size), surface.width / scene.size.width, self.is_one_sided());
         // The slope's threshold looks twice as far.
@@ -231,8 +231,8 @@ impl Border {
     }
 }
 
-/// How many pixels taps reach to the left or below and to the right or above for a line of this width in a map so many times
-/// the picture's size; a one-sided filter has taps to the right and above only.
+/// Returns how many pixels the taps reach to the left or below, and to the right or above, for a line of this width. The map is
+/// this many times the picture's size. A one-sided filter has taps to the right and above only.
 pub(super) fn taps(width_px: Option<u32>, scale: u32, one_sided: bool) -> [u32; 2] {
     match width_px.map(|width| width * scale) {
         None => [1, 1],

@@ -19,18 +19,18 @@ pub struct Cartoon {
     pub tones: Tones,
     /// The border; `None` draws the tones alone.
     pub border: Option<Border>,
-    /// Whether a square of the background's colour is drawn behind the scene, as the article does in every scene.
-    /// Default yes; without it the two-pass style loses the outer half of every silhouette (errata E10).
+    /// Whether to draw a square of the background's colour behind the scene, as the article does in every scene. Default yes;
+    /// without it the two-pass style loses the outer half of every silhouette (errata E10).
     pub background_square: bool,
     /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
     /// outlines. Default no.
     pub cull_back_faces: bool,
     /// How normals and depth are stored between the passes. Default as in the listing.
     pub map_encoding: MapEncoding,
-    /// How the map gets from pass to pass. Default as in the listing; either way it is the same picture.
+    /// How the map gets from pass to pass. Default as in the listing; both ways give the same picture.
     pub map_target: MapTarget,
-    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge and makes lines finer.
-    /// Pictures of the map itself are drawn at their own size.
+    /// Factor by which the drawing is larger than the picture before it is shrunk. Default 1; more smooths every edge and makes
+    /// lines finer. Pictures of the map itself keep their size.
     pub supersample: Supersample,
 }
 
@@ -93,7 +93,7 @@ impl Cartoon {
         self.check(scene, show)?;
         let mut passes = Vec::new();
         let border = self.border.filter(|_| show != Show::Tones);
-        // Made and copied without a border too: the published pipeline has it, and `prune` finds that nothing reads it.
+        // Made and copied without a border too, as in the published pipeline; `prune` removes it because it is unread.
         if show != Show::Tones {
             passes.push(self.map_pass(scene, !shows_map(show)));
         }
@@ -192,7 +192,7 @@ impl Cartoon {
         if shows_map(show) { plan } else { self.supersample.finish(plan, scene.size) }
     }
 
-    /// Step 1: normals and depth into the framebuffer and, to be read later, into a texture.
+    /// Step 1: normals and depth into the framebuffer and, for later reading, into a texture.
     fn map_pass(&self, scene: &Scene, is_read: bool) -> Pass {
         let encoding = self.map_encoding;
         let draw = |geometry| self.draw(geometry, encoding.program());
@@ -244,7 +244,7 @@ impl Cartoon {
         Draw { cull_back_faces: self.cull_back_faces, facts: Facts::plain(), ..Draw::new(geometry, Some(program)) }
     }
 
-    /// Clear, background square, objects; `draw` makes the draw for the background (true) or the objects (false).
+    /// Clear, background square, objects; `draw` returns the draw of the background (true) or of the objects (false).
     fn scene_steps(&self, scene: &Scene, draw: impl Fn(bool) -> Draw) -> Vec<Step> {
         let color = scene.background.clear_color();
         let mut steps = vec![Step::clear(color)];

@@ -49,8 +49,8 @@ pub struct Charcoal {
     /// Exponent of the contrast-enhanced texture, at least 1. Default 5.5, the middle one of figure 3; which one the text
     /// draws with it does not say. More leaves fewer grains in light tones.
     pub cet_exponent: f64,
-    /// Standard deviation of the blur of the contrast-enhanced texture, pixels, 0 to 100. Default 0.8, ours; more is softer
-    /// grain, and none at all where it is as wide as a row of tones.
+    /// Standard deviation of the blur of the contrast-enhanced texture, pixels, 0 to 100. Default 0.8, ours. More softens the
+    /// grain, and removes it at the width of a row of tones.
     pub cet_blur_px: f64,
     /// Where the random numbers of all textures begin. Default 0.
     pub seed: u64,
@@ -75,14 +75,14 @@ pub struct Charcoal {
     pub operator: ContrastOperator,
     /// Where the noise lies. Default on the picture, as published.
     pub noise: Noise,
-    /// Which of the text's flaws are mended, and what goes beyond the text. Default none.
+    /// The flaws of the text to mend, and additions beyond the text. Default none.
     pub improve: Improvements,
     /// Whether faces turned away from the eye are left out. Default no.
     pub cull_back_faces: bool,
-    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge, grain and paper are as
-    /// wide.
+    /// Factor by which the drawing is larger than the picture before it is shrunk. Default 1; more smooths every edge and keeps
+    /// the width of grain and paper.
     pub supersample: Supersample,
-    /// The textures once they are made; kept for the next picture with the same settings and shared between clones.
+    /// The finished textures, kept for the next picture with the same settings and shared between clones.
     pub pictures: CharcoalPictures,
 }
 
@@ -171,7 +171,7 @@ impl Charcoal {
         }
     }
 
-    /// That faces lie on each other where it matters which of them is drawn, and what helps, a sentence for each model.
+    /// Returns a remark for each model with coincident faces whose order changes the picture, and a remedy.
     pub(super) fn remarks(&self, scene: &Scene) -> Vec<String> {
         if self.improve.two_sided || self.cull_back_faces {
             return Vec::new();
@@ -248,7 +248,7 @@ impl Charcoal {
                 false => vec!["valente/paper-even.frag", self.spread(), self.grain()],
             };
             let program = Program { vertex: "valente/paper.vert", fragments };
-            // The text draws it in 2D over the whole screen; what follows is nearer, so it needs no depth.
+            // The text draws it in 2D over the whole screen. Later draws are nearer, so it needs no depth.
             steps.push(Step::Draw(Draw {
                 uniforms: if is_published { Vec::new() } else { layout.places() },
                 textures: vec![("paperTexture", Texture::Picture(PAPER))],

@@ -1,4 +1,4 @@
-//! Which gradient of a ramp each surface of a scene gets, and how bright its vertices are: the texture coordinates of the text's
+//! The ramp's gradient for each surface of a scene, and the brightness of its vertices: the texture coordinates of the text's
 //! section "Painting".
 
 use super::ramp::{ROWS, Ramp, RampRow, WIDTH, gradient};
@@ -9,18 +9,18 @@ use glam::{DVec3, Vec3};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// The direction towards the light, eye space, before it is given length 1: the listing's.
+/// The direction towards the light, eye space, before normalisation: the listing's.
 const LIGHT_DIRECTION: DVec3 = DVec3::new(0.0, 1.0, 1.0);
 
 /// The range that the listing clamps the light to.
 const LIGHT_RANGE: [f32; 2] = [0.1, 0.9];
 
-/// The gradients of a ramp, and which of them each surface of a scene gets.
+/// The gradients of a ramp, and their assignment to a scene's surfaces.
 pub(super) struct Gradients<'a> {
     scene: &'a Scene,
     ramp: &'a Ramp,
     row: RampRow,
-    /// Of the materials' own gradients the base colours, from the top, and the picture they make.
+    /// With the materials' own gradients: their base colours, from the top, and the picture they make.
     own: Option<(Vec<[u8; 3]>, Arc<Picture>)>,
 }
 
@@ -73,7 +73,7 @@ impl<'a> Gradients<'a> {
         [red, green, blue]
     }
 
-    /// The texture coordinates of all objects' vertices: light, where it is `lit` here, and row.
+    /// Returns the texture coordinates of all objects' vertices: the light, if it is `lit` here, and the row.
     pub(super) fn coordinates(&self, lit: bool) -> VertexLists<[f32; 2]> {
         let light = Light::of(self.scene);
         self.of_objects(|number, object| {
@@ -82,7 +82,7 @@ impl<'a> Gradients<'a> {
         })
     }
 
-    /// One thing for each object; copies, which stand the same way in the light, share theirs.
+    /// Returns one value for each object; copies with the same orientation to the light share theirs.
     pub(super) fn of_objects<T: Clone>(&self, make: impl Fn(usize, &Object) -> T) -> Arc<Vec<T>> {
         let objects = &self.scene.objects;
         let mut made: Vec<T> = Vec::with_capacity(objects.len());
@@ -95,7 +95,7 @@ impl<'a> Gradients<'a> {
     }
 }
 
-/// A gradient for each colour that the materials of a scene have: the colours in order, and a row of pixels for each.
+/// Makes a gradient for each colour of a scene's materials: the colours in order, and a row of pixels for each.
 fn own_gradients(scene: &Scene) -> (Vec<[u8; 3]>, Arc<Picture>) {
     let mut bases = BTreeSet::new();
     for object in &scene.objects {
@@ -127,8 +127,8 @@ pub(super) struct Light {
 impl Light {
     /// The light of a scene, which stands still in eye space.
     pub(super) fn of(scene: &Scene) -> Self {
-        // The listing turns every normal into eye space by the inverse of a modelview it takes for rigid (errata D7); turning
-        // the light the other way once comes to the same.
+        // The listing turns every normal into eye space by the inverse of a modelview it assumes rigid (errata D7). Turning the
+        // light the other way once is equivalent.
         let world_from_view = scene.camera.view_from_world().transpose();
         Self { direction: world_from_view.transform_vector3(LIGHT_DIRECTION.normalize()).as_vec3() }
     }

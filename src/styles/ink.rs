@@ -1,6 +1,6 @@
-//! `ink`: the best ink an image-space filter was found to draw at no more than the faithful three passes' time.
+//! `ink`: the best ink found for an image-space filter that takes no more time than the faithful three passes.
 //!
-//! Evangelista's three passes with another map and another filter: the map holds each pixel's own plane, the filter asks
+//! Evangelista's three passes with another map and another filter: the map holds each pixel's own plane, and the filter tests
 //! whether neighbouring planes meet. `docs/results/measuring.md` has its measurements.
 
 use super::border::{reach, taps};
@@ -25,7 +25,7 @@ use glam::DVec3;
 pub struct Ink {
     /// How much time the picture may take. Default standard.
     pub quality: Quality,
-    /// How much larger than the picture it is drawn, to be shrunk; `None` is as the quality has it. Default none.
+    /// Factor by which the drawing is larger than the picture before it is shrunk; `None`, the default, follows the quality.
     pub supersample: Option<Supersample>,
     /// Whether lines are drawn at all. Default yes.
     pub is_inked: bool,
@@ -33,26 +33,26 @@ pub struct Ink {
     pub crease_angle: CreaseAngle,
     /// The property of a surface that changes at a crease. Default its planes.
     pub crease_by: CreaseBy,
-    /// Whether ink that touches no other and is at most twice as long as a line is wide is left out; `None` is as the quality
-    /// has it: a look at the neighbours of all ink takes about half of the picture's time again with a software driver. Default none.
+    /// Whether to remove isolated ink at most twice as long as a line is wide; `None`, the default, follows the quality. Testing
+    /// the neighbours of all ink takes about half of the picture's time again with a software driver.
     pub removes_specks: Option<bool>,
     /// Width of the lines. Default 2 pixels; more also joins neighbouring lines.
     pub line_width: LineWidth,
-    /// Width of the lines that do not border on the background; `None` for that of all. Default none.
+    /// Width of the lines that do not border on the background; `None`, the default, uses that of all lines.
     pub inner_width: Option<LineWidth>,
     /// The least step from one surface to another that is a line, in widths of a pixel. Default 1.5; more draws fewer lines.
     pub least_gap_px: f32,
     /// Added to it per unit of a surface's slope towards the eye, because the map is less exact on steep surfaces. Default 0.3;
     /// more draws fewer lines near outlines.
     pub gap_per_slope: f32,
-    /// The direction towards a light that is far away, eye space, of any length; `None` is the listing's, near at (1, 1, 1). Default
-    /// none.
+    /// The direction towards a distant light, eye space, of any length; `None`, the default, is the listing's near light at (1,
+    /// 1, 1).
     pub tone_light: Option<[f32; 3]>,
     /// The tones below. Default those of the three passes.
     pub tones: Tones,
     /// Whether faces turned away from the eye are left out. Default no.
     pub cull_back_faces: bool,
-    /// How the map gets from pass to pass. Default by a copy of the framebuffer; either way it is the same picture.
+    /// How the map gets from pass to pass. Default by a copy of the framebuffer; both ways give the same picture.
     pub map_target: MapTarget,
 }
 
@@ -287,7 +287,7 @@ impl Ink {
         Pass { target, ..Pass::new("map", steps) }
     }
 
-    /// Of what depths the map's are: those of the depth buffer, where it is the map.
+    /// Returns the range of the map's depths: that of the depth buffer, if it is the map.
     fn depth_range(&self, scene: &Scene) -> DepthRange {
         match self.crease_by {
             CreaseBy::Planes => DepthRange::of_scene(scene),
@@ -401,8 +401,8 @@ impl Ink {
     }
 }
 
-/// By normals a step of less than this share of a line's width is no line either: under a wide line, as print needs it, the facets of
-/// a round surface make such steps. It is the default step's share of the line of `print` at 1200 pixels.
+/// With normals, a step below this share of a line's width is no line: under a wide line, as print needs it, the facets of a
+/// round surface make such steps. It is the default step's share of the line of `print` at 1200 pixels.
 const LEAST_GAP_SHARE: f32 = 0.375;
 
 /// Largest speck, in drawn pixels. Larger marks are rarely specks, and a wider search costs time.

@@ -26,8 +26,8 @@ use std::sync::Arc;
 pub struct Inking {
     /// Whether lines are drawn. Default yes.
     pub is_inked: bool,
-    /// Which classes of edges are drawn. Default boundary, silhouette and crease; the text names the others but its
-    /// listing leaves them out.
+    /// The classes of edges to draw. Default boundary, silhouette and crease; the text names the others but its listing leaves
+    /// them out.
     pub classes: ClassSet,
     /// Smallest angle between faces at a crease. Default a cosine of 0.4; more degrees draw fewer lines.
     pub crease_angle: CreaseAngle,
@@ -37,20 +37,20 @@ pub struct Inking {
     pub line_width_px: f32,
     /// Whether lines are smoothed and blended, the text's optional part. Default yes.
     pub is_smooth: bool,
-    /// Whether points are drawn at the lines' ends, which join them. Default yes, as in the text; without them lines of
-    /// some width have notches where they meet, thin ones hardly any.
+    /// Whether points at the lines' ends join them. Default yes, as in the text. Without them wide lines have notches where they
+    /// meet; thin ones hardly any.
     pub has_joints: bool,
     /// Whether to draw edges whose two faces are both turned away. Default yes, as in the text. On a closed model the front faces
     /// hide them, except where polygon offset or line width lets them through.
     pub back_edges: bool,
     /// How lines get their width. Default as GL draws them.
     pub line_drawing: LineDrawing,
-    /// Whether lines write depth, as the text leaves it. Default yes; then a smoothed line's faint end hides the point that
-    /// should close the gap to the next one.
+    /// Whether lines write depth, as in the text. Default yes. A smoothed line's faint end then hides the point that should close
+    /// the gap to the next one.
     pub writes_depth: bool,
     /// The lines' colours. Default black.
     pub colors: ClassColors,
-    /// glPolygonOffset's factor and units. Default 1 and 5; more frees lines from their own faces and lets hidden ones
+    /// glPolygonOffset's factor and units. Default 1 and 5; more keeps faces from covering their own lines and lets hidden lines
     /// through.
     pub polygon_offset: [f32; 2],
     /// How faces are painted. Default by the ramp.
@@ -66,7 +66,8 @@ pub struct Inking {
     /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
     /// outlines. Default no.
     pub cull_back_faces: bool,
-    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge, lines are as wide.
+    /// Factor by which the drawing is larger than the picture before it is shrunk. Default 1; more smooths every edge and keeps
+    /// the lines' width.
     pub supersample: Supersample,
 }
 
@@ -206,7 +207,7 @@ tinta_geometry::choices! {
         Flat = "flat",
         /// By the light, looked up in the ramp at every pixel.
         Ramp = "ramp",
-        /// By the light on each face, looked up in the ramp once a face: flat shading, which shows the triangles.
+        /// By the light on each face, looked up in the ramp once per face: flat shading, which shows the triangles.
         FlatShaded = "flat-shaded",
         /// By the light at each vertex, looked up in the ramp. Between vertices the colours are mixed (Gouraud shading), which
         /// gives more colours than the ramp has.
@@ -345,7 +346,7 @@ impl Inking {
         if self.has_texture && !matches!(paint_mode, None | Some(PaintMode::None)) {
             textures.push(("own", Texture::Material));
         }
-        // Its factor counts steps of depth from pixel to pixel, which are smaller where pixels are; its units do not.
+        // Its factor counts depth steps between pixels, which shrink with the pixels; its units do not.
         let [factor, units] = self.polygon_offset;
         let draw = |(paint, faces)| Draw {
             textures: textures.clone(),

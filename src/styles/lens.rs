@@ -1,10 +1,10 @@
-//! What filters need to know of the camera to judge depth by the size of pixels.
+//! Camera data that filters need to judge depth by the size of pixels.
 
 use crate::camera::Projection;
 use crate::plan::{Uniform, Value};
 use crate::scene::{Scene, Size};
 
-/// The angle from pixel to pixel in the picture's middle, as a tangent; 0 in parallel projection.
+/// The angle between neighbouring pixels in the picture's middle, as a tangent; 0 in parallel projection.
 fn pixel_angle(scene: &Scene, surface: Size) -> f64 {
     match scene.camera.projection {
         Projection::Perspective { fov_y_degrees } => {
@@ -22,13 +22,13 @@ pub(super) struct DepthRange {
 }
 
 impl DepthRange {
-    /// The camera's planes: a map that takes its depth from the window has them.
+    /// The camera's planes, for a map that takes its depth from the window.
     pub(super) fn of_camera(scene: &Scene) -> Self {
         Self { near: scene.camera.near, far: scene.camera.far }
     }
 
-    /// The camera's planes, but no farther apart than the ball around the scene: planes given far apart then leave a map's
-    /// few bits to where something is. Planes that were fitted are nearer to each other than that, and stay.
+    /// The camera's planes, but no farther apart than the ball around the scene. Distant planes then do not waste a map's few
+    /// bits on empty space. Fitted planes are closer than that, and stay.
     pub(super) fn of_scene(scene: &Scene) -> Self {
         let camera = &scene.camera;
         let middle = (scene.centre - camera.eye).dot(-camera.backward());
@@ -66,7 +66,7 @@ pub(super) fn footprint(scene: &Scene, surface: Size, depth: DepthRange) -> Unif
     Uniform { name: "footprint", value: Value::Vec2(footprint.map(|number| number as f32)) }
 }
 
-/// `pixelAngle` and `middle`: from them a filter has the ray through each pixel.
+/// `pixelAngle` and `middle`: a filter computes the ray through each pixel from them.
 pub(super) fn rays(scene: &Scene, surface: Size) -> [Uniform; 2] {
     let middle = [surface.width as f32 * 0.5, surface.height as f32 * 0.5];
     [

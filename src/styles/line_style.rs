@@ -1,4 +1,4 @@
-//! Exact visible lines as a style: which lines are found and how they are drawn.
+//! Exact visible lines as a style: the lines to find and how to draw them.
 
 use crate::lines::{DrawingSettings, Hidden, LineSettings};
 use crate::settings::{Setting, within};

@@ -1,4 +1,4 @@
-//! Widths of lines that a filter of the picture draws: in pixels, or as a share of the picture's height.
+//! Widths of lines that an image filter draws: in pixels, or as a share of the picture's height.
 
 use crate::error::{Error, Result};
 use crate::scene::Size;
@@ -9,15 +9,15 @@ use crate::settings::{Kind, Problem, Value};
 pub enum LineWidth {
     /// So many pixels of the picture.
     Pixels(u32),
-    /// So many hundredths of the picture's height, to the nearest pixel and at least two pixels: the same drawing
-    /// at every size.
+    /// This many hundredths of the picture's height, to the nearest pixel and at least two pixels: the same drawing at every
+    /// size.
     Percent(f64),
 }
 
 /// Widest line, pixels: beyond it taps miss whatever is narrower.
 const WIDEST: u32 = 64;
 
-/// Pixels that a line as a share of the height is at least wide; a narrower one is broken.
+/// Smallest width in pixels of a line given as a share of the height; narrower lines break up.
 const NARROWEST_SHARE: u32 = 2;
 
 /// Largest share of the height, hundredths.

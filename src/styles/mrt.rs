@@ -28,7 +28,8 @@ pub struct Mrt {
     /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
     /// outlines. Default no.
     pub cull_back_faces: bool,
-    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge and makes lines finer.
+    /// Factor by which the drawing is larger than the picture before it is shrunk. Default 1; more smooths every edge and makes
+    /// lines finer.
     pub supersample: Supersample,
 }
 

@@ -1,4 +1,4 @@
-//! The ramp texture of the text's section "Painting": gradients of a few flat tones, one a row, looked up by the light.
+//! The ramp texture of the text's section "Painting": gradients of a few flat tones, one per row, indexed by the light.
 
 use crate::error::{Error, ParseError, Result};
 use crate::picture::Picture;
@@ -37,7 +37,7 @@ impl Ramp {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] when it cannot be read or is lower than its gradients are many.
+    /// [`Error::File`] when it cannot be read or has fewer rows than gradients.
     pub fn read(path: &Path) -> Result<Self> {
         Self::of(Picture::read(path)?, path)
     }

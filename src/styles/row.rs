@@ -72,9 +72,9 @@ pub enum Outline {
     Star,
 }
 
-/// Makes of the rows [`Style`], [`StyleName`], and what each style does in its own way.
+/// Makes [`Style`], [`StyleName`] and each style's special functions from the rows.
 ///
-/// A macro because a style is a variant of two types, an arm of each match over them and a table's entry: six places without one.
+/// Without the macro a style would need code in six places: a variant of two types, match arms over them and a table entry.
 macro_rules! styles {
     ($($(#[$about:meta])* $style:ident($settings:ty) {
         name: $name:literal, draw: $draw:expr, has_lines: $has_lines:expr, $($field:ident: $value:expr),*,
@@ -147,7 +147,7 @@ macro_rules! styles {
                 }
             }
 
-            /// The exact lines that it draws; `None` for a style that draws in passes.
+            /// Returns its exact lines; `None` for a style that draws in passes.
             pub fn lines(&self) -> Option<LineStyle> {
                 match self {
                     $(Self::$style(settings) => {

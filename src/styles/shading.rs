@@ -25,7 +25,7 @@ pub(super) fn vertex_colors(gradients: &Gradients<'_>) -> VertexLists<[f32; 4]> 
     })
 }
 
-/// The faces of each tone, an entry for each object, and the tone as a colour.
+/// Returns the faces of each tone, an entry for each object, and the tone as a colour.
 pub(super) fn faces_by_tone(scene: &Scene, gradients: &Gradients<'_>) -> Vec<([f32; 4], Arc<Vec<Faces>>)> {
     let light = Light::of(scene);
     let lists: Arc<Vec<ByTone>> =

@@ -1,4 +1,4 @@
-//! Drawing larger than the picture and taking the mean: edges are smooth, lines finer than a pixel.
+//! Draws larger than the picture and averages: edges are smooth, lines finer than a pixel.
 
 use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Program, Step, Target, Texture, Uniform, Value};
 use crate::scene::Size;
@@ -47,7 +47,7 @@ impl Supersample {
         picture.times(self.factor())
     }
 
-    /// Makes of a plan drawn at [`Supersample::surface`]'s size one of the picture.
+    /// Converts a plan drawn at [`Supersample::surface`]'s size into one of the picture.
     pub(super) fn finish(self, plan: Plan, picture: Size) -> Plan {
         if self == Self::One {
             return plan;

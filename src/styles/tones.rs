@@ -1,4 +1,4 @@
-//! The tones of the cartoon styles: which light gets which of one, two or three levels (section 3.2, figure 5).
+//! The tones of the cartoon styles: the mapping from light to one, two or three levels (section 3.2, figure 5).
 
 use super::CARTOON;
 use crate::error::{Error, Result};
@@ -9,11 +9,11 @@ use crate::tolerances::UNREACHED_LIGHT;
 /// Settings of the tones; the defaults are the listing's constants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tones {
-    /// How many tones, 1 to 3: the first, then the diffuse one, then the highlight. Default 3, the listing.
+    /// Number of tones, 1 to 3: the first, then the diffuse one, then the highlight. Default 3, the listing.
     pub count: u8,
     /// Smallest diffuse value of the second tone, in [0, 1]. Default 0.8; more shrinks the lit part.
     pub diffuse_threshold: f32,
-    /// Specular value, in [0, 1], above which the third tone holds. Default 0.65; more shrinks the highlight.
+    /// Specular value, in [0, 1], above which the third tone applies. Default 0.65; more shrinks the highlight.
     pub specular_threshold: f32,
     /// The factor each tone multiplies the colour by. Default 0.65, 0.95, 1.
     pub levels: [f32; 3],
@@ -116,7 +116,7 @@ impl Tones {
         Ok(())
     }
 
-    /// Diffuse and specular thresholds with those of unused tones out of reach.
+    /// Returns the diffuse and specular thresholds; those of unused tones are out of reach.
     fn thresholds(&self) -> [f32; 2] {
         let with = |used: bool, threshold: f32| if used { threshold } else { NEVER };
         [with(self.count >= 2, self.diffuse_threshold), with(self.count >= 3, self.specular_threshold)]
@@ -144,8 +144,8 @@ impl Tones {
         }
     }
 
-    /// A program that compares with thresholds, without the light that reaches none: the driver then leaves that light out
-    /// of both shaders.
+    /// Returns a program for threshold tones without the light that no threshold depends on; the driver then removes that light
+    /// from both shaders.
     pub(super) fn shorter(&self, program: &Program) -> Option<Shorter> {
         let [diffuse, specular] = self.thresholds();
         if specular < UNREACHED_LIGHT || !program.has_shader(STEPS) {
@@ -186,7 +186,7 @@ impl Tones {
         }
     }
 
-    /// The plan's tables where one is read: the tone of a diffuse value, and that of a specular value or 0.
+    /// Returns the plan's tables if one is read: the tone of a diffuse value, and that of a specular value or 0.
     pub(super) fn tables(&self) -> Vec<PlanTable> {
         let table = (self.lookup == ToneLookup::Texture).then(|| {
             let byte = |level: f32| (level * 255.0).round() as u8;

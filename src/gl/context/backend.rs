@@ -9,8 +9,8 @@ tinta_geometry::choices! {
     #[derive(Default)]
     #[non_exhaustive]
     pub enum Backend {
-        /// Those of this system, in this order: WGL, CGL, EGL, OSMesa, EGL's surfaceless platform. The first that works; for pictures
-        /// too large for it the next that draws them.
+        /// This system's backends, in this order: WGL, CGL, EGL, OSMesa, EGL's surfaceless platform. The first that works draws;
+        /// the next that can draws pictures too large for it.
         #[default]
         Auto = "auto",
         /// EGL on a device, without a window system; hardware first.

@@ -1,4 +1,4 @@
-//! A canvas of a browser's page: the one context there is there, WebGL 1, OpenGL 2.1's nearest kin.
+//! The canvas of a web page: a browser's only context, WebGL 1, the closest relative of OpenGL 2.1.
 
 use super::super::Gl;
 use super::super::faults::Fault;
@@ -66,7 +66,7 @@ impl Context {
         let found = canvas.get_context_with_context_options("webgl", &attributes);
         let raw = found.ok().flatten().and_then(|context| context.dyn_into::<WebGlRenderingContext>().ok());
         let raw = raw.ok_or_else(|| refused("this browser has none, or it is switched off"))?;
-        // Asked before glow, which takes for granted that every question is answered.
+        // Checked before glow, which assumes that every query is answered.
         if raw.is_context_lost() {
             return Err(refused("the context was lost at once"));
         }
@@ -103,7 +103,7 @@ impl Context {
         }
         self.canvas.set_width(size.width);
         self.canvas.set_height(size.height);
-        // A browser that lacks the memory makes it smaller, and says so here alone.
+        // A browser short of memory makes the drawing buffer smaller and reports it only here.
         let [width, height] = self.gl.legacy.surface();
         match (width, height) == (size.width, size.height) || self.gl.legacy.is_lost() {
             true => Ok(()),
@@ -125,8 +125,8 @@ fn load(raw: WebGlRenderingContext) -> std::result::Result<Gl, String> {
     if !has("OES_element_index_uint") {
         return Err("it draws models of up to 65,536 vertices only (no OES_element_index_uint)".to_owned());
     }
-    // Those of a context before it was lost and restored.
-    // SAFETY: as any question; a browser that is broken could report errors for ever, hence the bound.
+    // Clears errors from before the context was lost and restored. SAFETY: as for any query; a broken browser could report errors
+    // for ever, hence the bound.
     (0..16).take_while(|_| unsafe { glow.get_error() } != glow::NO_ERROR).count();
     // glow does not request these extensions.
     let has_floats = ["OES_texture_float", "WEBGL_color_buffer_float"].iter().all(|name| turn_on(&raw, name));

@@ -1,10 +1,10 @@
 //! A lock that lets only one context of a software driver work at a time in this process.
 //!
-//! Mesa's llvmpipe has one screen for all contexts of a device, and one for all of OSMesa. Before it reads or replaces a
-//! texture it looks through what every context of that screen has yet to draw, without a lock and while their threads free it
-//! (`lp_scene_is_resource_referenced`; seen in 22.3): two of EGL's at work at once ended in a segmentation fault in four of
-//! seven runs of 20 to 30 s that did nothing else; two of OSMesa's, in three runs, in none. EGL's
-//! screen and OSMesa's do not know of each other.
+//! Mesa's llvmpipe has one screen for all contexts of a device, and one for all of OSMesa. Before it reads or replaces a texture
+//! it searches the pending draws of every context of that screen. It takes no lock, while their threads free those draws
+//! (`lp_scene_is_resource_referenced`; seen in 22.3). Two EGL contexts at work at once ended in a segmentation fault in four of
+//! seven runs of 20 to 30 s that did nothing else. Two OSMesa contexts failed in none of three runs. EGL's screen and OSMesa's
+//! are independent.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -23,7 +23,7 @@ pub(super) static OF_EGL: ContextLock = ContextLock(Mutex::new(()));
 #[cfg(all(unix, not(target_os = "macos")))]
 pub(super) static OF_SURFACELESS: ContextLock = ContextLock(Mutex::new(()));
 
-/// Those of WGL, the window's among them: Mesa's library for Windows has one screen for all.
+/// The lock of WGL's contexts, including the window's: Mesa's library for Windows has one screen for all.
 #[cfg(windows)]
 pub(super) static OF_WGL: ContextLock = ContextLock(Mutex::new(()));
 

@@ -25,12 +25,12 @@ pub(super) const VERSION: (u8, u8) = (2, 1);
 /// One that no driver has, for [`Fault::ContextRefused`].
 const NO_VERSION: (u8, u8) = (9, 9);
 
-/// A context with its loaded functions; current on this thread only between [`Context::enter`] and its guard's end.
+/// A context with its loaded functions; current on this thread only from [`Context::enter`] until its guard is dropped.
 pub(crate) struct Context {
     platform: ManuallyDrop<Box<dyn Platform>>,
     gl: Rc<Gl>,
     faults: Option<Rc<Faults>>,
-    /// Shared with the contexts of the same screen; `None` for those of hardware, which may all be at work at once.
+    /// Shared with the contexts of the same screen; `None` for those of hardware, which can all work at once.
     lock: Option<&'static ContextLock>,
 }
 
@@ -150,7 +150,7 @@ pub fn witnesses() -> [Backend; 2] {
 }
 
 impl Context {
-    /// The first way of this backend that works; with a fault something will go wrong in it.
+    /// Opens the first working context of this backend; `fault` makes something go wrong in it.
     pub(crate) fn open(backend: Backend, fault: Option<Fault>) -> Result<Self> {
         let mut attempts = Vec::new();
         for candidate in Candidate::all(backend) {
@@ -240,8 +240,8 @@ impl Context {
         Ok(())
     }
 
-    /// Makes the context current until the guard is dropped, after waiting for its lock: a thread has one such guard at most.
-    /// Contexts of both platforms share one dispatch table inside Mesa, so none is left current when another may be entered.
+    /// Makes the context current until the guard is dropped, after waiting for its lock. A thread has at most one such guard.
+    /// Contexts of both platforms share one dispatch table inside Mesa, so none stays current while another may be entered.
     pub(crate) fn enter(&self) -> Result<Current<'_>> {
         let guard = self.lock_context();
         self.platform.make_current().map_err(|NotCurrent { is_lost, reason }| {

@@ -93,7 +93,7 @@ pub(super) fn devices() -> Result<Vec<Device>, String> {
         .collect())
 }
 
-/// A compatibility context of this version of OpenGL on this device with a surface of one pixel.
+/// Opens a compatibility context of this version of OpenGL on this device with a surface of one pixel.
 pub(super) fn open(device: &Device, version: (u8, u8)) -> Result<Pbuffer<()>, String> {
     // SAFETY: the device was given by EGL and no native display handle is passed.
     let display = unsafe { Display::with_device(&device.device, None) }
@@ -105,7 +105,7 @@ pub(super) fn open(device: &Device, version: (u8, u8)) -> Result<Pbuffer<()>, St
 
 /// What EGL says of the sides of pbuffers.
 fn largest_surface(display: &glutin::display::Display, config: &glutin::config::Config) -> Size {
-    // Elsewhere displays and configs may be of other kinds; these are EGL's.
+    // On other systems displays and configs have further kinds; these are EGL's.
     #[cfg_attr(not(windows), expect(irrefutable_let_patterns, reason = "EGL is all there is"))]
     let (glutin::display::Display::Egl(egl), RawDisplay::Egl(raw), RawConfig::Egl(config)) =
         (display, display.raw_display(), config.raw_config())

@@ -6,7 +6,7 @@ use serde::Serialize;
 /// Fewest bits of the framebuffer's alpha: it holds the map's depth.
 const ALPHA_BITS: i32 = 8;
 
-/// Fewest bits of the depth buffer: with fewer, surfaces of a fitted scene show through each other.
+/// Smallest depth buffer, bits: with fewer, surfaces of a fitted scene show through each other.
 const DEPTH_BITS: i32 = 24;
 
 /// Sub-pixel bits that OpenGL promises.
@@ -76,7 +76,7 @@ impl ContextInfo {
         })
     }
 
-    /// Whether it draws on the processor: then work done here before drawing takes from drawing's own time.
+    /// Whether it draws on the processor, where CPU work before drawing competes with the drawing.
     pub fn is_software(&self) -> bool {
         is_software(&self.renderer)
     }

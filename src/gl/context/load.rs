@@ -21,7 +21,7 @@ fn version_numbers(version: &str) -> Option<(u32, u32)> {
     Some((numbers.next()??, numbers.next()??))
 }
 
-/// Loads GL for the current context and asks it about itself; an error is why it cannot serve.
+/// Loads GL for the current context and queries its properties; the error says why the context cannot serve.
 pub(super) fn load_functions(
     platform: &dyn Platform,
     faults: Option<&Faults>,

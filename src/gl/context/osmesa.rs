@@ -1,4 +1,4 @@
-//! Mesa's off-screen library: a context that draws into our memory, with no device at all. Mesa 25.1 removed it.
+//! Mesa's off-screen library: a context that draws into our memory, without any device. Mesa 25.1 removed it.
 
 use super::platform::{NotCurrent, Platform};
 use crate::scene::Size;
@@ -40,7 +40,7 @@ fn functions() -> Result<&'static Functions, String> {
     FUNCTIONS.get_or_init(load).as_ref().map_err(Clone::clone)
 }
 
-/// Whether the library is there, with the driver that GALLIUM_DRIVER asks for.
+/// Whether the library is installed, with the driver that GALLIUM_DRIVER names.
 pub(super) fn is_there() -> bool {
     functions().is_ok() && check_driver(asked_driver().as_deref()).is_ok()
 }
@@ -135,7 +135,7 @@ impl SmallBlocks {
     /// The record has 56 bytes in Mesa 22.3, eight more or less in others.
     const BYTES: [usize; 4] = [40, 56, 72, 88];
 
-    /// More than are ever found free: the lists behind the first one fill it again.
+    /// More than the most blocks ever found free, because other lists refill the first one.
     const OF_EACH: usize = 256;
 
     fn take() -> Self {
@@ -145,7 +145,7 @@ impl SmallBlocks {
 }
 
 impl OsMesaContext {
-    /// A compatibility context of this version of OpenGL with a surface of one pixel.
+    /// Opens a compatibility context of this version of OpenGL with a surface of one pixel.
     pub(super) fn open((major, minor): (u8, u8)) -> Result<Self, String> {
         let functions = functions()?;
         check_driver(asked_driver().as_deref())?;

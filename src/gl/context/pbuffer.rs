@@ -37,7 +37,7 @@ pub(super) struct Pbuffer<Kept> {
 }
 
 impl<Kept> Pbuffer<Kept> {
-    /// A compatibility context of this version of OpenGL with a surface of one pixel; `kept` is dropped after it.
+    /// Opens a compatibility context of this version of OpenGL with a surface of one pixel; `kept` is dropped after it.
     pub(super) fn open(
         makes: Makes,
         (major, minor): (u8, u8),
@@ -68,7 +68,7 @@ impl<Kept> Pbuffer<Kept> {
             // SAFETY: config, display and window belong together and are alive.
             unsafe { makes.display.create_context(&config, &attributes) }
         };
-        // One that says when it is lost where the driver has such, which software does not; else any.
+        // Preferably a context that reports its loss, which software drivers lack; otherwise any.
         let context = create(Robustness::RobustLoseContextOnReset)
             .or_else(|_| create(Robustness::NotRobust))
             .map_err(|error| format!("making a GL {major}.{minor} context failed ({error})"))?;

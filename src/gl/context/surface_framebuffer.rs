@@ -16,7 +16,7 @@ pub(in crate::gl) struct SurfaceFramebuffer {
 }
 
 impl SurfaceFramebuffer {
-    /// One of a single pixel, bound. The context is current; an error is why it cannot be had.
+    /// Makes a framebuffer of one pixel and binds it. The context is current; the error says why it failed.
     pub(in crate::gl) fn new(gl: &glow::Context) -> Result<Self, String> {
         // SAFETY: the context is current, and a driver without framebuffer objects reports an error instead of a name.
         let made = unsafe {

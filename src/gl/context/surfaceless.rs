@@ -134,7 +134,7 @@ impl Egl {
 
     fn attribute(&self, config: Handle, name: i32) -> i32 {
         let mut value = 0;
-        // SAFETY: display and config are alive, and the attribute is one integer; 0 stays where it is not known.
+        // SAFETY: display and config are alive, and the attribute is one integer; an unknown attribute stays 0.
         unsafe { (self.get_config_attribute)(self.display, config, name, &mut value) };
         value
     }
@@ -182,7 +182,7 @@ pub(super) struct SurfacelessContext {
 }
 
 impl SurfacelessContext {
-    /// A compatibility context of this version of OpenGL with a surface of one pixel.
+    /// Opens a compatibility context of this version of OpenGL with a surface of one pixel.
     pub(super) fn open((major, minor): (u8, u8)) -> Result<Self, String> {
         let egl = opened()?;
         let config = egl.config()?;

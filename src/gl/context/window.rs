@@ -30,8 +30,8 @@ pub(crate) struct WindowGl {
     painter: egui_glow::Painter,
     surface: Surface<WindowSurface>,
     context: PossiblyCurrentContext,
-    /// Shared with the contexts that draw models, where they are of the same software driver's screen: on Windows. Elsewhere the
-    /// window's display is another than theirs.
+    /// Shared with the contexts that draw models if they use the same software driver's screen, as on Windows. Elsewhere the
+    /// window has a separate display.
     lock: Option<&'static ContextLock>,
 }
 
@@ -59,7 +59,7 @@ impl WindowGl {
         event_loop: &ActiveEventLoop,
         attributes: WindowAttributes,
     ) -> std::result::Result<(Window, Self), String> {
-        // Where the display's format does not depend on the window, it comes first, as X11 wants it.
+        // First where the display's format does not depend on the window, as X11 requires.
         #[cfg(not(windows))]
         let (window, config) = {
             #[cfg(not(target_os = "macos"))]
@@ -106,7 +106,8 @@ impl WindowGl {
         };
         #[cfg(not(windows))]
         let lock = None;
-        // A frame that waits for the screen would keep drawings waiting with it. Without it frames are shown at once, which is no worse.
+        // A frame that waits for the screen would delay drawings that need the lock. Without the wait frames appear at once, with
+        // no drawback.
         if lock.is_none() {
             let _ = surface.set_swap_interval(&context, SwapInterval::Wait(NonZeroU32::MIN));
         }
@@ -174,7 +175,7 @@ impl Drop for WindowGl {
     }
 }
 
-/// The display's plainest format, or on Windows the window's. glutin-winit's own builder takes for certain that there is one.
+/// Returns the display's plainest format, or on Windows the window's. glutin-winit's builder assumes that one exists.
 fn config(event_loop: &ActiveEventLoop, window: Option<&Window>) -> std::result::Result<Config, String> {
     let handle = event_loop.display_handle().map_err(|error| format!("the display has no handle ({error})"))?;
     let window = window.map(HasWindowHandle::window_handle).transpose();

@@ -42,7 +42,7 @@ impl Faults {
         Self { fault, counted: Cell::new(0), pending: Cell::new(glow::NO_ERROR), real: RefCell::default() }
     }
 
-    /// The address to call a GL function at: a stand-in's for some, for others the driver's own.
+    /// Returns the address to call a GL function at: a stand-in's for some functions, the driver's for the others.
     pub(in crate::gl) fn load(&self, name: &CStr, real: *const c_void) -> *const c_void {
         if self.fault == Fault::NoImmediateMode && name == c"glBegin" {
             return std::ptr::null();
@@ -100,7 +100,7 @@ fn allowed(name: &CStr, call: Call) -> Option<*const c_void> {
     faults.real.borrow().get(name).copied()
 }
 
-/// Functions of the C types the specification gives them that do nothing, and return 0, when it is their turn to fail.
+/// Defines functions with the C types of the specification. When it is their turn to fail they do nothing and return 0.
 macro_rules! stand_ins {
     ($($gl:literal $name:ident $call:ident ($($argument:ident: $kind:ty),*) $(-> $result:ty)?;)*) => {
         $(

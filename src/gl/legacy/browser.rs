@@ -37,7 +37,7 @@ const HALF_FLOAT: u32 = 0x8D61;
 pub(in crate::gl) const DRAWN_TEXELS: [(u32, u32); 3] =
     [(glow::RGBA, glow::UNSIGNED_BYTE), (glow::RGBA, HALF_FLOAT), (glow::RGBA, glow::FLOAT)];
 
-/// A depth buffer of 24 bits, and where it is attached: WebGL has them with a stencil only.
+/// A depth buffer of 24 bits, and its attachment point: WebGL has them only with a stencil.
 pub(in crate::gl) const DEPTH_BUFFER: (u32, u32) = (glow::DEPTH_STENCIL, glow::DEPTH_STENCIL_ATTACHMENT);
 
 /// The attributes' places, in the order of [`ATTRIBUTES`].
@@ -58,7 +58,7 @@ pub(in crate::gl) struct Legacy {
     clip_from_view: Cell<Mat4>,
     program: Cell<Option<glow::Program>>,
     locations: RefCell<HashMap<glow::Program, Locations>>,
-    /// Indices that make triangles of four corners each, and for how many such squares they reach.
+    /// Indices that split squares of four corners into triangles, and the number of squares they cover.
     squares: Cell<Option<(glow::Buffer, u32)>>,
 }
 
@@ -145,11 +145,11 @@ impl Legacy {
         }
     }
 
-    /// Texture coordinates of a unit, so many floats a vertex, from the start of the bound array buffer.
+    /// Texture coordinates of a unit, this many floats per vertex, from the start of the bound array buffer.
     ///
     /// # Safety
     ///
-    /// The context is current and the bound buffer holds them for as many vertices as will be drawn.
+    /// The context is current and the bound buffer holds them for all vertices that will be drawn.
     pub(in crate::gl) unsafe fn texture_coordinate_array(&self, unit: u32, numbers: i32) {
         // SAFETY: as above.
         unsafe {
@@ -225,7 +225,7 @@ impl Legacy {
         unsafe { gl.generate_mipmap(glow::TEXTURE_2D) }
     }
 
-    /// glDrawBuffers, by the extension itself: glow 0.17 hands it a list within a list, which names no buffer.
+    /// glDrawBuffers, by the extension itself: glow 0.17 passes it a list within a list, which names no buffer.
     ///
     /// # Safety
     ///

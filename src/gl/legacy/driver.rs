@@ -119,11 +119,11 @@ impl Legacy {
         }
     }
 
-    /// Adds what ARB_robustness has, for [`Legacy::reset_status`].
+    /// Adds the function of ARB_robustness, for [`Legacy::reset_status`].
     ///
     /// # Safety
     ///
-    /// As [`Legacy::load`], and the context has the extension: drivers give addresses for functions they do not have.
+    /// As [`Legacy::load`], and the context has the extension: drivers give addresses even for functions they lack.
     pub(in crate::gl) unsafe fn load_robustness(&mut self, mut load: impl FnMut(&CStr) -> *const c_void) {
         // The extension's own name, then that of KHR_robustness and OpenGL 4.5.
         let names = [c"glGetGraphicsResetStatusARB", c"glGetGraphicsResetStatus"];
@@ -214,11 +214,11 @@ impl Legacy {
         }
     }
 
-    /// Texture coordinates of a unit, so many floats a vertex, from the start of the bound array buffer.
+    /// Texture coordinates of a unit, this many floats per vertex, from the start of the bound array buffer.
     ///
     /// # Safety
     ///
-    /// The context is current and the bound buffer holds them for as many vertices as will be drawn.
+    /// The context is current and the bound buffer holds them for all vertices that will be drawn.
     pub(in crate::gl) unsafe fn texture_coordinate_array(&self, unit: u32, numbers: i32) {
         // SAFETY: as above.
         unsafe {
@@ -280,7 +280,7 @@ impl Legacy {
     /// A program is gone.
     pub(in crate::gl) fn program_deleted(&self, _: glow::Program) {}
 
-    /// Lets the texture just bound have smaller levels, which follow whenever the largest is uploaded: the way of GL 1.4 to 2.1.
+    /// Makes GL compute the smaller levels of the texture just bound at each upload of the largest: the way of GL 1.4 to 2.1.
     ///
     /// # Safety
     ///

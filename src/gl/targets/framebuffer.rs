@@ -13,7 +13,7 @@ pub(super) struct Framebuffer {
     id: glow::Framebuffer,
 }
 
-/// Draws go there, and copies and read-back come from there; `None` is the context's own framebuffer.
+/// Makes this framebuffer the target of draws and the source of copies and read-back; `None` is the context's own.
 pub(super) fn bind(gl: &Gl, framebuffer: Option<&Framebuffer>) {
     // SAFETY: the context is current and has framebuffer objects; this one is alive.
     unsafe {
@@ -49,7 +49,7 @@ fn draw_into_all(gl: &Gl, count: usize) {
 }
 
 impl Framebuffer {
-    /// One that draws into these textures and this depth buffer, all of one size.
+    /// Makes a framebuffer of these textures and this depth buffer, all of one size.
     pub(super) fn new(gl: &Rc<Gl>, colors: &[&Texture], depth: Option<&Renderbuffer>) -> Result<Self> {
         // SAFETY: the context is current and has framebuffer objects, as `Targets::prepare` has checked.
         let id = unsafe { gl.glow.create_framebuffer() }.map_err(out_of_names)?;

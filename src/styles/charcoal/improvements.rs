@@ -18,7 +18,7 @@ pub struct Improvements {
     pub paper_coordinate: bool,
     /// V5: luminance by Rec. 709 (the style sand only).
     pub luminance: bool,
-    /// Paper and noise keep their own proportion in a picture that is not square: they cover it instead of being stretched.
+    /// Paper and noise keep their proportions in a picture that is not square: they cover it instead of being stretched.
     pub proportion: bool,
     /// The paper's tooth catches the grain: raised parts take more, hollows less.
     pub tooth: bool,

@@ -19,7 +19,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Of these textures: stretched once over the picture, or each in its own proportion.
+    /// The layout of these textures: stretched once over the picture, or each in its own proportions.
     pub(super) fn of(made: &Made, picture: Size, samples: u32, is_even: bool) -> Self {
         let spread = |texture: Size| if is_even { even(picture, texture) } else { [1.0; 2] };
         Self {
@@ -69,7 +69,7 @@ fn shorter(picture: Size) -> f32 {
     picture.width.min(picture.height) as f32
 }
 
-/// The share of a texture along each side of a picture that it covers whole and unstretched: all of it along one side.
+/// Returns the share of a texture, along each side, that covers the picture unstretched: all of it along one side.
 fn even(picture: Size, texture: Size) -> [f32; 2] {
     let pixels_a_texel =
         [f64::from(picture.width) / f64::from(texture.width), f64::from(picture.height) / f64::from(texture.height)];

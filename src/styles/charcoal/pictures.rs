@@ -71,7 +71,7 @@ impl Value for TextureSource {
     }
 }
 
-/// Textures kept for the next picture; shared between clones. Two of them are always equal: they follow from the settings.
+/// Textures kept for the next picture; shared between clones. Any two compare equal, because the settings determine them.
 #[derive(Debug, Clone, Default)]
 pub struct CharcoalPictures(Arc<Mutex<Option<(TextureSettings, Made)>>>);
 

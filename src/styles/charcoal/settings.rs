@@ -193,7 +193,7 @@ fn light(
     field: fn(&mut Charcoal) -> &mut Option<[f32; 3]>,
 ) -> Setting<Charcoal> {
     let mut light = Setting::open_field(name, "X,Y,Z|none", "none", help, field).range(-1.0, 1.0, 2);
-    // The default is no light left out but a direction, which the help then says.
+    // The default is a direction, as the help says.
     light.said_default = None;
     light
 }
