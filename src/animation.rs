@@ -57,14 +57,14 @@ enum AnimationFormat {
     Numbered(NumberedName),
 }
 
-/// Pictures that wait for the encoder at most: drawing never runs far ahead of it.
+/// Most pictures that wait for the encoder, which keeps drawing from running far ahead.
 const WAITING: usize = 4;
 
 /// The longest side of a GIF, pixels: the format counts in 16 bits.
 const LARGEST_GIF_SIDE_PX: u32 = 65_535;
 
 impl AnimationTarget {
-    /// Whether a name can only mean an animation: `.gif`, `.apng`, or a numbered name such as `frame-%04d.png`.
+    /// Whether a name always means an animation: `.gif`, `.apng`, or a numbered name such as `frame-%04d.png`.
     pub fn is_meant_by(name: &str) -> bool {
         matches!(extension(Path::new(name)).as_str(), "gif" | "apng") || NumberedName::parse(name).is_some()
     }
@@ -106,7 +106,7 @@ fn extension(path: &Path) -> String {
     path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
 
-/// Takes the pictures of an animation. Dropped before the last one came, it leaves no GIF or APNG.
+/// Takes the pictures of an animation. If dropped before the last one, it leaves no GIF or APNG.
 #[derive(Debug)]
 pub struct AnimationWriter {
     target: AnimationTarget,
@@ -119,7 +119,7 @@ pub struct AnimationWriter {
 /// The finished animation's numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Written {
-    /// Encoding each picture, milliseconds; on its own thread beside the drawing.
+    /// Time to encode each picture, milliseconds, on a separate thread during the drawing.
     pub encode_ms: Vec<f64>,
     /// Size of the file, or of all numbered ones together.
     pub bytes: u64,
@@ -148,12 +148,12 @@ impl AnimationWriter {
         Ok(Self { target, frames, added: 0, pictures: Some(pictures), worker: Some(worker) })
     }
 
-    /// Hands over the next picture; waits while the encoder is several behind.
+    /// Passes the next picture to the encoder; waits while the encoder is several behind.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] for one picture too many, or for what stopped the encoder, such as a full disk or a picture of
-    /// another size; the animation is then over.
+    /// [`Error::File`] for one picture too many, or for the encoder's error, such as a full disk or a picture of another size;
+    /// the animation is then over.
     pub fn add(&mut self, picture: Picture) -> Result<()> {
         if self.added == self.frames {
             return Err(self.target.error(format!("more pictures came than the {} announced", self.frames)));

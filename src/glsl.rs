@@ -18,7 +18,7 @@ macro_rules! sources {
     };
 }
 
-// A macro because include_str! takes literals only: a function would need every path twice.
+// A macro because include_str! takes only literals; a function would need every path twice.
 sources![
     "dachsbacher/ramp.vert",
     "dietrich/dietrich.frag",

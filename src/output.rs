@@ -39,7 +39,7 @@ impl TextTarget {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] for a directory, a device, a folder that is missing or may not be written.
+    /// [`Error::File`] for a directory, a device, and a missing or write-protected folder.
     pub fn check(path: &str) -> Result<Self> {
         if path == "-" {
             return Ok(Self::Stdout);
@@ -107,14 +107,14 @@ pub(crate) fn check_file(file: &Path) -> Result<()> {
             "Windows has a device of this name; name another file, or - for standard output".to_owned(),
         ));
     }
-    // A new file takes the old one's place, which must be a file: not a device, a pipe or a link to nowhere.
+    // A new file replaces the old one, which must be a file: not a device, a pipe or a broken link.
     if file.symlink_metadata().is_ok() && !file.is_file() {
         return Err(refuse("this is not a regular file; name another, or - for standard output".to_owned()));
     }
     StagedFile::open(&resolved(file)).map(drop).map_err(|error| refused(file, &error))
 }
 
-/// Whether a path's last name is one that Windows gives to devices, in whatever folder and with whatever ending: `aux.png`.
+/// Whether a path's last name is a Windows device name, in any folder and with any extension: `aux.png`.
 fn is_device(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_uppercase();
     let stem = name.split('.').next().unwrap_or_default().trim_end();
@@ -125,7 +125,7 @@ fn is_device(path: &Path) -> bool {
     ["CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"].contains(&stem) || is_numbered("COM") || is_numbered("LPT")
 }
 
-/// A file's new contents, whole on the disk, under no name yet or under one that goes away with this.
+/// A file's new contents, complete on the disk, without a name or under a temporary one that is removed with this.
 #[derive(Debug)]
 pub struct Staged {
     path: PathBuf,
@@ -145,7 +145,7 @@ impl Staged {
         Ok(staged)
     }
 
-    /// Nothing yet: [`Staged::add`] writes, and [`Staged::settle`] comes before [`Staged::put_in_place`].
+    /// Starts empty: [`Staged::add`] writes, and [`Staged::settle`] comes before [`Staged::put_in_place`].
     ///
     /// # Errors
     ///
@@ -164,7 +164,7 @@ impl Staged {
         self.temporary.file().write_all(bytes).map_err(|error| refused(&self.path, &error))
     }
 
-    /// Has the contents on the disk, where they replace a file.
+    /// Flushes the contents to the disk if they replace a file.
     ///
     /// # Errors
     ///
@@ -178,7 +178,7 @@ impl Staged {
         settled.map_err(|error| refused(&self.path, &error))
     }
 
-    /// Gives the contents their name: a link is followed, an old file replaced.
+    /// Gives the contents their name; follows a link, replaces an old file.
     ///
     /// # Errors
     ///

@@ -53,7 +53,7 @@ impl Picture {
         Self { size, pixels: rows }
     }
 
-    /// The pixel in column `x` from the left and row `y` from the top, both clamped to the picture.
+    /// Returns the pixel in column `x` from the left and row `y` from the top, both clamped to the picture.
     pub fn pixel(&self, x: i64, y: i64) -> [u8; 4] {
         let x = x.clamp(0, i64::from(self.size.width) - 1) as usize;
         let y = y.clamp(0, i64::from(self.size.height) - 1) as usize;
@@ -92,7 +92,7 @@ impl Picture {
         self.pixels.chunks_exact(4).all(|pixel| pixel[3] == u8::MAX)
     }
 
-    /// The largest difference of any byte between two pictures of one size, and how many pixels differ at all.
+    /// Returns the largest difference of any byte between two pictures of one size, and the number of pixels that differ.
     #[must_use]
     pub fn difference(&self, other: &Self) -> Option<Difference> {
         if self.size != other.size {
@@ -149,7 +149,7 @@ impl Picture {
         }
     }
 
-    /// The bytes of a PNG file, with a note in it if there is one: those that [`Target::write_with`] writes.
+    /// Returns the bytes of a PNG file, with the note if given: the same as [`Target::write_with`] writes.
     ///
     /// # Errors
     ///
@@ -174,7 +174,7 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] with the path when it is missing or no picture.
+    /// [`Error::File`] with the path when it is missing or not a picture.
     pub fn read_png(path: &Path) -> Result<Self> {
         let failed = |error: image::ImageError| {
             Error::output(path, format!("it cannot be read as a picture ({error}); draw it again"))
@@ -233,7 +233,7 @@ impl PictureFormat {
     }
 }
 
-/// Where a picture goes, checked before the work and written whole or not at all.
+/// The destination of a picture, checked before the work and written completely or not at all.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Target {
     /// Standard output, as PNG.
@@ -260,7 +260,7 @@ impl Target {
         }
     }
 
-    /// As [`Target::check`] of a file, whatever its name; `-` is one here.
+    /// Checks a file as [`Target::check`] does, whatever its name; `-` is a file here.
     ///
     /// # Errors
     ///
@@ -293,7 +293,7 @@ impl Target {
         self.write_with(picture, None)
     }
 
-    /// Writes the picture with a note in it, where the format is PNG; the others hold none.
+    /// Writes the picture, as PNG with a note in it; other formats hold no note.
     ///
     /// # Errors
     ///
@@ -346,7 +346,7 @@ pub struct Note {
     pub text: String,
 }
 
-/// Writes a picture as RGBA PNG whatever its alpha: what GL held, byte for byte.
+/// Writes a picture as RGBA PNG whatever its alpha: GL's bytes, unchanged.
 ///
 /// # Errors
 ///

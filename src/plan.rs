@@ -53,7 +53,7 @@ pub struct Plan {
     pub tables: Vec<PlanTable>,
     /// The pictures that [`Texture::Picture`] numbers.
     pub pictures: Vec<PlanPicture>,
-    /// How many times as wide and high as the picture it is drawn, from 1. Above 1 the plan itself ends by drawing
+    /// Factor by which the drawing is wider and higher than the picture, from 1. Above 1 the plan ends by drawing
     /// [`Geometry::PictureSquare`], which fills the picture.
     pub supersample: u32,
     /// How its vertices are handed to GL.
@@ -69,7 +69,7 @@ pub struct Pass {
     pub name: &'static str,
     /// The target that the pass draws into.
     pub target: Target,
-    /// The pixels that its steps may clear, draw and copy; `None` for all. A step's own scissor lies within.
+    /// The pixels that its steps may clear, draw and copy; `None` for all. A step's own scissor lies within it.
     pub scissor: Option<Rectangle>,
     /// In order.
     pub steps: Vec<Step>,
@@ -93,7 +93,7 @@ pub enum Step {
     },
     /// Clear each of the pass's textures to its given colour, and depth.
     ClearEach {
-        /// Red, green, blue, alpha of each, in the order of [`Attachments::colors`].
+        /// Red, green, blue and alpha for each texture, in the order of [`Attachments::colors`].
         colors: Vec<[f32; 4]>,
     },
     /// Draw something.
@@ -109,7 +109,7 @@ pub enum Step {
 pub struct Draw {
     /// The geometry to draw.
     pub geometry: Geometry,
-    /// With which shaders; `None` for the fixed-function pipeline, without lighting.
+    /// Its shaders; `None` for the fixed-function pipeline, without lighting.
     pub program: Option<Program>,
     /// The uniforms of that program.
     pub uniforms: Vec<Uniform>,
@@ -120,13 +120,13 @@ pub struct Draw {
     pub depth: Depth,
     /// How the colour is combined with the target's.
     pub blend: Blend,
-    /// Whether faces turned away from the eye (clockwise in the picture) are left out.
+    /// Whether to skip faces turned away from the eye (clockwise in the picture).
     pub cull_back_faces: bool,
     /// glPolygonOffset's factor and units: how far faces are pushed back, by their slope and in steps of depth.
     pub polygon_offset: Option<[f32; 2]>,
     /// The pixels it may change; `None` for all.
     pub scissor: Option<Rectangle>,
-    /// Which faces of [`Geometry::Objects`] are drawn, an entry for each of the scene's objects; `None` for all.
+    /// The faces of [`Geometry::Objects`] to draw, an entry for each of the scene's objects; `None` for all.
     pub faces: Option<Arc<Vec<Faces>>>,
     /// Facts about its shaders that others may rely on.
     pub facts: Facts,
@@ -146,7 +146,7 @@ pub enum Faces {
 /// Some of an object's faces, in the order all of them are drawn in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FaceList {
-    /// Three indices a face, into the object's [`crate::mesh::VertexArrays::vertices`].
+    /// Three indices per face, into the object's [`crate::mesh::VertexArrays::vertices`].
     pub indices: Vec<u32>,
     /// The runs of faces that share a material.
     pub parts: Vec<Part>,
@@ -197,7 +197,7 @@ pub enum Geometry {
     },
     /// A square over the whole picture at the near plane, its vertices in clip space.
     ScreenSquare,
-    /// The same over the lower left corner that is the picture of a supersampled plan.
+    /// The same over the lower left corner, which holds the picture of a supersampled plan.
     PictureSquare,
 }
 
@@ -208,8 +208,8 @@ pub enum Paint {
     Materials,
     /// One for all: red, green, blue, alpha.
     Uniform([f32; 4]),
-    /// White, and for the first texture unit a coordinate for each vertex: one list an object, in the order of the scene's
-    /// objects, one entry for each of [`crate::mesh::VertexArrays::vertices`].
+    /// White, with a coordinate for each vertex for the first texture unit: a list per object, in the scene's order, with an
+    /// entry for each of [`crate::mesh::VertexArrays::vertices`].
     Coordinates(Arc<Vec<Arc<Vec<[f32; 2]>>>>),
     /// A colour for each vertex, mixed across each face: red, green, blue, alpha, in lists like those of coordinates.
     Colors(Arc<Vec<Arc<Vec<[f32; 4]>>>>),
@@ -251,7 +251,7 @@ tinta_geometry::choices! {
     /// How lines get their width.
     #[derive(Default)]
     pub enum LineDrawing {
-        /// As GL draws lines and points; as quads where the width is beyond the driver's range.
+        /// As GL draws lines and points; as quads if the driver cannot draw the width.
         #[default]
         Gl = "gl",
         /// As quads facing the eye, computed here; not smoothed.
@@ -305,7 +305,7 @@ pub enum Output {
 }
 
 impl Plan {
-    /// A plan of these passes that reads neither tables nor pictures, drawn from buffers at its own size.
+    /// Returns a plan of these passes without tables and pictures, drawn from buffers at the picture's size.
     pub fn new(passes: Vec<Pass>) -> Self {
         let (tables, pictures) = (Vec::new(), Vec::new());
         Self { passes, tables, pictures, supersample: 1, submission: Submission::Buffers, output: Output::Rgba }
@@ -349,7 +349,7 @@ impl Step {
 }
 
 impl Draw {
-    /// Whether vertices are drawn where the camera has them: stated, or by the fixed-function pipeline.
+    /// Whether vertices are drawn at the camera's projection of them: stated, or by the fixed-function pipeline.
     pub fn keeps_places(&self) -> bool {
         self.program.is_none() || self.facts.keeps_places
     }

@@ -28,7 +28,7 @@ use serde::Serialize;
 pub struct Record {
     /// tinta's version.
     pub version: &'static str,
-    /// All models together, copies not repeated; their paths with commas between them.
+    /// All models together, with copies counted once; their paths with commas between them.
     pub model: ModelRecord,
     /// Each model in the order given.
     pub models: Vec<ModelRecord>,
@@ -46,7 +46,7 @@ pub struct Record {
     pub background: Background,
     /// The camera, world space.
     pub camera: CameraRecord,
-    /// What there was to say of the drawing: lines drawn otherwise than asked for.
+    /// Remarks on the drawing: deviations of lines from the request.
     pub remarks: Vec<String>,
     /// Reading the models and making meshes of them.
     pub load_ms: f64,
@@ -84,14 +84,14 @@ pub struct PictureMade {
     pub omissions: Vec<Omission>,
     /// The rules that left everything in, with reasons.
     pub kept: Vec<Kept>,
-    /// Making the plan: for the style inking that is edge list, classes, silhouettes and light.
+    /// Time to make the plan; for the style inking it covers edge list, classes, silhouettes and light.
     pub plan_ms: f64,
     /// Opening the context; on its own thread beside the loading.
     pub context_ms: f64,
     /// Time to draw one triangle while the models were still being read, which compiles the driver's shaders meanwhile; `null` if
     /// they were read first.
     pub warm_up_ms: Option<f64>,
-    /// The first frame: uploads included, and the driver's compiling unless it was warmed up.
+    /// Time of the first frame, including uploads, and the driver's compiling unless it was warmed up.
     pub first_frame_ms: f64,
     /// The frames after warm-up, read-back included.
     pub frame_ms: Summary,

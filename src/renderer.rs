@@ -51,7 +51,7 @@ pub struct Renderer {
     drawers: Vec<Drawer>,
     /// Which of them draws.
     used: usize,
-    /// Largest surface drawn at once, where that is to be less than the contexts' largest.
+    /// Largest surface to draw at once, if below the contexts' largest.
     confined_to: Option<Size>,
 }
 
@@ -67,7 +67,7 @@ impl std::fmt::Debug for Renderer {
 pub struct PassTime {
     /// The pass's name in the plan.
     pub name: &'static str,
-    /// Milliseconds by the clock from before its first call until GL has finished it; the median over the frames.
+    /// CPU clock milliseconds from before its first call until GL has finished it; the median over the frames.
     pub cpu_ms: f64,
     /// Milliseconds by a timer query on the device; the median over the frames; `None` without timer queries.
     pub gpu_ms: Option<f64>,
@@ -94,7 +94,7 @@ impl Renderer {
         Self::open(backend, None)
     }
 
-    /// The same, but something will go wrong in it: for tests and `tinta stress`.
+    /// Opens a context in which a fault occurs: for tests and `tinta stress`.
     ///
     /// # Errors
     ///
@@ -127,7 +127,7 @@ impl Renderer {
         Self { backend: Backend::Egl, fault: None, drawers, used: 0, confined_to: None }
     }
 
-    /// Asks the driver whether it does as OpenGL says. Afterwards the renderer is used up: its context's state is the questions'.
+    /// Probes whether the driver follows OpenGL. Consumes the renderer, because the probes change its context's state.
     #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
     pub(crate) fn probe(mut self) -> Result<Vec<crate::gl::probe::Probe>> {
         use crate::gl::probe::{SIDE, probes};
@@ -198,7 +198,7 @@ impl Renderer {
             drawer.resources.replace_shaders(self.drawers[0].resources.given_shaders());
             self.drawers.push(drawer);
         }
-        // In one piece before in tiles; where neither can be had the largest refuses the picture.
+        // One piece is better than tiles. If neither works, the largest context refuses the picture.
         let fitness = |number: &usize| {
             let drawer = &self.drawers[*number];
             let largest = drawer.context.info().largest_picture.pixel_count();
@@ -427,12 +427,12 @@ impl Renderer {
         self.drawers[self.used].resources.programs()
     }
 
-    /// How many GL objects this renderer holds: constant from frame to frame of one scene and plan.
+    /// Returns how many GL objects this renderer holds: constant from frame to frame of one scene and plan.
     pub fn live_objects(&self) -> usize {
         self.drawers.iter().map(|drawer| drawer.resources.live_objects()).sum()
     }
 
-    /// Deletes everything the renderer holds and returns how many GL objects are then still alive: 0, or there is a leak.
+    /// Deletes everything the renderer holds and returns how many GL objects are still alive: 0, unless there is a leak.
     pub fn close(mut self) -> usize {
         self.drawers.iter_mut().for_each(Drawer::release);
         self.live_objects()
@@ -470,7 +470,7 @@ fn confine(plan: &mut Plan, size: Size) {
     }
 }
 
-/// The middle value, or the mean of the two middle ones; `None` for none.
+/// Returns the middle value, or the mean of the two middle ones; `None` for an empty list.
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;

@@ -33,7 +33,7 @@ use crate::error::{Error, Result};
 use crate::picture::Picture;
 use crate::scene::Size;
 
-/// The longest side of a texture, pixels: what every OpenGL 2.1 driver in use takes.
+/// The longest side of a texture, pixels: every OpenGL 2.1 driver in use supports it.
 pub const LARGEST_SIDE_PX: u32 = 4096;
 
 /// The default size of textures.
@@ -66,7 +66,7 @@ mod tests {
             .fold(0xcbf2_9ce4_8422_2325, |sum: u64, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
     }
 
-    /// A change here changes every drawing made with these textures: only on purpose, and said in CHANGELOG.md.
+    /// A change here changes every drawing made with these textures. Make one only on purpose, and note it in CHANGELOG.md.
     #[test]
     fn the_bytes_of_seed_0_are_what_they_were() {
         let sums = [

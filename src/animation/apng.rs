@@ -1,5 +1,5 @@
-//! Animated PNG: lossless, with alpha. The png crate is known here and in
-//! `src/picture/png_text.rs` only; the image crate has no animations of it.
+//! Animated PNG: lossless, with alpha. Only this module and `src/picture/png_text.rs` use the png crate; the image crate cannot
+//! write APNG.
 
 use super::changes::Rectangle;
 use crate::picture::Picture;
@@ -71,7 +71,7 @@ impl ApngEncoder {
         self.before = picture.pixels;
         let writer = &mut self.writer;
         let mut write = || {
-            // To the corner first: a size is checked against the place, and a place against the size.
+            // To the corner first, because sizes are checked against the place, and places against the size.
             writer.reset_frame_position()?;
             writer.set_frame_dimension(part.size.width, part.size.height)?;
             writer.set_frame_position(part.left, part.top)?;

@@ -50,7 +50,7 @@ impl GifEncoder {
         })
     }
 
-    /// Stores what changed since the picture before, or, if there are holes to make in it, all that is to be seen.
+    /// Stores the changes since the previous picture, or the whole visible picture if new holes appear.
     pub(super) fn add(&mut self, picture: Picture) -> Encoded<()> {
         let picture = if self.transparent { with_hard_edges(picture) } else { picture.opaque() };
         self.palette.fit(&picture.pixels);
@@ -82,7 +82,7 @@ impl GifEncoder {
         self.encoder.write_frame(&frame).map_err(in_words)
     }
 
-    /// Hundredths of a second, such that all frames together take as long as they should.
+    /// Returns the delay in hundredths of a second; all delays together keep the total duration.
     fn next_delay(&mut self) -> u16 {
         let hundredths = |frames: u64| (frames * u64::from(self.delay_ms) + 5) / 10;
         let delay = hundredths(self.frames + 1) - hundredths(self.frames);

@@ -1,8 +1,8 @@
 //! The colours of a GIF's frames, at most 256.
 //!
-//! Pictures with so few colours are stored exactly. Others get the colours they need most and mix the rest from two of
-//! them in a pattern that stands still on the screen. One palette serves frame after frame until it fits one too badly:
-//! a new one for each would let tones flicker.
+//! Pictures with that few colours are stored exactly. Others get the colours they need most, and mix the rest from two of them in
+//! a pattern that stays fixed on the screen. One palette serves frame after frame until it fits one too badly, because a new
+//! palette for each frame would make tones flicker.
 
 use super::quantize::{Histogram, Mix, Packed, choose, distance, mix};
 use std::collections::HashMap;
@@ -22,13 +22,13 @@ pub(super) struct Palette {
     error: f64,
 }
 
-/// A table is kept while a picture's mean square error is at most this many times that of the one it was made for …
+/// A table is kept while a picture's mean square error is at most this many times that of the picture it was made for …
 const WORSE: f64 = 1.5;
 
 /// … or not more than this, a difference of one step in one colour.
 const UNSEEN: f64 = 1.0;
 
-/// A colour on this share of the picture is a flat tone, which must not be mixed.
+/// A colour that covers this share of the picture is a flat tone, which must not be mixed.
 const FLAT_SHARE: f64 = 1.0 / 64.0;
 
 /// Most colours remembered; a new table forgets them.
@@ -159,7 +159,7 @@ fn threshold(x: u32, y: u32) -> u8 {
     (0..3).fold(0, |sum, bit| (sum << 2) | ((((x ^ y) >> bit & 1) << 1 | (y >> bit & 1)) as u8))
 }
 
-/// Hashes colours: the standard hash, which withstands attacks, takes longer than the rest of the encoder.
+/// Hashes colours. The standard hash resists attacks but would take longer than the rest of the encoder.
 #[derive(Default)]
 struct ColorHasher(u64);
 

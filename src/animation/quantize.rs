@@ -8,7 +8,7 @@ pub(super) type Packed = u32;
 /// Colours with the number of their pixels.
 pub(super) type Histogram = Vec<(Packed, u32)>;
 
-/// Two palette entries and how many of 64 pixels the second gets, at most half of them.
+/// Two palette entries, and how many of 64 pixels get the second, at most half of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Mix {
     pub first: u8,
@@ -16,7 +16,7 @@ pub(super) struct Mix {
     pub share: u8,
 }
 
-/// Red, green and blue count so much in a distance: about as the eye sees them.
+/// Weights of red, green and blue in a distance, roughly those of the eye.
 const WEIGHTS: [i32; 3] = [3, 4, 2];
 
 /// A colour on this share of the picture keeps its exact place …
@@ -33,7 +33,8 @@ fn channels(color: Packed) -> [i32; 3] {
     [red, green, blue].map(i32::from)
 }
 
-/// Square of the weighted distance of two colours, in square steps of 255 (the weights' sum is three times too large).
+/// Returns the square of the weighted distance of two colours, in square steps of 255 (the weights' sum makes it three times too
+/// large).
 pub(super) fn distance(a: Packed, b: Packed) -> f32 {
     let (a, b) = (channels(a), channels(b));
     let sum: i32 = (0..3).map(|channel| WEIGHTS[channel] * (a[channel] - b[channel]).pow(2)).sum();
@@ -116,7 +117,7 @@ fn cut(colors: Histogram, count: usize) -> Vec<Packed> {
     parts.iter().map(Part::mean_color).collect()
 }
 
-/// Moves all entries but the first, fixed ones to the mean of the colours that are nearest to each.
+/// Moves all entries except the first, fixed ones to the mean of their nearest colours.
 fn move_to_means(colors: &mut [Packed], fixed: usize, histogram: &Histogram) {
     let mut sums = vec![[0.0f64; 4]; colors.len()];
     for (color, count) in histogram {

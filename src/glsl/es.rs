@@ -75,7 +75,7 @@ pub const ATTRIBUTES: [Name; 5] = [
     ("gl_MultiTexCoord1", "vec4", "tinta_MultiTexCoord1"),
 ];
 
-/// Colours on their way from vertices to fragments: written as, read as, the name here. They are clamped on their way.
+/// Colours passed from vertices to fragments: the name written, the name read, the name here. They are clamped on the way.
 const COLORS: [Name; 2] = [
     ("gl_FrontColor", "gl_Color", "tinta_FrontColor"),
     ("gl_FrontSecondaryColor", "gl_SecondaryColor", "tinta_FrontSecondaryColor"),
@@ -90,7 +90,7 @@ const COORDINATES: (&str, &str) = ("gl_TexCoord", "tinta_TexCoord[2]");
 /// The new name of a vertex shader's `main`: another function calls it and then does the pipeline's work.
 const MAIN: &str = "tinta_main";
 
-/// How often a loop of unknown length goes round at most: far more than any here does.
+/// Most rounds of a loop of unknown length: far more than any loop here runs.
 const LONGEST_LOOP: u32 = 1024;
 
 /// Rewrites one shader and returns its pieces.
@@ -125,11 +125,11 @@ pub fn transcribed(stage: Stage, text: &str) -> Result<Vec<Piece>, String> {
     Ok(pieces)
 }
 
-/// Several shaders of a stage as the one that is compiled, without comments: what more than one declares is declared once.
+/// Merges several shaders of a stage into one text without comments; shared declarations appear once.
 ///
 /// # Errors
 ///
-/// As [`transcribed`], and of two that declare something of one name differently.
+/// As [`transcribed`], and for two different declarations of one name.
 pub fn linked(stage: Stage, texts: &[&str]) -> Result<String, String> {
     let all: Vec<Vec<Token<'_>>> = texts.iter().map(|text| tokens(text)).collect();
     let words: HashSet<&str> = all.iter().flat_map(|tokens| words(tokens)).collect();
@@ -269,7 +269,7 @@ fn renamed(stage: Stage, name: &str) -> Option<&'static str> {
     }
 }
 
-/// A one-dimensional texture is the middle of one that is a texel high. `places` begins with the call.
+/// Replaces a one-dimensional texture by the middle of one that is a texel high. `places` begins with the call.
 fn sample_table(tokens: &[Token<'_>], places: &[usize], texts: &mut [String]) -> Result<(), String> {
     let close = closing(tokens, places, 1).ok_or("a call of texture1D does not end")?;
     let comma = (2..close).find(|place| {
@@ -310,8 +310,8 @@ fn bound_loop(tokens: &[Token<'_>], places: &[usize], texts: &mut [String]) -> R
     Ok(())
 }
 
-/// Which whole numbers are floats: 1.20 takes them for floats where it needs some, this language does not. Whole stay those in
-/// square brackets, and those that stand with a word of type int between two separators.
+/// Returns the whole numbers that are floats: 1.20 converts them where it needs floats, this language does not. Numbers in square
+/// brackets stay whole, and so do those that share a stretch between two separators with a word of type int.
 fn floats(tokens: &[Token<'_>], places: &[usize]) -> Vec<usize> {
     let text = |place: &usize| tokens[*place].text;
     let whole: HashSet<&str> =

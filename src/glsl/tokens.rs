@@ -67,7 +67,7 @@ fn token(text: &str, first: char) -> (Kind, usize) {
     }
 }
 
-/// How long a number is: digits, a point, an exponent with its sign, a suffix.
+/// Returns the length of a number: digits, a point, an exponent with its sign, a suffix.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let is_exponent = |place: usize| matches!(bytes[place], b'e' | b'E') && !text.starts_with("0x");

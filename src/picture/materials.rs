@@ -39,14 +39,15 @@ impl MaterialPictures {
         Ok(())
     }
 
-    /// An object's, by material; `None` for a material without one, and no list before [`MaterialPictures::prepare`].
+    /// Returns an object's pictures, by material; `None` for a material without one, and an empty list before
+    /// [`MaterialPictures::prepare`].
     pub fn of(&self, object: &Object) -> &[Option<Arc<Picture>>] {
         self.0.iter().find(|(identity, _)| identity.is_of(object)).map_or(&[], |(_, pictures)| pictures)
     }
 }
 
-/// A mesh's pictures, by material, each file read once, all of them together within [`MODEL_PICTURES_BYTES`]; `None` for a
-/// material without one.
+/// Returns a mesh's pictures, by material. Each file is read once, and together they stay within [`MODEL_PICTURES_BYTES`]; `None`
+/// for a material without one.
 ///
 /// # Errors
 ///

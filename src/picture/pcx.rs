@@ -1,5 +1,5 @@
-//! PCX pictures as games and paint programs of the nineties left them: 256 colours with the palette at the end, or 24 bits
-//! in three planes; run-length coded. The reader is our own, over [`Bytes`].
+//! PCX pictures from games and paint programs of the nineties: 256 colours with the palette at the end, or 24 bits in three
+//! planes; run-length coded. The reader is our own, over [`Bytes`].
 
 use super::Picture;
 use super::size::check_size;
@@ -16,7 +16,7 @@ const RUN: u8 = 0xc0;
 
 const CUT_OFF: &str = "it is cut off or damaged; save it again";
 
-/// Whether a file begins like PCX: the maker's number, a version there was, and whether it is coded.
+/// Whether a file begins like PCX: the maker's number, an existing version, and the coding flag.
 pub(super) fn looks_like(bytes: &[u8]) -> bool {
     matches!(bytes, [MANUFACTURER, 0 | 2 | 3 | 4 | 5, 0 | 1, 1 | 2 | 4 | 8, ..])
 }
@@ -99,7 +99,7 @@ impl<'a> Header<'a> {
 
 /// Undoes the run-length coding up to `count` bytes; `None` if there are fewer.
 fn decode(data: &[u8], count: usize) -> Option<Vec<u8>> {
-    // Two bytes become at most 63, so a header cannot ask for more memory than the file is worth.
+    // Two bytes decode to at most 63, which stops a header from requesting more memory than its file justifies.
     if count > data.len().saturating_mul(32) {
         return None;
     }

@@ -34,7 +34,7 @@ pub(crate) fn is_png(head: &[u8]) -> bool {
     head.starts_with(b"\x89PNG\r\n\x1a\n")
 }
 
-/// The `tEXt` chunk of this keyword, if it stands before the pixels; the error is a sentence without the file's name.
+/// Returns the `tEXt` chunk of this keyword, if it precedes the pixels; the error is a sentence without the file's name.
 #[cfg(feature = "recipes")]
 pub(crate) fn find(head: &[u8], keyword: &str) -> Result<Option<String>, String> {
     use png::{Decoder, Limits};

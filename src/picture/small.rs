@@ -1,17 +1,17 @@
-//! A picture for a page that holds many of them: with as many colours as a file below a limit allows.
+//! A picture for a page with many pictures: as many colours as a size limit allows.
 
 use super::Picture;
 use std::collections::BTreeSet;
 
-/// Fewest bits a channel: below them grey tones show steps even where they are grain.
+/// Fewest bits per channel: with fewer, grey tones show steps even in grain.
 const FEWEST_BITS: u32 = 4;
 
 /// Colours of a file with a table of them.
 const TABLE: usize = 256;
 
 impl Picture {
-    /// The picture as a PNG, opaque: with as many bits a channel as a file of `most_bytes` allows, or with the fewest that are still
-    /// looked at. `None` for a picture without a pixel.
+    /// Returns the picture as an opaque PNG, with as many bits per channel as a file of `most_bytes` allows, or the fewest that
+    /// still look good. `None` for a picture without pixels.
     pub fn small_png(&self, most_bytes: usize) -> Option<Vec<u8>> {
         let of = |bits| self.with_bits(bits);
         (FEWEST_BITS + 1..=8).rev().filter_map(of).find(|bytes| bytes.len() <= most_bytes).or_else(|| of(FEWEST_BITS))

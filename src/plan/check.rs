@@ -284,7 +284,7 @@ fn has_depth(target: Target) -> bool {
     }
 }
 
-/// Whether a draw may be the first into its target: a square over all of it, whatever is there.
+/// Whether a draw may be the first into its target: a square that covers it all, whatever it held.
 fn fills(draw: &Draw) -> bool {
     matches!(draw.geometry, Geometry::ScreenSquare | Geometry::PictureSquare | Geometry::BackgroundSquare { .. })
         && draw.depth == Depth::Ignore

@@ -142,7 +142,7 @@ fn write_scissor(out: &mut fmt::Formatter<'_>, scissor: Option<Rectangle>) -> fm
     }
 }
 
-/// How many objects are drawn, and how many faces of those that are not drawn whole.
+/// Writes how many objects are drawn, and how many faces of those that are drawn in part.
 fn write_faces(out: &mut fmt::Formatter<'_>, faces: &[Faces]) -> fmt::Result {
     let drawn = faces.iter().filter(|faces| **faces != Faces::None).count();
     if drawn < faces.len() {

@@ -18,21 +18,21 @@ use std::fmt;
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Facts {
-    /// Vertices are drawn where the scene's camera has them, as `ftransform()` puts them. Faces outside the picture, turned
-    /// away or hidden can then be left out.
+    /// Vertices are drawn at the scene camera's projection of them, as by `ftransform()`. Faces outside the picture, turned away
+    /// or hidden can then be left out.
     pub keeps_places: bool,
-    /// Every pixel of a face gets a colour and has the depth of the face: none is discarded, no depth is written by a shader.
+    /// Every pixel of a face gets a colour and the face's depth: the shaders discard none and write no depth.
     pub keeps_pixels: bool,
     /// All its pixels get this colour: red, green, blue, alpha.
     pub constant_color: Option<[f32; 4]>,
     /// It leaves every pixel's colour and depth unchanged, for this reason.
     pub adds_nothing: Option<String>,
-    /// How far from its own pixel it reads the textures that passes leave, at most, pixels.
+    /// Largest distance from its own pixel at which it reads the textures that passes leave, pixels.
     pub reach_px: Option<u32>,
-    /// Its vertex shader makes of a vertex's place in clip space something else than where it is drawn: clip space must then be the
-    /// whole picture's.
+    /// Its vertex shader uses the vertex's place in clip space for more than its position, so clip space must be the whole
+    /// picture's.
     pub reads_clip_place: bool,
-    /// What becomes of a pixel where all of these textures hold one value each as far as the draw reads.
+    /// The result for a pixel if each of these textures is uniform within the draw's reach.
     pub where_even: Option<WhereEven>,
     /// A program that draws the same with less work.
     pub shorter: Option<Shorter>,
@@ -47,7 +47,7 @@ pub enum WhereEven {
     Color([f32; 4]),
 }
 
-/// A program for the same uniforms, textures and pixels that leaves out light no tone depends on.
+/// A program for the same uniforms, textures and pixels, without the light that no tone depends on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shorter {
     /// Its shaders.

@@ -51,17 +51,17 @@ impl Value {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Texture {
-    /// The framebuffer as the last [`Step::CopyFramebuffer`](super::Step::CopyFramebuffer) left it; NEAREST, CLAMP_TO_EDGE (errata E12).
+    /// The framebuffer at the last [`Step::CopyFramebuffer`](super::Step::CopyFramebuffer); NEAREST, CLAMP_TO_EDGE (errata E12).
     BorderMap,
-    /// What passes into [`Target::Textures`](super::Target::Textures) drew there; NEAREST, CLAMP_TO_EDGE.
+    /// The texture that passes into [`Target::Textures`](super::Target::Textures) drew; NEAREST, CLAMP_TO_EDGE.
     Drawn(Drawn),
-    /// The depth buffer as the last [`Step::CopyDepth`](super::Step::CopyDepth) left it, window z in red; NEAREST, CLAMP_TO_EDGE.
+    /// The depth buffer at the last [`Step::CopyDepth`](super::Step::CopyDepth), window z in red; NEAREST, CLAMP_TO_EDGE.
     DepthMap,
     /// The plan's table of this number, one-dimensional; NEAREST, CLAMP_TO_EDGE.
     Table(usize),
     /// The plan's picture of this number.
     Picture(usize),
-    /// The texture of each material, by the model's own texture coordinates, LINEAR, GL_REPEAT; white where it has none.
+    /// The texture of each material, by the model's own texture coordinates, LINEAR, GL_REPEAT; white for materials without one.
     Material,
 }
 

@@ -27,7 +27,7 @@ pub struct Attachments {
     pub instead_draws: Option<&'static str>,
 }
 
-/// A texture that is drawn into: RGBA, NEAREST, CLAMP_TO_EDGE. Within a plan a name has one format.
+/// A texture that is drawn into: RGBA, NEAREST, CLAMP_TO_EDGE. Within a plan each name has one format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Attachment {
     /// The name that steps read it by.
@@ -77,7 +77,7 @@ impl Format {
 }
 
 impl Target {
-    /// The texture that holds the picture of a pass into it, the first of its textures; `None` for the framebuffer.
+    /// Returns the texture that holds a pass's picture, the first of the target's textures; `None` for the framebuffer.
     pub fn picture(self) -> Option<Drawn> {
         match self {
             Self::Framebuffer => None,

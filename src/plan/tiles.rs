@@ -30,8 +30,8 @@ pub struct TileLimits {
     pub viewport: Size,
 }
 
-/// Tiles begin and end at multiples of this many pixels: of all factors of supersampling, and of the pairs and blocks of pixels that
-/// drivers draw together.
+/// Tiles begin and end at multiples of this many pixels: of all factors of supersampling, and of the pairs and blocks of pixels
+/// that drivers draw together.
 const STEP_PX: u32 = 48;
 
 impl Tile {
@@ -57,7 +57,7 @@ impl Tile {
         Some(Rectangle { x: common.x - self.drawn.x, y: common.y - self.drawn.y, ..common })
     }
 
-    /// From the picture's clip space to that of the tile's viewport; `None` where they are one.
+    /// Returns the matrix from the picture's clip space to that of the tile's viewport; `None` if they are equal.
     pub fn clip_from_picture(&self) -> Option<Mat4> {
         let Rectangle { x, y, width, height } = self.viewport;
         if (width, height) == (self.whole.width, self.whole.height) {
@@ -84,8 +84,9 @@ impl Tile {
 }
 
 impl Plan {
-    /// The tiles that cover a surface of this size, from the top row down and each row from the left: one where the driver can draw it
-    /// at once. `None` where it cannot and the plan does not say how far its filters read, or has to be drawn in one piece.
+    /// Returns the tiles that cover a surface of this size, from the top row down and each row from the left: a single one if the
+    /// driver can draw it at once. `None` if it cannot, and the plan must be drawn in one piece or does not state how far its
+    /// filters read.
     pub fn tiles(&self, surface: Size, limits: TileLimits) -> Option<Vec<Tile>> {
         if surface.width <= limits.surface.width && surface.height <= limits.surface.height {
             return Some(vec![Tile::whole(surface)]);
@@ -115,7 +116,7 @@ impl Plan {
         Some(tiles)
     }
 
-    /// The largest surface it can be drawn on in tiles by such a driver; `None` for any.
+    /// Returns the largest surface that such a driver can draw in tiles; `None` for any.
     pub fn largest_surface(&self, limits: TileLimits) -> Option<Size> {
         let reads_clip_place = |step: &Step| matches!(step, Step::Draw(draw) if draw.facts.reads_clip_place);
         match self.margin_px() {
@@ -125,9 +126,10 @@ impl Plan {
         }
     }
 
-    /// How many pixels around a tile its filters read, one reading what another has drawn; `None` where that is not stated.
+    /// Returns how many pixels around a tile its filters read, including reads of other filters' results; `None` if that is not
+    /// stated.
     fn margin_px(&self) -> Option<u32> {
-        // Shaders that ask how something changes from pixel to pixel need a neighbour.
+        // Shaders that use derivatives between pixels need a neighbour.
         let mut margin = 2u32;
         for (_, step) in self.steps() {
             let Step::Draw(draw) = step else { continue };
@@ -161,7 +163,7 @@ fn spans(side: u32, largest: u32, margin: u32, viewport: u32) -> Option<Vec<Span
     let span = |start: u32| {
         let end = side.min(start + each);
         let (first, last) = (start.saturating_sub(margin), side.min(end + margin));
-        // The viewport stands around the tile's middle, but not beyond the picture.
+        // The viewport surrounds the tile's middle but stays within the picture.
         let length = side.min(viewport);
         let middle = (first + last) / 2;
         let around = middle.saturating_sub(length / 2).min(side - length);

@@ -11,7 +11,7 @@ use std::fmt::Write;
 /// How exact lines were found.
 #[derive(Debug, Clone, Serialize)]
 pub struct LinesMade {
-    /// How many edges there are of each class, each counted in its first one.
+    /// Number of edges in each class; an edge counts in its first class.
     pub edges: ClassCounts,
     /// Places along smooth silhouettes where visibility changes; absent with other silhouettes.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -68,8 +68,8 @@ struct SegmentRecord {
     object: u32,
 }
 
-/// All lines as one JSON object: `size`, `camera`, and `segments`, one a line of the text; pixels, y down. Of a part also
-/// `partial`, a sentence, and `undecided`, how many lines are missing.
+/// Returns all lines as one JSON object: `size`, `camera`, and `segments`, one per line of the text; pixels, y down. A partial
+/// result also has `partial`, a sentence, and `undecided`, the number of missing lines.
 ///
 /// # Errors
 ///

@@ -14,10 +14,10 @@ pub(super) struct Drawer {
     // Dropped with the context current: see `Drop`.
     pub(super) resources: Resources,
     pub(super) context: Context,
-    /// Of the context's surface: the picture's size times the plan's supersampling, or a tile's.
+    /// Size of the context's surface: the picture's size times the plan's supersampling, or a tile's.
     pub(super) surface: Option<Size>,
     pixels: Vec<u8>,
-    /// Largest surface drawn at once, where that is to be less than the context's largest.
+    /// Largest surface to draw at once, if below the context's largest.
     confined_to: Option<Size>,
 }
 
@@ -85,7 +85,7 @@ impl Drawer {
         Ok(())
     }
 
-    /// Works on a plan that was found sound for this scene, with the context current.
+    /// Runs work on a plan that was checked for this scene, with the context current.
     pub(super) fn with_context<T>(
         &mut self,
         scene: &Scene,
@@ -117,7 +117,7 @@ impl Drawer {
         explained
     }
 
-    /// Uses these texts as shaders, and no others; those before stay where one of these is refused.
+    /// Uses these texts as shaders in place of all earlier ones; if one of these is refused, the earlier ones stay.
     pub(super) fn replace_shaders(&mut self, shaders: &HashMap<String, String>) -> Result<()> {
         let _current = self.context.enter()?;
         let before = self.resources.replace_shaders(shaders.clone());
@@ -134,7 +134,7 @@ impl Drawer {
     pub(super) fn release(&mut self) {
         match self.context.enter() {
             Ok(_current) => self.resources.clear(),
-            // The driver is gone and its objects with it; deleting them now would be calling GL without a context.
+            // The driver is gone with its objects; deleting them now would call GL without a context.
             Err(_) => self.resources.forget(),
         }
     }
@@ -222,7 +222,7 @@ impl Frame<'_> {
     }
 }
 
-/// Where in a tile the part of the picture lies that it holds, and where that lies in the picture.
+/// Returns the rectangle of the picture within a tile, and its place in the picture.
 fn shrunk(tile: Tile, times: u32) -> (Rectangle, Rectangle) {
     let by_times = |Rectangle { x, y, width, height }: Rectangle| {
         let [x, y, width, height] = [x, y, width, height].map(|number| number / times);

@@ -1,4 +1,4 @@
-//! Gaussian blur of a grid of numbers. Columns wrap around, as textures do under GL_REPEAT; rows as asked.
+//! Gaussian blur of a grid of numbers. Columns wrap around, as textures do under GL_REPEAT; a parameter decides for rows.
 
 use crate::scene::Size;
 
@@ -21,7 +21,7 @@ pub(super) fn gaussian(values: &[f32], size: Size, deviation_px: f64, rows: Rows
     for (row, sums) in values.chunks_exact(width).zip(across.chunks_exact_mut(width)) {
         let wrapped = row.iter().cycle().skip((width - reach % width) % width);
         padded.iter_mut().zip(wrapped).for_each(|(to, from)| *to = *from);
-        // Tap by tap over the whole row: the compiler makes vector instructions of it, and the order of sums is fixed.
+        // Tap by tap over the whole row: the compiler vectorises it, and the order of sums is fixed.
         for (tap, weight) in weights.iter().enumerate() {
             sums.iter_mut().zip(&padded[tap..]).for_each(|(sum, value)| *sum += weight * value);
         }

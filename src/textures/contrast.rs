@@ -1,5 +1,5 @@
-//! The contrast-enhanced texture (CET; Valente 2007, sections 2.1.3 and 3.1, figures 2 and 3): how charcoal's grains thin
-//! out from the darkest tone, t = 0, to the lightest, t = 1.
+//! The contrast-enhanced texture (CET; Valente 2007, sections 2.1.3 and 3.1, figures 2 and 3). In it charcoal's grains thin out
+//! from the darkest tone, t = 0, to the lightest, t = 1.
 //!
 //! Black pixels are scattered over a white picture, each is moved along t to t^m, and the result is blurred.
 
@@ -17,19 +17,19 @@ use serde::Serialize;
 /// Its pictures have t = 0 in their bottom row and s = 0 in their left column, as GL draws a texture upright.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ContrastTexture {
-    /// Pixels along s and t. Default 512 x 512; the text gives none (errata V7). More is finer grain.
+    /// Pixels along s and t. Default 512 x 512; the text gives none (errata V7). More gives finer grain.
     pub size: Size,
-    /// Share of pixels that are made black before they are moved, percent. Default 60: the text says "density 60" without a
-    /// unit, which is read as percent here (errata V10). More is darker.
+    /// Share of black pixels before they are moved, percent. Default 60: the text says "density 60" without a unit, which is read
+    /// as percent here (errata V10). More is darker.
     pub density_percent: f64,
     /// The exponent m of t^m, at least 1. Default 5.5, the middle one of figure 3's three (1.3, 5.5, 15); the text does not say
     /// which one it draws with. More gathers the grains at the darkest tones and leaves fewer in the drawing.
     pub exponent: f64,
     /// Standard deviation of the final blur, pixels. Default 0.8; the text gives none (errata V7). More is softer.
     pub blur_px: f64,
-    /// Where the random numbers begin. Default 0; another seed is another texture of the same kind.
+    /// Seed of the random numbers. Default 0; another seed gives another texture of the same kind.
     pub seed: u64,
-    /// Where the random numbers come from. Default SplitMix64, ours; the text's are its platform's `rand()`.
+    /// Source of the random numbers. Default SplitMix64, ours; the text uses its platform's `rand()`.
     pub random: Generator,
 }
 
@@ -52,7 +52,7 @@ impl Default for ContrastTexture {
     }
 }
 
-/// How many black pixels lie at each place after they were moved, before the blur.
+/// The number of black pixels at each place after they were moved, before the blur.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Grains {
     /// Pixels along s and t.
@@ -67,7 +67,7 @@ impl Grains {
         self.counts.iter().filter(|count| **count > 0).count() as f64 / self.counts.len() as f64
     }
 
-    /// Mean t of all grains, those that share a pixel counted one by one; `None` without any.
+    /// Returns the mean t of all grains; grains that share a pixel count separately. `None` without grains.
     pub fn mean_t(&self) -> Option<f64> {
         let rows = self.counts.chunks_exact(self.size.width as usize).rev().enumerate();
         let (count, sum) = rows.fold((0.0, 0.0), |(count, sum), (row, counts)| {
@@ -84,12 +84,12 @@ impl Grains {
 }
 
 impl ContrastTexture {
-    /// The textures of figure 3 in this size, from this seed: exponents 1.3, 5.5 and 15 at density 60.
+    /// Returns the textures of figure 3 in this size, from this seed: exponents 1.3, 5.5 and 15 at density 60.
     pub fn figure_3(size: Size, seed: u64) -> [Self; 3] {
         PUBLISHED_EXPONENTS.map(|exponent| Self { size, seed, exponent, ..Self::default() })
     }
 
-    /// The texture of figure 2: the grains of density 60 where they were scattered, neither moved nor blurred.
+    /// Returns the texture of figure 2: the grains of density 60 as scattered, neither moved nor blurred.
     pub fn figure_2(size: Size, seed: u64) -> Self {
         Self { size, seed, exponent: 1.0, blur_px: 0.0, ..Self::default() }
     }
@@ -109,7 +109,7 @@ impl ContrastTexture {
         Ok(opaque(self.size, blurred.iter().map(|value| [value.round() as u8; 3])))
     }
 
-    /// The texture before its blur.
+    /// Returns the texture before its blur.
     ///
     /// # Errors
     ///
@@ -134,14 +134,14 @@ impl ContrastTexture {
         Ok(Grains { size: self.size, counts })
     }
 
-    /// The row that t^m puts a grain into, rows counted from t = 0.
+    /// Returns the row that t^m moves a grain into; rows count from t = 0.
     ///
-    /// A grain lies somewhere within its pixel, which is ours (errata V9). Were all of a row in its middle, they would be moved
-    /// together and leave rows without any between them: stripes in the lights.
+    /// A grain lies at a random place within its pixel, which is ours (errata V9). If all grains of a row lay in its middle, they
+    /// would move together and leave empty rows between them: stripes in the lights.
     fn moved(&self, row: f64) -> u32 {
         let height = f64::from(self.size.height);
         let moved = (row / height).powf(self.exponent) * height;
-        // On the edge of two rows the last bit of a library's `pow` must not decide.
+        // Near the edge of two rows the last bit of a library's `pow` must not decide.
         let nearest = moved.round();
         let settled = if (moved - nearest).abs() < ROW_EDGE { nearest } else { moved };
         (settled as u32).min(self.size.height - 1)
@@ -250,7 +250,7 @@ mod tests {
             picture.pixels.chunks_exact(4).map(|pixel| f64::from(pixel[0])).sum::<f64>() / 512.0 / 512.0
         };
         assert!((mean(&sharp) - mean(&soft)).abs() < 1.0);
-        // The bottom row is black throughout; of the top row 6 % are expected to be.
+        // The bottom row is black throughout; the top row should be 6 % black.
         let row = |y: i64| (0..512).map(|x| f64::from(soft.pixel(x, y)[0])).sum::<f64>() / 512.0;
         assert!(row(511) < 10.0 && row(0) > 225.0, "{} {}", row(511), row(0));
     }

@@ -16,7 +16,7 @@ use serde::Serialize;
 pub struct PaperTexture {
     /// Pixels. Default 512 x 512. Grain and fibres keep their size in pixels: more is a larger sheet, not a sharper one.
     pub size: Size,
-    /// Where the random numbers begin. Default 0; another seed is another sheet.
+    /// Seed of the random numbers. Default 0; another seed gives another sheet.
     pub seed: u64,
     /// Where the random numbers come from. Default SplitMix64, ours.
     pub random: Generator,
@@ -31,7 +31,7 @@ impl Default for PaperTexture {
 /// The sheet's colour where it is plane: red, green, blue of 255.
 const COLOR: [f32; 3] = [245.0, 242.0, 233.0];
 
-/// How much of each part's change red, green and blue take: thick and shaded places are a little warmer.
+/// How strongly each part changes red, green and blue: thick and shaded places are a little warmer.
 const TINT: [f32; 3] = [0.94, 1.0, 1.1];
 
 /// Strength of each part, as standard deviation in steps of 255.
@@ -47,11 +47,11 @@ const COARSEST_TOOTH_PX: f64 = 4.5;
 const HEIGHT_STEP: f32 = 56.0;
 
 impl PaperTexture {
-    /// How high each place of the paper lies, as grey: 128 in the middle, lighter is higher.
+    /// Returns the height of the paper at each place, as grey: 128 in the middle, lighter is higher.
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] for a size that no texture has.
+    /// [`crate::Error::Setting`] for an unsupported size.
     pub fn height(&self) -> Result<Picture> {
         check_size(self.size)?;
         let mut random = Numbers::new(self.random, self.seed, "paper");
@@ -65,7 +65,7 @@ impl PaperTexture {
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] for a size that no texture has.
+    /// [`crate::Error::Setting`] for an unsupported size.
     pub fn picture(&self) -> Result<Picture> {
         check_size(self.size)?;
         let size = self.size;
@@ -82,7 +82,7 @@ impl PaperTexture {
     }
 }
 
-/// The height that a picture of paper seems to have: how much lighter each place is than its surroundings.
+/// Returns the apparent height of a picture of paper: how much lighter each place is than its surroundings.
 pub fn height_of(paper: &Picture) -> Picture {
     let light: Vec<f32> = paper.pixels.chunks_exact(4).map(|pixel| f32::from(pixel[1])).collect();
     let around = gaussian(&light, paper.size, COARSEST_TOOTH_PX, Rows::Wrap);
@@ -123,7 +123,7 @@ fn between(size: Size, random: &mut Numbers, finest_px: f64, coarsest_px: f64) -
     standardised(fine.iter().zip(coarse).map(|(fine, coarse)| fine - coarse).collect())
 }
 
-/// Threads of a pixel's width that bend a little, some lighter and some darker than the pulp.
+/// Draws fibres a pixel wide that bend a little, some lighter and some darker than the pulp.
 fn fibres(size: Size, random: &mut Numbers) -> Vec<f32> {
     const PIXELS_PER_FIBRE: usize = 260;
     const BEND: f32 = 0.07;
@@ -164,7 +164,7 @@ fn splat(values: &mut [f32], size: Size, x: f32, y: f32, value: f32) {
     }
 }
 
-/// A unit vector; from a point in the unit disc, for sine and cosine are not the same on every platform.
+/// Returns a unit vector, from a point in the unit disc, because sine and cosine differ between platforms.
 fn direction(random: &mut Numbers) -> (f32, f32) {
     loop {
         let (x, y) = (random.signed(), random.signed());
@@ -205,7 +205,7 @@ fn clouds(size: Size, random: &mut Numbers) -> Vec<f32> {
     standardised(values)
 }
 
-/// For each pixel of a side: the lattice points before and after it, and how far it lies between them, smoothed.
+/// Returns for each pixel of a side the lattice points before and after it, and its smoothed position between them.
 fn steps(side: u32, cells: usize) -> Vec<(usize, usize, f32)> {
     let step = |pixel: u32| {
         let at = pixel as f32 * cells as f32 / side as f32;
@@ -224,7 +224,7 @@ fn slope(height: &[f32], size: Size) -> Vec<f32> {
     pixels.map(|(x, y)| at(x + 1, y + 1) - at(x + width - 1, y + rows - 1)).collect()
 }
 
-/// The same with mean 0 and standard deviation 1; all 0 where nothing varies.
+/// Returns the values with mean 0 and standard deviation 1; all 0 if they are constant.
 fn standardised(mut values: Vec<f32>) -> Vec<f32> {
     let count = values.len() as f64;
     let mean = values.iter().map(|value| f64::from(*value)).sum::<f64>() / count;

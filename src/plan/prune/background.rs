@@ -1,4 +1,4 @@
-//! Pixels without an object: squares that could be a clear, squares that need not reach there, clears that are drawn over.
+//! Pixels without an object: squares that a clear can replace, squares that need not cover them, clears that are overdrawn.
 
 use super::ground::{Ground, covers, stays_in_objects};
 use super::rule::{Omission, Rule, Situation, counted, drop_empty_passes};
@@ -51,7 +51,7 @@ fn has_eight_bits(target: Target) -> bool {
     }
 }
 
-/// Whether clearing and drawing round this channel to the same of 8 bits, whichever way they round a tie.
+/// Whether clearing and drawing round this channel to the same 8 bits, whichever way they round a tie.
 fn rounds_alike(channel: f32) -> bool {
     ((f64::from(channel) * 255.0).fract() - 0.5).abs() > EIGHT_BIT_TIE
 }
@@ -107,7 +107,7 @@ pub(super) fn empty_pixels(plan: &mut Plan, situation: &Situation<'_>) -> Result
     })
 }
 
-/// Confines clearing, drawing and copying a map to the pixels that are read of it, where only confined squares and objects do.
+/// Confines clearing, drawing and copying of a map to the pixels that are read, where only confined squares and objects read it.
 fn confine_maps(plan: &mut Plan, situation: &Situation<'_>) {
     for number in 0..plan.passes.len().saturating_sub(1) {
         let pass = &plan.passes[number];

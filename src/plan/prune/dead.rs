@@ -3,7 +3,7 @@
 use super::rule::{Omission, Rule, counted, drop_empty_passes};
 use crate::plan::{Draw, Plan, Step, Target, Texture};
 
-/// Leaves out draws that add nothing, as borders do whose response is multiplied by 0.
+/// Leaves out draws that add nothing, such as borders whose response is multiplied by 0.
 pub(super) fn border(plan: &mut Plan) -> Result<Omission, String> {
     let reason = |step: &Step| if let Step::Draw(draw) = step { draw.facts.adds_nothing.clone() } else { None };
     let (mut what, mut facts) = (Vec::new(), Vec::new());
@@ -22,7 +22,7 @@ pub(super) fn border(plan: &mut Plan) -> Result<Omission, String> {
     Ok(Omission { rule: Rule::Border, what: what.join(", "), reason: "it changes no pixel".to_owned(), facts })
 }
 
-/// Leaves out passes, draws and copies whose result nothing reads, going back from the picture.
+/// Leaves out passes, draws and copies whose result no later step reads, from the picture backwards.
 pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
     let textures_of = |target: Target| -> Vec<Texture> {
         match target {
@@ -32,7 +32,7 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
             }
         }
     };
-    // What later steps read: textures, and of the framebuffer whether they do.
+    // Textures that later steps read, and whether they read the framebuffer.
     let mut framebuffer_is_read = plan.picture_target() == Target::Framebuffer;
     let mut read: Vec<Texture> = textures_of(plan.picture_target()).into_iter().take(1).collect();
     let mut dropped = Vec::new();

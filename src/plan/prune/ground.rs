@@ -6,7 +6,7 @@ use crate::scene::Rectangle;
 /// The parts of a plan that hold one value wherever no object is near, after the steps followed so far.
 #[derive(Default)]
 pub(super) struct Ground {
-    /// Of these colours all that is farther than so many pixels from the objects is the same.
+    /// The colours that are uniform farther than this many pixels from the objects.
     colors: Vec<(Place, u32)>,
     /// Of these depth buffers likewise.
     depths: Vec<DepthBuffer>,
@@ -27,8 +27,8 @@ enum DepthBuffer {
 }
 
 impl Ground {
-    /// How far from the objects, in pixels, all textures that a draw reads and passes leave are even; `None` where one of them
-    /// may nowhere be.
+    /// Returns the distance from the objects, in pixels, beyond which all textures of passes that a draw reads are uniform;
+    /// `None` if one of them may be uniform nowhere.
     pub(super) fn even_beyond(&self, draw: &Draw) -> Option<u32> {
         let is_of_passes =
             |texture: &Texture| matches!(texture, Texture::BorderMap | Texture::DepthMap | Texture::Drawn(_));
@@ -124,7 +124,7 @@ pub(super) fn stays_in_objects(draw: &Draw) -> bool {
     draw.is_of_objects() && draw.keeps_places()
 }
 
-/// Whether a draw is a square that gives every pixel a colour, whatever was there.
+/// Whether a draw is a square that gives every pixel a colour, whatever it held.
 pub(super) fn covers(draw: &Draw) -> bool {
     matches!(draw.geometry, Geometry::ScreenSquare | Geometry::BackgroundSquare { .. })
         && draw.depth == Depth::Ignore

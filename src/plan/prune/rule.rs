@@ -10,13 +10,13 @@ tinta_geometry::choices! {
     /// A kind of part that can be left out. The rules apply in this order.
     #[non_exhaustive]
     pub enum Rule {
-        /// Draws that add nothing: the border's square where its filter is multiplied by 0.
+        /// Draws that add nothing: the border's square if its filter is multiplied by 0.
         Border = "border",
         /// Objects outside the picture.
         OutsideObjects = "outside-objects",
         /// Faces that the driver would cull anyway.
         CulledFaces = "culled-faces",
-        /// Light that no tone depends on: highlights below three tones, all of it with one.
+        /// Light that no tone depends on: highlights below three tones, all light with one.
         UnusedLight = "unused-light",
         /// The background square where clearing does the same.
         BackgroundSquare = "background-square",
@@ -39,12 +39,12 @@ impl Rule {
     }
 }
 
-/// How to prune; [`crate::Renderer::pruning`] has what holds of a renderer.
+/// Settings of pruning; [`crate::Renderer::pruning`] returns those for a renderer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Pruning {
     /// Rules that are not to be applied. Default none.
     pub keep: Vec<Rule>,
-    /// Whether GL draws on the processor, where faces left out here are worth the search for them. Default yes.
+    /// Whether GL draws on the processor, where leaving faces out here is worth the search. Default yes.
     pub is_software: bool,
     /// Bits of a vertex's position within a pixel. Default 4, the number that every driver has.
     pub subpixel_bits: u32,
@@ -91,7 +91,7 @@ impl Situation<'_> {
     }
 }
 
-/// Leaves out passes without steps; the last one stays where the picture would be another target's without it.
+/// Drops passes without steps, except the last one if the picture would otherwise be another target's.
 pub(super) fn drop_empty_passes(plan: &mut Plan) {
     let (target, last) = (plan.picture_target(), plan.passes.last().cloned());
     plan.passes.retain(|pass| !pass.steps.is_empty());
