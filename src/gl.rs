@@ -65,7 +65,7 @@ pub(crate) struct Gl {
     live_objects: Cell<usize>,
     /// Shaders used instead of those built in, by their paths below `glsl/`.
     replaced_shaders: RefCell<HashMap<String, String>>,
-    /// Once the context is lost: what said so.
+    /// If the context is lost, the source of that report.
     lost: Cell<Option<&'static str>>,
 }
 
@@ -109,7 +109,7 @@ impl Gl {
     pub(crate) fn check(&self, during: &str) -> Result<()> {
         // SAFETY: the context is current: only its holder calls this, between make_current and release.
         let code = unsafe { self.glow.get_error() };
-        // SAFETY: as above; the driver has the function where the table does.
+        // SAFETY: as above; the table holds only functions that the driver has.
         match unsafe { self.legacy.reset_status() } {
             glow::NO_ERROR if [glow::CONTEXT_LOST, CONTEXT_LOST_WEBGL].contains(&code) => {
                 self.lost.set(Some("GL_CONTEXT_LOST"))

@@ -47,16 +47,16 @@ use std::sync::Arc;
 /// The steps of one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// In order; each pass is timed by its name.
+    /// In order; timings use the name of each pass.
     pub passes: Vec<Pass>,
     /// The tables that [`Texture::Table`] numbers.
     pub tables: Vec<PlanTable>,
     /// The pictures that [`Texture::Picture`] numbers.
     pub pictures: Vec<PlanPicture>,
-    /// Factor by which the drawing is wider and higher than the picture, from 1. Above 1 the plan ends by drawing
+    /// Supersampling factor, from 1. Above 1 the plan ends by drawing
     /// [`Geometry::PictureSquare`], which fills the picture.
     pub supersample: u32,
-    /// How its vertices are handed to GL.
+    /// How its vertices are passed to GL.
     pub submission: Submission,
     /// The part of [`Plan::picture_target`] that is the picture.
     pub output: Output,
@@ -75,8 +75,8 @@ pub struct Pass {
     pub steps: Vec<Step>,
 }
 
-/// One thing for GL to do.
-// Where addresses have 32 bits the variant is not that large.
+/// One operation of GL.
+// With 32-bit addresses the variant is smaller.
 #[cfg_attr(
     target_pointer_width = "64",
     expect(clippy::large_enum_variant, reason = "most steps draw, and a plan has about ten: a box would save nothing")
@@ -86,9 +86,9 @@ pub struct Pass {
 pub enum Step {
     /// Clear colour and depth.
     Clear {
-        /// Red, green, blue, alpha; `None` leaves the colour.
+        /// Red, green, blue, alpha; `None` keeps the colour.
         color: Option<[f32; 4]>,
-        /// Whether depth is cleared, to the farthest.
+        /// Whether to clear depth, to the farthest value.
         depth: bool,
     },
     /// Clear each of the pass's textures to its given colour, and depth.
@@ -116,7 +116,7 @@ pub struct Draw {
     /// The textures it reads, by the name of their sampler. Each gets its own texture unit, in this order. Without a fragment
     /// shader the units' colours are multiplied with each other and with the geometry's.
     pub textures: Vec<(&'static str, Texture)>,
-    /// How it meets the depth buffer.
+    /// How it uses the depth buffer.
     pub depth: Depth,
     /// How the colour is combined with the target's.
     pub blend: Blend,
@@ -132,7 +132,7 @@ pub struct Draw {
     pub facts: Facts,
 }
 
-/// Which faces of an object are drawn.
+/// The faces of an object to draw.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Faces {
     /// All.
@@ -143,7 +143,7 @@ pub enum Faces {
     Listed(Arc<FaceList>),
 }
 
-/// Some of an object's faces, in the order all of them are drawn in.
+/// Some of an object's faces, in their drawing order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FaceList {
     /// Three indices per face, into the object's [`crate::mesh::VertexArrays::vertices`].
@@ -179,7 +179,7 @@ pub enum Geometry {
     Objects(Paint),
     /// Edges of the objects.
     Edges {
-        /// Which, in runs of one object and colour.
+        /// The edges, in runs of one object and colour.
         runs: Arc<Vec<EdgeRun>>,
         /// Lines, or points at their ends.
         mark: Mark,
@@ -206,7 +206,7 @@ pub enum Geometry {
 pub enum Paint {
     /// Each material in its colour.
     Materials,
-    /// One for all: red, green, blue, alpha.
+    /// One colour for all: red, green, blue, alpha.
     Uniform([f32; 4]),
     /// White, with a coordinate for each vertex for the first texture unit: a list per object, in the scene's order, with an
     /// entry for each of [`crate::mesh::VertexArrays::vertices`].
@@ -232,7 +232,7 @@ pub struct EdgeRun {
 }
 
 impl EdgeRun {
-    /// What its ends number, given the object's arrays.
+    /// Returns the vertices that its ends index, given the object's arrays.
     pub fn vertices<'a>(&'a self, arrays: &'a VertexArrays) -> &'a [[f32; 6]] {
         self.own_vertices.as_ref().unwrap_or(&arrays.vertices)
     }
@@ -254,12 +254,12 @@ tinta_geometry::choices! {
         /// As GL draws lines and points; as quads if the driver cannot draw the width.
         #[default]
         Gl = "gl",
-        /// As quads facing the eye, computed here; not smoothed.
+        /// As quads facing the eye, computed on the CPU; not smoothed.
         Quads = "quads",
     }
 }
 
-/// How a draw meets the depth buffer.
+/// How a draw uses the depth buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
     /// Drawn if nearer than the stored depth (GL_LESS), and written.
@@ -278,9 +278,9 @@ pub enum Blend {
     /// It takes its place.
     #[default]
     Replace,
-    /// Over it, by its alpha.
+    /// Drawn over the target, by its alpha.
     Over,
-    /// It is multiplied with it; alpha stays.
+    /// Multiplied with the target's colour; alpha stays.
     Multiply,
 }
 
@@ -311,26 +311,26 @@ impl Plan {
         Self { passes, tables, pictures, supersample: 1, submission: Submission::Buffers, output: Output::Rgba }
     }
 
-    /// All steps with the name of their pass.
+    /// Returns all steps with the name of their pass.
     pub fn steps(&self) -> impl Iterator<Item = (&'static str, &Step)> {
         self.passes.iter().flat_map(|pass| pass.steps.iter().map(|step| (pass.name, step)))
     }
 }
 
 impl Pass {
-    /// Steps into the framebuffer.
+    /// Returns a pass of steps into the framebuffer.
     pub fn new(name: &'static str, steps: Vec<Step>) -> Self {
         Self { name, target: Target::Framebuffer, scissor: None, steps }
     }
 }
 
 impl Step {
-    /// Clear all of it: colour, to red, green, blue, alpha, and depth.
+    /// Returns a step that clears colour, to red, green, blue, alpha, and depth.
     pub fn clear(color: [f32; 4]) -> Self {
         Self::Clear { color: Some(color), depth: true }
     }
 
-    /// A short name for files and tables.
+    /// Returns a short name for files and tables.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Clear { .. } | Self::ClearEach { .. } => "clear",
@@ -380,7 +380,7 @@ impl Plan {
         self.passes.last().map_or(Target::Framebuffer, |pass| pass.target)
     }
 
-    /// Every set of textures that its passes draw into, once.
+    /// Returns every set of textures that its passes draw into, once.
     pub fn attachments(&self) -> Vec<&'static Attachments> {
         let mut all = Vec::new();
         for pass in &self.passes {

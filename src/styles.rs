@@ -200,20 +200,20 @@ row::styles! {
 /// Pictures of the styles that filter a map.
 const CARTOON_SHOWS: &[Show] = &[Show::Final, Show::Map, Show::Normals, Show::Depth, Show::Borders, Show::Tones];
 
-/// Pictures of those whose lines are from edges or grazing views.
+/// Pictures of the styles with lines from edges or grazing views.
 const LINE_SHOWS: &[Show] = &[Show::Final, Show::Borders, Show::Tones];
 
 /// Pictures of the drawings in charcoal and sand.
 const CHARCOAL_SHOWS: &[Show] = &[Show::Final, Show::Diffuse, Show::Cem, Show::Cet, Show::Paper];
 
 impl Style {
-    /// The style of this name with the published settings.
+    /// Returns the style of this name with the published settings.
     #[must_use]
     pub fn named(name: StyleName) -> Self {
         (name.info().published)()
     }
 
-    /// The style's name as the user writes it.
+    /// Returns the style's name as the user writes it.
     #[must_use]
     pub fn name(&self) -> &'static str {
         self.style_name().name()
@@ -265,7 +265,7 @@ impl Style {
     /// Returns remarks on this scene's pictures in this style, a sentence each.
     pub fn remarks(&self, scene: &Scene) -> Vec<String> {
         let mut remarks = match self {
-            // It needs the edges in any case.
+            // This style needs the edges in any case.
             Self::Inking(_) => scene.crack_remarks(),
             Self::Charcoal(charcoal) | Self::Sand(charcoal) => charcoal.remarks(scene),
             _ => Vec::new(),
@@ -304,7 +304,7 @@ impl HasSettings for Style {
     }
 }
 
-/// Its name, and each setting under its own.
+/// Its name, and each setting under its own name.
 impl Serialize for Style {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
         let settings = Self::table().record(self);
@@ -324,31 +324,31 @@ pub(crate) fn settings() -> Vec<Setting<Style>> {
     settings
 }
 
-/// Why a style of exact lines has no plan.
+/// Returns the error that a style of exact lines has no plan.
 fn no_passes(style: &str) -> Error {
     Error::value("style", style, "it draws exact lines and has no passes; choose another style")
 }
 
 impl StyleName {
-    /// All names, with commas between.
+    /// Returns all names, separated by commas.
     pub fn list() -> String {
         Self::ALL.map(|(name, _)| name).join(", ")
     }
 
-    /// The names of those that draw lines, with commas between.
+    /// Returns the names of styles that draw lines, separated by commas.
     pub fn list_with_lines() -> String {
         let with_lines = STYLES.iter().filter(|info| info.style.has_lines());
         with_lines.map(|info| info.name).collect::<Vec<_>>().join(", ")
     }
 
-    /// All of them, those that draw lines first.
+    /// Returns all styles, those that draw lines first.
     pub fn lines_first() -> [Self; Self::ALL.len()] {
         let mut styles = Self::ALL.map(|(_, style)| style);
         styles.sort_by_key(|style| !style.has_lines());
         styles
     }
 
-    /// Those that OpenGL draws in passes, as the user writes them.
+    /// Returns the styles that OpenGL draws in passes, by the user's names.
     pub fn of_passes() -> impl Iterator<Item = (&'static str, Self)> + Clone {
         Self::ALL.into_iter().filter(|(_, style)| !style.draws_lines())
     }
@@ -365,7 +365,7 @@ impl StyleName {
         found.ok_or_else(|| ParseError::from(meant_or(name, &names, &otherwise)))
     }
 
-    /// Whether it draws exact lines, which need no OpenGL.
+    /// Whether it draws exact lines, without OpenGL.
     pub fn draws_lines(self) -> bool {
         self.info().draws_lines
     }
@@ -375,7 +375,7 @@ impl StyleName {
         &STYLES[self as usize]
     }
 
-    /// As the user writes it.
+    /// Returns the name as the user writes it.
     pub fn name(self) -> &'static str {
         self.info().name
     }
@@ -387,7 +387,7 @@ impl StyleName {
 }
 
 impl Show {
-    /// The option that shows this picture; none for the finished one.
+    /// Returns the option that shows this picture; empty for the finished one.
     pub fn to_options(self) -> Options {
         let shown = (self != Self::Final).then(|| ("show".to_owned(), OptionValue::text(self.choice_name())));
         shown.into_iter().collect()

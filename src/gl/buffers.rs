@@ -13,7 +13,7 @@ pub(super) struct EdgeIndices {
     pub(super) indices: Vec<Vec<u32>>,
     /// All of them.
     pub(super) buffer: Buffer,
-    /// The vertices of each run that has its own.
+    /// The vertices of each run with separate vertices.
     pub(super) own_vertices: Vec<Option<Buffer>>,
 }
 

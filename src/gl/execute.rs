@@ -25,13 +25,13 @@ pub(crate) struct Resources {
     pub(super) meshes: Vec<MeshBuffers>,
     /// The lists of faces of this plan's draws.
     pub(super) faces: Vec<FaceIndices>,
-    /// The texture coordinates and colours they paint by.
+    /// The texture coordinates and colours of their paint.
     pub(super) coordinates: Vec<OfVertices<[f32; 2]>>,
     pub(super) colors: Vec<OfVertices<[f32; 4]>>,
     pub(super) squares: Option<Buffer>,
     /// The tile of the whole surface, whose size is the picture's or a multiple of it.
     pub(super) tile: Tile,
-    /// How many times as wide and high as the picture the whole is.
+    /// The factor from the picture's sides to the whole's.
     supersample: u32,
     targets: Targets,
     pass_scissor: Option<Rectangle>,
@@ -42,7 +42,7 @@ pub(crate) struct Resources {
     pub(super) has_pipeline: bool,
     /// The edges last drawn as lines and as points, as indices on the device.
     pub(super) edges: [Option<EdgeIndices>; 2],
-    /// How the plan at hand wants vertices handed over.
+    /// How the current plan passes vertices.
     pub(super) submission: Submission,
 }
 
@@ -204,7 +204,7 @@ impl Resources {
         Ok(())
     }
 
-    /// A projection of the whole picture as this tile's viewport has it.
+    /// Converts a projection of the whole picture to this tile's viewport.
     pub(super) fn in_tile(&self, clip_from_view: Mat4) -> Mat4 {
         self.tile.clip_from_picture().map_or(clip_from_view, |tile| tile * clip_from_view)
     }
@@ -366,18 +366,18 @@ impl Resources {
         }
     }
 
-    /// The shaders linked so far.
+    /// Returns the shaders linked so far.
     pub(crate) fn programs(&self) -> Vec<plan::Program> {
         self.programs.keys().cloned().collect()
     }
 
-    /// Waits until everything is drawn.
+    /// Waits until GL has drawn everything.
     pub(crate) fn finish(&self) {
         // SAFETY: the context is current.
         unsafe { self.gl.glow.finish() }
     }
 
-    /// A timer, for contexts that have them.
+    /// Makes a timer, in contexts that have them.
     pub(crate) fn timer(&self) -> Result<TimerQuery> {
         TimerQuery::new(&self.gl)
     }
@@ -408,7 +408,7 @@ impl Resources {
         self.gl.replaced_shaders.replace(shaders)
     }
 
-    /// The texts used as shaders, by their paths.
+    /// Returns the replaced shader texts, by path.
     pub(crate) fn given_shaders(&self) -> HashMap<String, String> {
         self.gl.replaced_shaders.borrow().clone()
     }
@@ -438,7 +438,7 @@ impl Resources {
         std::mem::forget(std::mem::replace(self, Self::new(&self.gl.clone())));
     }
 
-    /// How many GL objects are alive.
+    /// Returns the number of live GL objects.
     pub(crate) fn live_objects(&self) -> usize {
         self.gl.live_objects.get()
     }

@@ -17,23 +17,23 @@ pub enum Fault {
     ContextRefused,
     /// The driver refuses to compile a shader, the one after `after` others: it gets an invalid text.
     ShaderRefused {
-        /// How many it takes before.
+        /// Number of shaders compiled before.
         after: u32,
     },
     /// Device memory runs out once: GL_OUT_OF_MEMORY for the texture, buffer or renderbuffer after `after` others.
     OutOfMemory {
-        /// How many there is room for before.
+        /// Number of allocations that succeed before.
         after: u32,
     },
     /// The context is lost, as after a device reset, after `after` uploads, clears and draws. From then on every call does
     /// nothing, and every query for errors returns GL_CONTEXT_LOST (KHR_robustness).
     ContextLost {
-        /// How many are done before.
+        /// Number of calls that succeed before.
         after: u32,
     },
     /// The same, but only the reset status reports it (ARB_robustness).
     ContextReset {
-        /// How many are done before.
+        /// Number of calls that succeed before.
         after: u32,
     },
     /// The driver lacks glBegin, as in a core profile, and has everything else.

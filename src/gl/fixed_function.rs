@@ -5,13 +5,13 @@ use crate::plan::{Draw, Geometry, LineDrawing, Mark, Program};
 /// Vertices without lighting.
 const VERTEX: &str = "fixed/transform.vert";
 
-/// Fragments, by how many texture units are switched on.
+/// Fragments, by the number of enabled texture units.
 const FRAGMENTS: [&str; 3] = ["fixed/untextured.frag", "fixed/one-texture.frag", "fixed/two-textures.frag"];
 
-/// The textures of these.
+/// The names of their samplers.
 const SAMPLERS: [&str; 2] = ["texture0", "texture1"];
 
-/// What draws smoothed lines and points.
+/// The program for smoothed lines and points.
 pub(super) fn smooth(mark: Mark) -> Program {
     let fragment = match mark {
         Mark::Lines => "fixed/smooth-line.frag",
@@ -20,7 +20,7 @@ pub(super) fn smooth(mark: Mark) -> Program {
     Program { vertex: VERTEX, fragments: vec![fragment] }
 }
 
-/// The program that a draw is drawn with; `None` for the pipeline.
+/// Returns the program of a draw; `None` for the pipeline.
 pub(super) fn program_of(draw: &Draw, has_pipeline: bool) -> Option<Program> {
     let fragments = || vec![FRAGMENTS[draw.textures.len().min(FRAGMENTS.len() - 1)]];
     match &draw.program {

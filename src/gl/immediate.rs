@@ -11,7 +11,7 @@ type End = unsafe extern "system" fn();
 type Floats = unsafe extern "system" fn(*const f32);
 type FloatsOf = unsafe extern "system" fn(u32, *const f32);
 
-/// The functions, each of the type the specification gives it.
+/// The functions, each with the type of the specification.
 pub(super) struct Immediate {
     begin: Mode,
     end: End,
@@ -23,15 +23,15 @@ pub(super) struct Immediate {
     coordinate_of: FloatsOf,
 }
 
-/// Vertices in the order they are drawn.
+/// Vertices in drawing order.
 pub(super) struct Vertices<'a> {
     /// GL_TRIANGLES, GL_LINES, …
     pub mode: u32,
     /// Where they are.
     pub places: Places<'a>,
-    /// Which of the places, in order.
+    /// The indices of the places, in order.
     pub indices: &'a [u32],
-    /// The colour of each place; without any the current colour holds.
+    /// The colour of each place; `None` for the current colour.
     pub colors: Option<&'a [[f32; 4]]>,
     /// The texture coordinates of each place, by texture unit.
     pub coordinates: [Option<&'a [[f32; 2]]>; FIXED_UNITS as usize],

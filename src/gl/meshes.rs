@@ -1,4 +1,4 @@
-//! The scene's meshes on the device, and how they are drawn.
+//! The scene's meshes on the device, and their drawing.
 
 use super::Gl;
 use super::buffers::{FaceIndices, MeshBuffers, OfVertices};
@@ -187,7 +187,7 @@ struct RunOfFaces<'a> {
     object: &'a Object,
     /// The list they are in, if not all of the object's faces are drawn.
     listed: Option<&'a Arc<FaceList>>,
-    /// Which run of the list or object it is.
+    /// The run of the list or object.
     part: &'a Part,
     lists: PaintLists<'a>,
     material_unit: Option<u32>,
@@ -234,7 +234,7 @@ impl<'a> PaintLists<'a> {
     }
 }
 
-/// A plan's lists are by the scene's objects and vertices.
+/// Returns an error if a plan's lists do not fit the scene's objects and vertices.
 pub(super) fn of_another_scene() -> Error {
     Error::gl("drawing", "a plan was made for another scene")
 }

@@ -9,7 +9,7 @@ use glow::HasContext;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// Counts an object in, and out again when dropped.
+/// Counts an object; uncounts it when dropped.
 pub(super) struct Live(Rc<Gl>);
 
 impl Live {
@@ -80,7 +80,7 @@ pub(super) struct Texture {
 }
 
 impl Texture {
-    /// An empty texture; `target` is GL_TEXTURE_1D or GL_TEXTURE_2D.
+    /// Makes an empty texture; `target` is GL_TEXTURE_1D or GL_TEXTURE_2D.
     pub(super) fn new(gl: &Rc<Gl>, target: u32, sampling: Sampling) -> Result<Self> {
         let (smaller, larger, wrap) = match sampling {
             Sampling::NearestClamped => (glow::NEAREST, glow::NEAREST, glow::CLAMP_TO_EDGE),
@@ -128,14 +128,14 @@ impl Drop for Texture {
     }
 }
 
-/// A linked program and where its uniforms are.
+/// A linked program and the locations of its uniforms.
 pub(super) struct Program {
     live: Live,
     id: glow::Program,
     locations: HashMap<&'static str, Option<glow::UniformLocation>>,
-    /// Whether it last drew into textures; `None` where it has not drawn.
+    /// Whether it last drew into textures; `None` before its first draw.
     into_textures: Option<bool>,
-    /// Whether it has to be given a uniform that differs before it draws.
+    /// Whether a uniform must change before the next draw.
     is_stale: bool,
 }
 

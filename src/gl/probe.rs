@@ -15,19 +15,19 @@ use std::rc::Rc;
 /// Width and height of the surface, pixels.
 pub(crate) const SIDE: u32 = 64;
 
-/// Columns of other colours, or depths, that copies are tried with.
+/// Columns of different colours, or depths, that test copies.
 const COLUMNS: i32 = 16;
 
 /// Least and most ink of a smoothed line, as a share of its length times its width: drivers weight pixels differently, and may or
 /// may not count its ends.
 const LINE_SHARE: [f64; 2] = [0.8, 1.25];
 
-/// A question to a driver, and its answer.
+/// A test of a driver, and its result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Probe {
     /// The probed feature.
     pub name: &'static str,
-    /// Whether the driver does as it should.
+    /// Whether the driver passed.
     pub passed: bool,
     /// The counts.
     pub counted: String,
@@ -63,7 +63,7 @@ pub(crate) fn probes(gl: &Rc<Gl>) -> Result<Vec<Probe>> {
 /// The surface's pixels, RGBA, bottom row first.
 fn pixels(gl: &Gl) -> Vec<u8> {
     let mut pixels = vec![0; (SIDE * SIDE * 4) as usize];
-    // SAFETY: the context is current, and there is room for as many bytes.
+    // SAFETY: the context is current, and the buffer has room for the bytes.
     unsafe {
         let into = glow::PixelPackData::Slice(Some(&mut pixels));
         gl.glow.read_pixels(0, 0, SIDE as i32, SIDE as i32, glow::RGBA, glow::UNSIGNED_BYTE, into);
@@ -84,7 +84,7 @@ fn alpha(gl: &Gl) -> Probe {
     Probe::none_of("8-bit alpha", (0..=u8::MAX).filter(|value| !comes_back(value)).count(), 256, "values are")
 }
 
-/// Clears columns, each to its own of so many shades of colour or depth.
+/// Clears columns, each to a different shade of colour or depth.
 fn clear_columns(gl: &Gl, clear: impl Fn(u8)) {
     let width = SIDE as i32 / COLUMNS;
     // SAFETY: the context is current.
@@ -136,7 +136,7 @@ fn depth_copy(gl: &Rc<Gl>) -> Result<Probe> {
     });
     let texels = copied(gl, glow::DEPTH_COMPONENT24, 1)?;
     let column = |place: usize| (place as u32 % SIDE / (SIDE / COLUMNS as u32)) as u8;
-    // 24 bits are read as 8, and a driver may cut them off or round.
+    // 24 bits are read as 8; drivers may truncate or round.
     let is_wrong = |(place, texel): &(usize, &u8)| texel.abs_diff(column(*place) * 17) > 1;
     let wrong = texels.iter().enumerate().filter(is_wrong).count();
     Ok(Probe::none_of("texture copies of depth", wrong, texels.len(), "texels are"))

@@ -19,7 +19,7 @@ use std::collections::HashSet;
 /// How far a square extends beyond the covered pixels, pixels. A driver places corners on a grid of a sixteenth at the coarsest.
 const SPARE_PX: f32 = 0.5;
 
-/// Corners, four a line or point.
+/// Corners, four per line or point.
 #[derive(Debug, Default, PartialEq)]
 struct Corners {
     /// In clip space, with w = 1: the values below are then constant over a square.
@@ -41,7 +41,7 @@ impl Corners {
     }
 }
 
-/// Where a point falls, pixels from the lower left, and its depth.
+/// Returns a point's place, pixels from the lower left, and its depth.
 fn on_screen(point: Vec4, half_size: Vec2) -> (Vec2, f32) {
     ((Vec2::new(point.x, point.y) / point.w + 1.0) * half_size, point.z / point.w)
 }
@@ -59,7 +59,7 @@ fn lines(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, width_px: f32) -> Co
         let along = (b - a).try_normalize().unwrap_or(Vec2::X);
         let beyond = along * (0.5 + SPARE_PX);
         let side = along.perp() * (width_px.max(1.0) * 0.5 + 0.5 + SPARE_PX);
-        // Mesa's lines are as deep as their ends half a pixel beyond them.
+        // Mesa's lines keep their ends' depth half a pixel beyond them.
         let spare = (depth_b - depth_a) / (a.distance(b) + 1.0) * SPARE_PX;
         let (depth_a, depth_b) = (depth_a - spare, depth_b + spare);
         let four = [

@@ -21,7 +21,7 @@ const SQUARES: [[f32; 6]; 8] = [
 ];
 
 impl Resources {
-    /// Uploads them, if they are not there yet.
+    /// Uploads them unless they are already uploaded.
     pub(super) fn upload_squares(&mut self) -> Result<()> {
         if self.squares.is_none() {
             self.squares = Some(Buffer::new(&self.gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&SQUARES))?);

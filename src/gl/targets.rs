@@ -14,7 +14,7 @@ use framebuffer::{Framebuffer, Renderbuffer};
 use glow::HasContext;
 use std::rc::Rc;
 
-/// The textures that passes leave for each other.
+/// The textures that connect passes.
 #[derive(Default)]
 pub(super) struct Targets {
     border_map: Option<Copied>,
@@ -51,7 +51,7 @@ impl Targets {
                 Some(drawn.ok_or_else(|| Error::gl("drawing", "a plan was carried out without being prepared"))?)
             }
         };
-        // A driver without framebuffer objects has nothing else to draw into.
+        // Without framebuffer objects the framebuffer is the only target.
         if gl.info.framebuffer_objects {
             framebuffer::bind(gl, framebuffer);
         }
@@ -78,7 +78,7 @@ impl Targets {
         self.depth_map.as_ref().map(|(_, texture)| texture)
     }
 
-    /// The texture of this name that a framebuffer object drew into.
+    /// Returns the texture of this name that a framebuffer object drew into.
     pub(super) fn drawn(&self, name: Drawn) -> Option<&Texture> {
         self.drawn.as_ref()?.textures.iter().find(|(other, ..)| *other == name).map(|(.., texture)| texture)
     }

@@ -12,13 +12,13 @@ use glow::HasContext;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The textures there are.
+/// The uploaded textures.
 #[derive(Default)]
 pub(super) struct Textures {
-    /// Those of the last plan that had any; its numbers are theirs.
+    /// The tables of the last plan that had any; its numbers index them.
     tables: Vec<(PlanTable, Texture)>,
     pictures: Vec<(Arc<Picture>, Sampling, Texture)>,
-    /// Which of `pictures` each of the plan's is.
+    /// The index in `pictures` of each of the plan's pictures.
     plan_pictures: Vec<usize>,
     white: Option<Texture>,
     materials: MaterialPictures,

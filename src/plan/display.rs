@@ -158,7 +158,7 @@ fn write_faces(out: &mut fmt::Formatter<'_>, faces: &[Faces]) -> fmt::Result {
     }
 }
 
-/// How many edges of each name and colour.
+/// Writes the number of edges of each name and colour.
 fn write_runs(out: &mut fmt::Formatter<'_>, runs: &[EdgeRun]) -> fmt::Result {
     let mut sums: Vec<(&str, [f32; 4], usize)> = Vec::new();
     for run in runs {

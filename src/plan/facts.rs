@@ -59,12 +59,12 @@ pub struct Shorter {
 }
 
 impl Facts {
-    /// Those of most shaders: places and pixels are kept.
+    /// Returns the facts of most shaders: they keep places and pixels.
     pub fn plain() -> Self {
         Self { keeps_places: true, keeps_pixels: true, ..Self::default() }
     }
 
-    /// Those of a square of one colour.
+    /// Returns the facts of a square of one colour.
     pub fn constant(color: [f32; 4]) -> Self {
         Self { constant_color: Some(color), ..Self::plain() }
     }
@@ -117,7 +117,7 @@ mod tests {
         assert_eq!(facts_after(facts.clone(), "a.vert"), Facts::default());
         assert_eq!(facts_after(facts.clone(), "a.frag"), Facts::default());
         assert_eq!(facts_after(facts.clone(), "c.frag"), facts);
-        // The program that was to draw the same does no longer.
+        // The shorter program no longer draws the same.
         assert_eq!(facts_after(facts, "b.frag"), Facts::constant([1.0; 4]));
     }
 

@@ -31,7 +31,7 @@ pub struct Kept {
     pub reason: String,
 }
 
-/// A plan without what its scene does not need.
+/// A plan without parts that its scene does not need.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pruned {
     /// The shortened plan.
@@ -78,7 +78,7 @@ impl Draw {
 }
 
 impl Rule {
-    /// Shortens the plan, or says why not.
+    /// Shortens the plan; the error says why it could not.
     fn apply(self, plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
         match self {
             Self::Border => dead::border(plan),

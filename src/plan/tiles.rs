@@ -136,7 +136,7 @@ impl Plan {
             let reads = |(_, texture): &(_, Texture)| {
                 matches!(texture, Texture::BorderMap | Texture::DepthMap | Texture::Drawn(_))
             };
-            // The last step of supersampling reads its own pixels alone.
+            // The last step of supersampling reads only its own pixels.
             if draw.geometry != Geometry::PictureSquare && draw.textures.iter().any(reads) {
                 margin = margin.checked_add(draw.facts.reach_px?)?;
             }
@@ -219,7 +219,7 @@ mod tests {
         assert_eq!(plan(None).tiles(small, limits(256, 256)), Some(vec![Tile::whole(small)]));
         let large = Size { width: 257, height: 100 };
         assert_eq!(plan(None).tiles(large, limits(256, 256)), None);
-        // Margins that leave nothing between them.
+        // The margins leave no pixels between them.
         assert_eq!(plan(Some(128)).tiles(large, limits(256, 16_384)), None);
         assert!(plan(Some(60)).tiles(large, limits(256, 16_384)).is_some());
     }

@@ -180,7 +180,7 @@ impl Border {
                 blend: Blend::Over,
                 facts: Facts {
                     reach_px: Some(self.reach_px(scene, surface)),
-                    // No difference is an alpha of 0.
+                    // Without differences the alpha is 0.
                     where_even: Some(WhereEven::Unchanged),
                     // The slope's threshold alone is black or white.
                     adds_nothing: (self.detection_factor == 0.0 && !self.slope_threshold)
@@ -209,7 +209,7 @@ impl Border {
         self.filter == Filter::Roberts
     }
 
-    /// The uniforms of the listing: how far apart texels are.
+    /// Returns the uniforms of the listing: the distance between texels.
     pub(super) fn published_uniforms(surface: Size) -> Vec<Uniform> {
         vec![texture_unit(surface)]
     }
@@ -241,7 +241,7 @@ pub(super) fn taps(width_px: Option<u32>, scale: u32, one_sided: bool) -> [u32; 
     }
 }
 
-/// [`taps`] for a shader.
+/// Returns [`taps`] for a shader.
 pub(super) fn reach(name: &'static str, width_px: Option<u32>, scale: u32, one_sided: bool) -> Uniform {
     let taps = taps(width_px, scale, one_sided);
     Uniform { name, value: Value::Vec2(taps.map(|pixels| pixels as f32)) }

@@ -29,7 +29,7 @@ pub struct Cartoon {
     pub map_encoding: MapEncoding,
     /// How the map gets from pass to pass. Default as in the listing; both ways give the same picture.
     pub map_target: MapTarget,
-    /// Factor by which the drawing is larger than the picture before it is shrunk. Default 1; more smooths every edge and makes
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge and makes
     /// lines finer. Pictures of the map itself keep their size.
     pub supersample: Supersample,
 }
@@ -76,7 +76,7 @@ impl Cartoon {
     }
 }
 
-/// The setting whether the map holds a square behind the scene.
+/// Returns the setting that draws a square behind the scene into the map.
 pub(super) fn background_square<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
     let help = "Draw a square behind the scene, on or off; without it outer borders are lost";
     Setting::field("background-quad", ON_OFF, help, field)
@@ -204,7 +204,7 @@ impl Cartoon {
             steps.push(Step::Draw(Draw { depth: Depth::Ignore, facts, ..square }));
         }
         steps.push(Step::Draw(draw(Geometry::Objects(Paint::Materials))));
-        // The picture of a map is the framebuffer's.
+        // The picture of a map is in the framebuffer.
         let target = if is_read { encoding.target(self.map_target) } else { Target::Framebuffer };
         if is_read && target == Target::Framebuffer {
             steps.push(Step::CopyFramebuffer);
@@ -250,7 +250,7 @@ impl Cartoon {
         let mut steps = vec![Step::clear(color)];
         if self.background_square && scene.background != Background::Transparent {
             let geometry = Geometry::BackgroundSquare { color };
-            // It follows the clear and is behind everything, so it needs no depth.
+            // It follows the clear, behind everything, so it needs no depth.
             steps.push(Step::Draw(Draw { geometry, depth: Depth::Ignore, ..draw(true) }));
         }
         let objects = draw(false);

@@ -52,7 +52,7 @@ pub struct Charcoal {
     /// Standard deviation of the blur of the contrast-enhanced texture, pixels, 0 to 100. Default 0.8, ours. More softens the
     /// grain, and removes it at the width of a row of tones.
     pub cet_blur_px: f64,
-    /// Where the random numbers of all textures begin. Default 0.
+    /// Seed of the random numbers of all textures. Default 0.
     pub seed: u64,
     /// Source of the random numbers of all textures. Default SplitMix64, ours. The text uses its platform's `rand()`; two of
     /// these are available (errata V8).
@@ -71,15 +71,15 @@ pub struct Charcoal {
     pub cet_filter: CetFilter,
     /// The light that selects its rows. Default the light before saturation, as published.
     pub cet_coordinate: CetCoordinate,
-    /// What enhances contrast. Default the power, as published.
+    /// The operator that enhances contrast. Default the power, as published.
     pub operator: ContrastOperator,
-    /// Where the noise lies. Default on the picture, as published.
+    /// The position of the noise. Default on the picture, as published.
     pub noise: Noise,
     /// The flaws of the text to mend, and additions beyond the text. Default none.
     pub improve: Improvements,
-    /// Whether faces turned away from the eye are left out. Default no.
+    /// Whether to skip faces turned away from the eye. Default no.
     pub cull_back_faces: bool,
-    /// Factor by which the drawing is larger than the picture before it is shrunk. Default 1; more smooths every edge and keeps
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge and keeps
     /// the width of grain and paper.
     pub supersample: Supersample,
     /// The finished textures, kept for the next picture with the same settings and shared between clones.
@@ -114,7 +114,7 @@ impl Default for Charcoal {
     }
 }
 
-/// Where a plan's pictures are in its list.
+/// The indices of a plan's pictures in its list.
 const NOISE: usize = 0;
 const CET: usize = 1;
 const PAPER: usize = 2;
@@ -143,7 +143,7 @@ impl Charcoal {
         self.pictures.of(self.texture_settings()).map(|Made { noise, cet, paper, .. }| [noise, cet, paper])
     }
 
-    /// What its textures follow from.
+    /// Returns the settings that determine its textures.
     fn texture_settings(&self) -> TextureSettings {
         let (size, seed, random) = (self.texture_size, self.seed, self.random);
         TextureSettings {
@@ -161,7 +161,7 @@ impl Charcoal {
         }
     }
 
-    /// The settings of one of the text's recipes.
+    /// Returns the settings of one of the text's recipes.
     pub fn recipe(recipe: CharcoalRecipe) -> Self {
         let base = Self::default();
         match recipe {
@@ -199,7 +199,7 @@ impl Charcoal {
         self.plan(scene, show, false)
     }
 
-    /// Paper and drawing mixed with the models' own textures in sepia.
+    /// Returns paper and drawing mixed with the models' own textures in sepia.
     pub(super) fn sand(&self, scene: &Scene, show: Show) -> Result<Plan> {
         let has_texture = |mesh: &Mesh| {
             !mesh.triangle_texture_coordinates.is_empty() && mesh.materials.iter().any(|m| m.has_texture())
@@ -271,7 +271,7 @@ impl Charcoal {
     /// The drawing itself.
     fn objects(&self, show: Show, is_sand: bool, layout: &Layout) -> Draw {
         let uniform = |name, value| Uniform { name, value };
-        // The first that there is; the second is read where there are two.
+        // The first light that is set; the second is read if both are.
         let lights = self.lights.iter().flatten().zip(["inputLight1", "inputLight2"]);
         let mut uniforms: Vec<Uniform> =
             lights.map(|(light, name)| uniform(name, Value::Vec3(measurable(*light)))).collect();
@@ -330,7 +330,7 @@ impl Charcoal {
         if self.improve.proportion { "valente/spread-even.frag" } else { "valente/spread-stretched.frag" }
     }
 
-    /// The part that says where a sample reads them.
+    /// The part that computes where a sample reads them.
     fn grain(&self) -> &'static str {
         if self.supersample == Supersample::One { "valente/grain-sample.frag" } else { "valente/grain-pixel.frag" }
     }

@@ -15,9 +15,9 @@ pub struct Dietrich {
     pub threshold: f32,
     /// The ink's colour. Default black.
     pub ink: Color,
-    /// Whether faces turned away from the eye are left out. Default no.
+    /// Whether to skip faces turned away from the eye. Default no.
     pub cull_back_faces: bool,
-    /// Factor by which the drawing is larger than the picture before it is shrunk. Default 1; more smooths every edge.
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge.
     pub supersample: Supersample,
 }
 

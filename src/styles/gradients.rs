@@ -29,7 +29,7 @@ impl<'a> Gradients<'a> {
         Self { scene, ramp, row, own: (row == RampRow::Own).then(|| own_gradients(scene)) }
     }
 
-    /// The picture they are in.
+    /// Returns the picture that holds them.
     pub(super) fn picture(&self) -> &Arc<Picture> {
         self.own.as_ref().map_or(&self.ramp.picture, |(_, picture)| picture)
     }
@@ -58,13 +58,13 @@ impl<'a> Gradients<'a> {
         }
     }
 
-    /// The texture coordinate of a surface's row.
+    /// Returns the texture coordinate of a surface's row.
     pub(super) fn coordinate(&self, object: usize, material: u32) -> f32 {
         // The picture's top is at 1.
         1.0 - (self.row(object, material) as f32 + 0.5) / self.count() as f32
     }
 
-    /// What GL reads at a texture coordinate: red, green, blue.
+    /// Returns GL's colour at a texture coordinate: red, green, blue.
     pub(super) fn texel(&self, [light, row]: [f32; 2]) -> [u8; 3] {
         let Size { width, height } = self.picture().size;
         let from_bottom = (row * height as f32) as i64;
@@ -120,12 +120,12 @@ pub(super) type VertexLists<T> = Arc<Vec<Arc<Vec<T>>>>;
 /// The text's light.
 #[derive(Clone, Copy)]
 pub(super) struct Light {
-    /// The direction towards it, world space.
+    /// The direction towards the light, world space.
     direction: Vec3,
 }
 
 impl Light {
-    /// The light of a scene, which stands still in eye space.
+    /// Returns the light of a scene, which is fixed in eye space.
     pub(super) fn of(scene: &Scene) -> Self {
         // The listing turns every normal into eye space by the inverse of a modelview it assumes rigid (errata D7). Turning the
         // light the other way once is equivalent.
@@ -133,7 +133,7 @@ impl Light {
         Self { direction: world_from_view.transform_vector3(LIGHT_DIRECTION.normalize()).as_vec3() }
     }
 
-    /// How bright a surface is, by its normal in world space: 0.1 to 0.9.
+    /// Returns a surface's brightness from its normal in world space: 0.1 to 0.9.
     pub(super) fn on(self, normal: Vec3) -> f32 {
         self.direction.dot(normal).clamp(LIGHT_RANGE[0], LIGHT_RANGE[1])
     }
@@ -171,7 +171,7 @@ mod tests {
 
     #[test]
     fn a_texel_is_that_of_its_row_and_column_and_beyond_the_picture_that_at_its_edge() {
-        // Each pixel tells its place.
+        // Each pixel encodes its place.
         let size = Size { width: 10, height: 8 };
         let pixel = |place: u32| [(place % 10) as u8, (place / 10) as u8, 7, 255];
         let picture = Picture { size, pixels: (0..80).flat_map(pixel).collect() };
@@ -205,7 +205,7 @@ mod tests {
             assert_eq!(middle, base);
             assert!((0..3).all(|channel| shadow[channel] <= base[channel] && base[channel] <= highlight[channel]));
         }
-        // One colour for all is one gradient.
+        // One colour for all gives one gradient.
         let red = SceneSettings { color: Some(Color([1.0, 0.0, 0.0])), ..settings };
         let scene = Scene::new(vec![scene.objects[0].mesh.clone()], &red).unwrap();
         let gradients = Gradients::new(&scene, &ramp, RampRow::Own);

@@ -23,11 +23,11 @@ use glam::DVec3;
 /// Settings of `ink`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ink {
-    /// How much time the picture may take. Default standard.
+    /// The time budget of the picture. Default standard.
     pub quality: Quality,
-    /// Factor by which the drawing is larger than the picture before it is shrunk; `None`, the default, follows the quality.
+    /// Supersampling factor of the drawing; `None`, the default, follows the quality.
     pub supersample: Option<Supersample>,
-    /// Whether lines are drawn at all. Default yes.
+    /// Whether to draw lines. Default yes.
     pub is_inked: bool,
     /// Smallest angle between planes at a crease. Default 30 degrees; more draws fewer lines.
     pub crease_angle: CreaseAngle,
@@ -50,14 +50,14 @@ pub struct Ink {
     pub tone_light: Option<[f32; 3]>,
     /// The tones below. Default those of the three passes.
     pub tones: Tones,
-    /// Whether faces turned away from the eye are left out. Default no.
+    /// Whether to skip faces turned away from the eye. Default no.
     pub cull_back_faces: bool,
     /// How the map gets from pass to pass. Default by a copy of the framebuffer; both ways give the same picture.
     pub map_target: MapTarget,
 }
 
 tinta_geometry::choices! {
-    /// What turns where there is a crease.
+    /// The property that changes at a crease.
     #[derive(Default)]
     pub enum CreaseBy {
         /// The planes of the triangles: every fold of a model, also the small ones of scans.
@@ -70,19 +70,19 @@ tinta_geometry::choices! {
 }
 
 tinta_geometry::choices! {
-    /// How much time a picture may take.
+    /// The time budget of a picture.
     #[derive(Default)]
     pub enum Quality {
-        /// No more than the faithful three passes.
+        /// At most that of the faithful three passes.
         #[default]
         Standard = "standard",
-        /// As much as helps: drawn larger, without specks, and shrunk.
+        /// Every improvement: drawn larger, without specks, and shrunk.
         Best = "best",
     }
 }
 
 impl Quality {
-    /// How much larger than the picture it is drawn.
+    /// Returns the supersampling factor.
     fn supersample(self) -> Supersample {
         match self {
             Self::Standard => Supersample::One,
@@ -276,7 +276,7 @@ impl Ink {
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
         let mut steps = vec![Step::clear([0.0; 4]), Step::Draw(objects)];
-        // The picture of a map is the framebuffer's.
+        // The picture of a map is in the framebuffer.
         let target = if is_read { self.map_target.target() } else { Target::Framebuffer };
         if is_read && target == Target::Framebuffer {
             steps.push(Step::CopyFramebuffer);
@@ -306,7 +306,7 @@ impl Ink {
         let vertex = match self.tone_light {
             None => "evangelista/toon.vert",
             Some(light) => {
-                // In f64 no length of three numbers in f32 is beyond reach.
+                // In f64 the length of any three f32 numbers is finite.
                 let direction = DVec3::from_array(light.map(f64::from)).normalize().as_vec3();
                 uniforms.push(Uniform { name: "lightDirection", value: Value::Vec3(direction.to_array()) });
                 "improved/toon-far.vert"
@@ -364,7 +364,7 @@ impl Ink {
             depth: Depth::Ignore,
             facts: Facts {
                 reach_px: Some(before.max(behind) + 1),
-                // It leaves out the pixels that are not inked.
+                // It discards pixels without ink.
                 keeps_pixels: false,
                 where_even: Some(WhereEven::Unchanged),
                 ..Facts::plain()
@@ -373,7 +373,7 @@ impl Ink {
         }
     }
 
-    /// The ink once more, without its specks.
+    /// Redraws the ink without its specks.
     fn without_specks(&self, scene: &Scene, surface: Size) -> Draw {
         let size = self.speck_size(scene);
         let program = Program { vertex: "evangelista/border.vert", fragments: vec!["improved/specks.frag"] };
@@ -386,7 +386,7 @@ impl Ink {
             depth: Depth::Ignore,
             facts: Facts {
                 reach_px: Some(size + 1),
-                // It leaves out the pixels that are not inked.
+                // It discards pixels without ink.
                 keeps_pixels: false,
                 where_even: Some(WhereEven::Unchanged),
                 ..Facts::plain()
@@ -408,7 +408,7 @@ const LEAST_GAP_SHARE: f32 = 0.375;
 /// Largest speck, in drawn pixels. Larger marks are rarely specks, and a wider search costs time.
 const LARGEST_SPECK: u32 = 16;
 
-/// The ground for ink alone: white, or nothing.
+/// Returns the ground for ink alone: white, or transparent.
 fn blank(scene: &Scene) -> [f32; 4] {
     if scene.background == Background::Transparent { [0.0; 4] } else { [1.0; 4] }
 }

@@ -24,14 +24,14 @@ use std::sync::Arc;
 /// Settings of `inking`; the defaults are the text's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inking {
-    /// Whether lines are drawn. Default yes.
+    /// Whether to draw lines. Default yes.
     pub is_inked: bool,
     /// The classes of edges to draw. Default boundary, silhouette and crease; the text names the others but its listing leaves
     /// them out.
     pub classes: ClassSet,
     /// Smallest angle between faces at a crease. Default a cosine of 0.4; more degrees draw fewer lines.
     pub crease_angle: CreaseAngle,
-    /// How silhouettes are found. Default the listing's rule.
+    /// The rule for silhouettes. Default the listing's.
     pub silhouette: SilhouetteRule,
     /// Width of the lines and of the points at their ends, pixels. Default 2.
     pub line_width_px: f32,
@@ -57,16 +57,16 @@ pub struct Inking {
     pub paint: PaintMode,
     /// The ramp. Default four gradients of three tones.
     pub ramp: Ramp,
-    /// Which of its gradients a surface gets. Default by material.
+    /// The gradient that a surface gets. Default by material.
     pub ramp_row: RampRow,
-    /// Where the light is computed. Default here, as in the listing.
+    /// Where the light is computed. Default on the CPU, as in the listing.
     pub light: LightOn,
     /// Whether the model's own texture is multiplied in, by the second texture stage. Default no.
     pub has_texture: bool,
     /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
     /// outlines. Default no.
     pub cull_back_faces: bool,
-    /// Factor by which the drawing is larger than the picture before it is shrunk. Default 1; more smooths every edge and keeps
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge and keeps
     /// the lines' width.
     pub supersample: Supersample,
 }
@@ -201,7 +201,7 @@ impl Inking {
 tinta_geometry::choices! {
     /// How faces are painted.
     pub enum PaintMode {
-        /// In the background's colour: they only hide lines.
+        /// In the background's colour, only to hide lines.
         None = "none",
         /// Each material in its colour.
         Flat = "flat",
@@ -216,7 +216,7 @@ tinta_geometry::choices! {
 }
 
 tinta_geometry::choices! {
-    /// Where the light that the ramp is looked up by is computed.
+    /// Where the ramp's light is computed.
     pub enum LightOn {
         /// On the CPU at every vertex, as in the listing.
         Cpu = "cpu",
@@ -225,7 +225,7 @@ tinta_geometry::choices! {
     }
 }
 
-/// Widest line, pixels: as wide as the largest picture of most drivers.
+/// Widest line, pixels: the largest picture of most drivers.
 const WIDEST_LINE: f32 = 16_384.0;
 
 impl Inking {
@@ -318,7 +318,7 @@ impl Inking {
         Ok(())
     }
 
-    /// The faces, painted or blank, and the pictures they read.
+    /// Draws the faces, painted or blank; returns the pictures they read.
     fn fill(&self, scene: &Scene, show: Show) -> (Vec<Draw>, Vec<PlanPicture>) {
         let paint_mode = if show == Show::Borders { None } else { Some(self.paint) };
         let gradients = Gradients::new(scene, &self.ramp, self.ramp_row);
@@ -360,7 +360,7 @@ impl Inking {
     }
 }
 
-/// The ground for lines alone: white, or nothing.
+/// Returns the ground for lines alone: white, or transparent.
 fn blank(scene: &Scene) -> [f32; 4] {
     if scene.background == Background::Transparent { [0.0; 4] } else { [1.0; 4] }
 }

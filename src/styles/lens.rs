@@ -14,7 +14,7 @@ fn pixel_angle(scene: &Scene, surface: Size) -> f64 {
     }
 }
 
-/// Distances from the eye at which a map's depth is 0 and 1, file units.
+/// Distances from the eye where a map's depth is 0 and 1, file units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct DepthRange {
     near: f64,

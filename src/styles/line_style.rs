@@ -3,7 +3,7 @@
 use crate::lines::{DrawingSettings, Hidden, LineSettings};
 use crate::settings::{Setting, within};
 
-/// What settings of edges are listed under.
+/// The heading of edge settings.
 const LINES: &str = "Style lines: which lines";
 
 /// Exact visible lines.
@@ -16,7 +16,7 @@ pub struct LineStyle {
 }
 
 impl LineStyle {
-    /// The settings of the lines, then of the drawing.
+    /// Returns the settings of the lines, then of the drawing.
     pub(super) fn settings() -> Vec<Setting<Self>> {
         let lines = within(LineSettings::settings(), |style: &mut Self| Some(&mut style.lines));
         // Settings of edges have no heading here because other styles share them.

@@ -7,14 +7,14 @@ use crate::settings::{Kind, Problem, Value};
 /// How wide a line is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LineWidth {
-    /// So many pixels of the picture.
+    /// This many pixels of the picture.
     Pixels(u32),
     /// This many hundredths of the picture's height, to the nearest pixel and at least two pixels: the same drawing at every
     /// size.
     Percent(f64),
 }
 
-/// Widest line, pixels: beyond it taps miss whatever is narrower.
+/// Widest line, pixels: wider taps miss narrower features.
 const WIDEST: u32 = 64;
 
 /// Smallest width in pixels of a line given as a share of the height; narrower lines break up.
@@ -24,7 +24,7 @@ const NARROWEST_SHARE: u32 = 2;
 const LARGEST_PERCENT: f64 = 10.0;
 
 impl LineWidth {
-    /// In pixels of a picture of this size.
+    /// Returns the width in pixels of a picture of this size.
     pub fn pixels(self, picture: Size) -> u32 {
         match self {
             Self::Pixels(pixels) => pixels,

@@ -26,7 +26,7 @@ impl MapEncoding {
     pub(super) const HELP: &'static str = "Storage of normals and depth: paper, biased (0.5 n + 0.5), float16, float, \
          depth-texture (biased, depth from the depth buffer); mrt has paper only";
 
-    /// The shaders that write it.
+    /// Returns the shaders that write it.
     pub(super) fn program(self) -> Program {
         let (vertex, fragment) = match self {
             Self::Published => ("evangelista/map.vert", "evangelista/map.frag"),
@@ -61,7 +61,7 @@ impl MapEncoding {
         }
     }
 
-    /// The textures a filter reads it from.
+    /// Returns the textures that a filter reads it from.
     pub(super) fn textures(self, map_target: MapTarget) -> Vec<(&'static str, Texture)> {
         let mut textures = vec![("borderMap", map_texture(self.target(map_target)))];
         if self == Self::DepthTexture {
@@ -79,7 +79,7 @@ impl MapEncoding {
         }
     }
 
-    /// The step between the depths it tells apart.
+    /// Returns the smallest step of its depths.
     pub(super) fn depth_step(self) -> f32 {
         match self {
             Self::Published | Self::Biased => 1.0 / 255.0,
@@ -103,7 +103,7 @@ tinta_geometry::choices! {
 }
 
 impl MapTarget {
-    /// The setting of a style that has one.
+    /// Returns the setting of a style that has one.
     pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let help = "Copy the map into its texture (copy) or draw it there with a framebuffer object (texture); \
                     pictures differ by rounding only; mrt always draws it there";

@@ -28,7 +28,7 @@ pub struct Mrt {
     /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
     /// outlines. Default no.
     pub cull_back_faces: bool,
-    /// Factor by which the drawing is larger than the picture before it is shrunk. Default 1; more smooths every edge and makes
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge and makes
     /// lines finer.
     pub supersample: Supersample,
 }
@@ -56,7 +56,7 @@ impl Mrt {
             cull(|mrt: &mut Self| &mut mrt.cull_back_faces),
             Supersample::setting(|mrt: &mut Self| &mut mrt.supersample),
         ];
-        // There for who draws both: the three passes have more encodings.
+        // For callers that draw both: the three passes have more encodings.
         let encoding = Setting::of(
             "map-encoding",
             "ENCODING",
@@ -82,7 +82,7 @@ impl Mrt {
     }
 }
 
-/// The picture before its borders, then with them.
+/// The picture before and after its borders.
 const TONES: Attachment = Attachment { name: Drawn("Tones"), format: Format::Unorm8 };
 const MAP: Attachment = Attachment { name: MAP_TEXTURE, format: Format::Unorm8 };
 
@@ -98,7 +98,7 @@ const TONES_AND_MAP: Attachments = Attachments {
 const TONES_ALONE: Attachments = Attachments { colors: &[TONES], has_depth: false, ..TONES_AND_MAP };
 
 impl Mrt {
-    /// Tones and map, border blended on top.
+    /// Tones and map, with the border blended on top.
     pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
         let cartoon = self.cartoon();
         // Textures are multiplied with the tones alone, while here tones and map are drawn at once.
@@ -121,7 +121,7 @@ impl Mrt {
         Ok(self.supersample.finish(plan, scene.size))
     }
 
-    /// The three passes with the same settings.
+    /// Returns the three passes with the same settings.
     fn cartoon(&self) -> Cartoon {
         Cartoon {
             tones: self.tones.clone(),

@@ -19,7 +19,7 @@ pub struct Phong {
     /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
     /// outlines. Default no.
     pub cull_back_faces: bool,
-    /// Factor by which the drawing is larger than the picture before it is shrunk. Default 1; more smooths every edge.
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge.
     pub supersample: Supersample,
 }
 

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::{Arc, LazyLock};
 
-/// Rows of a ramp: as many as the text's picture has.
+/// Rows of a ramp, as in the text's picture.
 pub(super) const ROWS: u32 = 4;
 
 /// The light at which a gradient shows its base colour.
@@ -20,7 +20,7 @@ pub(super) const MIDDLING_LIGHT: f32 = 0.6;
 pub struct Ramp {
     /// The picture; each quarter of its height is a gradient, the first at the top.
     pub picture: Arc<Picture>,
-    /// The file it came from; `None` for the built-in one.
+    /// Its source file; `None` for the built-in one.
     pub path: Option<PathBuf>,
 }
 
@@ -63,7 +63,7 @@ impl Ramp {
 }
 
 impl Ramp {
-    /// The row whose colour in middling light is nearest.
+    /// Returns the row whose colour in middling light is nearest.
     pub(super) fn nearest_row(&self, color: Color) -> u32 {
         let Size { width, height } = self.picture.size;
         let distance = |row: &u32| {
@@ -84,7 +84,7 @@ impl Value for Ramp {
         Kind::File
     }
 
-    /// A ramp that is from no file has none.
+    /// A ramp without a file has no text.
     fn text(&self) -> String {
         match &self.path {
             Some(path) => path.to_string_lossy().into_owned(),
@@ -123,7 +123,7 @@ impl Value for RampRow {
     }
 }
 
-/// Which gradient a surface gets.
+/// The gradient that a surface gets.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum RampRow {
     /// Each material the one nearest to its colour; without a colour the first.
@@ -167,7 +167,7 @@ pub(super) const WIDTH: u32 = 256;
 
 fn built_in() -> Picture {
     let size = Size { width: WIDTH, height: 64 };
-    // All lines of a gradient are the same.
+    // All rows of a gradient are equal.
     let lines = |base: &[f32; 3]| gradient(*base).repeat((size.height / ROWS) as usize);
     Picture { size, pixels: BASES.iter().flat_map(lines).collect() }
 }

@@ -17,9 +17,9 @@ pub struct StyleInfo {
     pub shows: &'static [Show],
     /// Where it comes from.
     pub origin: Origin,
-    /// Its mark in plots; without one a grey circle.
+    /// Its mark in plots; `None` for a grey circle.
     pub mark: Option<Mark>,
-    /// Whether it draws exact lines, which need no OpenGL, and no passes.
+    /// Whether it draws exact lines, without OpenGL or passes.
     pub draws_lines: bool,
     /// The style with the published settings.
     pub(super) published: fn() -> Style,
@@ -27,7 +27,7 @@ pub struct StyleInfo {
     pub(super) settings: fn() -> Vec<Setting<Style>>,
 }
 
-/// How a style with the settings `S` draws.
+/// The way a style with the settings `S` draws.
 pub(super) enum Draw<S> {
     /// In passes, by OpenGL.
     Plan(fn(&S, &Scene, Show) -> Result<Plan>),
@@ -35,10 +35,10 @@ pub(super) enum Draw<S> {
     Lines(fn(&S) -> LineStyle),
 }
 
-/// Where a style comes from.
+/// The origin of a style.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
-    /// A text of this year, with the values that are the defaults.
+    /// A text of this year, whose values are the defaults.
     Published(u16),
     /// A text that names it without values.
     Named,
@@ -65,10 +65,10 @@ pub enum Outline {
     Polygon {
         /// How many corners.
         corners: usize,
-        /// Of the first corner from the top, radians.
+        /// Angle of the first corner from the top, radians.
         turn: f64,
     },
-    /// A star of five points.
+    /// A five-pointed star.
     Star,
 }
 

@@ -17,7 +17,7 @@ type Tone = [u8; 3];
 /// An object's faces by their tone.
 type ByTone = Arc<BTreeMap<Tone, Arc<FaceList>>>;
 
-/// Each vertex's tone as a colour: red, green, blue, alpha.
+/// Returns each vertex's tone as a colour: red, green, blue, alpha.
 pub(super) fn vertex_colors(gradients: &Gradients<'_>) -> VertexLists<[f32; 4]> {
     let coordinates = gradients.coordinates(true);
     gradients.of_objects(|number, _| {
@@ -37,7 +37,7 @@ pub(super) fn faces_by_tone(scene: &Scene, gradients: &Gradients<'_>) -> Vec<([f
     tones.iter().map(|tone| (opaque(*tone), Arc::new(faces(tone)))).collect()
 }
 
-/// An object's faces by tone, each list in drawing order.
+/// Returns an object's faces by tone, each list in drawing order.
 fn of_object(scene: &Scene, light: Light, gradients: &Gradients<'_>, number: usize, object: &Object) -> ByTone {
     let (mesh, arrays) = (&object.mesh, scene.arrays(object));
     let mut lists: BTreeMap<Tone, FaceList> = BTreeMap::new();

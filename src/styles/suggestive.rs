@@ -15,7 +15,7 @@ use crate::settings::{Setting, under, within};
 /// Settings of `suggestive`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Suggestive {
-    /// Whether lines are drawn at all. Default yes.
+    /// Whether to draw lines. Default yes.
     pub is_inked: bool,
     /// Radius of the neighbourhood that a pixel is compared with, 1 to 16. Default 5 pixels; more finds wider valleys, draws
     /// wider lines and takes longer by its square.
@@ -27,9 +27,9 @@ pub struct Suggestive {
     pub least_depth: f32,
     /// The tones below. Default those of the three passes.
     pub tones: Tones,
-    /// Whether faces turned away from the eye are left out. Default no.
+    /// Whether to skip faces turned away from the eye. Default no.
     pub cull_back_faces: bool,
-    /// Factor by which the drawing is larger than the picture before it is shrunk. Default 1; more smooths every edge.
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge.
     pub supersample: Supersample,
 }
 
@@ -47,7 +47,7 @@ impl Default for Suggestive {
     }
 }
 
-/// Largest radius, pixels of the picture: nine hundred reads a pixel.
+/// Largest radius, pixels of the picture: 900 reads per pixel.
 const LARGEST_RADIUS: u32 = 16;
 
 impl Suggestive {
@@ -136,7 +136,7 @@ impl Suggestive {
         self.tones.check()
     }
 
-    /// Each pixel's cosine between normal and view.
+    /// Draws each pixel's cosine between normal and view.
     fn shade_pass(&self, is_read: bool) -> Pass {
         let program = Program { vertex: "dietrich/dietrich.vert", fragments: vec!["improved/facing.frag"] };
         let objects = Draw {
@@ -144,7 +144,7 @@ impl Suggestive {
             facts: Facts::plain(),
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
-        // The ground is as bright as can be, and not marked as surface.
+        // The ground has full brightness and is not marked as surface.
         let mut steps = vec![Step::clear([1.0, 1.0, 0.0, 0.0]), Step::Draw(objects)];
         if is_read {
             steps.push(Step::CopyFramebuffer);
@@ -168,7 +168,7 @@ impl Suggestive {
             depth: Depth::Ignore,
             facts: Facts {
                 reach_px: Some(radius + 1),
-                // It leaves out the pixels that are not inked.
+                // It discards pixels without ink.
                 keeps_pixels: false,
                 where_even: Some(WhereEven::Unchanged),
                 ..Facts::plain()

@@ -5,7 +5,7 @@ use crate::scene::Size;
 use crate::settings::Setting;
 
 tinta_geometry::choices! {
-    /// How many times as wide and high as the picture it is drawn.
+    /// The factor from the picture's sides to the drawing's.
     #[derive(Default)]
     pub enum Supersample {
         /// As large as the picture, as published.
@@ -24,7 +24,7 @@ impl Supersample {
     /// The setting's help text.
     pub(super) const HELP: &'static str = "Smooth edges: draw 1 to 4 times larger and shrink";
 
-    /// The setting of a style that always has a factor.
+    /// Returns the setting of a style that always has a factor.
     pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         Setting::field("supersample", "N", Self::HELP, field)
             .ours("no text draws larger than its picture")
@@ -74,7 +74,7 @@ impl Supersample {
     }
 }
 
-/// How far apart the texels of a texture of this size are.
+/// Returns the distance between texels of a texture of this size.
 pub(super) fn texture_unit(size: Size) -> Uniform {
     Uniform { name: "textureUnit", value: Value::texel_size(size) }
 }

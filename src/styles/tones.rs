@@ -22,7 +22,7 @@ pub struct Tones {
 }
 
 tinta_geometry::choices! {
-    /// How a tone is found from the light.
+    /// The way a tone is found from the light.
     pub enum ToneLookup {
         /// By comparing with the thresholds, as in the listing.
         Steps = "steps",
@@ -88,7 +88,7 @@ impl Default for Tones {
     }
 }
 
-/// A threshold no light reaches: light values end at 1.
+/// A threshold above all light values, which end at 1.
 const NEVER: f32 = 2.0;
 
 /// The part that compares both kinds of light with their thresholds.
@@ -136,7 +136,7 @@ impl Tones {
         }
     }
 
-    /// The fragment shader that finds the tones.
+    /// Returns the fragment shader that finds the tones.
     pub(super) fn shader(&self) -> &'static str {
         match self.lookup {
             ToneLookup::Steps => STEPS,
@@ -178,7 +178,7 @@ impl Tones {
         }
     }
 
-    /// The textures it reads.
+    /// Returns the textures it reads.
     pub(super) fn textures(&self) -> Vec<(&'static str, Texture)> {
         match self.lookup {
             ToneLookup::Steps => Vec::new(),

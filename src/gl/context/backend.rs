@@ -1,4 +1,4 @@
-//! The ways to a context, and what came of those tried.
+//! The ways to a context, and the outcomes of attempts.
 
 use super::ContextInfo;
 use serde::Serialize;
@@ -17,26 +17,26 @@ tinta_geometry::choices! {
         Egl = "egl",
         /// EGL on Mesa's surfaceless platform: another screen of the same driver, for two contexts that need not take turns.
         Surfaceless = "surfaceless",
-        /// Mesa's off-screen library, which Mesa has no more since 25.1.
+        /// Mesa's off-screen library; Mesa 25.1 removed it.
         OsMesa = "osmesa",
-        /// Windows' own, beside a window that is never shown.
+        /// Windows' own, with a hidden window.
         Wgl = "wgl",
         /// That of macOS.
         Cgl = "cgl",
     }
 }
 
-/// One way that was tried.
+/// An attempt to open a context.
 #[derive(Debug, Clone, Serialize)]
 pub struct Attempt {
-    /// The library, and the device where there is a choice.
+    /// The library, and the device if there are several.
     pub device: String,
     /// The result: the context, or the reason for its failure.
     #[serde(flatten)]
     pub outcome: Outcome,
 }
 
-/// What came of an attempt.
+/// The outcome of an attempt.
 #[derive(Debug, Clone, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {

@@ -16,7 +16,7 @@ use web_sys::{HtmlCanvasElement, WebGlContextAttributes, WebGlRenderingContext};
 /// Debugging's name of the renderer behind WebGL, WEBGL_debug_renderer_info.
 const UNMASKED_RENDERER: u32 = 0x9246;
 
-/// A canvas and what draws into it.
+/// A canvas and its context.
 pub(crate) struct Context {
     canvas: HtmlCanvasElement,
     gl: Rc<Gl>,
@@ -32,7 +32,7 @@ impl Drop for Current<'_> {
     fn drop(&mut self) {}
 }
 
-/// No context is opened without a canvas.
+/// Without a canvas no context opens.
 pub fn attempts(_: Backend) -> Vec<Attempt> {
     Vec::new()
 }
@@ -43,7 +43,7 @@ pub fn witnesses() -> [Backend; 2] {
 }
 
 impl Context {
-    /// Refused: a page gives its canvas.
+    /// Returns an error, because a page provides its canvas.
     pub(crate) fn open(_: Backend, _: Option<Fault>) -> Result<Self> {
         let attempts = vec!["WebGL: it needs a canvas; use Renderer::on_canvas".to_owned()];
         Err(Error::NoContext { attempts })
@@ -54,7 +54,7 @@ impl Context {
         None
     }
 
-    /// That of a canvas, which must not have another.
+    /// Opens the context of a canvas that has no other.
     pub(crate) fn on_canvas(canvas: HtmlCanvasElement) -> Result<Self> {
         let refused = |reason: &str| Error::NoContext { attempts: vec![format!("WebGL: {reason}")] };
         let attributes = WebGlContextAttributes::new();
@@ -111,7 +111,7 @@ impl Context {
         }
     }
 
-    /// Nothing has to be done for it to be current.
+    /// A canvas's context is already current.
     pub(crate) fn enter(&self) -> Result<Current<'_>> {
         Ok(Current { _context: self })
     }
@@ -133,7 +133,7 @@ fn load(raw: WebGlRenderingContext) -> std::result::Result<Gl, String> {
     let has_halves = ["OES_texture_half_float", "EXT_color_buffer_half_float"].iter().all(|name| turn_on(&raw, name));
     turn_on(&raw, "EXT_float_blend");
     turn_on(&raw, "OES_standard_derivatives");
-    // SAFETY: these are questions that every WebGL context answers.
+    // SAFETY: every WebGL context answers these queries.
     let (text, integer) =
         unsafe { (|name: u32| glow.get_parameter_string(name), |name: u32| glow.get_parameter_i32(name)) };
     let (mut viewport, mut line_width) = ([0; 2], [0.0; 2]);
@@ -182,7 +182,7 @@ fn load(raw: WebGlRenderingContext) -> std::result::Result<Gl, String> {
     Ok(gl)
 }
 
-/// Turns an extension on; whether there is such a one.
+/// Turns an extension on; returns whether it exists.
 fn turn_on(raw: &WebGlRenderingContext, name: &str) -> bool {
     raw.get_extension(name).is_ok_and(|extension| extension.map(JsValue::from).is_some())
 }

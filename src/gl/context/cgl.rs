@@ -16,7 +16,7 @@ type CreateContext = unsafe extern "C" fn(Handle, Handle, *mut Handle) -> i32;
 type Destroy = unsafe extern "C" fn(Handle) -> i32;
 type ErrorString = unsafe extern "C" fn(i32) -> *const c_char;
 
-/// Where the system has it, whether or not there is a file.
+/// The system's path of it, which need not exist as a file.
 const LIBRARY: &str = "/System/Library/Frameworks/OpenGL.framework/OpenGL";
 
 const COLOR_SIZE: i32 = 8;
@@ -26,7 +26,7 @@ const ALLOW_OFFLINE_RENDERERS: i32 = 96;
 const OPENGL_PROFILE: i32 = 99;
 const LEGACY_PROFILE: i32 = 0x1000;
 
-/// The library and the functions of it used here.
+/// The library and its functions used here.
 struct Cgl {
     library: &'static Library,
     choose_pixel_format: ChoosePixelFormat,
@@ -47,7 +47,7 @@ impl Cgl {
         // SAFETY: loading the system's OpenGL runs its initialisers, which have no preconditions.
         let library = unsafe { Library::new(LIBRARY) };
         let library = library.map_err(|error| format!("the library cannot be loaded ({error})"))?;
-        // It stays for the life of the process.
+        // Never unloaded.
         let library: &'static Library = Box::leak(Box::new(library));
         let find = |name: &CStr| {
             // SAFETY: this looks the symbol up without calling it.
@@ -134,7 +134,7 @@ impl Platform for CglContext {
     }
 
     fn release(&self) {
-        // SAFETY: no context: the system lets go of this one.
+        // SAFETY: no context: the system releases this one.
         unsafe { (self.cgl.set_current_context)(ptr::null_mut()) };
     }
 
@@ -155,7 +155,7 @@ impl Platform for CglContext {
 
 impl Drop for CglContext {
     fn drop(&mut self) {
-        // SAFETY: the context is alive and, its guards being gone, not current.
+        // SAFETY: the context is alive and, without guards, not current.
         unsafe { (self.cgl.destroy_context)(self.context) };
     }
 }

@@ -8,10 +8,10 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Held by the context that is at work, of those of one screen.
+/// The lock that a working context of a screen holds.
 pub(super) struct ContextLock(Mutex<()>);
 
-/// Until it is dropped, no other context of the screen is at work.
+/// A guard that keeps the screen's other contexts waiting.
 pub(super) struct ContextGuard {
     _guard: MutexGuard<'static, ()>,
 }
@@ -19,7 +19,7 @@ pub(super) struct ContextGuard {
 /// The lock of EGL's software device; Mesa has one.
 pub(super) static OF_EGL: ContextLock = ContextLock(Mutex::new(()));
 
-/// Those of EGL's surfaceless platform, whose screen is another one.
+/// The lock of EGL's surfaceless platform, which has a separate screen.
 #[cfg(all(unix, not(target_os = "macos")))]
 pub(super) static OF_SURFACELESS: ContextLock = ContextLock(Mutex::new(()));
 
@@ -35,7 +35,7 @@ pub(super) static OF_CGL: ContextLock = ContextLock(Mutex::new(()));
 pub(super) static OF_OSMESA: ContextLock = ContextLock(Mutex::new(()));
 
 impl ContextLock {
-    /// Waits for the lock. A thread that holds it must not ask for it again.
+    /// Waits for the lock. A thread must not lock it twice.
     pub(super) fn lock(&'static self) -> ContextGuard {
         // The lock guards no data that a panic could leave half done.
         ContextGuard { _guard: self.0.lock().unwrap_or_else(PoisonError::into_inner) }

@@ -22,7 +22,7 @@ use std::rc::Rc;
 /// The OpenGL version requested for contexts.
 pub(super) const VERSION: (u8, u8) = (2, 1);
 
-/// One that no driver has, for [`Fault::ContextRefused`].
+/// A version that no driver has, for [`Fault::ContextRefused`].
 const NO_VERSION: (u8, u8) = (9, 9);
 
 /// A context with its loaded functions; current on this thread only from [`Context::enter`] until its guard is dropped.
@@ -40,14 +40,14 @@ type Open = Box<dyn FnOnce((u8, u8)) -> std::result::Result<Box<dyn Platform>, S
 /// A way not yet tried.
 struct Candidate {
     backend: &'static str,
-    /// For people: the library, and the device where there is a choice.
+    /// The name to display: the library, and the device if there are several.
     name: String,
     lock: &'static ContextLock,
     open: Open,
 }
 
 impl Candidate {
-    /// The ways of this backend on this system, in the order they are tried.
+    /// This backend's ways on this system, in the order they are tried.
     fn all(backend: Backend) -> Vec<Self> {
         let is_wanted = |one: Backend| backend == one || backend == Backend::Auto;
         let mut candidates = Vec::new();
@@ -104,7 +104,7 @@ impl Candidate {
 
     fn open(self, fault: Option<Fault>) -> std::result::Result<Context, String> {
         let version = if fault == Some(Fault::ContextRefused) { NO_VERSION } else { VERSION };
-        // Whether the context is software's is known only when it is there.
+        // Only an open context shows whether it is software.
         let _guard = self.lock.lock();
         let platform = (self.open)(version)?;
         Context::load(platform, self.backend, self.name, fault, self.lock)
@@ -115,7 +115,7 @@ fn boxed(context: impl Platform + 'static) -> Box<dyn Platform> {
     Box::new(context)
 }
 
-/// Tries every way of this backend and tells what came of each.
+/// Tries every way of this backend and returns each outcome.
 pub fn attempts(backend: Backend) -> Vec<Attempt> {
     each(backend)
         .map(|(device, opened)| {
@@ -203,7 +203,7 @@ impl Context {
         Ok(Self { platform: ManuallyDrop::new(platform), gl: Rc::new(gl), faults, lock })
     }
 
-    /// Waits until no other context of the same screen is at work.
+    /// Waits until other contexts of the same screen are idle.
     fn lock_context(&self) -> Option<ContextGuard> {
         self.lock.map(ContextLock::lock)
     }
@@ -258,15 +258,15 @@ impl Context {
 impl Drop for Context {
     fn drop(&mut self) {
         let _guard = self.lock_context();
-        // SAFETY: it is dropped here alone, and nothing uses it afterwards.
+        // SAFETY: only this code drops it, and later code does not use it.
         unsafe { ManuallyDrop::drop(&mut self.platform) };
     }
 }
 
-/// While it lives its context is current.
+/// A guard that keeps its context current.
 pub(crate) struct Current<'a> {
     platform: &'a dyn Platform,
-    /// Ends after the context has been released, below.
+    /// Dropped after the context has been released, below.
     _guard: Option<ContextGuard>,
 }
 

@@ -34,7 +34,7 @@ const FUNCTIONS: [&CStr; 15] = [
     c"eglTerminate",
 ];
 
-/// Makes sure that the library is there and is EGL, once.
+/// Checks once that the library exists and is EGL.
 pub(super) fn check_library() -> Result<(), String> {
     static CHECKED: OnceLock<Result<(), String>> = OnceLock::new();
     let check = || {
@@ -42,7 +42,7 @@ pub(super) fn check_library() -> Result<(), String> {
         for name in LIBRARIES {
             // SAFETY: loading EGL runs its initialisers, which have no preconditions.
             let library = match unsafe { Library::new(name) } {
-                // It stays for the life of the process, as glutin's own.
+                // Never unloaded, like glutin's own.
                 Ok(library) => Box::leak(Box::new(library)),
                 Err(error) => {
                     reasons.push(error.to_string());
@@ -68,7 +68,7 @@ pub(super) struct Device {
     pub name: String,
 }
 
-/// The devices, hardware before software.
+/// Returns the devices, hardware before software.
 pub(super) fn devices() -> Result<Vec<Device>, String> {
     check_library()?;
     let found = device::Device::query_devices().map_err(|error| format!("no devices ({error})"))?;
@@ -103,7 +103,7 @@ pub(super) fn open(device: &Device, version: (u8, u8)) -> Result<Pbuffer<()>, St
     Pbuffer::open(makes, version, largest_surface, ())
 }
 
-/// What EGL says of the sides of pbuffers.
+/// Returns EGL's limits for the sides of pbuffers.
 fn largest_surface(display: &glutin::display::Display, config: &glutin::config::Config) -> Size {
     // On other systems displays and configs have further kinds; these are EGL's.
     #[cfg_attr(not(windows), expect(irrefutable_let_patterns, reason = "EGL is all there is"))]

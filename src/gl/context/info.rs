@@ -3,7 +3,7 @@
 use crate::scene::Size;
 use serde::Serialize;
 
-/// Fewest bits of the framebuffer's alpha: it holds the map's depth.
+/// Fewest bits of the framebuffer's alpha, which holds the map's depth.
 const ALPHA_BITS: i32 = 8;
 
 /// Smallest depth buffer, bits: with fewer, surfaces of a fitted scene show through each other.
@@ -21,9 +21,9 @@ pub fn is_software(renderer: &str) -> bool {
 /// The properties that a context reports.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ContextInfo {
-    /// `egl`, `surfaceless`, `osmesa`, `wgl` or `cgl`, in a browser `webgl`.
+    /// `egl`, `surfaceless`, `osmesa`, `wgl` or `cgl`; in a browser `webgl`.
     pub backend: &'static str,
-    /// The library, and the device where there is a choice.
+    /// The library, and the device if there are several.
     pub device: String,
     /// GL_VENDOR
     pub vendor: String,
@@ -47,7 +47,7 @@ pub struct ContextInfo {
     pub smooth_point_size: [f32; 2],
     /// Largest width and height of a texture, pixels.
     pub largest_texture: u32,
-    /// How many textures a fragment shader can read; OpenGL 2.1 promises 2.
+    /// Number of textures a fragment shader can read; OpenGL 2.1 promises 2.
     pub texture_units: u32,
     /// Largest picture in one piece, pixels: the smallest of viewport, texture and surface limits. Larger ones are drawn in tiles.
     pub largest_picture: Size,
@@ -55,7 +55,7 @@ pub struct ContextInfo {
     pub largest_viewport: Size,
     /// Whether passes can draw into textures (ARB_framebuffer_object).
     pub framebuffer_objects: bool,
-    /// Into how many of them at once (ARB_draw_buffers).
+    /// Number of textures that a pass can draw into at once (ARB_draw_buffers).
     pub draw_buffers: u32,
     /// Whether passes can draw into floating-point textures.
     pub float_targets: bool,

@@ -15,7 +15,7 @@ use std::cell::{Cell, RefCell};
 use std::ffi::CStr;
 use std::rc::Rc;
 
-/// The two numbers a GL_VERSION begins with.
+/// Returns the two numbers at the start of a GL_VERSION.
 fn version_numbers(version: &str) -> Option<(u32, u32)> {
     let mut numbers = version.split(['.', ' ']).map(|number| number.parse().ok());
     Some((numbers.next()??, numbers.next()??))
@@ -43,7 +43,7 @@ pub(super) fn load_functions(
     }
     // SAFETY: as above.
     let glow = unsafe { glow::Context::from_loader_function_cstr(load) };
-    // Before the questions about the framebuffer.
+    // Before the queries about the framebuffer.
     #[cfg(any(target_os = "macos", test))]
     let own_surface = platform.lacks_surface().then(|| SurfaceFramebuffer::new(&glow)).transpose()?;
     let has = |name: &str| glow.supported_extensions().contains(name);

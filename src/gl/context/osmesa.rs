@@ -15,7 +15,7 @@ type MakeCurrent = unsafe extern "system" fn(Handle, *mut c_void, u32, i32, i32)
 type GetInteger = unsafe extern "system" fn(i32, *mut i32);
 type GetProcAddress = unsafe extern "system" fn(*const c_char) -> *const c_void;
 
-/// The functions of the library used here.
+/// The library's functions used here.
 struct Functions {
     /// The library's file name.
     library: &'static str,
@@ -26,7 +26,7 @@ struct Functions {
     get_proc_address: GetProcAddress,
 }
 
-/// Its names, as Mesa's makers and packagers have them.
+/// Its file names from Mesa and from packagers.
 #[cfg(windows)]
 const LIBRARIES: [&str; 1] = ["osmesa.dll"];
 #[cfg(target_os = "macos")]
@@ -50,7 +50,7 @@ fn asked_driver() -> Option<String> {
     std::env::var_os("GALLIUM_DRIVER").map(|name| name.to_string_lossy().into_owned())
 }
 
-/// For people: OSMesa and the library it is.
+/// The name to display: OSMesa and its library.
 pub(super) fn name() -> String {
     functions().map_or("OSMesa".to_owned(), |functions| format!("OSMesa {}", functions.library))
 }
@@ -60,7 +60,7 @@ fn load() -> Result<Functions, String> {
     for name in LIBRARIES {
         // SAFETY: loading Mesa runs its initialisers, which have no preconditions.
         match unsafe { Library::new(name) } {
-            // The library stays for the life of the process.
+            // The library is never unloaded.
             Ok(library) => return find_functions(name, Box::leak(Box::new(library))),
             Err(error) => reasons.push(error.to_string()),
         }
@@ -117,7 +117,7 @@ pub(super) struct OsMesaContext {
     size: Size,
     /// RGBA8, bottom row first; Mesa writes here whenever the context is flushed while current.
     memory: RefCell<Vec<u32>>,
-    /// The size it was last made current with.
+    /// The size at which it was last made current.
     made_current: Cell<Size>,
 }
 
@@ -132,7 +132,7 @@ struct SmallBlocks {
 }
 
 impl SmallBlocks {
-    /// The record has 56 bytes in Mesa 22.3, eight more or less in others.
+    /// The record has 56 bytes in Mesa 22.3; other versions differ by eight.
     const BYTES: [usize; 4] = [40, 56, 72, 88];
 
     /// More than the most blocks ever found free, because other lists refill the first one.
@@ -190,7 +190,7 @@ impl Platform for OsMesaContext {
     }
 
     fn release(&self) {
-        // SAFETY: no context, no memory: Mesa flushes and lets go of both.
+        // SAFETY: no context, no memory: Mesa flushes and releases both.
         unsafe { (self.functions.make_current)(ptr::null_mut(), ptr::null_mut(), glow::UNSIGNED_BYTE, 0, 0) };
     }
 
@@ -214,7 +214,7 @@ impl Platform for OsMesaContext {
 
 impl Drop for OsMesaContext {
     fn drop(&mut self) {
-        // SAFETY: the context is alive and, its guards being gone, not current.
+        // SAFETY: the context is alive and, without guards, not current.
         unsafe { (self.functions.destroy_context)(self.context) };
     }
 }

@@ -17,7 +17,7 @@ use std::num::NonZeroU32;
 /// The objects that a context is made from.
 pub(super) struct Makes {
     pub display: Display,
-    /// A window that the context is made for, alive as long as the context.
+    /// The window that the context is made for, alive as long as the context.
     pub window: Option<RawWindowHandle>,
     pub surfaces: ConfigSurfaceTypes,
     /// The hint for the error where pbuffers are missing.

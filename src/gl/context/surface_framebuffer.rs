@@ -32,7 +32,7 @@ impl SurfaceFramebuffer {
         Ok(made)
     }
 
-    /// Makes it this large and leaves it bound; the context is current.
+    /// Resizes it and leaves it bound; the context is current.
     pub(in crate::gl) fn resize(&self, gl: &glow::Context, size: Size) -> Result<(), String> {
         let (width, height) = (size.width as i32, size.height as i32);
         // SAFETY: the context is current, and both buffers are alive and this framebuffer's.

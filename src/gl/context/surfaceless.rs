@@ -65,7 +65,7 @@ struct Egl {
 
 // SAFETY: EGL's functions may be called from any thread, and the display is one of its names.
 unsafe impl Send for Egl {}
-// SAFETY: as above; nothing here changes.
+// SAFETY: as above; this code changes no fields.
 unsafe impl Sync for Egl {}
 
 fn opened() -> Result<&'static Egl, String> {
@@ -76,7 +76,7 @@ fn opened() -> Result<&'static Egl, String> {
 impl Egl {
     fn open() -> Result<Self, String> {
         egl::check_library()?;
-        // SAFETY: it is loaded already, and stays for the life of the process.
+        // SAFETY: it is loaded already and never unloaded.
         let library = egl::LIBRARIES.iter().find_map(|name| unsafe { Library::new(name) }.ok());
         let library: &'static Library = Box::leak(Box::new(library.ok_or("the library cannot be loaded")?));
         let find = |name: &CStr| {
@@ -126,9 +126,9 @@ impl Egl {
         }
     }
 
-    /// What failed, with EGL's number for it.
+    /// Returns an error text with EGL's number.
     fn failed(&self, what: &str) -> String {
-        // SAFETY: asking for this thread's last error has no preconditions.
+        // SAFETY: a query of this thread's last error has no preconditions.
         format!("{what} failed (0x{:X})", unsafe { (self.get_error)() })
     }
 
@@ -229,13 +229,13 @@ impl Platform for SurfacelessContext {
         if made != 0 {
             return Ok(());
         }
-        // SAFETY: asking for this thread's last error has no preconditions.
+        // SAFETY: a query of this thread's last error has no preconditions.
         let error = unsafe { (self.egl.get_error)() };
         Err(NotCurrent { is_lost: error == CONTEXT_LOST, reason: format!("it cannot be made current (0x{error:X})") })
     }
 
     fn release(&self) {
-        // SAFETY: no surface and no context: EGL lets go of both.
+        // SAFETY: no surface and no context: EGL releases both.
         unsafe { (self.egl.make_current)(self.egl.display, ptr::null_mut(), ptr::null_mut(), ptr::null_mut()) };
     }
 
@@ -258,7 +258,7 @@ impl Platform for SurfacelessContext {
 impl Drop for SurfacelessContext {
     fn drop(&mut self) {
         self.destroy_surface();
-        // SAFETY: the context is alive and, its guards being gone, not current.
+        // SAFETY: the context is alive and, without guards, not current.
         unsafe { (self.egl.destroy_context)(self.egl.display, self.context) };
     }
 }

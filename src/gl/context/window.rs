@@ -21,10 +21,10 @@ use winit::event_loop::ActiveEventLoop;
 use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::{Window, WindowAttributes};
 
-/// Behind everything, where egui paints nothing.
+/// The colour behind everything, where egui paints nothing.
 const GROUND: [f32; 4] = [0.2, 0.2, 0.2, 1.0];
 
-/// The window's context, its surface, and what paints into it.
+/// The window's context, its surface, and its painter.
 pub(crate) struct WindowGl {
     // Dropped in this order, each before the object it was made from.
     painter: egui_glow::Painter,
@@ -39,9 +39,9 @@ pub(crate) struct WindowGl {
 pub(crate) struct Shapes {
     /// The shapes to paint.
     pub primitives: Vec<egui::ClippedPrimitive>,
-    /// Textures to be made, changed and let go of.
+    /// Textures to make, change and release.
     pub textures: egui::TexturesDelta,
-    /// Pixels of the window to one of egui's points.
+    /// The window's pixels per egui point.
     pub pixels_per_point: f32,
 }
 
@@ -167,7 +167,7 @@ impl WindowGl {
 impl Drop for WindowGl {
     fn drop(&mut self) {
         let _guard = self.lock.map(ContextLock::lock);
-        // Without its context the driver has let go of its objects already.
+        // Without its context the driver has already released its objects.
         if self.context.make_current(&self.surface).is_ok() {
             self.painter.destroy();
             self.release();

@@ -9,26 +9,26 @@ use std::rc::Rc;
 /// The kind of GL call that a stand-in replaces.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Call {
-    /// Takes memory on the device.
+    /// A call that allocates device memory.
     Allocation,
     /// A call that changes the picture.
     Drawing,
-    /// Does nothing once the context is lost.
+    /// A call that does nothing once the context is lost.
     Other,
 }
 
-/// A context's fault and how far it has come.
+/// A context's fault and its progress.
 pub(in crate::gl) struct Faults {
     fault: Fault,
     counted: Cell<u32>,
-    /// What glGetError says next before it asks the driver.
+    /// The error that glGetError returns next, before it asks the driver.
     pending: Cell<u32>,
     /// The driver's own functions.
     real: RefCell<HashMap<CString, *const c_void>>,
 }
 
 thread_local! {
-    /// Those of the context that is current on this thread.
+    /// The faults of the context that is current on this thread.
     static CURRENT: RefCell<Option<Rc<Faults>>> = const { RefCell::new(None) };
 }
 
@@ -60,7 +60,7 @@ impl Faults {
         matches!(self.fault, Fault::ContextLost { after } | Fault::ContextReset { after } if self.counted.get() > after)
     }
 
-    /// Counts a call; whether the driver gets it.
+    /// Counts a call; returns whether it reaches the driver.
     fn allows(&self, call: Call) -> bool {
         let count = || self.counted.set(self.counted.get().saturating_add(1));
         match self.fault {

@@ -12,7 +12,7 @@ use wasm_bindgen::{JsCast, JsValue};
 use web_sys::js_sys::Array;
 use web_sys::{WebGlRenderingContext, WebglDrawBuffers};
 
-/// Draws without a program are drawn by the shaders in `glsl/fixed/`.
+/// The shaders in `glsl/fixed/` draw steps without a program.
 pub(in crate::gl) const HAS_PIPELINE: bool = false;
 
 /// Whether the depth buffer can be copied into a texture.
@@ -24,7 +24,7 @@ pub(in crate::gl) const TABLE_TARGET: u32 = glow::TEXTURE_2D;
 /// Luminance and alpha, 8 bits each.
 pub(in crate::gl) const TABLE_TEXELS: u32 = super::LUMINANCE_ALPHA;
 
-/// Pictures, 8 bits a channel, in the form they are handed over.
+/// The format of uploaded pictures, 8 bits a channel.
 pub(in crate::gl) const PICTURE_TEXELS: u32 = glow::RGBA;
 
 /// Whether a texture that repeats has to have powers of two for sides.
@@ -40,13 +40,13 @@ pub(in crate::gl) const DRAWN_TEXELS: [(u32, u32); 3] =
 /// A depth buffer of 24 bits, and its attachment point: WebGL has them only with a stencil.
 pub(in crate::gl) const DEPTH_BUFFER: (u32, u32) = (glow::DEPTH_STENCIL, glow::DEPTH_STENCIL_ATTACHMENT);
 
-/// The attributes' places, in the order of [`ATTRIBUTES`].
+/// The attributes' locations, in the order of [`ATTRIBUTES`].
 const VERTEX: u32 = 0;
 const NORMAL: u32 = 1;
 const COLOR: u32 = 2;
 const COORDINATES: u32 = 3;
 
-/// Where a program has [`UNIFORMS`].
+/// The locations of [`UNIFORMS`] in a program.
 type Locations = [Option<glow::UniformLocation>; UNIFORMS.len()];
 
 /// The pipeline's state.
@@ -195,7 +195,7 @@ impl Legacy {
     /// None; the driver's twin calls the driver.
     pub(in crate::gl) unsafe fn point_size(&self, _: f32) {}
 
-    /// Gives the attributes their places.
+    /// Sets the attributes' locations.
     pub(in crate::gl) fn before_linking(&self, gl: &glow::Context, program: glow::Program) {
         for (place, (.., name)) in (0..).zip(ATTRIBUTES) {
             // SAFETY: the context is current, the program alive.
@@ -268,7 +268,7 @@ impl Legacy {
         }
     }
 
-    /// Binds indices for at least so many squares.
+    /// Binds indices for at least this many squares.
     unsafe fn bind_squares(&self, gl: &glow::Context, count: u32) {
         let present = self.squares.get().filter(|(_, reach)| *reach >= count);
         // SAFETY: the caller's promise: the context is current.
@@ -299,7 +299,7 @@ impl Legacy {
         let (view_from_object, clip_from_view) = (self.view_from_object.get(), self.clip_from_view.get());
         let normal = Mat3::from_mat4(view_from_object).as_dmat3().inverse().transpose().as_mat3();
         let [model_view, projection, both, normals] = &*locations;
-        // SAFETY: as above; a uniform that the program has not is not set.
+        // SAFETY: as above; uniforms that the program lacks are skipped.
         unsafe {
             gl.uniform_matrix_4_f32_slice(model_view.as_ref(), false, view_from_object.as_ref());
             gl.uniform_matrix_4_f32_slice(projection.as_ref(), false, clip_from_view.as_ref());
@@ -308,7 +308,7 @@ impl Legacy {
         }
     }
 
-    /// A program is gone, and its name may be another's.
+    /// Forgets a deleted program, whose name may be reused.
     pub(in crate::gl) fn program_deleted(&self, program: glow::Program) {
         self.locations.borrow_mut().remove(&program);
     }

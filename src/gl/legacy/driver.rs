@@ -4,7 +4,7 @@ use super::FIXED_UNITS;
 use glow::HasContext;
 use std::ffi::{CStr, c_char, c_void};
 
-/// Draws without a program are the pipeline's.
+/// The pipeline draws steps without a program.
 pub(in crate::gl) const HAS_PIPELINE: bool = true;
 
 /// Whether the depth buffer can be copied into a texture.
@@ -26,7 +26,7 @@ pub(in crate::gl) const REPEATS_POWERS_OF_TWO_ONLY: bool = false;
 pub(in crate::gl) const DRAWN_TEXELS: [(u32, u32); 3] =
     [(glow::RGBA8, glow::UNSIGNED_BYTE), (glow::RGBA16F, glow::FLOAT), (glow::RGBA32F, glow::FLOAT)];
 
-/// A depth buffer of 24 bits, and where it is attached.
+/// A depth buffer of 24 bits, and its attachment point.
 pub(in crate::gl) const DEPTH_BUFFER: (u32, u32) = (glow::DEPTH_COMPONENT24, glow::DEPTH_ATTACHMENT);
 
 /// `GL_SMOOTH_LINE_WIDTH_RANGE`
@@ -62,7 +62,7 @@ type PointSize = unsafe extern "system" fn(f32);
 type GetString = unsafe extern "system" fn(u32) -> *const c_char;
 type ResetStatus = unsafe extern "system" fn() -> u32;
 
-/// The functions, each of the type the specification gives it.
+/// The functions, each with the type of the specification.
 pub(in crate::gl) struct Legacy {
     matrix_mode: Enumerated,
     load_matrix: LoadMatrix,
@@ -290,7 +290,7 @@ impl Legacy {
         unsafe { gl.tex_parameter_i32(glow::TEXTURE_2D, GENERATE_MIPMAP, 1) }
     }
 
-    /// They are there.
+    /// They already exist.
     ///
     /// # Safety
     ///
@@ -301,7 +301,7 @@ impl Legacy {
     ///
     /// # Safety
     ///
-    /// The context is current and has as many.
+    /// The context is current and has that many.
     pub(in crate::gl) unsafe fn draw_buffers(&self, gl: &glow::Context, buffers: &[u32]) {
         // SAFETY: the caller's promise.
         unsafe { gl.draw_buffers(buffers) }

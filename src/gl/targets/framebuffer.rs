@@ -94,14 +94,14 @@ impl Drop for Framebuffer {
     }
 }
 
-/// A buffer that is drawn into and never read as a texture.
+/// A buffer for drawing that is never read as a texture.
 pub(super) struct Renderbuffer {
     live: Live,
     id: glow::Renderbuffer,
 }
 
 impl Renderbuffer {
-    /// 24 bits of depth, as in the framebuffer.
+    /// Makes a buffer with 24 bits of depth, as in the framebuffer.
     pub(super) fn depth(gl: &Rc<Gl>, size: Size) -> Result<Self> {
         // SAFETY: the context is current and has framebuffer objects, as `Targets::prepare` has checked.
         let id = unsafe { gl.glow.create_renderbuffer() }.map_err(out_of_names)?;

@@ -137,7 +137,7 @@ fn confine_maps(plan: &mut Plan, situation: &Situation<'_>) {
         if readers.is_empty() || !is_gone || pass.scissor.is_some() {
             continue;
         }
-        // As far as the squares go, and from there as far as they look.
+        // The squares' pixels, extended by their reach.
         let read: Option<Vec<Rectangle>> = readers.iter().map(|draw| read_px(draw, situation)).collect();
         if let Some(all) = read.and_then(|parts| parts.into_iter().reduce(Rectangle::around)) {
             plan.passes[number].scissor = Some(all);
@@ -145,7 +145,7 @@ fn confine_maps(plan: &mut Plan, situation: &Situation<'_>) {
     }
 }
 
-/// The pixels of a map that a draw reads; `None` where that may be all.
+/// Returns the pixels of a map that a draw reads; `None` if it may read all.
 fn read_px(draw: &Draw, situation: &Situation<'_>) -> Option<Rectangle> {
     let drawn = match draw.scissor {
         Some(scissor) => scissor,
@@ -155,7 +155,7 @@ fn read_px(draw: &Draw, situation: &Situation<'_>) -> Option<Rectangle> {
     Some(drawn.grown(draw.facts.reach_px?, situation.surface))
 }
 
-/// The texture that a step copies into.
+/// Returns the texture that a step copies into.
 fn copied(step: &Step) -> Option<Texture> {
     match step {
         Step::CopyFramebuffer => Some(Texture::BorderMap),
@@ -181,7 +181,7 @@ fn reach_beyond_objects(draw: &Draw, before: &[Step], ground: &Ground) -> Option
     draw.facts.reach_px?.checked_add(beyond)
 }
 
-/// Leaves a colour uncleared that the next step draws over.
+/// Skips clearing a colour that the next step draws over.
 pub(super) fn overwritten_clear(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
     let mut passes = Vec::new();
     // Measured: charcoal takes 1.1 times as long without it.

@@ -41,7 +41,7 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
         let mut kept = Vec::new();
         for step in std::mem::take(&mut pass.steps).into_iter().rev() {
             let is_read = match (&step, pass.target) {
-                // Where a part is copied, the rest is still that of the copy before.
+                // After a partial copy the rest still holds the earlier copy.
                 (Step::CopyFramebuffer, _) if is_partial => read.contains(&Texture::BorderMap),
                 (Step::CopyDepth, _) if is_partial => read.contains(&Texture::DepthMap),
                 (Step::CopyFramebuffer, _) => take(&mut read, &[Texture::BorderMap]),
@@ -83,7 +83,7 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
     })
 }
 
-/// Removes textures from those that are read; whether one of them was.
+/// Removes textures from those that are read; returns whether any was read.
 fn take(read: &mut Vec<Texture>, textures: &[Texture]) -> bool {
     let count = read.len();
     read.retain(|other| !textures.contains(other));

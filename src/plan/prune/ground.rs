@@ -8,7 +8,7 @@ use crate::scene::Rectangle;
 pub(super) struct Ground {
     /// The colours that are uniform farther than this many pixels from the objects.
     colors: Vec<(Place, u32)>,
-    /// Of these depth buffers likewise.
+    /// The depth buffers, likewise.
     depths: Vec<DepthBuffer>,
 }
 
@@ -93,7 +93,7 @@ impl Ground {
         self.even_beyond(draw)?.checked_add(reach)
     }
 
-    /// Beyond so many pixels they are even, or nowhere.
+    /// Records that they are uniform beyond this many pixels, or nowhere.
     fn set_colors(&mut self, places: &[Place], beyond: Option<u32>) {
         self.colors.retain(|(place, _)| !places.contains(place));
         if let Some(beyond) = beyond {

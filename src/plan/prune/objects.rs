@@ -90,7 +90,7 @@ pub(super) fn culled_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
     })
 }
 
-/// Which faces of each object a draw draws.
+/// The faces of each object that a draw draws.
 type Selection = Arc<Vec<Faces>>;
 
 /// Restricts draws of whole objects that satisfy `is_meant` to the listed faces; returns how many faces are left out.
@@ -119,7 +119,7 @@ fn choose(
     if left_out == 0 {
         return 0;
     }
-    // One list for all draws that drew the same before.
+    // Draws with the same list before share the new list.
     let mut made: Vec<(Option<Selection>, Selection)> = Vec::new();
     for draw in plan.draws_mut().filter(|draw| draw.is_of_objects() && is_meant(draw)) {
         let before = draw.faces.take();

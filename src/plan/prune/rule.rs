@@ -18,7 +18,7 @@ tinta_geometry::choices! {
         CulledFaces = "culled-faces",
         /// Light that no tone depends on: highlights below three tones, all light with one.
         UnusedLight = "unused-light",
-        /// The background square where clearing does the same.
+        /// The background square, if a clear does the same.
         BackgroundSquare = "background-square",
         /// Pixels of full-screen squares that no object reaches.
         EmptyPixels = "empty-pixels",
@@ -32,7 +32,7 @@ tinta_geometry::choices! {
 }
 
 impl Rule {
-    /// As the user writes it.
+    /// Returns the name as the user writes it.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.choice_name()
@@ -42,7 +42,7 @@ impl Rule {
 /// Settings of pruning; [`crate::Renderer::pruning`] returns those for a renderer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Pruning {
-    /// Rules that are not to be applied. Default none.
+    /// Rules to skip. Default none.
     pub keep: Vec<Rule>,
     /// Whether GL draws on the processor, where leaving faces out here is worth the search. Default yes.
     pub is_software: bool,
@@ -58,7 +58,7 @@ impl Default for Pruning {
     }
 }
 
-/// Something left out that cannot change the picture.
+/// An omission that cannot change the picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Omission {
     /// Its name.
@@ -68,7 +68,7 @@ pub struct Omission {
     pub what: String,
     /// Why the picture is the same without it.
     pub reason: String,
-    /// What about this scene and plan that rests on.
+    /// The facts about this scene and plan behind that reason.
     pub facts: Vec<String>,
 }
 
@@ -82,7 +82,7 @@ pub(super) struct Situation<'a> {
 }
 
 impl Situation<'_> {
-    /// The pixels that faces of objects can touch.
+    /// Returns the pixels that faces of objects can touch.
     pub(super) fn extent(&self) -> Option<Rectangle> {
         *self.extent.get_or_init(|| {
             let inside = self.scene.objects.iter().filter(|object| !self.scene.is_outside(object, 0.0));

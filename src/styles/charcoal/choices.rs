@@ -1,4 +1,4 @@
-//! The charcoal drawing's choices that have names.
+//! The charcoal drawing's named choices.
 
 tinta_geometry::choices! {
     /// A way to draw: the published listing, or one of the two that the text's conclusions name.
@@ -39,7 +39,7 @@ tinta_geometry::choices! {
 }
 
 tinta_geometry::choices! {
-    /// What enhances contrast.
+    /// The operator that enhances contrast.
     #[derive(Default)]
     pub enum ContrastOperator {
         /// The light to the power of the exponent, as published.
@@ -53,7 +53,7 @@ tinta_geometry::choices! {
 }
 
 tinta_geometry::choices! {
-    /// Where the noise lies that chooses grains.
+    /// The position of the noise that chooses grains.
     #[derive(Default)]
     pub enum Noise {
         /// On the picture, as published: the model moves behind it.

@@ -22,9 +22,9 @@ pub struct Improvements {
     pub proportion: bool,
     /// The paper's tooth catches the grain: raised parts take more, hollows less.
     pub tooth: bool,
-    /// A face seen from behind is lit as one that faces the eye.
+    /// Faces seen from behind are lit as if they faced the eye.
     pub two_sided: bool,
-    /// Tone and grain vary as the strokes of a hand do.
+    /// Tone and grain vary like the strokes of a hand.
     pub strokes: bool,
 }
 
@@ -44,16 +44,16 @@ impl Improvements {
         strokes: false,
     };
 
-    /// The text's flaws, and what goes beyond it.
+    /// The text's flaws, and additions beyond it.
     pub const EVERYTHING: Self = Self { proportion: true, tooth: true, two_sided: true, strokes: true, ..Self::ALL };
 
-    /// Whether anything is done that the text does not mean.
+    /// Whether any improvement goes beyond the text.
     pub fn go_beyond_the_text(self) -> bool {
         let Self { proportion, tooth, two_sided, strokes, .. } = self;
         proportion || tooth || two_sided || strokes
     }
 
-    /// Each one's name, and whether it is chosen.
+    /// Returns each improvement's name, and whether it is chosen.
     fn named(&mut self) -> [(&'static str, &mut bool); COUNT] {
         let Self { clamp, wrap, paper_coordinate, luminance, proportion, tooth, two_sided, strokes } = self;
         [

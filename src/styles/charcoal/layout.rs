@@ -13,7 +13,7 @@ pub(super) struct Layout {
     samples: u32,
     noise: Size,
     cet: Size,
-    /// Shares of the textures that the picture's width and height cover.
+    /// The shares of the textures that the picture's width and height cover.
     noise_spread: [f32; 2],
     paper_spread: [f32; 2],
 }
@@ -32,7 +32,7 @@ impl Layout {
         }
     }
 
-    /// What spread-* and grain-* read.
+    /// Returns the uniforms of spread-* and grain-*.
     pub(super) fn places(&self) -> Vec<Uniform> {
         vec![
             vec2("noiseSpread", self.noise_spread),
@@ -93,7 +93,7 @@ mod tests {
         assert_eq!(even(size(600, 300), size(200, 100)), [1.0; 2]);
         for (picture, texture) in [(size(900, 400), size(300, 700)), (size(31, 77), size(100, 3))] {
             let [x, y] = even(picture, texture);
-            // Pixels of the picture a texel, along both sides.
+            // Picture pixels per texel, along both sides.
             let across = picture.width as f32 / (x * texture.width as f32);
             let down = picture.height as f32 / (y * texture.height as f32);
             assert!((across / down - 1.0).abs() < 1e-5, "{across} {down}");

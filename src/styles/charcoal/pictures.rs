@@ -7,7 +7,7 @@ use crate::textures::{ContrastTexture, LARGEST_SIDE_PX, NoiseTexture, PaperTextu
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Where one of the drawing's textures comes from.
+/// The source of one of the drawing's textures.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub enum TextureSource {
     /// Made from the seed.
@@ -34,7 +34,7 @@ impl TextureSource {
         Ok(Self::File { path: path.to_path_buf(), picture })
     }
 
-    /// The picture of the file, or else the one that is made.
+    /// Returns the picture of the file, or else makes one.
     fn or_made(&self, make: impl FnOnce() -> Result<Picture>) -> Result<Arc<Picture>> {
         match self {
             Self::Made => make().map(Arc::new),
@@ -86,7 +86,7 @@ impl PartialEq for CharcoalPictures {
 pub(super) struct TextureSettings {
     pub contrast: ContrastTexture,
     pub noise: NoiseTexture,
-    /// Of noise, contrast-enhanced texture and paper.
+    /// Sources of noise, contrast-enhanced texture and paper.
     pub sources: [TextureSource; 3],
     /// Whether the drawing needs the paper's height.
     pub has_tooth: bool,
@@ -103,7 +103,7 @@ pub(super) struct Made {
 }
 
 impl CharcoalPictures {
-    /// The textures of these settings: those kept, or else made now.
+    /// Returns the textures of these settings, kept or made now.
     pub(super) fn of(&self, settings: TextureSettings) -> Result<Made> {
         let (size, seed, random) = (settings.noise.size, settings.noise.seed, settings.noise.random);
         if size.width.max(size.height) > LARGEST_SIDE_PX {

@@ -26,7 +26,7 @@ impl Charcoal {
                 Ok(())
             },
         )
-        // The old name made values of ours look like the text's.
+        // The old name made our values look like the text's.
         .formerly(&[("published", "plain")])
         .ours("V, section 5 lists which parameters to raise and lower, not by how much");
         let grain = vec![
@@ -186,7 +186,7 @@ impl Charcoal {
     }
 }
 
-/// The setting of a light that may be left out.
+/// Returns the setting of a light that may be left out.
 fn light(
     name: &'static str,
     help: &'static str,
