@@ -42,7 +42,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-/// Where an animation goes, checked before the work.
+/// The destination of an animation, checked before the work.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AnimationTarget {
     name: String,
@@ -227,7 +227,7 @@ impl Encoder {
             (Self::Numbered { bytes, .. }, _) => return Ok(bytes),
             (Self::Gif(encoder), AnimationFormat::Gif(path)) => (encoder.finish(), path),
             (Self::Apng(encoder), AnimationFormat::Apng(path)) => (encoder.finish(), path),
-            // An encoder is made for its target.
+            // Encoders exist only for their own target.
             (Self::Gif(_) | Self::Apng(_), _) => return Ok(0),
         };
         let bytes = bytes.map_err(|problem| target.error(problem))?;

@@ -13,7 +13,7 @@ pub type Source = (&'static str, &'static str);
 
 macro_rules! sources {
     ($($path:literal),* $(,)?) => {
-        /// Every shader there is; a test compares this with the folder.
+        /// All shaders; a test compares this with the folder.
         pub const SOURCES: &[Source] = &[$(($path, include_str!(concat!("../glsl/", $path)))),*];
     };
 }

@@ -39,12 +39,12 @@ use std::path::{Path, PathBuf};
 pub struct Picture {
     /// Width and height.
     pub size: Size,
-    /// Four bytes a pixel, row by row from the top.
+    /// Four bytes per pixel, row by row from the top.
     pub pixels: Vec<u8>,
 }
 
 impl Picture {
-    /// A picture from GL's rows, bottom row first.
+    /// Returns a picture of GL's rows, bottom row first.
     #[must_use]
     pub fn from_bottom_up(size: Size, pixels: &[u8]) -> Self {
         let row = size.width as usize * 4;
@@ -61,14 +61,14 @@ impl Picture {
         [0, 1, 2, 3].map(|channel| self.pixels[start + channel])
     }
 
-    /// The same colours without transparency.
+    /// Returns the same colours without transparency.
     #[must_use]
     pub fn opaque(mut self) -> Self {
         self.pixels.chunks_exact_mut(4).for_each(|pixel| pixel[3] = u8::MAX);
         self
     }
 
-    /// Alpha as an opaque grey.
+    /// Returns alpha as an opaque grey.
     #[must_use]
     pub fn alpha_as_grey(mut self) -> Self {
         self.pixels.chunks_exact_mut(4).for_each(|pixel| {
@@ -79,7 +79,7 @@ impl Picture {
         self
     }
 
-    /// The same without alpha.
+    /// Returns the pixels without alpha.
     fn rgb(&self) -> Vec<u8> {
         let mut rgb = vec![0; self.size.pixel_count() * 3];
         for (to, from) in rgb.chunks_exact_mut(3).zip(self.pixels.chunks_exact(4)) {
@@ -184,7 +184,7 @@ impl Picture {
     }
 }
 
-/// How far two pictures are apart.
+/// The difference between two pictures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Difference {
     /// Largest difference of any channel, 0 to 255.
@@ -193,18 +193,18 @@ pub struct Difference {
     pub pixels: usize,
 }
 
-/// The file formats written.
+/// The file formats for writing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PictureFormat {
-    /// Portable Network Graphics, with alpha where the picture has any.
+    /// Portable Network Graphics, with alpha if the picture has any.
     Png,
     /// JPEG, quality 92, no alpha.
     #[cfg(feature = "formats")]
     Jpeg,
     /// Windows bitmap, no alpha.
     Bmp,
-    /// Truevision TGA, with alpha where the picture has any.
+    /// Truevision TGA, with alpha if the picture has any.
     Tga,
     /// Portable pixmap, binary, no alpha.
     Ppm,
@@ -222,7 +222,7 @@ impl PictureFormat {
         ("ppm", Self::Ppm),
     ];
 
-    /// The format of a file's name, by its extension.
+    /// Returns the format of a file's name, by its extension.
     pub(crate) fn of(file: &Path) -> Option<Self> {
         let extension = file.extension()?.to_str()?.to_ascii_lowercase();
         Self::EXTENSIONS.iter().find(|(known, _)| *known == extension).map(|(_, format)| *format)
@@ -337,7 +337,7 @@ impl Target {
     }
 }
 
-/// A text that a PNG carries beside its pixels.
+/// A text stored in a PNG beside its pixels.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
     /// The note's keyword, 1 to 79 letters.
@@ -355,7 +355,7 @@ pub fn write_rgba_png(picture: &Picture, path: &Path) -> Result<()> {
     write_whole(path, &encoded(path, |out| picture.encode(PictureFormat::Png, true, out))?)
 }
 
-/// A picture's file, in memory.
+/// Encodes a picture's file in memory.
 fn encoded(path: &Path, encode: impl FnOnce(&mut Vec<u8>) -> image::ImageResult<()>) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     encode(&mut bytes)

@@ -57,12 +57,12 @@ pub struct Renderer {
 
 impl std::fmt::Debug for Renderer {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        // What GL holds has no text.
+        // GL's objects have no text.
         out.debug_struct("Renderer").field("surface", &self.drawers[self.used].surface).finish_non_exhaustive()
     }
 }
 
-/// How long one pass takes.
+/// The times of one pass.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PassTime {
     /// The pass's name in the plan.
@@ -73,7 +73,7 @@ pub struct PassTime {
     pub gpu_ms: Option<f64>,
 }
 
-/// What GL held after one step.
+/// GL's picture after one step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepPicture {
     /// The pass's name.
@@ -120,7 +120,7 @@ impl Renderer {
         })
     }
 
-    /// Draws by a context that is there, and by no other.
+    /// Draws with one already open context, and no other.
     #[cfg(any(test, all(feature = "cli", not(target_arch = "wasm32"))))]
     pub(crate) fn of(context: Context) -> Self {
         let drawers = vec![Drawer::new(context)];
@@ -202,7 +202,7 @@ impl Renderer {
         let fitness = |number: &usize| {
             let drawer = &self.drawers[*number];
             let largest = drawer.context.info().largest_picture.pixel_count();
-            // Of those that draw tiles the first is as good as any.
+            // Of the contexts that draw tiles the first is as good as any.
             let in_tiles = drawer.tiles(plan, surface).map(|_| usize::MAX);
             (drawer.draws_at_once(surface), in_tiles.unwrap_or(largest))
         };
@@ -271,7 +271,7 @@ impl Renderer {
             Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings { copies: 1, camera, ..settings.clone() })?;
         // The plan may need data that the triangle lacks, such as a texture; the models may have it.
         let Ok(plan) = style.plan(&scene, show) else { return Ok(()) };
-        // Only the shaders that will be drawn with.
+        // Warm up only the shaders that the drawing will use.
         let mut plan = pruning.map_or_else(|| plan.clone(), |pruning| prune(&plan, &scene, pruning).plan);
         confine(&mut plan, scene.size);
         self.with_context(&scene, &plan, |frame| frame.all_steps(frame.tiles[0]))
@@ -422,7 +422,7 @@ impl Renderer {
         resources.explain("compiling a shader", compiled)
     }
 
-    /// The shaders linked so far: those of the plans drawn, and no others.
+    /// Returns the shaders linked so far: those of the plans drawn.
     pub fn programs(&self) -> Vec<Program> {
         self.drawers[self.used].resources.programs()
     }

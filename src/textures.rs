@@ -47,7 +47,7 @@ fn check_size(size: Size) -> Result<()> {
     Err(Error::value("size", size, format!("a texture has 1 to {LARGEST_SIDE_PX} pixels on each side")))
 }
 
-/// An opaque picture of these colours, row by row from the top.
+/// Returns an opaque picture of these colours, row by row from the top.
 fn opaque(size: Size, colors: impl Iterator<Item = [u8; 3]>) -> Picture {
     let mut pixels = Vec::with_capacity(size.pixel_count() * 4);
     colors.for_each(|[red, green, blue]| pixels.extend([red, green, blue, u8::MAX]));

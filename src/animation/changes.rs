@@ -1,4 +1,4 @@
-//! The part of a picture that an animation has to store.
+//! The changed part of a picture that an animation has to store.
 
 use crate::scene::Size;
 
@@ -38,7 +38,7 @@ impl Rectangle {
         Self::around(size, |index| before[index * 4..][..4] != after[index * 4..][..4])
     }
 
-    /// Its rows as ranges of pixel indices in a picture of this width.
+    /// Returns its rows as ranges of pixel indices in a picture of this width.
     pub(super) fn rows(self, width: u32) -> impl Iterator<Item = std::ops::Range<usize>> {
         (0..self.size.height as usize).map(move |row| {
             let start = (self.top as usize + row) * width as usize + self.left as usize;

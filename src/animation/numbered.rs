@@ -3,7 +3,7 @@
 use crate::picture::PictureFormat;
 use std::path::Path;
 
-/// A name whose file name has one number left open.
+/// A name whose file name has an open number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NumberedName {
     before: String,
@@ -35,12 +35,12 @@ impl NumberedName {
         })
     }
 
-    /// The name with this number.
+    /// Returns the name with this number.
     pub fn with(&self, number: u32) -> String {
         format!("{}{number:0digits$}{}", self.before, self.after, digits = self.digits)
     }
 
-    /// The number in a name that is one of these.
+    /// Returns the number in a name of this pattern.
     pub fn number_in(&self, name: &str) -> Option<u32> {
         let number = name.strip_prefix(&self.before)?.strip_suffix(&self.after)?.parse().ok()?;
         (self.with(number) == name).then_some(number)

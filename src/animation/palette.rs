@@ -13,9 +13,9 @@ pub(super) const TRANSPARENT: u8 = 0;
 
 pub(super) struct Palette {
     transparent: bool,
-    /// The table, the transparent entry included.
+    /// The table, including the transparent entry.
     colors: Vec<Packed>,
-    /// All colours met while this table served.
+    /// All colours found while this table was in use.
     known: HashMap<Packed, Mix, BuildHasherDefault<ColorHasher>>,
     is_exact: bool,
     /// Mean square error of the picture that the table was made for.
@@ -41,7 +41,7 @@ impl Palette {
         palette
     }
 
-    /// Forgets all colours but the transparent entry.
+    /// Forgets all colours except the transparent entry.
     fn clear(&mut self) {
         self.known.clear();
         self.colors.clear();

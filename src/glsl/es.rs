@@ -23,7 +23,7 @@
 use super::tokens::{Kind, Token, is_whole, tokens};
 use std::collections::HashSet;
 
-/// Which of a program's shaders it is.
+/// The stage of a shader in its program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
     /// The vertex shader.
@@ -33,7 +33,7 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// That of a shader of this path.
+    /// Returns the stage of the shader with this path.
     pub fn of(path: &str) -> Self {
         if path.ends_with(".vert") { Self::Vertex } else { Self::Fragment }
     }
@@ -49,7 +49,7 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// Whether it became something else.
+    /// Whether the piece was changed.
     pub fn is_changed(&self) -> bool {
         self.original != self.text
     }
@@ -84,7 +84,7 @@ const COLORS: [Name; 2] = [
 /// The colour of back faces, unused because lighting is one-sided.
 const BACK_COLOR: (&str, &str) = ("gl_BackColor", "tinta_BackColor");
 
-/// Texture coordinates on their way.
+/// Texture coordinates passed to fragments.
 const COORDINATES: (&str, &str) = ("gl_TexCoord", "tinta_TexCoord[2]");
 
 /// The new name of a vertex shader's `main`: another function calls it and then does the pipeline's work.
@@ -216,7 +216,7 @@ fn vertex_main(words: &HashSet<&str>) -> String {
     main + "}\n"
 }
 
-/// What becomes of each token, by its place.
+/// Returns each token's new text, by its place.
 fn rewritten(stage: Stage, tokens: &[Token<'_>]) -> Result<Vec<String>, String> {
     let mut texts: Vec<String> = tokens.iter().map(|token| token.text.to_owned()).collect();
     // The places of tokens that are not white space or comments.
@@ -252,7 +252,7 @@ fn without_suffix(number: &str) -> &str {
     number.strip_suffix(['f', 'F']).unwrap_or(number)
 }
 
-/// The name here of one in 1.20, where it has another.
+/// Returns the new name of a name in 1.20, if it differs.
 fn renamed(stage: Stage, name: &str) -> Option<&'static str> {
     let find = |names: &[Name]| names.iter().find(|(old, ..)| *old == name).map(|(.., new)| *new);
     let color = COLORS.iter().find(|(written, read, _)| match stage {
@@ -341,7 +341,7 @@ fn floats(tokens: &[Token<'_>], places: &[usize]) -> Vec<usize> {
     floats
 }
 
-/// How many brackets are open after these.
+/// Returns how many brackets are open after these.
 fn depth(tokens: &[Token<'_>], places: &[usize]) -> i32 {
     let step = |place: &usize| match tokens[*place].text {
         "(" | "{" | "[" => 1,
@@ -351,7 +351,7 @@ fn depth(tokens: &[Token<'_>], places: &[usize]) -> i32 {
     places.iter().map(step).sum()
 }
 
-/// The place of the bracket that closes the one at `open`.
+/// Returns the place of the bracket that closes the one at `open`.
 fn closing(tokens: &[Token<'_>], places: &[usize], open: usize) -> Option<usize> {
     (open + 1..places.len()).find(|place| depth(tokens, &places[open..=*place]) == 0)
 }

@@ -20,11 +20,11 @@ pub(super) struct Token<'a> {
     pub(super) kind: Kind,
     /// Its text, unchanged.
     pub(super) text: &'a str,
-    /// Whether it stands in a line that begins with `#`.
+    /// Whether its line begins with `#`.
     pub(super) is_directive: bool,
 }
 
-/// All of a text in pieces: put together again they are the text.
+/// Splits a text into pieces; together they are the whole text.
 pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
     let (mut tokens, mut rest) = (Vec::new(), text);
     let (mut is_directive, mut begins_line) = (false, true);

@@ -10,10 +10,10 @@ use std::collections::hash_map::Entry;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Where a material's picture is read from.
+/// The source of a material's picture.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum Source<'a> {
-    /// A file, and the folder that it must lie in.
+    /// A file, and the folder that must contain it.
     File(&'a Path, Option<&'a Path>),
     /// The model's own file: the picture's place in memory, which materials share.
     Embedded(*const EmbeddedPicture),

@@ -7,7 +7,7 @@ use crate::bytes::Bytes;
 use crate::values::Size;
 
 const HEADER_BYTES: usize = 128;
-/// A byte that says so, and 256 colours.
+/// A marker byte and 256 colours.
 const PALETTE_BYTES: usize = 1 + 256 * 3;
 const PALETTE_MARK: u8 = 12;
 const MANUFACTURER: u8 = 10;
@@ -69,11 +69,11 @@ pub(super) fn read(bytes: &[u8], most: u64) -> Result<Picture, String> {
 struct Header<'a> {
     coded: bool,
     bits: u8,
-    /// Left, top, right and bottom pixel, the last two included.
+    /// Left, top, right and bottom pixel, inclusive.
     window: [u16; 4],
     planes: u8,
     line_bytes: u16,
-    /// What follows the header.
+    /// The data after the header.
     data: &'a [u8],
 }
 

@@ -3,7 +3,7 @@
 use crate::values::Size;
 use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
-/// What reading a text may take, bytes.
+/// Memory limit for reading a text, bytes.
 #[cfg(feature = "recipes")]
 const LARGEST_BYTES: usize = 4 << 20;
 
@@ -28,7 +28,7 @@ pub(super) fn encode(
     Ok(bytes)
 }
 
-/// Whether a file begins as PNG does.
+/// Whether a file begins like PNG.
 #[cfg(feature = "recipes")]
 pub(crate) fn is_png(head: &[u8]) -> bool {
     head.starts_with(b"\x89PNG\r\n\x1a\n")

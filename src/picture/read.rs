@@ -46,7 +46,7 @@ impl Picture {
         Self::from_bytes_of(bytes, name, u64::MAX)
     }
 
-    /// The same of a picture whose pixels may take `most` bytes.
+    /// Reads a picture whose pixels may take `most` bytes.
     pub(crate) fn from_bytes_of(bytes: &[u8], name: &str, most: u64) -> Result<Self> {
         let path = Path::new(name);
         let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
@@ -111,7 +111,7 @@ fn in_words(error: &ImageError) -> String {
     match error {
         ImageError::Limits(limit) if matches!(limit.kind(), LimitErrorKind::DimensionError) => too_large(),
         ImageError::Limits(_) => "it takes too much memory; scale it down".to_owned(),
-        // It may quote the file.
+        // Its text may quote the file.
         error => {
             let cause = shown(&error.to_string());
             format!("it is damaged or of an unsupported kind ({cause}); save it again")
@@ -130,7 +130,7 @@ mod tests {
         Picture { size, pixels }
     }
 
-    /// The same picture in each format written here, with its extension.
+    /// Returns the same picture in each written format, with its extension.
     fn files() -> Vec<(&'static str, Vec<u8>)> {
         let encoded = |(extension, format): &(&'static str, PictureFormat)| {
             let mut bytes = Vec::new();

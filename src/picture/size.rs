@@ -1,4 +1,4 @@
-//! How large pictures may be.
+//! The limits on the size of pictures.
 
 use crate::limits::{MEMORY_FACTOR, PICTURE_BYTES, PICTURE_SIDE_PX, PIXELS_A_BYTE};
 use crate::values::Size;

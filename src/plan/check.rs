@@ -6,7 +6,7 @@
 use super::{Blend, Depth, Draw, Drawn, Faces, Format, Geometry, Paint, Plan, Step, Target, Texture};
 use crate::scene::{Rectangle, Scene, Size};
 
-/// What makes a plan unfit to be drawn.
+/// A mistake that makes a plan unfit for drawing.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Flaw {
@@ -43,14 +43,14 @@ pub enum Flaw {
         /// The texture.
         name: Drawn,
     },
-    /// Something is larger, smaller, longer or shorter than it must be.
+    /// A size or a length is wrong.
     #[error("{what} is {found}, not {expected}; make it fit")]
     WrongSize {
         /// What.
         what: String,
         /// The size it has.
         found: String,
-        /// The size it must have.
+        /// The correct size.
         expected: String,
     },
 }
@@ -100,7 +100,7 @@ impl Plan {
         written.needs_color(last.target, last.name)
     }
 
-    /// Passes, targets, tables, pictures and supersampling.
+    /// Checks passes, targets, tables, pictures and supersampling.
     fn check_as_a_whole(&self) -> Result<(), Flaw> {
         let mut formats: Vec<(Drawn, Format)> = Vec::new();
         for pass in &self.passes {
@@ -143,7 +143,7 @@ impl Plan {
 /// The targets and textures that the steps so far have written.
 #[derive(Default)]
 struct Written {
-    /// Textures that passes leave.
+    /// Textures written by passes.
     textures: Vec<Texture>,
     /// Colour and depth of the framebuffer.
     framebuffer: [bool; 2],

@@ -83,13 +83,13 @@ pub struct PlanPicture {
     pub sampling: Sampling,
 }
 
-/// How a texture is read between and beyond its texels.
+/// The reading of a texture between and beyond its texels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sampling {
     /// NEAREST, CLAMP_TO_EDGE.
     NearestClamped,
     /// LINEAR, GL_REPEAT.
     LinearRepeated,
-    /// LINEAR_MIPMAP_LINEAR where smaller, LINEAR where larger, GL_REPEAT.
+    /// LINEAR_MIPMAP_LINEAR if reduced, LINEAR if enlarged, GL_REPEAT.
     MipmapRepeated,
 }

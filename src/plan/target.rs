@@ -17,11 +17,11 @@ pub enum Target {
 pub struct Attachments {
     /// In the order of gl_FragData; the first holds the pass's picture.
     pub colors: &'static [Attachment],
-    /// Whether there is a depth buffer.
+    /// Whether it has a depth buffer.
     pub has_depth: bool,
     /// The setting that needs them, named in the error of a driver without them.
     pub asked_by: SettingValue,
-    /// What to choose instead there.
+    /// The alternative for such a driver.
     pub instead: SettingValue,
     /// The picture that the alternative draws, if it differs.
     pub instead_draws: Option<&'static str>,
@@ -36,11 +36,11 @@ pub struct Attachment {
     pub format: Format,
 }
 
-/// The name of a texture that is drawn into, which a style chooses.
+/// The name of a texture that is drawn into, chosen by the style.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Drawn(pub &'static str);
 
-/// A value of a setting, as a user would choose it.
+/// A value of a setting, in the user's notation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SettingValue {
     /// The setting's name.
@@ -63,7 +63,7 @@ pub(crate) const DEPTH_COPIES: [[SettingValue; 2]; 2] = [
 pub enum Format {
     /// 8 bits, from 0 to 1, as in the framebuffer.
     Unorm8,
-    /// 16 bits of floating point, 11 of them for the digits; not clamped.
+    /// 16 bits of floating point with 11 significant bits; not clamped.
     Float16,
     /// 32 bits of floating point; not clamped.
     Float32,
@@ -87,7 +87,7 @@ impl Target {
 }
 
 impl Target {
-    /// How many colours a pass into it draws at once.
+    /// Returns how many colours a pass into it draws at once.
     pub(super) fn color_count(self) -> usize {
         match self {
             Self::Framebuffer => 1,

@@ -56,7 +56,7 @@ impl Drawer {
         TileLimits { surface, viewport: info.largest_viewport }
     }
 
-    /// Why a surface of this size is not drawn.
+    /// Returns the error that explains why a surface of this size cannot be drawn.
     fn refusal(&self, scene: &Scene, plan: &Plan) -> Error {
         let info = self.context.info();
         let limits = TileLimits { surface: info.largest_picture, ..self.limits() };
@@ -154,7 +154,7 @@ fn memory(bytes: usize) -> Result<Vec<u8>> {
     Ok(memory)
 }
 
-/// A picture in the making, its context current.
+/// A picture in progress, its context current.
 pub(super) struct Frame<'a> {
     pub(super) resources: &'a mut Resources,
     pub(super) pixels: &'a mut Vec<u8>,
@@ -179,7 +179,7 @@ impl Frame<'_> {
     pub(super) fn step(&mut self, pass: &Pass, step: &Step, tile: Tile, times: u32, canvas: &mut Canvas) -> Result<()> {
         self.resources.begin(pass.target, pass.scissor)?;
         self.resources.step(self.scene, step)?;
-        // Before reading: a copy that failed leaves a texture of another size.
+        // Before reading: a failed copy leaves a texture of another size.
         self.resources.check(pass.name)?;
         let (part, place) = shrunk(tile, times);
         match step {
@@ -233,13 +233,13 @@ fn shrunk(tile: Tile, times: u32) -> (Rectangle, Rectangle) {
     (by_times(part), by_times(tile.kept))
 }
 
-/// A part of rows of pixels.
+/// Cuts a rectangle out of rows of pixels.
 fn cut(pixels: &[u8], size: Size, part: Rectangle) -> Vec<u8> {
     let rows = pixels.chunks_exact(size.width as usize * 4).skip(part.y as usize).take(part.height as usize);
     rows.flat_map(|row| &row[part.x as usize * 4..][..part.width as usize * 4]).copied().collect()
 }
 
-/// A picture that is put together from parts.
+/// A picture assembled from parts.
 pub(super) struct Canvas {
     pub(super) picture: Picture,
 }
@@ -249,7 +249,7 @@ impl Canvas {
         Ok(Self { picture: Picture { size, pixels: memory(size.pixel_count() * 4)? } })
     }
 
-    /// Puts GL's rows, bottom row first, where they belong.
+    /// Puts GL's rows, bottom row first, into their place.
     pub(super) fn put(&mut self, place: Rectangle, pixels: &[u8]) {
         let Size { width, height } = self.picture.size;
         let (length, start) = (place.width as usize * 4, place.x as usize * 4);

@@ -36,7 +36,7 @@ pub struct ContrastTexture {
 /// The exponents of figure 3, from left to right.
 const PUBLISHED_EXPONENTS: [f64; 3] = [1.3, 5.5, 15.0];
 
-/// The largest blur, pixels; beyond it no grain is left.
+/// The largest blur, pixels; a larger one would leave no grain.
 const LARGEST_BLUR_PX: f64 = 100.0;
 
 impl Default for ContrastTexture {
@@ -62,7 +62,7 @@ pub struct Grains {
 }
 
 impl Grains {
-    /// Share of pixels with a grain, from 0 to 1.
+    /// Returns the share of pixels with a grain, from 0 to 1.
     pub fn black_share(&self) -> f64 {
         self.counts.iter().filter(|count| **count > 0).count() as f64 / self.counts.len() as f64
     }
@@ -77,7 +77,7 @@ impl Grains {
         (count > 0.0).then_some(sum / count / f64::from(self.size.height))
     }
 
-    /// Black where there is a grain, white elsewhere.
+    /// Returns a picture with black grains on white.
     pub fn picture(&self) -> Picture {
         opaque(self.size, self.counts.iter().map(|count| [if *count > 0 { 0 } else { u8::MAX }; 3]))
     }
@@ -118,7 +118,7 @@ impl ContrastTexture {
         self.check()?;
         let mut numbers = Numbers::new(self.random, self.seed, "contrast");
         let Size { width, height } = self.size;
-        // Of 2^32 numbers so many make a pixel black.
+        // This many of 2^32 numbers make a pixel black.
         let black = (self.density_percent / 100.0 * (1u64 << 32) as f64).round() as u64;
         let mut counts = vec![0u16; self.size.pixel_count()];
         for row in 0..height {

@@ -6,10 +6,10 @@
 use crate::random::Random;
 
 tinta_geometry::choices! {
-    /// Where a texture's random numbers come from.
+    /// The source of a texture's random numbers.
     #[derive(Default)]
     pub enum Generator {
-        /// SplitMix64, other numbers for each texture of one seed. Ours.
+        /// SplitMix64, with different numbers for each texture of one seed. Ours.
         #[default]
         SplitMix = "splitmix",
         /// `rand()` of Microsoft's C runtime after `srand(seed)`: 15 bits of a linear congruential generator of 32.
@@ -37,7 +37,7 @@ impl Numbers {
         }
     }
 
-    /// `rand()`, scaled to 32 bits; of ours the upper half of a number.
+    /// Returns `rand()` scaled to 32 bits, or the upper half of one of our numbers.
     fn scaled(&mut self) -> u32 {
         match self {
             Self::SplitMix(random) => (random.bits() >> 32) as u32,
@@ -46,7 +46,7 @@ impl Numbers {
         }
     }
 
-    /// Two numbers of 32 bits.
+    /// Returns two numbers of 32 bits.
     pub(super) fn pair(&mut self) -> [u32; 2] {
         match self {
             Self::SplitMix(random) => {
@@ -57,7 +57,7 @@ impl Numbers {
         }
     }
 
-    /// Red, green and blue; `rand() % 256` each, as a C program has them.
+    /// Returns red, green and blue; `rand() % 256` each, as in a C program.
     pub(super) fn color(&mut self) -> [u8; 3] {
         match self {
             Self::SplitMix(random) => {
@@ -69,12 +69,12 @@ impl Numbers {
         }
     }
 
-    /// A number from -1 up to but not 1.
+    /// Returns a number in [-1, 1).
     pub(super) fn signed(&mut self) -> f32 {
         (self.scaled() >> 8) as f32 / (1u32 << 23) as f32 - 1.0
     }
 
-    /// A number from 0 up to but not 1.
+    /// Returns a number in [0, 1).
     pub(super) fn share(&mut self) -> f32 {
         (self.scaled() >> 8) as f32 / (1u32 << 24) as f32
     }
@@ -93,12 +93,12 @@ impl Msvc {
 /// GNU's: r[i] = r[i - 3] + r[i - 31]; all bits except the lowest are the number.
 pub(super) struct Glibc {
     words: [u32; 31],
-    /// The word that is replaced next; the oldest.
+    /// The oldest word, which is replaced next.
     oldest: usize,
 }
 
 impl Glibc {
-    /// After `srand(seed)`, for which 0 is 1.
+    /// Starts as `srand(seed)` does, which treats 0 as 1.
     fn new(seed: u32) -> Self {
         const MODULUS: i64 = 2_147_483_647;
         let mut word = i64::from(seed.max(1) as i32);

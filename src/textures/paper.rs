@@ -18,7 +18,7 @@ pub struct PaperTexture {
     pub size: Size,
     /// Seed of the random numbers. Default 0; another seed gives another sheet.
     pub seed: u64,
-    /// Where the random numbers come from. Default SplitMix64, ours.
+    /// Source of the random numbers. Default SplitMix64, ours.
     pub random: Generator,
 }
 
@@ -28,7 +28,7 @@ impl Default for PaperTexture {
     }
 }
 
-/// The sheet's colour where it is plane: red, green, blue of 255.
+/// The sheet's colour where it is flat: red, green, blue of 255.
 const COLOR: [f32; 3] = [245.0, 242.0, 233.0];
 
 /// How strongly each part changes red, green and blue: thick and shaded places are a little warmer.
@@ -43,7 +43,7 @@ const CLOUDS: f32 = 1.1;
 /// Details smaller than this in a picture of paper count as its tooth, pixels.
 const COARSEST_TOOTH_PX: f64 = 4.5;
 
-/// Steps of 255 a standard deviation of the height.
+/// Steps of 255 per standard deviation of the height.
 const HEIGHT_STEP: f32 = 56.0;
 
 impl PaperTexture {
@@ -89,7 +89,7 @@ pub fn height_of(paper: &Picture) -> Picture {
     as_greys(paper.size, &light.iter().zip(around).map(|(light, around)| light - around).collect::<Vec<f32>>())
 }
 
-/// Heights as grey, in standard deviations.
+/// Converts heights, in standard deviations, to grey.
 fn as_greys(size: Size, heights: &[f32]) -> Picture {
     let grey = |height: f32| (128.0 + HEIGHT_STEP * height).round().clamp(0.0, 255.0) as u8;
     opaque(size, standardised(heights.to_vec()).into_iter().map(|height| [grey(height); 3]))
@@ -100,12 +100,12 @@ fn fibres_of(size: Size, random: &mut Numbers) -> Vec<f32> {
     standardised(gaussian(&fibres(size, random), size, 0.6, Rows::Wrap))
 }
 
-/// Fibres lie on the surface and so belong to its height as well.
+/// Fibres lie on the surface and so add to its height.
 fn surface(tooth: &[f32], fibres: &[f32]) -> Vec<f32> {
     tooth.iter().zip(fibres).map(|(tooth, fibre)| tooth + 0.3 * fibre).collect()
 }
 
-/// The height of the surface: grain of two sizes.
+/// Returns the height of the surface: grain of two sizes.
 fn tooth(size: Size, random: &mut Numbers) -> Vec<f32> {
     let [fine, coarse] = tooth_of_two_sizes(size, random);
     standardised(fine.iter().zip(&coarse).map(|(fine, coarse)| 0.55 * fine + coarse).collect())
@@ -115,7 +115,7 @@ fn tooth_of_two_sizes(size: Size, random: &mut Numbers) -> [Vec<f32>; 2] {
     [between(size, random, 0.8, 1.8), between(size, random, 1.7, COARSEST_TOOTH_PX)]
 }
 
-/// Noise with the details between two sizes, pixels.
+/// Returns noise with details between two sizes, pixels.
 fn between(size: Size, random: &mut Numbers, finest_px: f64, coarsest_px: f64) -> Vec<f32> {
     let noise: Vec<f32> = (0..size.pixel_count()).map(|_| random.signed()).collect();
     let fine = gaussian(&noise, size, finest_px, Rows::Wrap);
