@@ -25,7 +25,7 @@ use staged_file::StagedFile;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Where a text goes, an SVG or a JSON file, or a PDF.
+/// The destination of a text: an SVG, JSON or PDF file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TextTarget {
     /// Standard output.
@@ -71,7 +71,7 @@ impl TextTarget {
     }
 }
 
-/// Writes all of it to standard output.
+/// Writes all bytes to standard output.
 pub(crate) fn write_standard_output(bytes: &[u8]) -> Result<()> {
     let mut out = std::io::stdout().lock();
     out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| {
@@ -79,7 +79,7 @@ pub(crate) fn write_standard_output(bytes: &[u8]) -> Result<()> {
     })
 }
 
-/// Refuses names of folders, and endings without a name.
+/// Returns an error for names of folders, and for extensions without a name.
 pub(crate) fn check_name(file: &Path) -> Result<()> {
     let refuse = |problem: String| Err(Error::output(file, problem));
     let text = file.to_string_lossy();

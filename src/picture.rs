@@ -1,4 +1,4 @@
-//! A picture: RGBA8 and its size; written to files and read from them. The image crate is known here and in `src/picture/read.rs` only.
+//! A picture: RGBA8 and its size; written to files and read from them. Only this file and `src/picture/read.rs` use the image crate.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {

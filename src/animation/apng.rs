@@ -16,7 +16,7 @@ pub(super) struct ApngEncoder {
     before: Vec<u8>,
 }
 
-/// The file being put together: the writer does not give its own back.
+/// The file in progress, kept here because the writer does not return its own.
 #[derive(Clone, Default)]
 struct Shared(Arc<Mutex<Vec<u8>>>);
 
@@ -54,7 +54,7 @@ impl ApngEncoder {
         Ok(Self { writer: writer().map_err(in_words)?, file, size, transparent, before: Vec::new() })
     }
 
-    /// Stores what changed since the picture before.
+    /// Stores the changes since the previous picture.
     pub(super) fn add(&mut self, picture: Picture) -> Encoded<()> {
         let picture = if self.transparent { picture } else { picture.opaque() };
         let part = if self.before.is_empty() {

@@ -95,7 +95,7 @@ impl GifEncoder {
     }
 }
 
-/// Every pixel either opaque in its own colour or nothing at all.
+/// Makes every pixel opaque in its own colour or fully transparent.
 fn with_hard_edges(mut picture: Picture) -> Picture {
     for pixel in picture.pixels.chunks_exact_mut(4) {
         if pixel[3] < KEPT {

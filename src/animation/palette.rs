@@ -85,7 +85,7 @@ impl Palette {
         }
     }
 
-    /// Whether the present table does for another picture.
+    /// Whether the present table suits another picture.
     fn serves(&mut self, histogram: &Histogram) -> bool {
         self.add_mixed(histogram);
         let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
@@ -107,7 +107,7 @@ impl Palette {
 
     /// Appends the indices of a row of pixels that begins at this place of the screen.
     pub(super) fn map_row<'a>(&self, pixels: impl Iterator<Item = &'a [u8]>, left: u32, y: u32, to: &mut Vec<u8>) {
-        // Neighbours are often alike.
+        // Neighbours often have the same colour.
         let mut last = (Packed::MAX, Mix { first: TRANSPARENT, second: TRANSPARENT, share: 0 });
         for (x, pixel) in (left..).zip(pixels) {
             if pixel[3] == 0 {
@@ -123,7 +123,7 @@ impl Palette {
         }
     }
 
-    /// The table as red, green and blue bytes.
+    /// Returns the table as red, green and blue bytes.
     pub(super) fn bytes(&self) -> Vec<u8> {
         self.colors.iter().flat_map(|color| color.to_be_bytes().into_iter().skip(1)).collect()
     }
@@ -133,7 +133,7 @@ fn packed(pixel: &[u8]) -> Packed {
     u32::from_be_bytes([0, pixel[0], pixel[1], pixel[2]])
 }
 
-/// The colours in order, with how many pixels each has.
+/// Returns the colours in order, with the number of pixels of each.
 fn histogram(pixels: &[u8]) -> Histogram {
     let mut counts: HashMap<Packed, u32, BuildHasherDefault<ColorHasher>> = HashMap::default();
     let (mut color, mut run) = (0, 0);

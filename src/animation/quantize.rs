@@ -19,7 +19,7 @@ pub(super) struct Mix {
 /// Weights of red, green and blue in a distance, roughly those of the eye.
 const WEIGHTS: [i32; 3] = [3, 4, 2];
 
-/// A colour on this share of the picture keeps its exact place …
+/// A colour that covers this share of the picture keeps its exact place …
 const FLAT_SHARE: f64 = 1.0 / 512.0;
 
 /// … but no more than this share of the palette.
@@ -41,7 +41,7 @@ pub(super) fn distance(a: Packed, b: Packed) -> f32 {
     sum as f32 / 3.0
 }
 
-/// At most `room` colours for a picture that has more.
+/// Returns at most `room` colours for a picture that has more.
 pub(super) fn choose(histogram: &Histogram, room: usize) -> Vec<Packed> {
     let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
     let mut by_count = histogram.clone();
@@ -107,7 +107,7 @@ fn cut(colors: Histogram, count: usize) -> Vec<Packed> {
         let (low, high): (Histogram, Histogram) =
             part.colors.iter().partition(|(color, _)| f64::from(channels(*color)[part.channel]) <= part.mean);
         if low.is_empty() || high.is_empty() {
-            // Rounding put the mean outside: nothing left to cut here.
+            // Rounding put the mean outside, so the part cannot be cut.
             parts.push(Part { spread: 0.0, ..part });
             break;
         }

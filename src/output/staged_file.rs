@@ -9,7 +9,7 @@ use std::io::Result;
 use std::path::Path;
 use tempfile::NamedTempFile;
 
-/// Such a file. Dropped, it is gone.
+/// An unnamed or temporary file, deleted when dropped.
 #[derive(Debug)]
 pub(super) enum StagedFile {
     /// No name leads to it.
@@ -55,7 +55,7 @@ impl StagedFile {
     }
 }
 
-/// How the names begin that files have until they are whole.
+/// The prefix of temporary names.
 const PREFIX: &str = ".tinta-";
 
 fn folder(target: &Path) -> &Path {
@@ -94,7 +94,7 @@ fn name(file: &File, target: &Path) -> Result<()> {
     named.persist(target).map_err(|error| error.error)
 }
 
-/// Where an open file can be linked from.
+/// The path that an open file can be linked from.
 #[cfg(target_os = "linux")]
 fn door(file: &File) -> std::path::PathBuf {
     use std::os::fd::AsRawFd;

@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use serde::Serialize;
 use std::fmt::Write;
 
-/// How exact lines were found.
+/// The settings and times of exact lines.
 #[derive(Debug, Clone, Serialize)]
 pub struct LinesMade {
     /// Number of edges in each class; an edge counts in its first class.
@@ -16,18 +16,18 @@ pub struct LinesMade {
     /// Places along smooth silhouettes where visibility changes; absent with other silhouettes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changes: Option<VisibilityChanges>,
-    /// How many lines are missing because the time was over.
+    /// Number of lines that are missing because the time was over.
     pub undecided: usize,
     /// Pieces of lines, and the numbers after chaining.
     pub counts: LineCounts,
-    /// Topology, silhouettes, visibility.
+    /// Times for topology, silhouettes and visibility.
     #[serde(flatten)]
     pub times: LineTimes,
-    /// Chaining and writing the text.
+    /// Time to chain the lines and write the text.
     pub lines_ms: f64,
 }
 
-/// How many pieces and paths there are.
+/// The number of pieces and paths.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct LineCounts {
     /// Pieces seen.
@@ -54,7 +54,7 @@ impl LineCounts {
     }
 }
 
-/// A piece of a line as the file has it.
+/// A piece of a line as written to the file.
 #[derive(Serialize)]
 struct SegmentRecord {
     class: &'static str,

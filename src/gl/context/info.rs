@@ -49,7 +49,7 @@ pub struct ContextInfo {
     pub largest_texture: u32,
     /// Number of textures a fragment shader can read; OpenGL 2.1 promises 2.
     pub texture_units: u32,
-    /// Largest picture in one piece, pixels: the smallest of viewport, texture and surface limits. Larger ones are drawn in tiles.
+    /// Largest picture in one piece, pixels: the smallest of viewport, texture and surface limits. Larger ones need tiles.
     pub largest_picture: Size,
     /// Largest viewport, pixels.
     pub largest_viewport: Size,
