@@ -1,4 +1,5 @@
-//! A picture: RGBA8 and its size; written to files and read from them. Only this file and `src/picture/read.rs` use the image crate.
+//! A picture: RGBA8 and its size, written to files and read from them. Only this file and `src/picture/read.rs` use the image
+//! crate.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {

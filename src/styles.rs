@@ -173,8 +173,8 @@ row::styles! {
         mark: Some(Mark { rgb: [184, 137, 11], outline: Outline::Polygon { corners: 6, turn: 0.0 } }),
     }
 
-    /// Ink in the valleys of a picture shaded by how far the surface faces the eye: contours and suggestive contours in image space,
-    /// DeCarlo et al. 2003.
+    /// Ink in the valleys of a picture that shades the surface by its angle to the eye: contours and suggestive contours in image
+    /// space, DeCarlo et al. 2003.
     Suggestive(Suggestive) {
         name: "suggestive",
         draw: Draw::Plan(Suggestive::plan),
@@ -254,7 +254,7 @@ impl Style {
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] for settings that cannot be written as text: a file name that is not text, an empty set of line
+    /// [`crate::Error::Setting`] for settings that text cannot express, such as an unreadable file name or an empty set of line
     /// classes.
     pub fn to_options(&self) -> Result<Options> {
         let mut options = Self::table().options(self, &Self::named(self.style_name()))?;

@@ -9,9 +9,9 @@ use std::sync::Arc;
 /// The ends of some edges on the device, one run after the other.
 pub(super) struct EdgeIndices {
     pub(super) runs: Arc<Vec<EdgeRun>>,
-    /// Each run's indices.
+    /// The indices of each run.
     pub(super) indices: Vec<Vec<u32>>,
-    /// All of them.
+    /// All indices in one buffer.
     pub(super) buffer: Buffer,
     /// The vertices of each run with separate vertices.
     pub(super) own_vertices: Vec<Option<Buffer>>,

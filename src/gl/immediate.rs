@@ -27,7 +27,7 @@ pub(super) struct Immediate {
 pub(super) struct Vertices<'a> {
     /// GL_TRIANGLES, GL_LINES, …
     pub mode: u32,
-    /// Where they are.
+    /// The places of the vertices.
     pub places: Places<'a>,
     /// The indices of the places, in order.
     pub indices: &'a [u32],
@@ -37,7 +37,7 @@ pub(super) struct Vertices<'a> {
     pub coordinates: [Option<&'a [[f32; 2]]>; FIXED_UNITS as usize],
 }
 
-/// Where vertices are.
+/// The places of vertices.
 #[derive(Clone, Copy)]
 pub(super) enum Places<'a> {
     /// Positions, with normals behind them that are not sent.

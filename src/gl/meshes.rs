@@ -206,7 +206,7 @@ fn upload<T: bytemuck::NoUninit>(gl: &Rc<Gl>, present: &mut Vec<OfVertices<T>>, 
     Ok(())
 }
 
-/// The buffer of a list.
+/// Returns the buffer of a list.
 fn buffer_of<'a, T>(present: &'a [OfVertices<T>], list: &Arc<Vec<T>>) -> Result<&'a Buffer> {
     let found = present.iter().find(|present| Arc::ptr_eq(list, &present.list));
     found.map(|present| &present.buffer).ok_or_else(of_another_scene)

@@ -39,7 +39,7 @@ impl Probe {
     }
 }
 
-/// Asks all of it.
+/// Runs all probes.
 pub(crate) fn probes(gl: &Rc<Gl>) -> Result<Vec<Probe>> {
     let side = SIDE as i32;
     // SAFETY: the context is current and in its initial state, except for the viewport.

@@ -26,7 +26,7 @@ struct Corners {
     places: Vec<[f32; 4]>,
     /// The start of the line or the middle of the point, pixels from the lower left, and its depth as clip space's w.
     firsts: Vec<[f32; 3]>,
-    /// Where the line ends.
+    /// The end of the line.
     seconds: Vec<[f32; 3]>,
 }
 
@@ -73,7 +73,7 @@ fn lines(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, width_px: f32) -> Co
     corners
 }
 
-/// Points of this size.
+/// Makes points of this size.
 fn points(ends: impl Iterator<Item = Vec4>, size: Size, size_px: f32) -> Corners {
     let (half_size, mut corners) = (half_size(size), Corners::default());
     let reach = (size_px * 0.5).max(1.0) + SPARE_PX;

@@ -10,7 +10,7 @@ use crate::plan;
 pub(super) struct Source {
     /// GL_VERTEX_SHADER or GL_FRAGMENT_SHADER.
     pub(super) kind: u32,
-    /// What errors call it.
+    /// The name for error messages.
     pub(super) path: String,
     /// The text to compile.
     pub(super) text: String,

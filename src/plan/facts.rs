@@ -52,7 +52,7 @@ pub enum WhereEven {
 pub struct Shorter {
     /// Its shaders.
     pub program: Program,
-    /// The uniform or value that they do not compute.
+    /// The light that they do not compute.
     pub without: &'static str,
     /// Why that makes no difference.
     pub because: String,

@@ -1,8 +1,8 @@
 //! `charcoal` and `sand`: Valente 2007, after Majumder and Gopi 2002.
 //!
 //! One pass: the paper over the whole picture, then the objects, dark grain where little light falls. The published listings run
-//! if their uniforms cover the settings. Otherwise the listing's parts run, each of which can be exchanged
-//! (`glsl/valente/charcoal-parts.frag`). A test shows that listing and parts draw the same picture.
+//! if their uniforms cover the settings. Otherwise their exchangeable parts run (`glsl/valente/charcoal-parts.frag`). A test
+//! shows that listing and parts draw the same picture.
 
 mod choices;
 mod improvements;

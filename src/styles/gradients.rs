@@ -34,7 +34,7 @@ impl<'a> Gradients<'a> {
         self.own.as_ref().map_or(&self.ramp.picture, |(_, picture)| picture)
     }
 
-    /// How many there are.
+    /// Returns their number.
     fn count(&self) -> u32 {
         self.own.as_ref().map_or(ROWS, |(bases, _)| bases.len() as u32)
     }

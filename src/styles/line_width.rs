@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use crate::scene::Size;
 use crate::settings::{Kind, Problem, Value};
 
-/// How wide a line is.
+/// The width of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LineWidth {
     /// This many pixels of the picture.

@@ -21,7 +21,7 @@ tinta_geometry::choices! {
         OsMesa = "osmesa",
         /// Windows' own, with a hidden window.
         Wgl = "wgl",
-        /// That of macOS.
+        /// CGL, on macOS.
         Cgl = "cgl",
     }
 }
@@ -40,8 +40,8 @@ pub struct Attempt {
 #[derive(Debug, Clone, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
-    /// It works.
+    /// The context works.
     Context(Box<ContextInfo>),
-    /// Why it does not.
+    /// The reason for its failure.
     Error(String),
 }

@@ -27,11 +27,11 @@ pub(super) static OF_SURFACELESS: ContextLock = ContextLock(Mutex::new(()));
 #[cfg(windows)]
 pub(super) static OF_WGL: ContextLock = ContextLock(Mutex::new(()));
 
-/// Those of CGL.
+/// The lock of CGL's contexts.
 #[cfg(target_os = "macos")]
 pub(super) static OF_CGL: ContextLock = ContextLock(Mutex::new(()));
 
-/// Those of OSMesa.
+/// The lock of OSMesa's contexts.
 pub(super) static OF_OSMESA: ContextLock = ContextLock(Mutex::new(()));
 
 impl ContextLock {

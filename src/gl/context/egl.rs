@@ -61,7 +61,7 @@ pub(super) fn check_library() -> Result<(), String> {
     CHECKED.get_or_init(check).clone()
 }
 
-/// A device EGL knows.
+/// An EGL device.
 pub(super) struct Device {
     device: device::Device,
     /// The name to display: EGL and the device's own name.

@@ -17,7 +17,7 @@ pub(super) trait Platform {
     /// Makes the context current on this thread.
     fn make_current(&self) -> std::result::Result<(), NotCurrent>;
 
-    /// Ends that.
+    /// Stops it being current.
     fn release(&self);
 
     /// The address of a GL function, or null. The context is current.

@@ -50,7 +50,7 @@ impl SurfaceFramebuffer {
         }
     }
 
-    /// Its name.
+    /// The framebuffer's name.
     pub(in crate::gl) fn id(&self) -> glow::Framebuffer {
         self.id
     }

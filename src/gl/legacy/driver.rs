@@ -277,7 +277,7 @@ impl Legacy {
     /// The driver's pipeline already knows the bound program.
     pub(in crate::gl) fn program_bound(&self, _: glow::Program) {}
 
-    /// A program is gone.
+    /// Forgets a deleted program.
     pub(in crate::gl) fn program_deleted(&self, _: glow::Program) {}
 
     /// Makes GL compute the smaller levels of the texture just bound at each upload of the largest: the way of GL 1.4 to 2.1.

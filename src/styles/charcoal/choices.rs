@@ -33,7 +33,7 @@ tinta_geometry::choices! {
         /// Before saturation, as published.
         #[default]
         Original = "original",
-        /// After it: figure 8.
+        /// After saturation: figure 8.
         Saturated = "saturated",
     }
 }

@@ -28,7 +28,7 @@ pub struct Improvements {
     pub strokes: bool,
 }
 
-/// How many there are.
+/// The number of improvements.
 const COUNT: usize = 8;
 
 impl Improvements {

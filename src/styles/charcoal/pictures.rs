@@ -15,7 +15,7 @@ pub enum TextureSource {
     Made,
     /// A picture of the user's.
     File {
-        /// Where it came from.
+        /// Its source file.
         path: PathBuf,
         /// The picture; its alpha is not used.
         picture: Arc<Picture>,
