@@ -254,7 +254,7 @@ impl Style {
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] for settings that text cannot express, such as an unreadable file name or an empty set of line
+    /// [`crate::Error::Setting`] for settings that text cannot express, such as a file name outside Unicode or an empty set of line
     /// classes.
     pub fn to_options(&self) -> Result<Options> {
         let mut options = Self::table().options(self, &Self::named(self.style_name()))?;
