@@ -42,7 +42,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-/// Where an animation goes, checked before the work.
+/// The destination of an animation, checked before the work.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AnimationTarget {
     name: String,
@@ -57,14 +57,14 @@ enum AnimationFormat {
     Numbered(NumberedName),
 }
 
-/// Pictures that wait for the encoder at most: drawing never runs far ahead of it.
+/// Most pictures that wait for the encoder, which keeps drawing from running far ahead.
 const WAITING: usize = 4;
 
 /// The longest side of a GIF, pixels: the format counts in 16 bits.
 const LARGEST_GIF_SIDE_PX: u32 = 65_535;
 
 impl AnimationTarget {
-    /// Whether a name can only mean an animation: `.gif`, `.apng`, or a numbered name such as `frame-%04d.png`.
+    /// Whether a name always means an animation: `.gif`, `.apng`, or a numbered name such as `frame-%04d.png`.
     pub fn is_meant_by(name: &str) -> bool {
         matches!(extension(Path::new(name)).as_str(), "gif" | "apng") || NumberedName::parse(name).is_some()
     }
@@ -106,7 +106,7 @@ fn extension(path: &Path) -> String {
     path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
 
-/// Takes the pictures of an animation. Dropped before the last one came, it leaves no GIF or APNG.
+/// Takes the pictures of an animation. If dropped before the last one, it leaves no GIF or APNG.
 #[derive(Debug)]
 pub struct AnimationWriter {
     target: AnimationTarget,
@@ -116,23 +116,23 @@ pub struct AnimationWriter {
     worker: Option<JoinHandle<Result<Written>>>,
 }
 
-/// What was written.
+/// The finished animation's numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Written {
-    /// Encoding each picture, milliseconds; on its own thread beside the drawing.
+    /// Time to encode each picture, milliseconds, on a separate thread during the drawing.
     pub encode_ms: Vec<f64>,
     /// Size of the file, or of all numbered ones together.
     pub bytes: u64,
 }
 
 impl AnimationWriter {
-    /// Begins an animation of `frames` pictures, each shown for `delay_ms` milliseconds, the whole over and over.
+    /// Begins an animation of `frames` pictures, each shown for `delay_ms` milliseconds, in an endless loop.
     ///
-    /// GIF counts hundredths of a second: there delays differ by one, so that the animation takes as long as it should.
+    /// GIF counts hundredths of a second, so its delays may differ by one to keep the total duration.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] when there is no frame, or no thread to encode on.
+    /// [`Error::File`] for zero frames, or if the encoder's thread cannot start.
     pub fn new(target: AnimationTarget, frames: u32, delay_ms: u16) -> Result<Self> {
         if frames == 0 {
             return Err(target.error("an animation has at least one picture; ask for more".to_owned()));
@@ -148,12 +148,12 @@ impl AnimationWriter {
         Ok(Self { target, frames, added: 0, pictures: Some(pictures), worker: Some(worker) })
     }
 
-    /// Hands over the next picture; waits while the encoder is several behind.
+    /// Passes the next picture to the encoder; waits while the encoder is several behind.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] for one picture too many, or for what stopped the encoder, such as a full disk or a picture of
-    /// another size; the animation is then over.
+    /// [`Error::File`] for one picture too many, or for the encoder's error, such as a full disk or a picture of another size;
+    /// the animation is then over.
     pub fn add(&mut self, picture: Picture) -> Result<()> {
         if self.added == self.frames {
             return Err(self.target.error(format!("more pictures came than the {} announced", self.frames)));
@@ -227,7 +227,7 @@ impl Encoder {
             (Self::Numbered { bytes, .. }, _) => return Ok(bytes),
             (Self::Gif(encoder), AnimationFormat::Gif(path)) => (encoder.finish(), path),
             (Self::Apng(encoder), AnimationFormat::Apng(path)) => (encoder.finish(), path),
-            // An encoder is made for its target.
+            // Encoders exist only for their own target.
             (Self::Gif(_) | Self::Apng(_), _) => return Ok(0),
         };
         let bytes = bytes.map_err(|problem| target.error(problem))?;
@@ -236,7 +236,7 @@ impl Encoder {
     }
 }
 
-/// The encoder's thread: nothing is written unless all pictures came.
+/// The encoder's thread: it writes the file only after all pictures have come.
 fn write(target: &AnimationTarget, pictures: &Receiver<Picture>, frames: u32, delay_ms: u16) -> Result<Written> {
     let mut encode_ms = Vec::new();
     let mut encoder: Option<(Size, Encoder)> = None;

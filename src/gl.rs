@@ -1,13 +1,13 @@
 //! OpenGL 2.1: contexts without a window, the fixed-function calls glow lacks, objects with owners, plans carried out.
 //!
 //! All `unsafe` code of the drawing is here. In: a [`crate::plan::Plan`] and a [`crate::scene::Scene`]. Out: pixels and times.
-//! It knows no style. Every `unsafe` block here rests on two facts, which its comment names: the context these functions
-//! were loaded from is current on this thread, and the objects passed are alive.
+//! It knows no style. Every `unsafe` block here rests on two facts, which its comment names: the functions'
+//! context is current on this thread, and the objects passed are alive.
 //!
 //! ```
 //! use tinta::gl::context::{Attempt, Outcome, attempts};
 //!
-//! // Every way to a context on this machine, and what came of it.
+//! // Every way to a context on this machine, and its outcome.
 //! for Attempt { device, outcome } in attempts(tinta::Backend::Auto) {
 //!     match outcome {
 //!         Outcome::Context(info) => println!("{device}: {}", info.renderer),
@@ -49,28 +49,28 @@ use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// What a browser calls GL_CONTEXT_LOST.
+/// WebGL's name for GL_CONTEXT_LOST.
 const CONTEXT_LOST_WEBGL: u32 = 0x9242;
 
-/// The loaded GL functions of one context, what it says about itself, and how many of its objects are alive.
+/// One context's loaded GL functions, its information, and the number of its live objects.
 pub(crate) struct Gl {
     glow: Rc<glow::Context>,
     legacy: Legacy,
-    /// What draws without buffers; else the name of the first function of it that the driver lacks.
+    /// The calls that draw without buffers; otherwise the name of the first function that the driver lacks.
     immediate: std::result::Result<Immediate, String>,
     info: ContextInfo,
-    /// What stands for the surface of a context without one.
+    /// The framebuffer object that replaces the surface in a context without one.
     #[cfg(any(target_os = "macos", test))]
     surface: Option<context::SurfaceFramebuffer>,
     live_objects: Cell<usize>,
     /// Shaders used instead of those built in, by their paths below `glsl/`.
     replaced_shaders: RefCell<HashMap<String, String>>,
-    /// Once the context is lost: what said so.
+    /// If the context is lost, the source of that report.
     lost: Cell<Option<&'static str>>,
 }
 
 impl Gl {
-    /// The framebuffer that is the context's own: 0, or what stands for it.
+    /// The context's own framebuffer: 0, or the framebuffer object that replaces it.
     fn own_framebuffer(&self) -> Option<glow::Framebuffer> {
         #[cfg(any(target_os = "macos", test))]
         return self.surface.as_ref().map(context::SurfaceFramebuffer::id);
@@ -92,12 +92,12 @@ impl Gl {
     /// Draws vertices by glBegin and glEnd, if the driver has them.
     fn draw_in_immediate_mode(&self, vertices: &Vertices<'_>) -> Result<()> {
         let immediate = self.immediate()?;
-        // SAFETY: the context is current, and glBegin and glEnd are called in pairs and nowhere else.
+        // SAFETY: the context is current, and only this code calls glBegin and glEnd, in pairs.
         unsafe { immediate.send(vertices) };
         Ok(())
     }
 
-    /// Refuses to go on with a context that is lost.
+    /// Returns an error if the context is lost.
     pub(crate) fn refuse_if_lost(&self, during: &str) -> Result<()> {
         match self.lost.get() {
             None => Ok(()),
@@ -105,11 +105,11 @@ impl Gl {
         }
     }
 
-    /// Returns the error GL noted since the last call, if any, as ours. That the context is lost goes before any other.
+    /// Returns GL's error since the last call, if any, as ours. A lost context takes precedence over other errors.
     pub(crate) fn check(&self, during: &str) -> Result<()> {
         // SAFETY: the context is current: only its holder calls this, between make_current and release.
         let code = unsafe { self.glow.get_error() };
-        // SAFETY: as above; the driver has the function where the table does.
+        // SAFETY: as above; the table holds only functions that the driver has.
         match unsafe { self.legacy.reset_status() } {
             glow::NO_ERROR if [glow::CONTEXT_LOST, CONTEXT_LOST_WEBGL].contains(&code) => {
                 self.lost.set(Some("GL_CONTEXT_LOST"))
@@ -123,8 +123,8 @@ impl Gl {
         if code == glow::NO_ERROR {
             return Ok(());
         }
-        // One call may leave several flags; they must not be blamed on the next.
-        // SAFETY: as above. A driver that is broken could report errors for ever, hence the bound.
+        // One call may leave several flags; clear them all before the next. SAFETY: as above. A broken driver could report errors
+        // for ever, hence the bound.
         (0..16).take_while(|_| unsafe { self.glow.get_error() } != glow::NO_ERROR).count();
         let what = match code {
             glow::INVALID_ENUM => "GL_INVALID_ENUM".to_owned(),

@@ -13,12 +13,12 @@ pub type Source = (&'static str, &'static str);
 
 macro_rules! sources {
     ($($path:literal),* $(,)?) => {
-        /// Every shader there is; a test compares this with the folder.
+        /// All shaders; a test compares this with the folder.
         pub const SOURCES: &[Source] = &[$(($path, include_str!(concat!("../glsl/", $path)))),*];
     };
 }
 
-// A macro because include_str! takes literals only: a function would need every path twice.
+// A macro because include_str! takes only literals; a function would need every path twice.
 sources![
     "dachsbacher/ramp.vert",
     "dietrich/dietrich.frag",
@@ -125,7 +125,7 @@ sources![
     "valente/wrap-repeat.frag",
 ];
 
-/// The text of a shader; `None` if there is none of that path.
+/// Returns the text of a shader; `None` for an unknown path.
 pub fn source(path: &str) -> Option<&'static str> {
     SOURCES.iter().find(|(name, _)| *name == path).map(|(_, text)| *text)
 }

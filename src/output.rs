@@ -1,8 +1,8 @@
 //! Atomic output: a path is checked before the work, written to a temporary file, then renamed into place.
 //!
-//! Pictures, animations and texts all go through here. Nothing half is left however the program ends, without handling
-//! signals: what is written is complete in memory first, and on the disk before it gets its name. The price is its size in
-//! memory. What holds when, and what no program can promise: docs/dev/limits.md.
+//! Pictures, animations and texts all go through here. No incomplete file remains however the program ends, even
+//! without signal handling: the contents are complete in memory first, and on the disk before the file gets its name. The price
+//! is their size in memory. Guarantees and limits: docs/dev/limits.md.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -25,7 +25,7 @@ use staged_file::StagedFile;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Where a text goes, an SVG or a JSON file, or a PDF.
+/// The destination of a text: an SVG, JSON or PDF file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TextTarget {
     /// Standard output.
@@ -39,7 +39,7 @@ impl TextTarget {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] for a directory, a device, a folder that is missing or may not be written.
+    /// [`Error::File`] for a directory, a device, and a missing or write-protected folder.
     pub fn check(path: &str) -> Result<Self> {
         if path == "-" {
             return Ok(Self::Stdout);
@@ -49,7 +49,7 @@ impl TextTarget {
         Ok(Self::File(file))
     }
 
-    /// Writes the text; a file appears complete or stays as it was.
+    /// Writes the text; a file is replaced completely or stays unchanged.
     ///
     /// # Errors
     ///
@@ -58,7 +58,7 @@ impl TextTarget {
         self.write_bytes(text.as_bytes())
     }
 
-    /// Writes what is no text, as [`TextTarget::write`] does.
+    /// Writes bytes, like [`TextTarget::write`].
     ///
     /// # Errors
     ///
@@ -71,7 +71,7 @@ impl TextTarget {
     }
 }
 
-/// Writes all of it to standard output.
+/// Writes all bytes to standard output.
 pub(crate) fn write_standard_output(bytes: &[u8]) -> Result<()> {
     let mut out = std::io::stdout().lock();
     out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| {
@@ -79,7 +79,7 @@ pub(crate) fn write_standard_output(bytes: &[u8]) -> Result<()> {
     })
 }
 
-/// Refuses names of folders, and endings without a name.
+/// Returns an error for names of folders, and for extensions without a name.
 pub(crate) fn check_name(file: &Path) -> Result<()> {
     let refuse = |problem: String| Err(Error::output(file, problem));
     let text = file.to_string_lossy();
@@ -107,14 +107,14 @@ pub(crate) fn check_file(file: &Path) -> Result<()> {
             "Windows has a device of this name; name another file, or - for standard output".to_owned(),
         ));
     }
-    // A new file takes the old one's place, which must be a file: not a device, a pipe or a link to nowhere.
+    // A new file replaces the old one, which must be a file: not a device, a pipe or a broken link.
     if file.symlink_metadata().is_ok() && !file.is_file() {
         return Err(refuse("this is not a regular file; name another, or - for standard output".to_owned()));
     }
     StagedFile::open(&resolved(file)).map(drop).map_err(|error| refused(file, &error))
 }
 
-/// Whether a path's last name is one that Windows gives to devices, in whatever folder and with whatever ending: `aux.png`.
+/// Whether a path's last name is a Windows device name, in any folder and with any extension: `aux.png`.
 fn is_device(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_uppercase();
     let stem = name.split('.').next().unwrap_or_default().trim_end();
@@ -125,7 +125,7 @@ fn is_device(path: &Path) -> bool {
     ["CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"].contains(&stem) || is_numbered("COM") || is_numbered("LPT")
 }
 
-/// A file's new contents, whole on the disk, under no name yet or under one that goes away with this.
+/// A file's new contents, complete on the disk, without a name or under a temporary one that is removed with this.
 #[derive(Debug)]
 pub struct Staged {
     path: PathBuf,
@@ -133,7 +133,7 @@ pub struct Staged {
 }
 
 impl Staged {
-    /// Writes the contents beside the place of `path`, which stays as it is.
+    /// Writes the contents to a temporary file beside `path`, which stays unchanged.
     ///
     /// # Errors
     ///
@@ -145,7 +145,7 @@ impl Staged {
         Ok(staged)
     }
 
-    /// Nothing yet: [`Staged::add`] writes, and [`Staged::settle`] comes before [`Staged::put_in_place`].
+    /// Starts empty: [`Staged::add`] writes, and [`Staged::settle`] comes before [`Staged::put_in_place`].
     ///
     /// # Errors
     ///
@@ -164,21 +164,21 @@ impl Staged {
         self.temporary.file().write_all(bytes).map_err(|error| refused(&self.path, &error))
     }
 
-    /// Has the contents on the disk, where they replace a file.
+    /// Flushes the contents to the disk if they replace a file.
     ///
     /// # Errors
     ///
     /// As [`Staged::new`].
     pub(crate) fn settle(&mut self) -> Result<()> {
         let Ok(metadata) = self.path.metadata() else { return Ok(()) };
-        // A file that is replaced keeps its permissions. And what replaces it must have reached the disk: a power
-        // cut would otherwise leave neither. Of a new file nothing is lost, so nothing waits for it.
+        // A replaced file keeps its permissions. The replacement must reach the disk first: otherwise a power cut could destroy
+        // both. A new file replaces nothing, so it need not wait.
         let file = self.temporary.file();
         let settled = file.set_permissions(metadata.permissions()).and_then(|()| file.sync_data());
         settled.map_err(|error| refused(&self.path, &error))
     }
 
-    /// Gives the contents their name: a link is followed, an old file replaced.
+    /// Gives the contents their name; follows a link, replaces an old file.
     ///
     /// # Errors
     ///
@@ -188,7 +188,7 @@ impl Staged {
     }
 }
 
-/// Writes a file whole, or leaves what is there.
+/// Writes a complete file, or leaves the existing one unchanged.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     Staged::new(path, bytes)?.put_in_place()
 }
@@ -197,7 +197,7 @@ fn refused(path: &Path, error: &std::io::Error) -> Error {
     Error::output(path, cannot_write(path, error)).because(error)
 }
 
-/// The file a link at `path` points to, so that the link stays.
+/// Returns the file that a link at `path` points to; writing there keeps the link.
 fn resolved(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
 }

@@ -1,4 +1,5 @@
-//! A picture: RGBA8 and its size; written to files and read from them. The image crate is known here and in `src/picture/read.rs` only.
+//! A picture: RGBA8 and its size, written to files and read from them. Only this file and `src/picture/read.rs` use the image
+//! crate.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -39,12 +40,12 @@ use std::path::{Path, PathBuf};
 pub struct Picture {
     /// Width and height.
     pub size: Size,
-    /// Four bytes a pixel, row by row from the top.
+    /// Four bytes per pixel, row by row from the top.
     pub pixels: Vec<u8>,
 }
 
 impl Picture {
-    /// A picture from GL's rows, bottom row first.
+    /// Returns a picture of GL's rows, bottom row first.
     #[must_use]
     pub fn from_bottom_up(size: Size, pixels: &[u8]) -> Self {
         let row = size.width as usize * 4;
@@ -53,7 +54,7 @@ impl Picture {
         Self { size, pixels: rows }
     }
 
-    /// The pixel in column `x` from the left and row `y` from the top, both clamped to the picture.
+    /// Returns the pixel in column `x` from the left and row `y` from the top, both clamped to the picture.
     pub fn pixel(&self, x: i64, y: i64) -> [u8; 4] {
         let x = x.clamp(0, i64::from(self.size.width) - 1) as usize;
         let y = y.clamp(0, i64::from(self.size.height) - 1) as usize;
@@ -61,14 +62,14 @@ impl Picture {
         [0, 1, 2, 3].map(|channel| self.pixels[start + channel])
     }
 
-    /// The same colours without transparency.
+    /// Returns the same colours without transparency.
     #[must_use]
     pub fn opaque(mut self) -> Self {
         self.pixels.chunks_exact_mut(4).for_each(|pixel| pixel[3] = u8::MAX);
         self
     }
 
-    /// Alpha as an opaque grey.
+    /// Returns alpha as an opaque grey.
     #[must_use]
     pub fn alpha_as_grey(mut self) -> Self {
         self.pixels.chunks_exact_mut(4).for_each(|pixel| {
@@ -79,7 +80,7 @@ impl Picture {
         self
     }
 
-    /// The same without alpha.
+    /// Returns the pixels without alpha.
     fn rgb(&self) -> Vec<u8> {
         let mut rgb = vec![0; self.size.pixel_count() * 3];
         for (to, from) in rgb.chunks_exact_mut(3).zip(self.pixels.chunks_exact(4)) {
@@ -92,7 +93,7 @@ impl Picture {
         self.pixels.chunks_exact(4).all(|pixel| pixel[3] == u8::MAX)
     }
 
-    /// The largest difference of any byte between two pictures of one size, and how many pixels differ at all.
+    /// Returns the largest difference of any byte between two pictures of one size, and the number of pixels that differ.
     #[must_use]
     pub fn difference(&self, other: &Self) -> Option<Difference> {
         if self.size != other.size {
@@ -133,7 +134,7 @@ impl Picture {
         }
     }
 
-    /// The bytes of a file; where the format is PNG, with a note in it. The error is what the encoder says.
+    /// Returns the bytes of a file, for PNG with a note in it. The error is the encoder's text.
     fn file(&self, format: PictureFormat, note: Option<&Note>) -> std::result::Result<Vec<u8>, String> {
         match note.filter(|_| format == PictureFormat::Png) {
             Some(Note { keyword, text }) => {
@@ -149,7 +150,7 @@ impl Picture {
         }
     }
 
-    /// The bytes of a PNG file, with a note in it if there is one: those that [`Target::write_with`] writes.
+    /// Returns the bytes of a PNG file, with the note if given: the same as [`Target::write_with`] writes.
     ///
     /// # Errors
     ///
@@ -159,13 +160,13 @@ impl Picture {
             .map_err(|error| Error::output("-", format!("the picture cannot be encoded ({error}); draw a smaller one")))
     }
 
-    /// Writes the picture to a file, in the format that the name's extension says. The file appears complete or stays as it
-    /// was. [`Target::check`] finds what keeps it from being written before the work.
+    /// Writes the picture to a file, in the format of the name's extension. The file is replaced completely or stays unchanged.
+    /// [`Target::check`] finds obstacles to writing before the work.
     ///
     /// # Errors
     ///
-    /// [`Error::File`] for an unknown extension, a directory, a folder that is missing or may not be written, and for a
-    /// picture that is not opaque in a format without transparency; [`Error::File`].
+    /// [`Error::File`] for an unknown extension, a directory, a missing or write-protected folder, a failed write, and for a
+    /// picture that is not opaque in a format without transparency.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         Target::of_file(path.as_ref(), !self.is_opaque())?.write(self)
     }
@@ -174,7 +175,7 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] with the path when it is missing or no picture.
+    /// [`Error::File`] with the path when it is missing or not a picture.
     pub fn read_png(path: &Path) -> Result<Self> {
         let failed = |error: image::ImageError| {
             Error::output(path, format!("it cannot be read as a picture ({error}); draw it again"))
@@ -184,7 +185,7 @@ impl Picture {
     }
 }
 
-/// How far two pictures are apart.
+/// The difference between two pictures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Difference {
     /// Largest difference of any channel, 0 to 255.
@@ -193,18 +194,18 @@ pub struct Difference {
     pub pixels: usize,
 }
 
-/// The file formats written.
+/// The file formats for writing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PictureFormat {
-    /// Portable Network Graphics, with alpha where the picture has any.
+    /// Portable Network Graphics, with alpha if the picture has any.
     Png,
     /// JPEG, quality 92, no alpha.
     #[cfg(feature = "formats")]
     Jpeg,
     /// Windows bitmap, no alpha.
     Bmp,
-    /// Truevision TGA, with alpha where the picture has any.
+    /// Truevision TGA, with alpha if the picture has any.
     Tga,
     /// Portable pixmap, binary, no alpha.
     Ppm,
@@ -222,7 +223,7 @@ impl PictureFormat {
         ("ppm", Self::Ppm),
     ];
 
-    /// The format of a file's name, by its extension.
+    /// Returns the format of a file's name, by its extension.
     pub(crate) fn of(file: &Path) -> Option<Self> {
         let extension = file.extension()?.to_str()?.to_ascii_lowercase();
         Self::EXTENSIONS.iter().find(|(known, _)| *known == extension).map(|(_, format)| *format)
@@ -233,7 +234,7 @@ impl PictureFormat {
     }
 }
 
-/// Where a picture goes, checked before the work and written whole or not at all.
+/// The destination of a picture, checked before the work and written completely or not at all.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Target {
     /// Standard output, as PNG.
@@ -260,7 +261,7 @@ impl Target {
         }
     }
 
-    /// As [`Target::check`] of a file, whatever its name; `-` is one here.
+    /// Checks a file as [`Target::check`] does, whatever its name; `-` is a file here.
     ///
     /// # Errors
     ///
@@ -284,7 +285,7 @@ impl Target {
         Ok(Self::File { path: file.to_owned(), format })
     }
 
-    /// Writes the picture; a file appears complete or stays as it was.
+    /// Writes the picture; a file is replaced completely or stays unchanged.
     ///
     /// # Errors
     ///
@@ -293,7 +294,7 @@ impl Target {
         self.write_with(picture, None)
     }
 
-    /// Writes the picture with a note in it, where the format is PNG; the others hold none.
+    /// Writes the picture, as PNG with a note in it; other formats hold no note.
     ///
     /// # Errors
     ///
@@ -337,16 +338,16 @@ impl Target {
     }
 }
 
-/// A text that a PNG carries beside its pixels.
+/// A text stored in a PNG beside its pixels.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
-    /// What it is found by, 1 to 79 letters.
+    /// The note's keyword, 1 to 79 letters.
     pub keyword: &'static str,
     /// ASCII.
     pub text: String,
 }
 
-/// Writes a picture as RGBA PNG whatever its alpha: what GL held, byte for byte.
+/// Writes a picture as RGBA PNG whatever its alpha: GL's bytes, unchanged.
 ///
 /// # Errors
 ///
@@ -355,7 +356,7 @@ pub fn write_rgba_png(picture: &Picture, path: &Path) -> Result<()> {
     write_whole(path, &encoded(path, |out| picture.encode(PictureFormat::Png, true, out))?)
 }
 
-/// A picture's file, in memory.
+/// Encodes a picture's file in memory.
 fn encoded(path: &Path, encode: impl FnOnce(&mut Vec<u8>) -> image::ImageResult<()>) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     encode(&mut bytes)

@@ -1,7 +1,7 @@
-//! What a style wants GL to do, as plain data: passes of steps, each with all the state it needs.
+//! The work of a style for GL, as plain data: passes of steps, each with all the state it needs.
 //!
-//! A style makes it from a scene, `gl` carries it out, and anybody can print, compare or check it without a GPU. What a style
-//! knows of its shaders it states beside each draw ([`Facts`]), for those who leave out what a scene does not need ([`prune`]).
+//! A style makes the plan from a scene and `gl` carries it out. A plan can be printed, compared and checked without a GPU. Beside
+//! each draw a style states facts about its shaders ([`Facts`]); [`prune`] uses them to drop steps that a scene does not need.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -14,9 +14,9 @@
 //! let plan = Style::named(StyleName::ThreePass).plan(&scene, Show::Final)?;
 //! let passes: Vec<&str> = plan.passes.iter().map(|pass| pass.name).collect();
 //! assert_eq!(passes, ["map", "tones", "border"]);
-//! // A plan prints as what it does, step by step.
+//! // A plan prints as its steps.
 //! assert!(plan.to_string().contains("copy the framebuffer into the texture BorderMap"));
-//! // What a style states of its draws is printed by `{:#}`.
+//! // `{:#}` also prints the facts that a style states of its draws.
 //! assert!(format!("{plan:#}").contains("reads no further than 2 px"));
 //! # Ok(())
 //! # }
@@ -47,36 +47,36 @@ use std::sync::Arc;
 /// The steps of one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// In order; each pass is timed by its name.
+    /// In order; timings use the name of each pass.
     pub passes: Vec<Pass>,
     /// The tables that [`Texture::Table`] numbers.
     pub tables: Vec<PlanTable>,
     /// The pictures that [`Texture::Picture`] numbers.
     pub pictures: Vec<PlanPicture>,
-    /// How many times as wide and high as the picture it is drawn, from 1. Above 1 the plan itself ends by drawing
+    /// Supersampling factor, from 1. Above 1 the plan ends by drawing
     /// [`Geometry::PictureSquare`], which fills the picture.
     pub supersample: u32,
-    /// How its vertices are handed to GL.
+    /// How its vertices are passed to GL.
     pub submission: Submission,
-    /// What of [`Plan::picture_target`] is the picture.
+    /// The part of [`Plan::picture_target`] that is the picture.
     pub output: Output,
 }
 
-/// Steps that belong together, under the name by which reports and dumps know them.
+/// Steps that belong together. Reports and dumps use its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pass {
     /// `map`, `tones`, `border` …
     pub name: &'static str,
-    /// What it draws into.
+    /// The target that the pass draws into.
     pub target: Target,
-    /// The pixels that its steps may clear, draw and copy; `None` for all. A step's own scissor lies within.
+    /// The pixels that its steps may clear, draw and copy; `None` for all. A step's own scissor lies within it.
     pub scissor: Option<Rectangle>,
     /// In order.
     pub steps: Vec<Step>,
 }
 
-/// One thing for GL to do.
-// Where addresses have 32 bits the variant is not that large.
+/// One operation of GL.
+// With 32-bit addresses the variant is smaller.
 #[cfg_attr(
     target_pointer_width = "64",
     expect(clippy::large_enum_variant, reason = "most steps draw, and a plan has about ten: a box would save nothing")
@@ -86,14 +86,14 @@ pub struct Pass {
 pub enum Step {
     /// Clear colour and depth.
     Clear {
-        /// Red, green, blue, alpha; `None` leaves the colour.
+        /// Red, green, blue, alpha; `None` keeps the colour.
         color: Option<[f32; 4]>,
-        /// Whether depth is cleared, to the farthest.
+        /// Whether to clear depth, to the farthest value.
         depth: bool,
     },
-    /// Clear each of the pass's textures to a colour of its own, and depth.
+    /// Clear each of the pass's textures to its given colour, and depth.
     ClearEach {
-        /// Red, green, blue, alpha of each, in the order of [`Attachments::colors`].
+        /// Red, green, blue and alpha for each texture, in the order of [`Attachments::colors`].
         colors: Vec<[f32; 4]>,
     },
     /// Draw something.
@@ -107,32 +107,32 @@ pub enum Step {
 /// One draw with all the state it needs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draw {
-    /// What is drawn.
+    /// The geometry to draw.
     pub geometry: Geometry,
-    /// With which shaders; `None` for the fixed-function pipeline, without lighting.
+    /// Its shaders; `None` for the fixed-function pipeline, without lighting.
     pub program: Option<Program>,
     /// The uniforms of that program.
     pub uniforms: Vec<Uniform>,
-    /// The textures it reads, by the name of their sampler; each gets a texture unit of its own, in this order. Without a
-    /// fragment shader the units' colours are multiplied with each other and with the geometry's.
+    /// The textures it reads, by the name of their sampler. Each gets its own texture unit, in this order. Without a fragment
+    /// shader the units' colours are multiplied with each other and with the geometry's.
     pub textures: Vec<(&'static str, Texture)>,
-    /// How it meets the depth buffer.
+    /// How it uses the depth buffer.
     pub depth: Depth,
-    /// How the colour meets what is there.
+    /// How the colour is combined with the target's.
     pub blend: Blend,
-    /// Whether faces turned away from the eye (clockwise in the picture) are left out.
+    /// Whether to skip faces turned away from the eye (clockwise in the picture).
     pub cull_back_faces: bool,
     /// glPolygonOffset's factor and units: how far faces are pushed back, by their slope and in steps of depth.
     pub polygon_offset: Option<[f32; 2]>,
     /// The pixels it may change; `None` for all.
     pub scissor: Option<Rectangle>,
-    /// Which faces of [`Geometry::Objects`] are drawn, an entry for each of the scene's objects; `None` for all.
+    /// The faces of [`Geometry::Objects`] to draw, an entry for each of the scene's objects; `None` for all.
     pub faces: Option<Arc<Vec<Faces>>>,
-    /// What may be assumed of its shaders.
+    /// Facts about its shaders that others may rely on.
     pub facts: Facts,
 }
 
-/// Which faces of an object are drawn.
+/// The faces of an object to draw.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Faces {
     /// All.
@@ -143,17 +143,17 @@ pub enum Faces {
     Listed(Arc<FaceList>),
 }
 
-/// Some of an object's faces, in the order all of them are drawn in.
+/// Some of an object's faces, in their drawing order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FaceList {
-    /// Three indices a face, into the object's [`crate::mesh::VertexArrays::vertices`].
+    /// Three indices per face, into the object's [`crate::mesh::VertexArrays::vertices`].
     pub indices: Vec<u32>,
     /// The runs of faces that share a material.
     pub parts: Vec<Part>,
 }
 
 impl Draw {
-    /// A draw that tests and writes depth and does nothing else besides, of whose shaders nothing is assumed.
+    /// Returns a draw that only tests and writes depth and states no facts about its shaders.
     pub fn new(geometry: Geometry, program: Option<Program>) -> Self {
         Self {
             geometry,
@@ -171,7 +171,7 @@ impl Draw {
     }
 }
 
-/// What can be drawn.
+/// Geometry to draw.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Geometry {
@@ -179,7 +179,7 @@ pub enum Geometry {
     Objects(Paint),
     /// Edges of the objects.
     Edges {
-        /// Which, in runs of one object and colour.
+        /// The edges, in runs of one object and colour.
         runs: Arc<Vec<EdgeRun>>,
         /// Lines, or points at their ends.
         mark: Mark,
@@ -197,7 +197,7 @@ pub enum Geometry {
     },
     /// A square over the whole picture at the near plane, its vertices in clip space.
     ScreenSquare,
-    /// The same over the lower left corner that is the picture of a supersampled plan.
+    /// The same over the lower left corner, which holds the picture of a supersampled plan.
     PictureSquare,
 }
 
@@ -206,10 +206,10 @@ pub enum Geometry {
 pub enum Paint {
     /// Each material in its colour.
     Materials,
-    /// One for all: red, green, blue, alpha.
+    /// One colour for all: red, green, blue, alpha.
     Uniform([f32; 4]),
-    /// White, and for the first texture unit a coordinate for each vertex: one list an object, in the order of the scene's
-    /// objects, one entry for each of [`crate::mesh::VertexArrays::vertices`].
+    /// White, with a coordinate for each vertex for the first texture unit: a list per object, in the scene's order, with an
+    /// entry for each of [`crate::mesh::VertexArrays::vertices`].
     Coordinates(Arc<Vec<Arc<Vec<[f32; 2]>>>>),
     /// A colour for each vertex, mixed across each face: red, green, blue, alpha, in lists like those of coordinates.
     Colors(Arc<Vec<Arc<Vec<[f32; 4]>>>>),
@@ -220,24 +220,25 @@ pub enum Paint {
 pub struct EdgeRun {
     /// The object's number in the scene.
     pub object: usize,
-    /// What they are: a class of edges.
+    /// The name of their class of edges.
     pub name: &'static str,
     /// Red, green, blue, alpha.
     pub color: [f32; 4],
     /// Both ends of each, as indices into [`EdgeRun::vertices`].
     pub ends: Vec<[u32; 2]>,
-    /// Vertices of its own, for lines that run through faces, like [`crate::mesh::VertexArrays::vertices`]; `None` for those of the object.
+    /// Separate vertices for lines that run through faces, in the form of [`crate::mesh::VertexArrays::vertices`]; `None` for
+    /// lines on the object's vertices.
     pub own_vertices: Option<Vec<[f32; 6]>>,
 }
 
 impl EdgeRun {
-    /// What its ends number, given the object's arrays.
+    /// Returns the vertices that its ends index, given the object's arrays.
     pub fn vertices<'a>(&'a self, arrays: &'a VertexArrays) -> &'a [[f32; 6]] {
         self.own_vertices.as_ref().unwrap_or(&arrays.vertices)
     }
 }
 
-/// What of an edge is drawn.
+/// The parts of an edge to draw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
     /// GL_LINES
@@ -250,49 +251,49 @@ tinta_geometry::choices! {
     /// How lines get their width.
     #[derive(Default)]
     pub enum LineDrawing {
-        /// As GL draws lines and points; as quads where the width is beyond the driver's range.
+        /// As GL draws lines and points; as quads if the driver cannot draw the width.
         #[default]
         Gl = "gl",
-        /// As quads facing the eye, computed here; not smoothed.
+        /// As quads facing the eye, computed on the CPU; not smoothed.
         Quads = "quads",
     }
 }
 
-/// How a draw meets the depth buffer.
+/// How a draw uses the depth buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
-    /// Drawn where nearer than what is there (GL_LESS), and written.
+    /// Drawn if nearer than the stored depth (GL_LESS), and written.
     TestAndWrite,
-    /// Drawn where nearer than what is there (GL_LESS), not written.
+    /// Drawn if nearer than the stored depth (GL_LESS), not written.
     TestOnly,
-    /// Drawn where exactly as near as what is there (GL_EQUAL), not written: on what an earlier draw left to be seen.
+    /// Drawn if exactly at the stored depth (GL_EQUAL), not written: over the visible pixels of an earlier draw.
     Equal,
     /// Neither tested nor written.
     Ignore,
 }
 
-/// How a colour meets what is there.
+/// How a colour is combined with the target's.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Blend {
     /// It takes its place.
     #[default]
     Replace,
-    /// Over it, by its alpha.
+    /// Drawn over the target, by its alpha.
     Over,
-    /// It is multiplied with it; alpha stays.
+    /// Multiplied with the target's colour; alpha stays.
     Multiply,
 }
 
 /// Two functions of one number as a one-dimensional texture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlanTable {
-    /// What it is, for those who read the plan.
+    /// Its name for readers of the plan.
     pub name: &'static str,
     /// Luminance and alpha, in 1/255, for the numbers 0 to 1 at the texels' centres.
     pub texels: Vec<[u8; 2]>,
 }
 
-/// What of the target the picture shows.
+/// The part of the target that the picture shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Output {
     /// All four channels.
@@ -304,32 +305,32 @@ pub enum Output {
 }
 
 impl Plan {
-    /// A plan of these passes that reads neither tables nor pictures, drawn from buffers at its own size.
+    /// Returns a plan of these passes without tables and pictures, drawn from buffers at the picture's size.
     pub fn new(passes: Vec<Pass>) -> Self {
         let (tables, pictures) = (Vec::new(), Vec::new());
         Self { passes, tables, pictures, supersample: 1, submission: Submission::Buffers, output: Output::Rgba }
     }
 
-    /// All steps with the name of their pass.
+    /// Returns all steps with the name of their pass.
     pub fn steps(&self) -> impl Iterator<Item = (&'static str, &Step)> {
         self.passes.iter().flat_map(|pass| pass.steps.iter().map(|step| (pass.name, step)))
     }
 }
 
 impl Pass {
-    /// Steps into the framebuffer.
+    /// Returns a pass of steps into the framebuffer.
     pub fn new(name: &'static str, steps: Vec<Step>) -> Self {
         Self { name, target: Target::Framebuffer, scissor: None, steps }
     }
 }
 
 impl Step {
-    /// Clear all of it: colour, to red, green, blue, alpha, and depth.
+    /// Returns a step that clears colour, to red, green, blue, alpha, and depth.
     pub fn clear(color: [f32; 4]) -> Self {
         Self::Clear { color: Some(color), depth: true }
     }
 
-    /// A short name for files and tables.
+    /// Returns a short name for files and tables.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Clear { .. } | Self::ClearEach { .. } => "clear",
@@ -348,7 +349,7 @@ impl Step {
 }
 
 impl Draw {
-    /// Whether vertices are drawn where the camera has them: stated, or by the fixed-function pipeline.
+    /// Whether vertices are drawn at the camera's projection of them: stated, or by the fixed-function pipeline.
     pub fn keeps_places(&self) -> bool {
         self.program.is_none() || self.facts.keeps_places
     }
@@ -360,7 +361,7 @@ impl Draw {
 }
 
 impl Plan {
-    /// Drops what was stated of draws by any of these shaders, because they are not those that the style knew.
+    /// Drops the facts of draws that use any of these shaders, because their texts were replaced.
     pub fn forget_facts_of(&mut self, shaders: &[String]) {
         let has_one = |program: &Program| shaders.iter().any(|path| program.has_shader(path));
         let steps = self.passes.iter_mut().flat_map(|pass| &mut pass.steps);
@@ -374,12 +375,12 @@ impl Plan {
 }
 
 impl Plan {
-    /// What holds the picture: what the last pass drew into.
+    /// The target that holds the picture: that of the last pass.
     pub fn picture_target(&self) -> Target {
         self.passes.last().map_or(Target::Framebuffer, |pass| pass.target)
     }
 
-    /// Every set of textures that its passes draw into, once.
+    /// Returns every set of textures that its passes draw into, once.
     pub fn attachments(&self) -> Vec<&'static Attachments> {
         let mut all = Vec::new();
         for pass in &self.passes {
@@ -392,7 +393,7 @@ impl Plan {
         all
     }
 
-    /// What the picture is, in words.
+    /// Writes the picture's description.
     fn write_picture(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let holder = match self.picture_target() {
             Target::Framebuffer => "the framebuffer".to_owned(),

@@ -23,18 +23,18 @@ use crate::scene::{Background, Color, Size};
 use crate::styles::{Show, Style};
 use serde::Serialize;
 
-/// A drawing's record: enough to make it again and to compare its cost.
+/// A drawing's record: enough to repeat it and to compare its cost.
 #[derive(Debug, Clone, Serialize)]
 pub struct Record {
     /// tinta's version.
     pub version: &'static str,
-    /// All models together, copies not repeated; their paths with commas between them.
+    /// All models together, with copies counted once; their paths with commas between them.
     pub model: ModelRecord,
     /// Each model in the order given.
     pub models: Vec<ModelRecord>,
     /// How they were read.
     pub load: LoadOptions,
-    /// How often the models are repeated.
+    /// The number of copies of the models.
     pub copies: u32,
     /// Triangles drawn, all copies together.
     pub triangles: usize,
@@ -42,20 +42,20 @@ pub struct Record {
     pub style: Style,
     /// The picture's size.
     pub size: Size,
-    /// What is behind the objects.
+    /// The background behind the objects.
     pub background: Background,
     /// The camera, world space.
     pub camera: CameraRecord,
-    /// What there was to say of the drawing: lines drawn otherwise than asked for.
+    /// Remarks on the drawing: deviations of lines from the request.
     pub remarks: Vec<String>,
-    /// Reading the models and making meshes of them.
+    /// Time to read the models and make meshes of them.
     pub load_ms: f64,
     /// How it was made.
     #[serde(flatten)]
     pub made: Made,
 }
 
-/// How a drawing was made.
+/// The settings and times of a drawing.
 #[derive(Debug, Clone, Serialize)]
 #[serde(untagged)]
 pub enum Made {
@@ -65,10 +65,10 @@ pub enum Made {
     Lines(Box<LinesMade>),
 }
 
-/// How a picture was made.
+/// The settings and times of a picture.
 #[derive(Debug, Clone, Serialize)]
 pub struct PictureMade {
-    /// Which of the style's pictures it is.
+    /// The picture of the style.
     pub show: Show,
     /// The colour of surfaces without one, or of all.
     pub color: Color,
@@ -78,20 +78,20 @@ pub struct PictureMade {
     pub gl: ContextInfo,
     /// Each pass's median times.
     pub passes: Vec<PassTime>,
-    /// How vertices were handed to GL.
+    /// How vertices were passed to GL.
     pub submission: Submission,
-    /// What of the published plan was left out, and why.
+    /// The parts of the published plan that were left out, with reasons.
     pub omissions: Vec<Omission>,
-    /// What was not, and why.
+    /// The rules that left everything in, with reasons.
     pub kept: Vec<Kept>,
-    /// Making the plan: for the style inking that is edge list, classes, silhouettes and light.
+    /// Time to make the plan; for the style inking it covers edge list, classes, silhouettes and light.
     pub plan_ms: f64,
-    /// Opening the context; on its own thread beside the loading.
+    /// Time to open the context, on a separate thread during the loading.
     pub context_ms: f64,
-    /// Drawing one triangle while the models were still being read, so that the driver compiles its shaders meanwhile;
-    /// `null` where they were read before.
+    /// Time to draw one triangle while the models were still being read, which compiles the driver's shaders meanwhile; `null` if
+    /// they were read first.
     pub warm_up_ms: Option<f64>,
-    /// The first frame: uploads included, and the driver's compiling unless it was warmed up.
+    /// Time of the first frame, including uploads, and the driver's compiling unless it was warmed up.
     pub first_frame_ms: f64,
     /// The frames after warm-up, read-back included.
     pub frame_ms: Summary,
@@ -106,7 +106,7 @@ pub struct ModelRecord {
     pub vertices: usize,
     /// Triangles with area.
     pub triangles: usize,
-    /// What was wrong with the file.
+    /// The file's defects.
     pub defects: Defects,
 }
 
@@ -121,7 +121,7 @@ impl ModelRecord {
         }
     }
 
-    /// Several models as one.
+    /// Returns several models as one.
     pub fn together(models: &[Self]) -> Self {
         let paths: Vec<&str> = models.iter().map(|model| model.path.as_str()).collect();
         Self {
@@ -144,17 +144,16 @@ pub struct EdgeRecord {
     pub load: LoadOptions,
     /// Edges, each once.
     pub edges: usize,
-    /// How many are of each class; an edge of several counts in each. Where faces pass through one another is not looked for,
-    /// and has no key.
+    /// Number of edges in each class; an edge of several counts in each. Intersections of faces are not searched and have no key.
     #[serde(serialize_with = "without_intersections")]
     pub classes: ClassCounts,
-    /// Inner edges whose faces are wound against each other.
+    /// Inner edges whose faces have opposite winding.
     pub reversed_edges: usize,
-    /// From which angle between faces an edge is a crease.
+    /// Smallest angle between faces at a crease.
     pub crease_angle_degrees: f64,
     /// Its cosine.
     pub crease_cosine: f64,
-    /// How silhouettes were found.
+    /// The rule for silhouettes.
     pub silhouette_rule: SilhouetteRule,
     /// The camera, world space.
     pub camera: CameraRecord,
@@ -162,9 +161,9 @@ pub struct EdgeRecord {
     pub load_ms: f64,
     /// The edge list.
     pub build_ms: Summary,
-    /// The classes that do not depend on the view.
+    /// Time to find the classes that do not depend on the view.
     pub classify_ms: Summary,
-    /// The faces' planes, once a mesh.
+    /// Time to compute the faces' planes, once per mesh.
     pub planes_ms: Summary,
     /// The silhouette.
     pub silhouette_ms: Summary,
@@ -173,7 +172,7 @@ pub struct EdgeRecord {
 /// The file of measured rows inside a report's folder.
 pub const ROWS_FILE: &str = "results.jsonl";
 
-/// Some times and their summary, milliseconds.
+/// Times and their summary, milliseconds.
 #[derive(Debug, Clone, Serialize)]
 pub struct Summary {
     /// The middle one.
@@ -182,12 +181,12 @@ pub struct Summary {
     pub min: f64,
     /// The largest.
     pub max: f64,
-    /// All of them in the order measured.
+    /// All times in the order measured.
     pub all: Vec<f64>,
 }
 
 impl Summary {
-    /// Summarises times; zeros for none.
+    /// Summarises times; zeros for an empty list.
     pub fn new(all: Vec<f64>) -> Self {
         Self {
             median: median(all.clone()).unwrap_or_default(),
@@ -198,7 +197,7 @@ impl Summary {
     }
 }
 
-/// The counts of those classes that a mesh's edges can be of.
+/// Serialises the counts of the classes that a mesh's edges can have.
 fn without_intersections<S: serde::Serializer>(counts: &ClassCounts, serializer: S) -> Result<S::Ok, S::Error> {
     let mut counts = *counts;
     serializer.collect_map(ClassSet::EDGES.classes().map(|class| (class.name(), *counts.of(class))))

@@ -1,4 +1,4 @@
-//! A GL context and what it holds: scenes and styles go in, pictures and times come out.
+//! A GL context and its resources: scenes and styles go in, pictures and times come out.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -36,14 +36,14 @@ use serde::Serialize;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Draws scenes. Keeps meshes, shaders and textures between pictures; belongs to the thread that made it. Those of other
-/// threads that draw with the same software driver wait while it draws, because Mesa does not bear them at work at once.
+/// Draws scenes. Keeps meshes, shaders and textures between pictures; belongs to the thread that made it. While it draws,
+/// renderers of other threads with the same software driver wait, because Mesa fails when they draw at once.
 ///
-/// After an error it holds nothing and can go on with the next picture, unless its context is lost: then every further call
-/// says so again ([`Error::ContextLost`]), and a new renderer has to be made.
+/// After an error it holds nothing and can draw the next picture, unless its context is lost. Then every further call returns
+/// [`Error::ContextLost`], and a new renderer has to be made.
 ///
-/// A picture that is too large for its context is drawn in tiles. With [`Backend::Auto`] it is drawn by the first other context that
-/// can draw it in one piece, if there is one, which is opened then and kept; smaller pictures are drawn by the first as before.
+/// A picture that is too large for its context is drawn in tiles. With [`Backend::Auto`] the first other context that can draw it
+/// in one piece draws it instead; that context is opened then and kept. The first context still draws smaller pictures.
 pub struct Renderer {
     backend: Backend,
     fault: Option<Fault>,
@@ -51,36 +51,36 @@ pub struct Renderer {
     drawers: Vec<Drawer>,
     /// Which of them draws.
     used: usize,
-    /// Largest surface drawn at once, where that is to be less than the contexts' largest.
+    /// Largest surface to draw at once, if below the contexts' largest.
     confined_to: Option<Size>,
 }
 
 impl std::fmt::Debug for Renderer {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        // What GL holds has no text.
+        // GL's objects have no text.
         out.debug_struct("Renderer").field("surface", &self.drawers[self.used].surface).finish_non_exhaustive()
     }
 }
 
-/// How long one pass takes.
+/// The times of one pass.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PassTime {
     /// The pass's name in the plan.
     pub name: &'static str,
-    /// Milliseconds by the clock from before its first call until GL has finished it; the median over the frames.
+    /// CPU clock milliseconds from before its first call until GL has finished it; the median over the frames.
     pub cpu_ms: f64,
     /// Milliseconds by a timer query on the device; the median over the frames; `None` without timer queries.
     pub gpu_ms: Option<f64>,
 }
 
-/// What GL held after one step.
+/// GL's picture after one step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepPicture {
     /// The pass's name.
     pub pass: &'static str,
     /// The step's name.
     pub step: &'static str,
-    /// What it drew into after it, of several textures the first, or for a copy the copy; exactly GL's bytes.
+    /// The target's contents after the step: the first of several textures, or for a copy the copy; exactly GL's bytes.
     pub picture: Picture,
 }
 
@@ -94,7 +94,7 @@ impl Renderer {
         Self::open(backend, None)
     }
 
-    /// The same, but something will go wrong in it: for tests and `tinta stress`.
+    /// Opens a context in which a fault occurs: for tests and `tinta stress`.
     ///
     /// # Errors
     ///
@@ -103,11 +103,11 @@ impl Renderer {
         Self::open(backend, Some(fault))
     }
 
-    /// Draws on a canvas of a browser's page, by WebGL; what the page shows of it is the last picture drawn.
+    /// Draws on a canvas of a browser's page, by WebGL; the page shows the last picture drawn.
     ///
     /// # Errors
     ///
-    /// [`Error::NoContext`] where the browser has no WebGL or too little of it.
+    /// [`Error::NoContext`] if the browser has no WebGL or lacks a needed part of it.
     #[cfg(target_arch = "wasm32")]
     pub fn on_canvas(canvas: web_sys::HtmlCanvasElement) -> Result<Self> {
         let context = Context::on_canvas(canvas)?;
@@ -120,14 +120,14 @@ impl Renderer {
         })
     }
 
-    /// Draws by a context that is there, and by no other.
+    /// Draws with one already open context, and no other.
     #[cfg(any(test, all(feature = "cli", not(target_arch = "wasm32"))))]
     pub(crate) fn of(context: Context) -> Self {
         let drawers = vec![Drawer::new(context)];
         Self { backend: Backend::Egl, fault: None, drawers, used: 0, confined_to: None }
     }
 
-    /// Asks the driver whether it does as OpenGL says. Afterwards the renderer is used up: its context's state is the questions'.
+    /// Probes whether the driver follows OpenGL. Consumes the renderer, because the probes change its context's state.
     #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
     pub(crate) fn probe(mut self) -> Result<Vec<crate::gl::probe::Probe>> {
         use crate::gl::probe::{SIDE, probes};
@@ -143,8 +143,8 @@ impl Renderer {
         Ok(Self { backend, fault, drawers: vec![Drawer::new(context)], used: 0, confined_to: None })
     }
 
-    /// Draws what is larger than this in tiles that are not, as if the context could draw no larger ones: less memory, more time.
-    /// `None` is as large as the contexts can, the default.
+    /// Draws larger surfaces in tiles of at most this size, which takes less memory and more time.
+    /// `None`, the default, draws the largest tiles that the contexts can.
     ///
     /// ```
     /// # fn main() -> tinta::Result<()> {
@@ -166,13 +166,13 @@ impl Renderer {
         self.drawers.iter_mut().for_each(|drawer| drawer.confine(largest));
     }
 
-    /// What the context says about itself: the one that was chosen last.
+    /// Returns the properties of the context that was chosen last.
     pub fn context(&self) -> &ContextInfo {
         self.drawers[self.used].context.info()
     }
 
-    /// Chooses the context for a plan by its size, which every drawing does by itself: for who asks before how it will be drawn,
-    /// by [`Renderer::context`], [`Renderer::remarks`] or [`Renderer::pruning`]. Pruned or not a plan has one size.
+    /// Chooses the context for a plan by its size. Every drawing does this automatically; call it before [`Renderer::context`],
+    /// [`Renderer::remarks`] or [`Renderer::pruning`] to learn how the plan will be drawn. Pruned or not, a plan has one size.
     ///
     /// # Errors
     ///
@@ -198,11 +198,11 @@ impl Renderer {
             drawer.resources.replace_shaders(self.drawers[0].resources.given_shaders());
             self.drawers.push(drawer);
         }
-        // In one piece before in tiles; where neither can be had the largest refuses the picture.
+        // One piece is better than tiles. If neither works, the largest context refuses the picture.
         let fitness = |number: &usize| {
             let drawer = &self.drawers[*number];
             let largest = drawer.context.info().largest_picture.pixel_count();
-            // Of those that draw tiles the first is as good as any.
+            // Of the contexts that draw tiles the first is as good as any.
             let in_tiles = drawer.tiles(plan, surface).map(|_| usize::MAX);
             (drawer.draws_at_once(surface), in_tiles.unwrap_or(largest))
         };
@@ -210,7 +210,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// What of a plan this context draws otherwise than it says, a sentence each.
+    /// Returns the deviations from the plan in this context's drawing, a sentence each.
     pub fn remarks(&self, plan: &Plan) -> Vec<String> {
         let info = self.context();
         let mut remarks: Vec<String> = Vec::new();
@@ -241,8 +241,8 @@ impl Renderer {
         remarks
     }
 
-    /// How to prune plans that this renderer draws: everything that pays by this context. Nothing is assumed of shaders it has
-    /// in place of built-in ones, so ask again after [`Renderer::replace_shaders`].
+    /// Returns settings to prune plans for this renderer: every rule that saves time with this context. They assume nothing of
+    /// replaced shaders, so call this again after [`Renderer::replace_shaders`].
     pub fn pruning(&self) -> Pruning {
         let info = self.context();
         Pruning {
@@ -253,8 +253,8 @@ impl Renderer {
         }
     }
 
-    /// Draws a few pixels of one triangle the way `style` will draw at this size, pruned or not, so that the driver compiles its shaders
-    /// now: worth it while a large model is still being read on another thread.
+    /// Draws a few pixels of one triangle as `style` will draw at this size, pruned or not. The driver then compiles its shaders
+    /// now, for example while another thread still reads a large model.
     ///
     /// # Errors
     ///
@@ -269,15 +269,15 @@ impl Renderer {
         let camera = CameraSettings::default();
         let scene =
             Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings { copies: 1, camera, ..settings.clone() })?;
-        // What a triangle cannot be drawn with, a texture say, the models may have.
+        // The plan may need data that the triangle lacks, such as a texture; the models may have it.
         let Ok(plan) = style.plan(&scene, show) else { return Ok(()) };
-        // Only the shaders that will be drawn with.
+        // Warm up only the shaders that the drawing will use.
         let mut plan = pruning.map_or_else(|| plan.clone(), |pruning| prune(&plan, &scene, pruning).plan);
         confine(&mut plan, scene.size);
         self.with_context(&scene, &plan, |frame| frame.all_steps(frame.tiles[0]))
     }
 
-    /// Draws a scene in a style, without what cannot change the picture.
+    /// Draws a scene in a style, pruned: without steps that cannot change the picture.
     ///
     /// # Errors
     ///
@@ -390,14 +390,14 @@ impl Renderer {
         })
     }
 
-    /// Uses these texts as shaders, by their paths below `glsl/`: in place of the built-in ones of that path, or beside them
-    /// where there is none, for plans of your own that name them in a [`Program`]. Those given before and not now are gone.
-    /// A vertex shader's path ends with `.vert`. All are compiled now, so that a mistake is found before the next picture.
-    /// What styles state of built-in shaders does not hold of those in their place, and [`Renderer::pruning`] says so.
+    /// Uses these texts as shaders, by their paths below `glsl/`. They replace the built-in ones of the same path, or add new
+    /// ones for plans that name them in a [`Program`]. Shaders from earlier calls that are missing now are dropped. A vertex
+    /// shader's path ends with `.vert`. All are compiled at once to report mistakes before the next picture. Facts that styles
+    /// state of built-in shaders do not hold for their replacements; [`Renderer::pruning`] accounts for this.
     ///
     /// # Errors
     ///
-    /// [`Error::Shader`] with the driver's log; then nothing is replaced that was not before.
+    /// [`Error::Shader`] with the driver's log; the earlier shaders then remain.
     pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<()> {
         self.drawers.iter().try_for_each(|drawer| drawer.resources.refuse_if_lost("replacing shaders"))?;
         let before = self.drawers[0].resources.given_shaders();
@@ -409,7 +409,7 @@ impl Renderer {
         replaced
     }
 
-    /// Compiles a shader of `glsl/` by itself, to see whether this driver takes it.
+    /// Compiles a single shader of `glsl/`, to test whether this driver accepts it.
     ///
     /// # Errors
     ///
@@ -422,17 +422,17 @@ impl Renderer {
         resources.explain("compiling a shader", compiled)
     }
 
-    /// The shaders linked so far: those of the plans drawn, and no others.
+    /// Returns the shaders linked so far: those of the plans drawn.
     pub fn programs(&self) -> Vec<Program> {
         self.drawers[self.used].resources.programs()
     }
 
-    /// How many GL objects this renderer holds: constant from frame to frame of one scene and plan.
+    /// Returns how many GL objects this renderer holds: constant from frame to frame of one scene and plan.
     pub fn live_objects(&self) -> usize {
         self.drawers.iter().map(|drawer| drawer.resources.live_objects()).sum()
     }
 
-    /// Deletes everything the renderer holds and returns how many GL objects are then still alive: 0, or there is a leak.
+    /// Deletes everything the renderer holds and returns how many GL objects are still alive: 0, unless there is a leak.
     pub fn close(mut self) -> usize {
         self.drawers.iter_mut().for_each(Drawer::release);
         self.live_objects()
@@ -454,8 +454,7 @@ impl Renderer {
     }
 }
 
-/// Confines what a plan draws to a few pixels in the middle: whatever a driver makes for shaders and states it makes for these, and
-/// the other pixels would only be drawn again.
+/// Confines a plan's drawing to a few pixels in the middle: enough for the driver to prepare its shaders and states.
 fn confine(plan: &mut Plan, size: Size) {
     const SIDE: u32 = 16;
     let Size { width, height } = size.times(plan.supersample);
@@ -471,7 +470,7 @@ fn confine(plan: &mut Plan, size: Size) {
     }
 }
 
-/// The middle value, or the mean of the two middle ones; `None` for none.
+/// Returns the middle value, or the mean of the two middle ones; `None` for an empty list.
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;

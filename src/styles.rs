@@ -173,8 +173,8 @@ row::styles! {
         mark: Some(Mark { rgb: [184, 137, 11], outline: Outline::Polygon { corners: 6, turn: 0.0 } }),
     }
 
-    /// Ink in the valleys of a picture shaded by how far the surface faces the eye: contours and suggestive contours in image space,
-    /// DeCarlo et al. 2003.
+    /// Ink in the valleys of a picture that shades the surface by its angle to the eye: contours and suggestive contours in image
+    /// space, DeCarlo et al. 2003.
     Suggestive(Suggestive) {
         name: "suggestive",
         draw: Draw::Plan(Suggestive::plan),
@@ -200,31 +200,31 @@ row::styles! {
 /// Pictures of the styles that filter a map.
 const CARTOON_SHOWS: &[Show] = &[Show::Final, Show::Map, Show::Normals, Show::Depth, Show::Borders, Show::Tones];
 
-/// Pictures of those whose lines are from edges or grazing views.
+/// Pictures of the styles with lines from edges or grazing views.
 const LINE_SHOWS: &[Show] = &[Show::Final, Show::Borders, Show::Tones];
 
 /// Pictures of the drawings in charcoal and sand.
 const CHARCOAL_SHOWS: &[Show] = &[Show::Final, Show::Diffuse, Show::Cem, Show::Cet, Show::Paper];
 
 impl Style {
-    /// The style of this name with the published settings.
+    /// Returns the style of this name with the published settings.
     #[must_use]
     pub fn named(name: StyleName) -> Self {
         (name.info().published)()
     }
 
-    /// The style's name as the user writes it.
+    /// Returns the style's name as the user writes it.
     #[must_use]
     pub fn name(&self) -> &'static str {
         self.style_name().name()
     }
 
-    /// The style that options name, three-pass where they name none, with the settings they set. What is for other styles, or
-    /// no style's, is left alone, as the command line does.
+    /// Returns the style that the options name, by default three-pass, with the settings they give. Options of other styles, or
+    /// of no style, are ignored, as on the command line.
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] for a style or value that there is not, [`crate::Error::File`] for a file that cannot be read.
+    /// [`crate::Error::Setting`] for an unknown style or value, [`crate::Error::File`] for a file that cannot be read.
     pub fn from_options(options: &Options) -> Result<Self> {
         let name = match options.get("style") {
             None => StyleName::ThreePass,
@@ -238,7 +238,7 @@ impl Style {
         Self::with_options(name, options)
     }
 
-    /// The style of this name with the settings that options set, whatever style they name.
+    /// Returns the style of this name with the settings that the options give; a style among the options is ignored.
     ///
     /// # Errors
     ///
@@ -249,22 +249,23 @@ impl Style {
         Ok(style)
     }
 
-    /// The options that make this style with these settings: its name, and what differs from the default; so one option alone
-    /// is the published style.
+    /// Returns the options that make this style with these settings: its name, and every setting that differs from the default.
+    /// One option alone is the published style.
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] for what no text says: a file whose name is none, no class of lines at all.
+    /// [`crate::Error::Setting`] for settings that text cannot express, such as a file name outside Unicode or an empty set of line
+    /// classes.
     pub fn to_options(&self) -> Result<Options> {
         let mut options = Self::table().options(self, &Self::named(self.style_name()))?;
         options.insert("style".to_owned(), OptionValue::text(self.name()));
         Ok(options)
     }
 
-    /// What is to be known of this scene's pictures in this style, a sentence each.
+    /// Returns remarks on this scene's pictures in this style, a sentence each.
     pub fn remarks(&self, scene: &Scene) -> Vec<String> {
         let mut remarks = match self {
-            // It needs the edges in any case.
+            // This style needs the edges in any case.
             Self::Inking(_) => scene.crack_remarks(),
             Self::Charcoal(charcoal) | Self::Sand(charcoal) => charcoal.remarks(scene),
             _ => Vec::new(),
@@ -276,7 +277,7 @@ impl Style {
         remarks
     }
 
-    /// Whether the scene brings textures, and they could be drawn and are not.
+    /// Whether the scene has textures that this style could draw but does not.
     fn leaves_textures_out(&self, scene: &Scene) -> bool {
         let draws_own = matches!(self, Self::Inking(inking) if inking.has_texture || inking.paint == PaintMode::None);
         let brings = |object: &crate::scene::Object| {
@@ -287,7 +288,7 @@ impl Style {
         is_free && !draws_own && !has_none && scene.objects.iter().any(brings)
     }
 
-    /// Whether its tones can be shown by themselves.
+    /// Whether the style can show its tones alone.
     pub fn has_tones(&self) -> bool {
         self.style_name().info().shows.contains(&Show::Tones)
     }
@@ -303,7 +304,7 @@ impl HasSettings for Style {
     }
 }
 
-/// Its name, and each setting under its own.
+/// Its name, and each setting under its own name.
 impl Serialize for Style {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
         let settings = Self::table().record(self);
@@ -314,7 +315,7 @@ impl Serialize for Style {
     }
 }
 
-/// The settings of all styles, each declared beside its struct; those of a heading begin with the styles that have lines.
+/// Returns the settings of all styles, each declared beside its struct. Within a heading, styles with lines come first.
 pub(crate) fn settings() -> Vec<Setting<Style>> {
     let mut settings: Vec<Setting<Style>> =
         StyleName::lines_first().into_iter().flat_map(|style| (style.info().settings)()).collect();
@@ -323,40 +324,40 @@ pub(crate) fn settings() -> Vec<Setting<Style>> {
     settings
 }
 
-/// Why a style of exact lines has no plan.
+/// Returns the error that a style of exact lines has no plan.
 fn no_passes(style: &str) -> Error {
     Error::value("style", style, "it draws exact lines and has no passes; choose another style")
 }
 
 impl StyleName {
-    /// All names, with commas between.
+    /// Returns all names, separated by commas.
     pub fn list() -> String {
         Self::ALL.map(|(name, _)| name).join(", ")
     }
 
-    /// The names of those that draw lines, with commas between.
+    /// Returns the names of styles that draw lines, separated by commas.
     pub fn list_with_lines() -> String {
         let with_lines = STYLES.iter().filter(|info| info.style.has_lines());
         with_lines.map(|info| info.name).collect::<Vec<_>>().join(", ")
     }
 
-    /// All of them, those that draw lines first.
+    /// Returns all styles, those that draw lines first.
     pub fn lines_first() -> [Self; Self::ALL.len()] {
         let mut styles = Self::ALL.map(|(_, style)| style);
         styles.sort_by_key(|style| !style.has_lines());
         styles
     }
 
-    /// Those that OpenGL draws in passes, as the user writes them.
+    /// Returns the styles that OpenGL draws in passes, by the user's names.
     pub fn of_passes() -> impl Iterator<Item = (&'static str, Self)> + Clone {
         Self::ALL.into_iter().filter(|(_, style)| !style.draws_lines())
     }
 
-    /// The one of this name among them.
+    /// Returns the style of this name among them.
     ///
     /// # Errors
     ///
-    /// The name that was meant, or the names that there are.
+    /// The nearest name, or the list of names.
     pub fn named_of_passes(name: &str) -> std::result::Result<Self, ParseError> {
         let names: Vec<&str> = Self::of_passes().map(|(name, _)| name).collect();
         let found = Self::of_passes().find(|(known, _)| *known == name).map(|(_, style)| style);
@@ -364,7 +365,7 @@ impl StyleName {
         found.ok_or_else(|| ParseError::from(meant_or(name, &names, &otherwise)))
     }
 
-    /// Whether it draws exact lines, which need no OpenGL.
+    /// Whether it draws exact lines, without OpenGL.
     pub fn draws_lines(self) -> bool {
         self.info().draws_lines
     }
@@ -374,19 +375,19 @@ impl StyleName {
         &STYLES[self as usize]
     }
 
-    /// As the user writes it.
+    /// Returns the name as the user writes it.
     pub fn name(self) -> &'static str {
         self.info().name
     }
 
-    /// Whether it draws lines that can be shown by themselves, as published.
+    /// Whether the style draws lines that it can show alone, as published.
     pub fn has_lines(self) -> bool {
         self.info().shows.contains(&Show::Borders)
     }
 }
 
 impl Show {
-    /// The option that shows this picture; none for the finished one.
+    /// Returns the option that shows this picture; empty for the finished one.
     pub fn to_options(self) -> Options {
         let shown = (self != Self::Final).then(|| ("show".to_owned(), OptionValue::text(self.choice_name())));
         shown.into_iter().collect()

@@ -2,9 +2,9 @@
 //!
 //! In: settings with a size and a seed. Out: opaque [`Picture`]s whose edges meet where GL repeats them. No GL here.
 //!
-//! The same settings give the same bytes on every machine: the numbers come from a generator of our own, or from a `rand()` that
-//! is the same everywhere, instead of that of the platform (errata V8), sums are done in a fixed order, and nothing that a platform's mathematics library
-//! rounds in its own way reaches a byte unrounded.
+//! The same settings give the same bytes on every machine. The numbers come from our generator, or from a fixed `rand()` instead
+//! of the platform's (errata V8). Sums have a fixed order. Results of the platform's mathematics library are rounded before they
+//! reach a byte.
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
@@ -33,10 +33,10 @@ use crate::error::{Error, Result};
 use crate::picture::Picture;
 use crate::scene::Size;
 
-/// The longest side of a texture, pixels: what every OpenGL 2.1 driver in use takes.
+/// The longest side of a texture, pixels: every OpenGL 2.1 driver in use supports it.
 pub const LARGEST_SIDE_PX: u32 = 4096;
 
-/// The size of textures where none is asked for.
+/// The default size of textures.
 const DEFAULT_SIZE: Size = Size { width: 512, height: 512 };
 
 fn check_size(size: Size) -> Result<()> {
@@ -47,7 +47,7 @@ fn check_size(size: Size) -> Result<()> {
     Err(Error::value("size", size, format!("a texture has 1 to {LARGEST_SIDE_PX} pixels on each side")))
 }
 
-/// An opaque picture of these colours, row by row from the top.
+/// Returns an opaque picture of these colours, row by row from the top.
 fn opaque(size: Size, colors: impl Iterator<Item = [u8; 3]>) -> Picture {
     let mut pixels = Vec::with_capacity(size.pixel_count() * 4);
     colors.for_each(|[red, green, blue]| pixels.extend([red, green, blue, u8::MAX]));
@@ -66,7 +66,7 @@ mod tests {
             .fold(0xcbf2_9ce4_8422_2325, |sum: u64, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
     }
 
-    /// A change here changes every drawing made with these textures: only on purpose, and said in CHANGELOG.md.
+    /// A change here changes every drawing made with these textures. Make one only on purpose, and note it in CHANGELOG.md.
     #[test]
     fn the_bytes_of_seed_0_are_what_they_were() {
         let sums = [

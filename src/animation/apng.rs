@@ -1,5 +1,5 @@
-//! Animated PNG: lossless, with alpha. The png crate is known here and in
-//! `src/picture/png_text.rs` only; the image crate has no animations of it.
+//! Animated PNG: lossless, with alpha. Only this module and `src/picture/png_text.rs` use the png crate; the image crate cannot
+//! write APNG.
 
 use super::changes::Rectangle;
 use crate::picture::Picture;
@@ -16,7 +16,7 @@ pub(super) struct ApngEncoder {
     before: Vec<u8>,
 }
 
-/// The file being put together: the writer does not give its own back.
+/// The file in progress, kept here because the writer does not return its own.
 #[derive(Clone, Default)]
 struct Shared(Arc<Mutex<Vec<u8>>>);
 
@@ -54,7 +54,7 @@ impl ApngEncoder {
         Ok(Self { writer: writer().map_err(in_words)?, file, size, transparent, before: Vec::new() })
     }
 
-    /// Stores what changed since the picture before.
+    /// Stores the changes since the previous picture.
     pub(super) fn add(&mut self, picture: Picture) -> Encoded<()> {
         let picture = if self.transparent { picture } else { picture.opaque() };
         let part = if self.before.is_empty() {
@@ -71,7 +71,7 @@ impl ApngEncoder {
         self.before = picture.pixels;
         let writer = &mut self.writer;
         let mut write = || {
-            // To the corner first: a size is checked against the place, and a place against the size.
+            // To the corner first, because sizes are checked against the place, and places against the size.
             writer.reset_frame_position()?;
             writer.set_frame_dimension(part.size.width, part.size.height)?;
             writer.set_frame_position(part.left, part.top)?;

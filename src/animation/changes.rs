@@ -1,4 +1,4 @@
-//! The part of a picture that an animation has to store.
+//! The changed part of a picture that an animation has to store.
 
 use crate::scene::Size;
 
@@ -11,7 +11,7 @@ pub(super) struct Rectangle {
 }
 
 impl Rectangle {
-    /// The smallest rectangle around all pixels, by their index, of which `is_wanted` is true; one pixel where none is.
+    /// Returns the smallest rectangle around all pixels, by index, for which `is_wanted` is true; one pixel if none matches.
     pub(super) fn around(size: Size, is_wanted: impl Fn(usize) -> bool) -> Self {
         let width = size.width as usize;
         let (mut left, mut right, mut top, mut bottom) = (width, 0, None, 0);
@@ -33,12 +33,12 @@ impl Rectangle {
         Self { left: 0, top: 0, size }
     }
 
-    /// What changes from one picture's RGBA pixels to another's of the same size.
+    /// Returns the rectangle of changes from one picture's RGBA pixels to another's of the same size.
     pub(super) fn changed(size: Size, before: &[u8], after: &[u8]) -> Self {
         Self::around(size, |index| before[index * 4..][..4] != after[index * 4..][..4])
     }
 
-    /// Its rows as ranges of pixel indices in a picture of this width.
+    /// Returns its rows as ranges of pixel indices in a picture of this width.
     pub(super) fn rows(self, width: u32) -> impl Iterator<Item = std::ops::Range<usize>> {
         (0..self.size.height as usize).map(move |row| {
             let start = (self.top as usize + row) * width as usize + self.left as usize;

@@ -1,9 +1,9 @@
-//! Animated GIF, looping. The gif crate is known here only; the image crate's encoder quantizes every picture by itself,
-//! so that tones would flicker.
+//! Animated GIF, looping. Only this module uses the gif crate. The image crate's encoder quantizes every picture separately,
+//! which would make tones flicker.
 //!
-//! GIF knows no half-transparent pixels. The rule: a pixel with at least half its alpha is kept, opaque, in its own
-//! straight colour; the others are dropped. So ink stays ink up to its edge on any background, with neither a white nor
-//! a black fringe, and edges are hard: APNG keeps them soft.
+//! GIF has no half-transparent pixels. A pixel with at least half its alpha is kept, opaque, in its own straight colour; the
+//! others are dropped. So ink stays ink up to its edge on any background, without a white or black fringe. Edges are hard; APNG
+//! keeps them soft.
 
 use super::changes::Rectangle;
 use super::palette::{Palette, TRANSPARENT};
@@ -50,7 +50,7 @@ impl GifEncoder {
         })
     }
 
-    /// Stores what changed since the picture before, or, if there are holes to make in it, all that is to be seen.
+    /// Stores the changes since the previous picture, or the whole visible picture if new holes appear.
     pub(super) fn add(&mut self, picture: Picture) -> Encoded<()> {
         let picture = if self.transparent { with_hard_edges(picture) } else { picture.opaque() };
         self.palette.fit(&picture.pixels);
@@ -82,7 +82,7 @@ impl GifEncoder {
         self.encoder.write_frame(&frame).map_err(in_words)
     }
 
-    /// Hundredths of a second, such that all frames together take as long as they should.
+    /// Returns the delay in hundredths of a second; all delays together keep the total duration.
     fn next_delay(&mut self) -> u16 {
         let hundredths = |frames: u64| (frames * u64::from(self.delay_ms) + 5) / 10;
         let delay = hundredths(self.frames + 1) - hundredths(self.frames);
@@ -95,7 +95,7 @@ impl GifEncoder {
     }
 }
 
-/// Every pixel either opaque in its own colour or nothing at all.
+/// Makes every pixel opaque in its own colour or fully transparent.
 fn with_hard_edges(mut picture: Picture) -> Picture {
     for pixel in picture.pixels.chunks_exact_mut(4) {
         if pixel[3] < KEPT {

@@ -1,9 +1,9 @@
-//! Names with a number in them, as C's `printf` writes it: `frame-%04d.png` is `frame-0001.png`, `frame-0002.png`, …
+//! Names with a number in them, in the notation of C's `printf`: `frame-%04d.png` is `frame-0001.png`, `frame-0002.png`, …
 
 use crate::picture::PictureFormat;
 use std::path::Path;
 
-/// A name whose file name has one number left open.
+/// A name whose file name has an open number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NumberedName {
     before: String,
@@ -15,7 +15,7 @@ impl NumberedName {
     /// Finds the first `%d` or `%0Nd` (N from 1 to 9) in the file name of a picture format or a drawing, `.svg` or `.pdf`; `None`
     /// without one.
     ///
-    /// Only there: a per cent sign that means nothing, in a folder's name or before anything else, stays what it is.
+    /// Other per cent signs, and those in folder names, stay unchanged.
     pub fn parse(name: &str) -> Option<Self> {
         let file_name = Path::new(name).file_name()?.to_str()?;
         let is_drawing = |name: &str| [".svg", ".pdf"].iter().any(|end| name.to_ascii_lowercase().ends_with(end));
@@ -35,18 +35,18 @@ impl NumberedName {
         })
     }
 
-    /// The name with this number.
+    /// Returns the name with this number.
     pub fn with(&self, number: u32) -> String {
         format!("{}{number:0digits$}{}", self.before, self.after, digits = self.digits)
     }
 
-    /// The number in a name that is one of these.
+    /// Returns the number in a name of this pattern.
     pub fn number_in(&self, name: &str) -> Option<u32> {
         let number = name.strip_prefix(&self.before)?.strip_suffix(&self.after)?.parse().ok()?;
         (self.with(number) == name).then_some(number)
     }
 
-    /// What stands before the number, how many digits it has at least, and what stands after it.
+    /// Returns the text before the number, its least count of digits, and the text after it.
     pub fn parts(&self) -> (&str, usize, &str) {
         (&self.before, self.digits, &self.after)
     }

@@ -1,34 +1,34 @@
 //! The colours of a GIF's frames, at most 256.
 //!
-//! Pictures with so few colours are stored exactly. Others get the colours they need most and mix the rest from two of
-//! them in a pattern that stands still on the screen. One palette serves frame after frame until it fits one too badly:
-//! a new one for each would let tones flicker.
+//! Pictures with that few colours are stored exactly. Others get the colours they need most, and mix the rest from two of them in
+//! a pattern that stays fixed on the screen. One palette serves frame after frame until it fits one too badly, because a new
+//! palette for each frame would make tones flicker.
 
 use super::quantize::{Histogram, Mix, Packed, choose, distance, mix};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// The index of no colour, where pictures have holes: the first, so that it stays when colours are added.
+/// The index of the transparent colour in pictures with holes. It is the first, so added colours do not move it.
 pub(super) const TRANSPARENT: u8 = 0;
 
 pub(super) struct Palette {
     transparent: bool,
-    /// The table, the transparent entry included.
+    /// The table, including the transparent entry.
     colors: Vec<Packed>,
-    /// All colours met while this table served.
+    /// All colours found while this table was in use.
     known: HashMap<Packed, Mix, BuildHasherDefault<ColorHasher>>,
     is_exact: bool,
     /// Mean square error of the picture that the table was made for.
     error: f64,
 }
 
-/// A table is kept while a picture's mean square error is at most this many times that of the one it was made for …
+/// A table is kept while a picture's mean square error is at most this many times that of the picture it was made for …
 const WORSE: f64 = 1.5;
 
 /// … or not more than this, a difference of one step in one colour.
 const UNSEEN: f64 = 1.0;
 
-/// A colour on this share of the picture is a flat tone, which must not be mixed.
+/// A colour that covers this share of the picture is a flat tone, which must not be mixed.
 const FLAT_SHARE: f64 = 1.0 / 64.0;
 
 /// Most colours remembered; a new table forgets them.
@@ -41,7 +41,7 @@ impl Palette {
         palette
     }
 
-    /// Forgets all colours but the transparent entry.
+    /// Forgets all colours except the transparent entry.
     fn clear(&mut self) {
         self.known.clear();
         self.colors.clear();
@@ -49,7 +49,7 @@ impl Palette {
         self.is_exact = true;
     }
 
-    /// Makes the palette serve these RGBA pixels, of which those with alpha 0 do not count.
+    /// Adapts the palette to these RGBA pixels; those with alpha 0 are ignored.
     pub(super) fn fit(&mut self, pixels: &[u8]) {
         let histogram = histogram(pixels);
         let room = 256 - usize::from(self.transparent);
@@ -85,7 +85,7 @@ impl Palette {
         }
     }
 
-    /// Whether the present table does for another picture.
+    /// Whether the present table suits another picture.
     fn serves(&mut self, histogram: &Histogram) -> bool {
         self.add_mixed(histogram);
         let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
@@ -107,7 +107,7 @@ impl Palette {
 
     /// Appends the indices of a row of pixels that begins at this place of the screen.
     pub(super) fn map_row<'a>(&self, pixels: impl Iterator<Item = &'a [u8]>, left: u32, y: u32, to: &mut Vec<u8>) {
-        // Neighbours are often alike.
+        // Neighbours often have the same colour.
         let mut last = (Packed::MAX, Mix { first: TRANSPARENT, second: TRANSPARENT, share: 0 });
         for (x, pixel) in (left..).zip(pixels) {
             if pixel[3] == 0 {
@@ -123,7 +123,7 @@ impl Palette {
         }
     }
 
-    /// The table as red, green and blue bytes.
+    /// Returns the table as red, green and blue bytes.
     pub(super) fn bytes(&self) -> Vec<u8> {
         self.colors.iter().flat_map(|color| color.to_be_bytes().into_iter().skip(1)).collect()
     }
@@ -133,7 +133,7 @@ fn packed(pixel: &[u8]) -> Packed {
     u32::from_be_bytes([0, pixel[0], pixel[1], pixel[2]])
 }
 
-/// The colours in order, with how many pixels each has.
+/// Returns the colours in order, with the number of pixels of each.
 fn histogram(pixels: &[u8]) -> Histogram {
     let mut counts: HashMap<Packed, u32, BuildHasherDefault<ColorHasher>> = HashMap::default();
     let (mut color, mut run) = (0, 0);
@@ -159,7 +159,7 @@ fn threshold(x: u32, y: u32) -> u8 {
     (0..3).fold(0, |sum, bit| (sum << 2) | ((((x ^ y) >> bit & 1) << 1 | (y >> bit & 1)) as u8))
 }
 
-/// Hashes colours: the standard hash, which withstands attacks, takes longer than the rest of the encoder.
+/// Hashes colours. The standard hash resists attacks but would take longer than the rest of the encoder.
 #[derive(Default)]
 struct ColorHasher(u64);
 

@@ -1,6 +1,6 @@
-//! The 256 colours that stand best for thousands: flat tones exactly, then boxes cut where colours vary most (after
-//! Heckbert's median cut, 1982), then moved to the means of what they stand for (Lloyd). Crates for it bring large
-//! dependencies or shift flat tones.
+//! Chooses the 256 colours that best replace thousands: flat tones exactly, then boxes cut where colours vary most (after
+//! Heckbert's median cut, 1982), then moved to the means of their colours (Lloyd). Crates for this bring large dependencies or
+//! shift flat tones.
 
 /// A colour as one number, red in the high byte.
 pub(super) type Packed = u32;
@@ -8,7 +8,7 @@ pub(super) type Packed = u32;
 /// Colours with the number of their pixels.
 pub(super) type Histogram = Vec<(Packed, u32)>;
 
-/// Two palette entries and how many of 64 pixels the second gets, at most half of them.
+/// Two palette entries, and how many of 64 pixels get the second, at most half of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Mix {
     pub first: u8,
@@ -16,16 +16,16 @@ pub(super) struct Mix {
     pub share: u8,
 }
 
-/// Red, green and blue count so much in a distance: about as the eye sees them.
+/// Weights of red, green and blue in a distance, roughly those of the eye.
 const WEIGHTS: [i32; 3] = [3, 4, 2];
 
-/// A colour on this share of the picture keeps its exact place …
+/// A colour that covers this share of the picture keeps its exact place …
 const FLAT_SHARE: f64 = 1.0 / 512.0;
 
 /// … but no more than this share of the palette.
 const FLAT_ENTRIES: f64 = 0.5;
 
-/// Rounds in which entries move to the means of their colours.
+/// Rounds that move entries to the means of their colours.
 const ROUNDS: usize = 3;
 
 fn channels(color: Packed) -> [i32; 3] {
@@ -33,14 +33,15 @@ fn channels(color: Packed) -> [i32; 3] {
     [red, green, blue].map(i32::from)
 }
 
-/// Square of the weighted distance of two colours, in square steps of 255 (the weights' sum is three times too large).
+/// Returns the square of the weighted distance of two colours, in square steps of 255 (the weights' sum makes it three times too
+/// large).
 pub(super) fn distance(a: Packed, b: Packed) -> f32 {
     let (a, b) = (channels(a), channels(b));
     let sum: i32 = (0..3).map(|channel| WEIGHTS[channel] * (a[channel] - b[channel]).pow(2)).sum();
     sum as f32 / 3.0
 }
 
-/// At most `room` colours for a picture that has more.
+/// Returns at most `room` colours for a picture that has more.
 pub(super) fn choose(histogram: &Histogram, room: usize) -> Vec<Packed> {
     let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
     let mut by_count = histogram.clone();
@@ -106,7 +107,7 @@ fn cut(colors: Histogram, count: usize) -> Vec<Packed> {
         let (low, high): (Histogram, Histogram) =
             part.colors.iter().partition(|(color, _)| f64::from(channels(*color)[part.channel]) <= part.mean);
         if low.is_empty() || high.is_empty() {
-            // Rounding put the mean outside: nothing left to cut here.
+            // Rounding put the mean outside, so the part cannot be cut.
             parts.push(Part { spread: 0.0, ..part });
             break;
         }
@@ -116,7 +117,7 @@ fn cut(colors: Histogram, count: usize) -> Vec<Packed> {
     parts.iter().map(Part::mean_color).collect()
 }
 
-/// Moves all entries but the first, fixed ones to the mean of the colours that are nearest to each.
+/// Moves all entries except the first, fixed ones to the mean of their nearest colours.
 fn move_to_means(colors: &mut [Packed], fixed: usize, histogram: &Histogram) {
     let mut sums = vec![[0.0f64; 4]; colors.len()];
     for (color, count) in histogram {
@@ -142,9 +143,9 @@ fn nearest(color: Packed, colors: &[Packed]) -> usize {
     best.0
 }
 
-/// The two entries from `first_color` on, and their shares, whose mix comes nearest to a colour without being rough.
+/// Returns two entries, at `first_color` or later, and their shares; their mix is nearest to a colour without being rough.
 pub(super) fn mix(color: Packed, colors: &[Packed], first_color: usize) -> Mix {
-    /// What the difference of the two entries counts against that of their mean and the colour.
+    /// The weight of the entries' difference against the difference between their mean and the colour.
     const ROUGHNESS: f32 = 0.25;
     let first = first_color + nearest(color, &colors[first_color..]);
     let single = distance(color, colors[first]);

@@ -1,4 +1,4 @@
-//! What of scenes lies on the device: meshes, lists of faces, paint, edges.
+//! Scene data on the device: meshes, lists of faces, paint, edges.
 
 use super::objects::Buffer;
 use crate::mesh::{Mesh, Part};
@@ -9,11 +9,11 @@ use std::sync::Arc;
 /// The ends of some edges on the device, one run after the other.
 pub(super) struct EdgeIndices {
     pub(super) runs: Arc<Vec<EdgeRun>>,
-    /// Each run's indices.
+    /// The indices of each run.
     pub(super) indices: Vec<Vec<u32>>,
-    /// All of them.
+    /// All indices in one buffer.
     pub(super) buffer: Buffer,
-    /// The vertices of each run that has its own.
+    /// The vertices of each run with separate vertices.
     pub(super) own_vertices: Vec<Option<Buffer>>,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct FaceIndices {
     pub(super) buffer: Buffer,
 }
 
-/// Something of each of an object's vertices on the device: its texture coordinate, its colour.
+/// A value for each of an object's vertices on the device: its texture coordinate or its colour.
 pub(super) struct OfVertices<T> {
     pub(super) list: Arc<Vec<T>>,
     pub(super) buffer: Buffer,

@@ -1,6 +1,7 @@
-//! Ways to an OpenGL 2.1 context without a window, tried in order, each attempt remembered; in a browser, a canvas's.
+//! Ways to an OpenGL 2.1 context without a window, tried in order with a record of each attempt; in a browser, a canvas's
+//! context.
 //!
-//! Each system has its own: WGL on Windows, CGL on macOS, EGL elsewhere and where such a library is. OSMesa needs none of them.
+//! WGL on Windows, CGL on macOS, EGL elsewhere and wherever its library exists. OSMesa needs none of them.
 
 mod backend;
 #[cfg(target_arch = "wasm32")]

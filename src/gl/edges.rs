@@ -1,4 +1,4 @@
-//! Edges drawn by GL: indices into the objects' own vertices, so that a line lies where the faces beside it do.
+//! Edges drawn by GL from indices into the objects' own vertices. Lines therefore lie exactly on the faces next to them.
 
 use super::Gl;
 use super::buffers::EdgeIndices;
@@ -31,8 +31,8 @@ impl EdgeIndices {
     }
 }
 
-/// The different numbers in order of first appearance: where the text draws a point again, the first one's depth turns it
-/// away.
+/// Returns the distinct numbers in order of first appearance. Where the text draws a point again, the depth test rejects the
+/// repetition.
 fn each_once(numbers: &[u32]) -> Vec<u32> {
     let mut is_known = vec![false; numbers.iter().max().map_or(0, |largest| *largest as usize + 1)];
     numbers.iter().copied().filter(|number| !std::mem::replace(&mut is_known[*number as usize], true)).collect()
@@ -88,8 +88,8 @@ impl Resources {
                     }
                 }
                 edges.buffer.bind();
-                // SAFETY: the context is current; the run lies within the bound index buffer and its indices, asked above,
-                // within the bound vertex buffer.
+                // SAFETY: the context is current; the run lies within the bound index buffer, and its indices within the bound
+                // vertex buffer, both checked above.
                 unsafe {
                     let first_byte = (first * size_of::<u32>()) as i32;
                     self.gl.legacy.draw_elements(&self.gl.glow, mode, indices.len() as i32, first_byte);
@@ -108,8 +108,8 @@ impl Resources {
         Ok(())
     }
 
-    /// A draw that leaves no trace. Mesa 22's llvmpipe keeps the state of smoothed lines and points for whatever is drawn
-    /// next, which so loses its polygon offset and culling; this takes that upon itself.
+    /// An invisible draw. Mesa 22's llvmpipe keeps the state of smoothed lines and points for the next draw, which then loses its
+    /// polygon offset and culling; this draw absorbs that fault.
     fn draw_unseen(&self) -> Result<()> {
         // SAFETY: the context is current; the depth mask is set again before anything else is drawn or cleared.
         unsafe {
@@ -124,7 +124,7 @@ impl Resources {
         drawn
     }
 
-    /// Quads of the width asked for, for drivers whose lines or points are narrower.
+    /// Draws quads of the requested width, for drivers whose lines or points are narrower.
     pub(super) fn draw_edge_quads(&mut self, scene: &Scene, runs: &[EdgeRun], mark: Mark, width_px: f32) -> Result<()> {
         for run in runs {
             let object = scene.objects.get(run.object).ok_or_else(of_another_scene)?;
@@ -162,7 +162,7 @@ impl Resources {
     }
 }
 
-/// What a mark is drawn as, and the capability that smooths it.
+/// The GL primitive of a mark, and the capability that smooths it.
 fn smoothed(mark: Mark) -> (u32, u32) {
     match mark {
         Mark::Lines => (glow::LINES, glow::LINE_SMOOTH),

@@ -25,24 +25,24 @@ pub(crate) struct Resources {
     pub(super) meshes: Vec<MeshBuffers>,
     /// The lists of faces of this plan's draws.
     pub(super) faces: Vec<FaceIndices>,
-    /// The texture coordinates and colours they paint by.
+    /// The texture coordinates and colours of their paint.
     pub(super) coordinates: Vec<OfVertices<[f32; 2]>>,
     pub(super) colors: Vec<OfVertices<[f32; 4]>>,
     pub(super) squares: Option<Buffer>,
-    /// What is drawn of the whole, which is as large as the picture or a multiple of it.
+    /// The tile of the whole surface, whose size is the picture's or a multiple of it.
     pub(super) tile: Tile,
-    /// How many times as wide and high as the picture the whole is.
+    /// The factor from the picture's sides to the whole's.
     supersample: u32,
     targets: Targets,
     pass_scissor: Option<Rectangle>,
     /// Whether the steps draw into textures instead of the framebuffer.
     into_textures: bool,
     pub(super) textures: Textures,
-    /// Whether what has no shaders is drawn by the driver, as in OpenGL 2.1, or by shaders that do the same.
+    /// Whether the driver draws steps without shaders, as in OpenGL 2.1; otherwise equivalent shaders draw them.
     pub(super) has_pipeline: bool,
     /// The edges last drawn as lines and as points, as indices on the device.
     pub(super) edges: [Option<EdgeIndices>; 2],
-    /// How the plan at hand wants vertices handed over.
+    /// How the current plan passes vertices.
     pub(super) submission: Submission,
 }
 
@@ -68,7 +68,7 @@ impl Resources {
         }
     }
 
-    /// Compiles, uploads and sets up whatever this plan needs that is not there yet, and lets go of other scenes' meshes.
+    /// Compiles, uploads and sets up whatever this plan still lacks, and releases other scenes' meshes.
     pub(crate) fn prepare(&mut self, scene: &Scene, plan: &Plan) -> Result<()> {
         let gl = self.gl.clone();
         // SAFETY: the context is current; these are state calls of GL 2.1 with valid names.
@@ -109,14 +109,14 @@ impl Resources {
         gl.check("setting up")
     }
 
-    /// What of a prepared plan the steps that follow draw: all of it, or one of its tiles.
+    /// Selects the part of a prepared plan that the following steps draw: all of it, or one tile.
     pub(crate) fn begin_tile(&mut self, plan: &Plan, tile: Tile) -> Result<()> {
         self.tile = tile;
         self.supersample = plan.supersample;
         self.targets.prepare(&self.gl.clone(), plan, tile.size())
     }
 
-    /// What the steps that follow draw into, of a prepared plan, and the pixels they may change.
+    /// Selects the target of the following steps of a prepared plan, and the pixels they may change.
     pub(crate) fn begin(&mut self, target: Target, scissor: Option<Rectangle>) -> Result<()> {
         self.pass_scissor = scissor;
         self.into_textures = matches!(target, Target::Textures(_));
@@ -167,7 +167,7 @@ impl Resources {
             }
             _ => [corner[0], corner[1], viewport.width as i32, viewport.height as i32],
         };
-        // SAFETY: the context is current; the size is within its limits, by which tiles are made.
+        // SAFETY: the context is current; tiles keep the size within its limits.
         unsafe { self.gl.glow.viewport(x, y, width, height) };
         self.set_state(draw);
         self.bind_textures(draw)?;
@@ -193,7 +193,7 @@ impl Resources {
             }
             Geometry::BackgroundSquare { color } => {
                 let far_away = Mat4::from_translation(Vec3::new(0.0, 0.0, -BACKGROUND_DISTANCE));
-                // x and y as they are, depth that of the far plane: a parallel projection that fills the picture.
+                // x and y unchanged, depth that of the far plane: a parallel projection that fills the picture.
                 let flat = Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::ZERO, Vec4::new(0.0, 0.0, 1.0, 1.0));
                 self.draw_square(0, *color, &far_away, &self.in_tile(flat))?;
             }
@@ -204,7 +204,7 @@ impl Resources {
         Ok(())
     }
 
-    /// A projection of the whole picture as this tile's viewport has it.
+    /// Converts a projection of the whole picture to this tile's viewport.
     pub(super) fn in_tile(&self, clip_from_view: Mat4) -> Mat4 {
         self.tile.clip_from_picture().map_or(clip_from_view, |tile| tile * clip_from_view)
     }
@@ -262,7 +262,8 @@ impl Resources {
         Ok(())
     }
 
-    /// What a copying step copies: all of the tile, or what its pass is confined to; nothing is read beyond that.
+    /// The rectangle that a copying step copies: the whole tile, or the part its pass is confined to; pixels outside are never
+    /// read.
     fn copied_part(&self) -> Option<Rectangle> {
         self.pass_scissor.and_then(|scissor| self.tile.part(scissor))
     }
@@ -288,7 +289,7 @@ impl Resources {
         // SAFETY: the context is current; the names are of GL 2.1.
         unsafe {
             if self.has_pipeline {
-                // Drivers can be told to smooth every polygon, which C. Dachsbacher's article warns of (errata D13).
+                // Driver settings can smooth every polygon; C. Dachsbacher's article warns of this (errata D13).
                 gl.disable(glow::POLYGON_SMOOTH);
             }
             match draw.depth {
@@ -320,7 +321,7 @@ impl Resources {
                 Blend::Replace => gl.disable(glow::BLEND),
                 Blend::Over => {
                     gl.enable(glow::BLEND);
-                    // Colour as the article blends; alpha adds up to the picture's coverage, which plain blending would square.
+                    // Colour blends as in the article. Alpha adds up to the picture's coverage; plain blending would square it.
                     gl.blend_func_separate(
                         glow::SRC_ALPHA,
                         glow::ONE_MINUS_SRC_ALPHA,
@@ -345,7 +346,7 @@ impl Resources {
         unsafe { self.gl.glow.read_pixels(x, y, width, height, glow::RGBA, glow::UNSIGNED_BYTE, target) };
     }
 
-    /// Reads the texture that this copying step filled, as [`Resources::read_framebuffer`] does; of depth as grey.
+    /// Reads the texture that this copying step filled, as [`Resources::read_framebuffer`] does; depth becomes grey.
     pub(crate) fn read_copy(&self, step: &Step, size: Size, pixels: &mut [u8]) {
         assert_eq!(pixels.len(), size.pixel_count() * 4, "memory for {size} pixels");
         let is_depth = *step == Step::CopyDepth;
@@ -365,18 +366,18 @@ impl Resources {
         }
     }
 
-    /// The shaders linked so far.
+    /// Returns the shaders linked so far.
     pub(crate) fn programs(&self) -> Vec<plan::Program> {
         self.programs.keys().cloned().collect()
     }
 
-    /// Waits until everything is drawn.
+    /// Waits until GL has drawn everything.
     pub(crate) fn finish(&self) {
         // SAFETY: the context is current.
         unsafe { self.gl.glow.finish() }
     }
 
-    /// A timer, for contexts that have them.
+    /// Makes a timer, in contexts that have them.
     pub(crate) fn timer(&self) -> Result<TimerQuery> {
         TimerQuery::new(&self.gl)
     }
@@ -386,12 +387,12 @@ impl Resources {
         self.gl.check(during)
     }
 
-    /// Refuses to go on with a context that is lost.
+    /// Returns an error if the context is lost.
     pub(crate) fn refuse_if_lost(&self, during: &str) -> Result<()> {
         self.gl.refuse_if_lost(during)
     }
 
-    /// What came of some work, and GL's own error where the work has met none. That the context is lost explains any other.
+    /// Returns the result of some work, or GL's own error if the work reported none. A lost context explains any other error.
     pub(crate) fn explain<T>(&self, during: &str, result: Result<T>) -> Result<T> {
         match (result, self.check(during)) {
             (Err(lost @ Error::ContextLost { .. }), _) | (_, Err(lost @ Error::ContextLost { .. })) => Err(lost),
@@ -400,19 +401,19 @@ impl Resources {
         }
     }
 
-    /// Takes shaders from these texts where they are among them, and links all programs anew when they are needed.
-    /// Returns those used so far.
+    /// Uses these texts for the shaders they name, and relinks all programs when they are next needed. Returns the texts used so
+    /// far.
     pub(crate) fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> HashMap<String, String> {
         self.programs.clear();
         self.gl.replaced_shaders.replace(shaders)
     }
 
-    /// The texts used as shaders, by their paths.
+    /// Returns the replaced shader texts, by path.
     pub(crate) fn given_shaders(&self) -> HashMap<String, String> {
         self.gl.replaced_shaders.borrow().clone()
     }
 
-    /// The built-in shaders in whose place there is another text, in order of their paths.
+    /// Returns the built-in shaders that other texts replace, sorted by path.
     pub(crate) fn replaced_shaders(&self) -> Vec<String> {
         let replaced = self.gl.replaced_shaders.borrow();
         let is_other = |(path, text): &(&String, &String)| glsl::source(path).is_some_and(|built_in| built_in != *text);
@@ -421,7 +422,7 @@ impl Resources {
         paths
     }
 
-    /// Compiles a shader by itself and lets go of it; in a browser, which compiles whole programs alone, it is only rewritten.
+    /// Compiles a single shader and releases it. In a browser, which compiles only whole programs, the shader is only rewritten.
     pub(crate) fn compile(&self, path: &str) -> Result<()> {
         let source = sources::of_shader(&self.gl, path)?;
         if legacy::HAS_PIPELINE { Shader::new(&self.gl, &source).map(drop) } else { Ok(()) }
@@ -432,12 +433,12 @@ impl Resources {
         *self = Self::new(&self.gl.clone());
     }
 
-    /// Lets go of everything without a word to GL, for a context that is lost.
+    /// Drops everything without calling GL, for a lost context.
     pub(crate) fn forget(&mut self) {
         std::mem::forget(std::mem::replace(self, Self::new(&self.gl.clone())));
     }
 
-    /// How many GL objects are alive.
+    /// Returns the number of live GL objects.
     pub(crate) fn live_objects(&self) -> usize {
         self.gl.live_objects.get()
     }

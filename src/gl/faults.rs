@@ -1,8 +1,8 @@
 //! Fault injection: imitates a failing driver, for tests and for `tinta stress`.
 //!
-//! GL's functions are loaded by name, so a context made with a [`Fault`] gets stand-ins for a few of them: they count, fail
-//! when it is their turn, and otherwise call the driver's. Everything else is the code and the driver of every day. Each
-//! such context counts for itself, and none without a fault is touched, on the same thread or another.
+//! GL's functions are loaded by name, so a context made with a [`Fault`] gets stand-ins for a few of them. They count, fail when
+//! it is their turn, and otherwise call the driver's. All other code and the driver stay the same. Each such context counts
+//! separately. Contexts without a fault are unaffected, on the same thread or another.
 
 #[cfg(not(target_arch = "wasm32"))]
 mod stand_ins;
@@ -10,32 +10,32 @@ mod stand_ins;
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) use stand_ins::{Faults, set_current};
 
-/// What is to go wrong.
+/// The fault to simulate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
-    /// The driver refuses to make a context: it is asked for an OpenGL that does not exist.
+    /// The driver refuses to make a context: an OpenGL version that does not exist is requested.
     ContextRefused,
-    /// The driver refuses to compile a shader, the one after `after` others: it is given a text that is none.
+    /// The driver refuses to compile a shader, the one after `after` others: it gets an invalid text.
     ShaderRefused {
-        /// How many it takes before.
+        /// Number of shaders compiled before.
         after: u32,
     },
-    /// Memory on the device runs out once: GL_OUT_OF_MEMORY for the texture, buffer or renderbuffer after `after` others.
+    /// Device memory runs out once: GL_OUT_OF_MEMORY for the texture, buffer or renderbuffer after `after` others.
     OutOfMemory {
-        /// How many there is room for before.
+        /// Number of allocations that succeed before.
         after: u32,
     },
-    /// The context is lost, as when a device is reset, after `after` uploads, clears and draws. From then on nothing is done,
-    /// no object made, and GL_CONTEXT_LOST is the answer to every question after errors, for ever (KHR_robustness).
+    /// The context is lost, as after a device reset, after `after` uploads, clears and draws. From then on every call does
+    /// nothing, and every query for errors returns GL_CONTEXT_LOST (KHR_robustness).
     ContextLost {
-        /// How many are done before.
+        /// Number of calls that succeed before.
         after: u32,
     },
-    /// The same, but nothing is said unless the driver is asked for its reset status (ARB_robustness).
+    /// The same, but only the reset status reports it (ARB_robustness).
     ContextReset {
-        /// How many are done before.
+        /// Number of calls that succeed before.
         after: u32,
     },
-    /// The driver has no glBegin, as in a core profile, and otherwise all that is needed.
+    /// The driver lacks glBegin, as in a core profile, and has everything else.
     NoImmediateMode,
 }

@@ -1,17 +1,17 @@
-//! Shaders in place of the fixed-function pipeline, for drivers that have none: those in `glsl/fixed/`.
+//! Shaders that replace the fixed-function pipeline on drivers without one: those in `glsl/fixed/`.
 
 use crate::plan::{Draw, Geometry, LineDrawing, Mark, Program};
 
 /// Vertices without lighting.
 const VERTEX: &str = "fixed/transform.vert";
 
-/// Fragments, by how many texture units are switched on.
+/// Fragments, by the number of enabled texture units.
 const FRAGMENTS: [&str; 3] = ["fixed/untextured.frag", "fixed/one-texture.frag", "fixed/two-textures.frag"];
 
-/// The textures of these.
+/// The names of their samplers.
 const SAMPLERS: [&str; 2] = ["texture0", "texture1"];
 
-/// What draws smoothed lines and points.
+/// The program for smoothed lines and points.
 pub(super) fn smooth(mark: Mark) -> Program {
     let fragment = match mark {
         Mark::Lines => "fixed/smooth-line.frag",
@@ -20,7 +20,7 @@ pub(super) fn smooth(mark: Mark) -> Program {
     Program { vertex: VERTEX, fragments: vec![fragment] }
 }
 
-/// The program that a draw is drawn with; `None` for the pipeline.
+/// Returns the program of a draw; `None` for the pipeline.
 pub(super) fn program_of(draw: &Draw, has_pipeline: bool) -> Option<Program> {
     let fragments = || vec![FRAGMENTS[draw.textures.len().min(FRAGMENTS.len() - 1)]];
     match &draw.program {
@@ -34,7 +34,7 @@ pub(super) fn program_of(draw: &Draw, has_pipeline: bool) -> Option<Program> {
     }
 }
 
-/// What a texture unit's sampler is called where the program is one of these.
+/// The sampler name of a texture unit, if the program is one of these.
 pub(super) fn sampler(draw: &Draw, program: &Program, unit: u32) -> Option<&'static str> {
     if draw.program.as_ref() == Some(program) { None } else { SAMPLERS.get(unit as usize).copied() }
 }

@@ -1,7 +1,7 @@
-//! glBegin to glEnd: the calls by which vertices reached GL before buffers, loaded by name, as glow lacks them.
+//! glBegin to glEnd: the calls that passed vertices to GL before buffers. They are loaded by name, as glow lacks them.
 //!
-//! In: vertices on this side, in the order they are drawn. Out: the same picture as by buffers, by a call for each vertex and
-//! attribute. Only what a draw reads is sent: normals go to shaders, texture coordinates to the units that have them.
+//! In: vertices in main memory, in drawing order. Out: the same picture as with buffers, by a call for each vertex and attribute.
+//! Only data that a draw reads is sent: normals to shaders, texture coordinates to the units that have them.
 
 use super::legacy::FIXED_UNITS;
 use std::ffi::{CStr, c_void};
@@ -11,7 +11,7 @@ type End = unsafe extern "system" fn();
 type Floats = unsafe extern "system" fn(*const f32);
 type FloatsOf = unsafe extern "system" fn(u32, *const f32);
 
-/// The functions, each of the type the specification gives it.
+/// The functions, each with the type of the specification.
 pub(super) struct Immediate {
     begin: Mode,
     end: End,
@@ -23,21 +23,21 @@ pub(super) struct Immediate {
     coordinate_of: FloatsOf,
 }
 
-/// Vertices in the order they are drawn.
+/// Vertices in drawing order.
 pub(super) struct Vertices<'a> {
     /// GL_TRIANGLES, GL_LINES, …
     pub mode: u32,
-    /// Where they are.
+    /// The places of the vertices.
     pub places: Places<'a>,
-    /// Which of the places, in order.
+    /// The indices of the places, in order.
     pub indices: &'a [u32],
-    /// The colour of each place; without any the current colour holds.
+    /// The colour of each place; `None` for the current colour.
     pub colors: Option<&'a [[f32; 4]]>,
     /// The texture coordinates of each place, by texture unit.
     pub coordinates: [Option<&'a [[f32; 2]]>; FIXED_UNITS as usize],
 }
 
-/// Where vertices are.
+/// The places of vertices.
 #[derive(Clone, Copy)]
 pub(super) enum Places<'a> {
     /// Positions, with normals behind them that are not sent.
@@ -49,7 +49,7 @@ pub(super) enum Places<'a> {
 }
 
 impl<'a> Vertices<'a> {
-    /// Vertices that have neither colours nor texture coordinates of their own.
+    /// Vertices without colours and texture coordinates.
     pub(super) fn new(mode: u32, places: Places<'a>, indices: &'a [u32]) -> Self {
         Self { mode, places, indices, colors: None, coordinates: [None; FIXED_UNITS as usize] }
     }
@@ -88,8 +88,7 @@ impl Immediate {
     ///
     /// The context is current, and nothing stands between glBegin and glEnd.
     pub(super) unsafe fn send(&self, vertices: &Vertices<'_>) {
-        // SAFETY: the caller's promise; every pointer is to as many numbers as the function's name says, which the arrays'
-        // types give.
+        // SAFETY: the caller's promise; the arrays' types give every pointer as many numbers as the function's name says.
         unsafe {
             (self.begin)(vertices.mode);
             for index in vertices.indices {

@@ -1,7 +1,7 @@
 //! The fixed-function pipeline of OpenGL 2.1: its matrices, current colour and vertex arrays.
 //!
-//! A driver of OpenGL 2.1 has it, and glow lacks its functions: `src/gl/legacy/driver.rs` loads them by name. A browser has not:
-//! `src/gl/legacy/browser.rs` keeps the same state itself and hands it to shaders. Both have the same methods.
+//! A driver of OpenGL 2.1 has it, and glow lacks its functions: `src/gl/legacy/driver.rs` loads them by name. Browsers lack it:
+//! `src/gl/legacy/browser.rs` keeps the same state and passes it to shaders. Both have the same methods.
 
 #[cfg(target_arch = "wasm32")]
 mod browser;

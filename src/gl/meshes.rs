@@ -1,4 +1,4 @@
-//! The scene's meshes on the device, and how they are drawn.
+//! The scene's meshes on the device, and their drawing.
 
 use super::Gl;
 use super::buffers::{FaceIndices, MeshBuffers, OfVertices};
@@ -14,7 +14,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 impl Resources {
-    /// Uploads the scene's meshes that are not there yet and lets go of others.
+    /// Uploads the scene's missing meshes and releases the others.
     pub(super) fn upload_meshes(&mut self, scene: &Scene) -> Result<()> {
         let is_used = |buffers: &MeshBuffers| {
             buffers.unit == scene.radius && scene.objects.iter().any(|object| Arc::ptr_eq(&object.mesh, &buffers.mesh))
@@ -28,7 +28,7 @@ impl Resources {
         Ok(())
     }
 
-    /// Uploads the texture coordinates and colours this plan paints by that are not there yet and lets go of others.
+    /// Uploads the missing texture coordinates and colours that this plan paints with, and releases the others.
     pub(super) fn upload_paint(&mut self, plan: &Plan) -> Result<()> {
         let (mut coordinates, mut colors) = (Vec::new(), Vec::new());
         for (_, step) in plan.steps() {
@@ -46,7 +46,7 @@ impl Resources {
         upload(&self.gl, &mut self.colors, &colors)
     }
 
-    /// Uploads the lists of faces this plan draws that are not there yet and lets go of others.
+    /// Uploads the missing lists of faces that this plan draws, and releases the others.
     pub(super) fn upload_faces(&mut self, scene: &Scene, plan: &Plan) -> Result<()> {
         let lists: Vec<(usize, &Arc<FaceList>)> = plan
             .steps()
@@ -77,7 +77,7 @@ impl Resources {
         self.meshes.iter().find(|buffers| Arc::ptr_eq(&buffers.mesh, mesh))
     }
 
-    /// Draws the objects, or the faces of them that the draw lists; their own texture coordinates go to this unit.
+    /// Draws the objects, or the faces that the draw lists; this unit gets their own texture coordinates.
     pub(super) fn draw_objects(
         &mut self,
         scene: &Scene,
@@ -187,14 +187,14 @@ struct RunOfFaces<'a> {
     object: &'a Object,
     /// The list they are in, if not all of the object's faces are drawn.
     listed: Option<&'a Arc<FaceList>>,
-    /// Which run of the list or object it is.
+    /// The run of the list or object.
     part: &'a Part,
     lists: PaintLists<'a>,
     material_unit: Option<u32>,
     has_normals: bool,
 }
 
-/// Uploads lists that are not there yet and lets go of those not wanted.
+/// Uploads missing lists and releases unused ones.
 fn upload<T: bytemuck::NoUninit>(gl: &Rc<Gl>, present: &mut Vec<OfVertices<T>>, wanted: &[&Arc<Vec<T>>]) -> Result<()> {
     present.retain(|present| wanted.iter().any(|list| Arc::ptr_eq(list, &present.list)));
     for list in wanted {
@@ -206,13 +206,13 @@ fn upload<T: bytemuck::NoUninit>(gl: &Rc<Gl>, present: &mut Vec<OfVertices<T>>, 
     Ok(())
 }
 
-/// The buffer of a list.
+/// Returns the buffer of a list.
 fn buffer_of<'a, T>(present: &'a [OfVertices<T>], list: &Arc<Vec<T>>) -> Result<&'a Buffer> {
     let found = present.iter().find(|present| Arc::ptr_eq(list, &present.list));
     found.map(|present| &present.buffer).ok_or_else(of_another_scene)
 }
 
-/// What a paint has for each vertex of an object.
+/// A paint's data for each vertex of an object.
 #[derive(Clone, Copy, Default)]
 struct PaintLists<'a> {
     coordinates: Option<&'a Arc<Vec<[f32; 2]>>>,
@@ -234,13 +234,13 @@ impl<'a> PaintLists<'a> {
     }
 }
 
-/// A plan's lists are by the scene's objects and vertices.
+/// Returns an error if a plan's lists do not fit the scene's objects and vertices.
 pub(super) fn of_another_scene() -> Error {
     Error::gl("drawing", "a plan was made for another scene")
 }
 
 impl MeshBuffers {
-    /// Makes the mesh's arrays those that are drawn; its own texture coordinates go to this unit.
+    /// Binds the mesh's arrays for drawing; this unit gets its own texture coordinates.
     pub(super) fn bind(&self, gl: &Gl, material_unit: Option<u32>) {
         self.vertices.bind();
         // SAFETY: the context is current and the bound buffer holds interleaved positions and normals.

@@ -1,4 +1,5 @@
-//! GL objects with one owner each, deleted when it is dropped, which must happen while their context is current.
+//! GL objects with one owner each. An object is deleted when its owner is dropped, which must happen while its context is
+//! current.
 
 use super::sources::Source;
 use super::{Gl, sources};
@@ -8,7 +9,7 @@ use glow::HasContext;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// Counts an object in, and out again when dropped.
+/// Counts an object; uncounts it when dropped.
 pub(super) struct Live(Rc<Gl>);
 
 impl Live {
@@ -79,7 +80,7 @@ pub(super) struct Texture {
 }
 
 impl Texture {
-    /// An empty texture; `target` is GL_TEXTURE_1D or GL_TEXTURE_2D.
+    /// Makes an empty texture; `target` is GL_TEXTURE_1D or GL_TEXTURE_2D.
     pub(super) fn new(gl: &Rc<Gl>, target: u32, sampling: Sampling) -> Result<Self> {
         let (smaller, larger, wrap) = match sampling {
             Sampling::NearestClamped => (glow::NEAREST, glow::NEAREST, glow::CLAMP_TO_EDGE),
@@ -106,14 +107,13 @@ impl Texture {
         }
     }
 
-    /// Its name, for what it is attached to.
+    /// The texture's name, for attaching it.
     pub(super) fn id(&self) -> glow::Texture {
         self.id
     }
 
     pub(super) fn bind(&self, unit: u32) {
-        // SAFETY: the context is current and this texture alive; that there are as many units `Resources::prepare` has
-        // checked.
+        // SAFETY: the context is current and this texture alive; `Resources::prepare` has checked the number of units.
         unsafe {
             self.live.0.glow.active_texture(glow::TEXTURE0 + unit);
             self.live.0.glow.bind_texture(self.target, Some(self.id));
@@ -128,14 +128,14 @@ impl Drop for Texture {
     }
 }
 
-/// A linked program and where its uniforms are.
+/// A linked program and the locations of its uniforms.
 pub(super) struct Program {
     live: Live,
     id: glow::Program,
     locations: HashMap<&'static str, Option<glow::UniformLocation>>,
-    /// Whether it last drew into textures; `None` where it has not drawn.
+    /// Whether it last drew into textures; `None` before its first draw.
     into_textures: Option<bool>,
-    /// Whether it has to be given a uniform that differs before it draws.
+    /// Whether a uniform must change before the next draw.
     is_stale: bool,
 }
 
@@ -165,11 +165,11 @@ impl Program {
         }
     }
 
-    /// Makes it the one that draws, into textures or the framebuffer.
+    /// Makes this the program that draws, into textures or the framebuffer.
     ///
-    /// The framebuffer is upside down to Mesa, and what turns `dFdy` and `gl_FragCoord` over for it is a constant of the program's,
-    /// which Mesa 22 hands on only if a uniform changes: a program that draws first into one and then into the other has to be
-    /// given its uniforms anew.
+    /// Mesa's framebuffer is upside down, so Mesa flips `dFdy` and `gl_FragCoord` by a constant of the program. Mesa 22 updates
+    /// that constant only when a uniform changes: a program that switches between textures and framebuffer needs its uniforms set
+    /// again.
     pub(super) fn bind(&mut self, into_textures: bool) {
         self.is_stale = self.into_textures.is_some_and(|before| before != into_textures);
         self.into_textures = Some(into_textures);
@@ -178,7 +178,7 @@ impl Program {
         self.live.0.legacy.program_bound(self.id);
     }
 
-    /// Sets a uniform of this program, which is bound; one the driver has optimised away is no error.
+    /// Sets a uniform of this program, which is bound; a uniform that the driver optimised away is no error.
     pub(super) fn set(&mut self, name: &'static str, value: plan::Value) {
         let gl = &self.live.0.glow;
         let id = self.id;
@@ -285,7 +285,7 @@ impl TimerQuery {
 
     /// Waits for the device and returns the elapsed milliseconds.
     pub(crate) fn milliseconds(&self) -> f64 {
-        // SAFETY: the context is current and this query ended. 32 bits of nanoseconds reach for four seconds.
+        // SAFETY: the context is current and this query ended. 32 bits of nanoseconds last four seconds.
         let nanoseconds = unsafe { self.live.0.glow.get_query_parameter_u32(self.id, glow::QUERY_RESULT) };
         f64::from(nanoseconds) * 1e-6
     }
@@ -321,7 +321,7 @@ mod tests {
             query.begin();
             query.end();
             let (buffer_id, texture_id, program_id) = (buffer.id, texture.id, program.id);
-            // SAFETY: the context is current; asking after a name is safe whether or not it is alive.
+            // SAFETY: the context is current; querying a name is safe whether or not it is alive.
             let alive = || unsafe {
                 let glow = &gl.glow;
                 [glow.is_buffer(buffer_id), glow.is_texture(texture_id), glow.is_program(program_id)]

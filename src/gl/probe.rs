@@ -1,6 +1,6 @@
-//! Whether a driver does as OpenGL says in what the styles rest on: alpha, copies, polygon offset, smoothed lines.
+//! Probes whether a driver follows OpenGL where the styles depend on it: alpha, copies, polygon offset, smoothed lines.
 //!
-//! In: a context that is current, with a surface of [`SIDE`] pixels. Out: a [`Probe`] for each question, with what was counted.
+//! In: a current context with a surface of [`SIDE`] pixels. Out: a [`Probe`] with counts for each feature.
 
 use super::Gl;
 use super::immediate::{Places, Vertices};
@@ -15,21 +15,21 @@ use std::rc::Rc;
 /// Width and height of the surface, pixels.
 pub(crate) const SIDE: u32 = 64;
 
-/// Columns of other colours, or depths, that copies are tried with.
+/// Columns of different colours, or depths, that test copies.
 const COLUMNS: i32 = 16;
 
-/// Least and most of a smoothed line's ink, as a share of its length times its width: drivers weigh its pixels otherwise, and its ends
-/// may count or not.
+/// Least and most ink of a smoothed line, as a share of its length times its width: drivers weight pixels differently, and may or
+/// may not count its ends.
 const LINE_SHARE: [f64; 2] = [0.8, 1.25];
 
-/// A question to a driver, and its answer.
+/// A test of a driver, and its result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Probe {
-    /// What was asked about.
+    /// The probed feature.
     pub name: &'static str,
-    /// Whether the driver does as it should.
+    /// Whether the driver passed.
     pub passed: bool,
-    /// What was counted.
+    /// The counts.
     pub counted: String,
 }
 
@@ -39,10 +39,10 @@ impl Probe {
     }
 }
 
-/// Asks all of it.
+/// Runs all probes.
 pub(crate) fn probes(gl: &Rc<Gl>) -> Result<Vec<Probe>> {
     let side = SIDE as i32;
-    // SAFETY: the context is current; this is the state of a new one but for the viewport.
+    // SAFETY: the context is current and in its initial state, except for the viewport.
     unsafe {
         gl.legacy.load_matrix(MODELVIEW, &glam::Mat4::IDENTITY);
         gl.legacy.load_matrix(PROJECTION, &glam::Mat4::IDENTITY);
@@ -63,7 +63,7 @@ pub(crate) fn probes(gl: &Rc<Gl>) -> Result<Vec<Probe>> {
 /// The surface's pixels, RGBA, bottom row first.
 fn pixels(gl: &Gl) -> Vec<u8> {
     let mut pixels = vec![0; (SIDE * SIDE * 4) as usize];
-    // SAFETY: the context is current, and there is room for as many bytes.
+    // SAFETY: the context is current, and the buffer has room for the bytes.
     unsafe {
         let into = glow::PixelPackData::Slice(Some(&mut pixels));
         gl.glow.read_pixels(0, 0, SIDE as i32, SIDE as i32, glow::RGBA, glow::UNSIGNED_BYTE, into);
@@ -71,7 +71,7 @@ fn pixels(gl: &Gl) -> Vec<u8> {
     pixels
 }
 
-/// Each of the 256 alphas comes back as it was cleared to.
+/// Each of the 256 alphas reads back as the value it was cleared to.
 fn alpha(gl: &Gl) -> Probe {
     let comes_back = |value: &u8| {
         // SAFETY: the context is current.
@@ -84,7 +84,7 @@ fn alpha(gl: &Gl) -> Probe {
     Probe::none_of("8-bit alpha", (0..=u8::MAX).filter(|value| !comes_back(value)).count(), 256, "values are")
 }
 
-/// Clears columns, each to its own of so many shades of colour or depth.
+/// Clears columns, each to a different shade of colour or depth.
 fn clear_columns(gl: &Gl, clear: impl Fn(u8)) {
     let width = SIDE as i32 / COLUMNS;
     // SAFETY: the context is current.
@@ -98,7 +98,7 @@ fn clear_columns(gl: &Gl, clear: impl Fn(u8)) {
     unsafe { gl.glow.disable(glow::SCISSOR_TEST) };
 }
 
-/// What a texture holds into which all of the surface was copied.
+/// Returns a texture's contents after copying the whole surface into it.
 fn copied(gl: &Rc<Gl>, format: u32, bytes_per_pixel: u32) -> Result<Vec<u8>> {
     let texture = Texture::new(gl, glow::TEXTURE_2D, Sampling::NearestClamped)?;
     texture.bind(0);
@@ -136,7 +136,7 @@ fn depth_copy(gl: &Rc<Gl>) -> Result<Probe> {
     });
     let texels = copied(gl, glow::DEPTH_COMPONENT24, 1)?;
     let column = |place: usize| (place as u32 % SIDE / (SIDE / COLUMNS as u32)) as u8;
-    // 24 bits are read as 8, and a driver may cut them off or round.
+    // 24 bits are read as 8; drivers may truncate or round.
     let is_wrong = |(place, texel): &(usize, &u8)| texel.abs_diff(column(*place) * 17) > 1;
     let wrong = texels.iter().enumerate().filter(is_wrong).count();
     Ok(Probe::none_of("texture copies of depth", wrong, texels.len(), "texels are"))
@@ -155,7 +155,7 @@ fn draw(gl: &Gl, mode: u32, places: &[[f32; 4]], color: [f32; 4]) -> Result<()> 
     Ok(())
 }
 
-/// A steep square drawn with an offset is behind the same square drawn without, everywhere; without offset nowhere.
+/// A steep square drawn with an offset lies everywhere behind the same square without one; with no offset, nowhere.
 fn polygon_offset(gl: &Gl) -> Result<Probe> {
     const SQUARE: [[f32; 4]; 4] =
         [[-1.0, -1.0, -0.9, 1.0], [1.0, -1.0, 0.7, 1.0], [1.0, 1.0, 0.9, 1.0], [-1.0, 1.0, -0.7, 1.0]];
@@ -186,7 +186,7 @@ fn polygon_offset(gl: &Gl) -> Result<Probe> {
     Ok(Probe { name: "polygon offset", passed: behind == [all, 0], counted })
 }
 
-/// A slanted line one pixel wide has pixels partly covered, and as much ink in all as it is long.
+/// A slanted line one pixel wide has partly covered pixels, and its total ink equals its length.
 fn smooth_line(gl: &Gl) -> Result<Probe> {
     const ENDS: [[f32; 4]; 2] = [[-0.75, -0.5, 0.0, 1.0], [0.75, 0.25, 0.0, 1.0]];
     // SAFETY: the context is current.

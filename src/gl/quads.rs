@@ -3,9 +3,9 @@
 use crate::scene::Size;
 use glam::{Vec2, Vec4};
 
-/// Four corners a line, in clip space: the line's image widened at right angles to itself.
+/// Returns four corners per line in clip space: the line's image, widened at right angles to the line.
 ///
-/// `ends` are in clip space; what lies before the near plane is cut off, lines seen end-on have no image.
+/// `ends` are in clip space. Parts before the near plane are cut off; lines seen end-on have no image.
 pub(super) fn line_quads(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, width_px: f32) -> Vec<[f32; 4]> {
     let pixels = half_size(size);
     ends.filter_map(behind_near_plane)
@@ -18,7 +18,7 @@ pub(super) fn line_quads(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, widt
         .collect()
 }
 
-/// Four corners a point, both ends of each line: squares of this size.
+/// Returns four corners per point, at both ends of each line: squares of this size.
 pub(super) fn point_quads(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, size_px: f32) -> Vec<[f32; 4]> {
     let half = Vec2::splat(size_px * 0.5) / half_size(size);
     ends.flatten()
@@ -35,12 +35,12 @@ fn half_size(size: Size) -> Vec2 {
     Vec2::new(size.width as f32, size.height as f32) * 0.5
 }
 
-/// Where a point falls in the picture, [-1, 1] both ways.
+/// Returns a point's place in the picture, [-1, 1] both ways.
 fn image(point: Vec4) -> Vec2 {
     Vec2::new(point.x, point.y) / point.w
 }
 
-/// A point moved in the picture, its depth unchanged.
+/// Moves a point in the picture; its depth stays.
 fn moved(point: Vec4, by: Vec2) -> [f32; 4] {
     [point.x + by.x * point.w, point.y + by.y * point.w, point.z, point.w]
 }

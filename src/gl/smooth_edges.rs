@@ -1,7 +1,8 @@
-//! Smoothed lines and points where a driver has none: squares whose pixels fade by how much of them is covered.
+//! Smoothed lines and points for drivers without them: squares whose pixels fade with their coverage.
 //!
-//! In: edges' ends in clip space. Out: corners at their places on the screen, each with where its line or point is; the shaders
-//! `glsl/fixed/smooth-*.frag` find from that what of a pixel is covered, as Mesa's own smoothing does, so that pictures agree.
+//! In: edges' ends in clip space. Out: corners at their places on the screen, each with the place of its line or point. The
+//! shaders `glsl/fixed/smooth-*.frag` compute each pixel's coverage from that, as Mesa's own smoothing does, and so draw the same
+//! picture.
 
 use super::execute::Resources;
 use super::fixed_function;
@@ -15,17 +16,17 @@ use crate::scene::{Scene, Size};
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use std::collections::HashSet;
 
-/// How far a square reaches beyond what is covered, pixels: a driver places corners on a grid of a sixteenth at the coarsest.
+/// How far a square extends beyond the covered pixels, pixels. A driver places corners on a grid of a sixteenth at the coarsest.
 const SPARE_PX: f32 = 0.5;
 
-/// Corners, four a line or point.
+/// Corners, four per line or point.
 #[derive(Debug, Default, PartialEq)]
 struct Corners {
-    /// In clip space; w is 1, so that what follows is the same all over a square.
+    /// In clip space, with w = 1: the values below are then constant over a square.
     places: Vec<[f32; 4]>,
-    /// Where the line begins, or the point's middle, pixels from the lower left; what is drawn there lies this deep in clip space's w.
+    /// The start of the line or the middle of the point, pixels from the lower left, and its depth as clip space's w.
     firsts: Vec<[f32; 3]>,
-    /// Where the line ends.
+    /// The end of the line.
     seconds: Vec<[f32; 3]>,
 }
 
@@ -40,7 +41,7 @@ impl Corners {
     }
 }
 
-/// Where a point falls, pixels from the lower left, and its depth.
+/// Returns a point's place, pixels from the lower left, and its depth.
 fn on_screen(point: Vec4, half_size: Vec2) -> (Vec2, f32) {
     ((Vec2::new(point.x, point.y) / point.w + 1.0) * half_size, point.z / point.w)
 }
@@ -49,7 +50,7 @@ fn half_size(size: Size) -> Vec2 {
     Vec2::new(size.width as f32, size.height as f32) * 0.5
 }
 
-/// Lines of this width, with what they fade over.
+/// Lines of this width, with the margin they fade over.
 fn lines(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, width_px: f32) -> Corners {
     let (half_size, mut corners) = (half_size(size), Corners::default());
     for [a, b] in ends.filter_map(behind_near_plane) {
@@ -58,7 +59,7 @@ fn lines(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, width_px: f32) -> Co
         let along = (b - a).try_normalize().unwrap_or(Vec2::X);
         let beyond = along * (0.5 + SPARE_PX);
         let side = along.perp() * (width_px.max(1.0) * 0.5 + 0.5 + SPARE_PX);
-        // Mesa's lines are as deep as their ends half a pixel beyond them.
+        // Mesa's lines keep their ends' depth half a pixel beyond them.
         let spare = (depth_b - depth_a) / (a.distance(b) + 1.0) * SPARE_PX;
         let (depth_a, depth_b) = (depth_a - spare, depth_b + spare);
         let four = [
@@ -72,7 +73,7 @@ fn lines(ends: impl Iterator<Item = [Vec4; 2]>, size: Size, width_px: f32) -> Co
     corners
 }
 
-/// Points of this size.
+/// Makes points of this size.
 fn points(ends: impl Iterator<Item = Vec4>, size: Size, size_px: f32) -> Corners {
     let (half_size, mut corners) = (half_size(size), Corners::default());
     let reach = (size_px * 0.5).max(1.0) + SPARE_PX;
@@ -86,7 +87,7 @@ fn points(ends: impl Iterator<Item = Vec4>, size: Size, size_px: f32) -> Corners
 }
 
 impl Resources {
-    /// What GL_LINE_SMOOTH and GL_POINT_SMOOTH draw, by the program of [`fixed_function::smooth`], which is bound.
+    /// Draws the equivalent of GL_LINE_SMOOTH and GL_POINT_SMOOTH with the bound program of [`fixed_function::smooth`].
     pub(super) fn draw_smooth_edges(
         &mut self,
         scene: &Scene,

@@ -1,4 +1,4 @@
-//! The texts that programs are compiled from: those of `glsl/` or what was given in their place, as the driver's language has them.
+//! The shader texts that programs are compiled from: those of `glsl/` or their replacements, in the driver's language.
 
 use super::Gl;
 use super::legacy::HAS_PIPELINE;
@@ -10,14 +10,14 @@ use crate::plan;
 pub(super) struct Source {
     /// GL_VERTEX_SHADER or GL_FRAGMENT_SHADER.
     pub(super) kind: u32,
-    /// What errors call it.
+    /// The name for error messages.
     pub(super) path: String,
-    /// What is compiled.
+    /// The text to compile.
     pub(super) text: String,
 }
 
-/// The shaders of a program: each a text of its own, or in a browser, whose language is rewritten and knows no parts, one of each
-/// stage.
+/// Returns a program's shaders, one text each. A browser gets one text per stage, because its language is rewritten and cannot
+/// link parts.
 pub(super) fn of_program(gl: &Gl, program: &plan::Program) -> Result<Vec<Source>> {
     if HAS_PIPELINE {
         return [program.vertex].iter().chain(&program.fragments).map(|path| of_shader(gl, path)).collect();
@@ -34,7 +34,7 @@ pub(super) fn of_program(gl: &Gl, program: &plan::Program) -> Result<Vec<Source>
         .collect()
 }
 
-/// A shader by itself.
+/// A single shader.
 pub(super) fn of_shader(gl: &Gl, path: &str) -> Result<Source> {
     let (stage, text) = (Stage::of(path), original(gl, path)?);
     let refused = |log| Error::Shader { path: path.to_owned(), log };

@@ -1,4 +1,4 @@
-//! The squares that fill the picture, and what lies on their corners.
+//! The squares that fill the picture, and the values at their corners.
 
 use super::execute::Resources;
 use super::immediate::{Places, Vertices};
@@ -21,7 +21,7 @@ const SQUARES: [[f32; 6]; 8] = [
 ];
 
 impl Resources {
-    /// Uploads them, if they are not there yet.
+    /// Uploads them unless they are already uploaded.
     pub(super) fn upload_squares(&mut self) -> Result<()> {
         if self.squares.is_none() {
             self.squares = Some(Buffer::new(&self.gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(&SQUARES))?);
@@ -29,7 +29,7 @@ impl Resources {
         Ok(())
     }
 
-    /// The square from this corner on.
+    /// Draws the square that starts at this corner.
     pub(super) fn draw_square(
         &self,
         first: u32,
@@ -46,7 +46,7 @@ impl Resources {
         self.draw_corners(legacy::QUADS, first, 4)
     }
 
-    /// What lies on some corners of the squares.
+    /// Draws some corners of the squares.
     pub(super) fn draw_corners(&self, mode: u32, first: u32, count: u32) -> Result<()> {
         if self.submission != Submission::Buffers {
             let indices: Vec<u32> = (first..first + count).collect();

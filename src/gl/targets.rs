@@ -14,7 +14,7 @@ use framebuffer::{Framebuffer, Renderbuffer};
 use glow::HasContext;
 use std::rc::Rc;
 
-/// The textures that passes leave for each other.
+/// The textures that connect passes.
 #[derive(Default)]
 pub(super) struct Targets {
     border_map: Option<Copied>,
@@ -23,7 +23,7 @@ pub(super) struct Targets {
 }
 
 impl Targets {
-    /// Makes what the plan draws into where there is none of this size yet.
+    /// Makes the plan's targets, unless they exist at this size.
     pub(super) fn prepare(&mut self, gl: &Rc<Gl>, plan: &Plan, size: Size) -> Result<()> {
         check(&gl.info, plan)?;
         if !legacy::COPIES_DEPTH && plan.steps().any(|(_, step)| *step == Step::CopyDepth) {
@@ -35,14 +35,14 @@ impl Targets {
         let attachments = plan.attachments();
         let is_there = |drawn: &TextureTargets| drawn.size == size && drawn.attachments == attachments;
         if !attachments.is_empty() && !self.drawn.as_ref().is_some_and(is_there) {
-            // The old ones first: at the largest sizes there is no room for both.
+            // Drop the old targets first: at the largest sizes the memory cannot hold both.
             self.drawn = None;
             self.drawn = Some(TextureTargets::new(gl, size, attachments)?);
         }
         Ok(())
     }
 
-    /// What is drawn next goes there.
+    /// Makes the target current for the following draws.
     pub(super) fn begin(&self, gl: &Gl, target: Target) -> Result<()> {
         let framebuffer = match target {
             Target::Framebuffer => None,
@@ -51,7 +51,7 @@ impl Targets {
                 Some(drawn.ok_or_else(|| Error::gl("drawing", "a plan was carried out without being prepared"))?)
             }
         };
-        // A driver without framebuffer objects has nothing else to draw into.
+        // Without framebuffer objects the framebuffer is the only target.
         if gl.info.framebuffer_objects {
             framebuffer::bind(gl, framebuffer);
         }
@@ -78,14 +78,14 @@ impl Targets {
         self.depth_map.as_ref().map(|(_, texture)| texture)
     }
 
-    /// The texture of this name that a framebuffer object drew into.
+    /// Returns the texture of this name that a framebuffer object drew into.
     pub(super) fn drawn(&self, name: Drawn) -> Option<&Texture> {
         self.drawn.as_ref()?.textures.iter().find(|(other, ..)| *other == name).map(|(.., texture)| texture)
     }
 }
 
-/// Refuses a plan that this context has no framebuffer objects, draw buffers or texture formats for, by the option that
-/// asks for them.
+/// Returns an error, with the option at fault, if this context lacks framebuffer objects, draw buffers or texture formats for a
+/// plan.
 pub(super) fn check(info: &ContextInfo, plan: &Plan) -> Result<()> {
     for attachments in plan.attachments() {
         let count = attachments.colors.len();
@@ -136,11 +136,11 @@ fn copy(gl: &Rc<Gl>, copied: &mut Option<Copied>, format: u32, size: Size, part:
     Ok(())
 }
 
-/// The textures a plan's passes draw into, one a name, and the framebuffer objects that share them and a depth buffer.
+/// The textures a plan's passes draw into, one per name, and the framebuffer objects that share them and a depth buffer.
 struct TextureTargets {
     size: Size,
     attachments: Vec<&'static Attachments>,
-    /// One for each of `attachments`; dropped before what they draw into.
+    /// One for each of `attachments`; dropped before the textures they draw into.
     framebuffers: Vec<Framebuffer>,
     textures: Vec<(Drawn, Format, Texture)>,
     /// Kept for the framebuffers, which draw into it.
@@ -188,7 +188,7 @@ fn empty_texture(gl: &Rc<Gl>, size: Size, format: Format) -> Result<Texture> {
         Format::Float32 => floats,
     };
     let (width, height) = (size.width as i32, size.height as i32);
-    // SAFETY: the context is current, the texture just bound; no texels are given, so none are read.
+    // SAFETY: the context is current, the texture just bound; the null pointer makes GL read no texels.
     unsafe {
         let none = glow::PixelUnpackData::Slice(None);
         let (target, format) = (glow::TEXTURE_2D, format as i32);

@@ -1,4 +1,4 @@
-//! The textures of plans and materials on the device, kept while they are wanted.
+//! The textures of plans and materials on the device, kept while they are in use.
 
 use super::Gl;
 use super::legacy;
@@ -12,20 +12,20 @@ use glow::HasContext;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The textures there are.
+/// The uploaded textures.
 #[derive(Default)]
 pub(super) struct Textures {
-    /// Those of the last plan that had any; its numbers are theirs.
+    /// The tables of the last plan that had any; its numbers index them.
     tables: Vec<(PlanTable, Texture)>,
     pictures: Vec<(Arc<Picture>, Sampling, Texture)>,
-    /// Which of `pictures` each of the plan's is.
+    /// The index in `pictures` of each of the plan's pictures.
     plan_pictures: Vec<usize>,
     white: Option<Texture>,
     materials: MaterialPictures,
 }
 
 impl Textures {
-    /// Uploads what this plan reads and is not there yet, and lets go of what it does not read.
+    /// Uploads the missing textures that this plan reads, and releases the others.
     pub(super) fn prepare(&mut self, gl: &Rc<Gl>, scene: &Scene, plan: &Plan) -> Result<()> {
         if !plan.tables.is_empty() && !self.tables.iter().map(|(table, _)| table).eq(&plan.tables) {
             self.tables.clear();
@@ -84,7 +84,7 @@ impl Textures {
         self.white.as_ref()
     }
 
-    /// Binds the picture on a material, white where there is none.
+    /// Binds a material's picture, or white if it has none.
     pub(super) fn bind_material(&self, object: &Object, material: u32, unit: u32) {
         let pictures = self.materials.of(object);
         let picture = if material == NONE { None } else { pictures.get(material as usize).and_then(Option::as_ref) };
@@ -101,7 +101,7 @@ impl Textures {
     }
 }
 
-/// A picture as a texture, its lowest row first, as GL counts; opaque, for alpha would be multiplied into the picture drawn.
+/// Uploads a picture as a texture, lowest row first, as GL counts; opaque, because alpha would be multiplied into the drawing.
 fn upload(gl: &Rc<Gl>, picture: &Picture, sampling: Sampling) -> Result<Texture> {
     let Size { width, height } = picture.size;
     let largest = gl.info.largest_texture;

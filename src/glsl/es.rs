@@ -1,11 +1,11 @@
 //! Shaders in OpenGL ES's language of WebGL 1: GLSL 1.20 rewritten word by word as GLSL ES 1.00.
 //!
-//! In: the text of a shader in `glsl/`. Out: the same program for a browser, in pieces that tell what was changed. What is the
-//! fixed-function pipeline's in 1.20 (matrices, the vertex's attributes, its colours) becomes uniforms, attributes and varyings
-//! of the names in [`UNIFORMS`] and [`ATTRIBUTES`].
+//! In: the text of a shader in `glsl/`. Out: the same program for a browser, in pieces that show the changes. The
+//! fixed-function pipeline's variables in 1.20 (matrices, the vertex's attributes, its colours) become uniforms, attributes and
+//! varyings with the names in [`UNIFORMS`] and [`ATTRIBUTES`].
 //!
-//! The words are enough: all that needs a type is which whole numbers are floats, and a statement says so. The parsers of GLSL
-//! that there are lose the comments, which a reader of the page wants to see beside the program.
+//! Rewriting words suffices: only the whole numbers that are floats need a type, and their statement shows it. The existing GLSL
+//! parsers lose comments, which the page shows beside the program.
 //!
 //! ```
 //! use tinta::glsl::es::{Stage, linked, transcribed};
@@ -15,7 +15,7 @@
 //! let original: String = pieces.iter().map(|piece| piece.original.as_str()).collect();
 //! assert_eq!(original, filter);
 //! assert!(pieces.iter().any(|piece| piece.original == "0.2f" && piece.text == "0.2"));
-//! // Several shaders linked together are one there.
+//! // Several shaders linked together become one.
 //! assert!(linked(Stage::Fragment, &[filter])?.starts_with("#version 100\n"));
 //! # Ok::<(), String>(())
 //! ```
@@ -23,7 +23,7 @@
 use super::tokens::{Kind, Token, is_whole, tokens};
 use std::collections::HashSet;
 
-/// Which of a program's shaders it is.
+/// The stage of a shader in its program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
     /// The vertex shader.
@@ -33,7 +33,7 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// That of a shader of this path.
+    /// Returns the stage of the shader with this path.
     pub fn of(path: &str) -> Self {
         if path.ends_with(".vert") { Self::Vertex } else { Self::Fragment }
     }
@@ -42,14 +42,14 @@ impl Stage {
 /// A piece of a shader.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Piece {
-    /// As it stands in the shader.
+    /// The original text in the shader.
     pub original: String,
-    /// What it became; the same where nothing had to change.
+    /// The rewritten text; equal to the original if no change was needed.
     pub text: String,
 }
 
 impl Piece {
-    /// Whether it became something else.
+    /// Whether the piece was changed.
     pub fn is_changed(&self) -> bool {
         self.original != self.text
     }
@@ -58,7 +58,7 @@ impl Piece {
 /// A name of the fixed-function pipeline: in 1.20, its type, and the name here.
 type Name = (&'static str, &'static str, &'static str);
 
-/// What the fixed-function pipeline hands to shaders for a whole draw.
+/// Inputs that the fixed-function pipeline gives shaders for a whole draw.
 pub const UNIFORMS: [Name; 4] = [
     ("gl_ModelViewMatrix", "mat4", "tinta_ModelViewMatrix"),
     ("gl_ProjectionMatrix", "mat4", "tinta_ProjectionMatrix"),
@@ -66,7 +66,7 @@ pub const UNIFORMS: [Name; 4] = [
     ("gl_NormalMatrix", "mat3", "tinta_NormalMatrix"),
 ];
 
-/// What it hands to vertex shaders for each vertex, in the order of their places.
+/// Inputs that it gives vertex shaders for each vertex, in the order of their locations.
 pub const ATTRIBUTES: [Name; 5] = [
     ("gl_Vertex", "vec4", "tinta_Vertex"),
     ("gl_Normal", "vec3", "tinta_Normal"),
@@ -75,29 +75,29 @@ pub const ATTRIBUTES: [Name; 5] = [
     ("gl_MultiTexCoord1", "vec4", "tinta_MultiTexCoord1"),
 ];
 
-/// Colours on their way from vertices to fragments: written as, read as, the name here. They are clamped on their way.
+/// Colours passed from vertices to fragments: the name written, the name read, the name here. They are clamped on the way.
 const COLORS: [Name; 2] = [
     ("gl_FrontColor", "gl_Color", "tinta_FrontColor"),
     ("gl_FrontSecondaryColor", "gl_SecondaryColor", "tinta_FrontSecondaryColor"),
 ];
 
-/// The colour of back faces, which nobody reads where lighting is not two-sided.
+/// The colour of back faces, unused because lighting is one-sided.
 const BACK_COLOR: (&str, &str) = ("gl_BackColor", "tinta_BackColor");
 
-/// Texture coordinates on their way.
+/// Texture coordinates passed to fragments.
 const COORDINATES: (&str, &str) = ("gl_TexCoord", "tinta_TexCoord[2]");
 
-/// What a vertex shader's `main` is called here, for another does what the pipeline does after it.
+/// The new name of a vertex shader's `main`: another function calls it and then does the pipeline's work.
 const MAIN: &str = "tinta_main";
 
-/// How often a loop of unknown length goes round at most: far more than any here does.
+/// Most rounds of a loop of unknown length: far more than any loop here runs.
 const LONGEST_LOOP: u32 = 1024;
 
-/// A shader in pieces, by itself.
+/// Rewrites one shader and returns its pieces.
 ///
 /// # Errors
 ///
-/// A sentence about what this language has no words for.
+/// A sentence that names the part this language cannot express.
 pub fn transcribed(stage: Stage, text: &str) -> Result<Vec<Piece>, String> {
     let tokens = tokens(text);
     let mut texts = rewritten(stage, &tokens)?;
@@ -125,11 +125,11 @@ pub fn transcribed(stage: Stage, text: &str) -> Result<Vec<Piece>, String> {
     Ok(pieces)
 }
 
-/// Several shaders of a stage as the one that is compiled, without comments: what more than one declares is declared once.
+/// Merges several shaders of a stage into one text without comments; shared declarations appear once.
 ///
 /// # Errors
 ///
-/// As [`transcribed`], and of two that declare something of one name differently.
+/// As [`transcribed`], and for two different declarations of one name.
 pub fn linked(stage: Stage, texts: &[&str]) -> Result<String, String> {
     let all: Vec<Vec<Token<'_>>> = texts.iter().map(|text| tokens(text)).collect();
     let words: HashSet<&str> = all.iter().flat_map(|tokens| words(tokens)).collect();
@@ -161,7 +161,7 @@ fn words<'a>(tokens: &[Token<'a>]) -> HashSet<&'a str> {
     tokens.iter().filter(|token| token.kind == Kind::Word).map(|token| token.text).collect()
 }
 
-/// What stands before all else: version, extensions, precision, and what the pipeline had declared.
+/// Returns the shader's first lines: version, extensions, precision, and declarations that the pipeline made.
 fn head(stage: Stage, words: &HashSet<&str>) -> String {
     let has = |name: &str| words.contains(name);
     let mut head = "#version 100\n".to_owned();
@@ -205,7 +205,7 @@ fn head(stage: Stage, words: &HashSet<&str>) -> String {
     head
 }
 
-/// What the pipeline does after a vertex shader: colours are clamped, points are a pixel wide.
+/// Returns the pipeline's work after a vertex shader: it clamps colours and makes points a pixel wide.
 fn vertex_main(words: &HashSet<&str>) -> String {
     let mut main = format!("\nvoid main() {{\n    {MAIN}();\n    gl_PointSize = 1.0;\n");
     for (written, _, new) in COLORS {
@@ -216,10 +216,10 @@ fn vertex_main(words: &HashSet<&str>) -> String {
     main + "}\n"
 }
 
-/// What becomes of each token, by its place.
+/// Returns each token's new text, by its place.
 fn rewritten(stage: Stage, tokens: &[Token<'_>]) -> Result<Vec<String>, String> {
     let mut texts: Vec<String> = tokens.iter().map(|token| token.text.to_owned()).collect();
-    // The places of what is not between.
+    // The places of tokens that are not white space or comments.
     let places: Vec<usize> = (0..tokens.len()).filter(|place| tokens[*place].kind != Kind::Between).collect();
     for (number, place) in places.iter().enumerate() {
         let text = tokens[*place].text;
@@ -241,7 +241,7 @@ fn rewritten(stage: Stage, tokens: &[Token<'_>]) -> Result<Vec<String>, String> 
     for place in floats(tokens, &places) {
         texts[place].push_str(".0");
     }
-    // Last, for what a loop does after each round moves with all that became of it.
+    // Last, because the text after each round of a loop moves with all its changes.
     for number in (0..places.len()).filter(|number| tokens[places[*number]].text == "for") {
         bound_loop(tokens, &places[number..], &mut texts)?;
     }
@@ -252,7 +252,7 @@ fn without_suffix(number: &str) -> &str {
     number.strip_suffix(['f', 'F']).unwrap_or(number)
 }
 
-/// The name here of one in 1.20, where it has another.
+/// Returns the new name of a name in 1.20, if it differs.
 fn renamed(stage: Stage, name: &str) -> Option<&'static str> {
     let find = |names: &[Name]| names.iter().find(|(old, ..)| *old == name).map(|(.., new)| *new);
     let color = COLORS.iter().find(|(written, read, _)| match stage {
@@ -269,7 +269,7 @@ fn renamed(stage: Stage, name: &str) -> Option<&'static str> {
     }
 }
 
-/// A one-dimensional texture is the middle of one that is a texel high. `places` begins with the call.
+/// Replaces a one-dimensional texture by the middle of one that is a texel high. `places` begins with the call.
 fn sample_table(tokens: &[Token<'_>], places: &[usize], texts: &mut [String]) -> Result<(), String> {
     let close = closing(tokens, places, 1).ok_or("a call of texture1D does not end")?;
     let comma = (2..close).find(|place| {
@@ -283,7 +283,7 @@ fn sample_table(tokens: &[Token<'_>], places: &[usize], texts: &mut [String]) ->
     Ok(())
 }
 
-/// A loop has to begin at a number here and go on to one: another goes round up to [`LONGEST_LOOP`] times, and ends by its
+/// Bounds a loop, which must run here from one number to another. Other loops run up to [`LONGEST_LOOP`] times and end by their
 /// own condition. `places` begins with the word `for`.
 fn bound_loop(tokens: &[Token<'_>], places: &[usize], texts: &mut [String]) -> Result<(), String> {
     let text = |place: usize| tokens[places[place]].text;
@@ -310,8 +310,8 @@ fn bound_loop(tokens: &[Token<'_>], places: &[usize], texts: &mut [String]) -> R
     Ok(())
 }
 
-/// Which whole numbers are floats: 1.20 takes them for floats where it needs some, this language does not. Whole stay those in
-/// square brackets, and those that stand with a word of type int between two separators.
+/// Returns the whole numbers that are floats: 1.20 converts them where it needs floats, this language does not. Numbers in square
+/// brackets stay whole, and so do those that share a stretch between two separators with a word of type int.
 fn floats(tokens: &[Token<'_>], places: &[usize]) -> Vec<usize> {
     let text = |place: &usize| tokens[*place].text;
     let whole: HashSet<&str> =
@@ -341,7 +341,7 @@ fn floats(tokens: &[Token<'_>], places: &[usize]) -> Vec<usize> {
     floats
 }
 
-/// How many brackets are open after these.
+/// Returns how many brackets are open after these.
 fn depth(tokens: &[Token<'_>], places: &[usize]) -> i32 {
     let step = |place: &usize| match tokens[*place].text {
         "(" | "{" | "[" => 1,
@@ -351,12 +351,12 @@ fn depth(tokens: &[Token<'_>], places: &[usize]) -> i32 {
     places.iter().map(step).sum()
 }
 
-/// The place of the bracket that closes the one at `open`.
+/// Returns the place of the bracket that closes the one at `open`.
 fn closing(tokens: &[Token<'_>], places: &[usize], open: usize) -> Option<usize> {
     (open + 1..places.len()).find(|place| depth(tokens, &places[open..=*place]) == 0)
 }
 
-/// What stands at a shader's top, each a text without comments: directives, declarations, functions.
+/// Returns a shader's top-level items, each a text without comments: directives, declarations, functions.
 fn items(tokens: &[Token<'_>], texts: &[String]) -> Vec<String> {
     let (mut items, mut item, mut depth) = (Vec::new(), String::new(), 0);
     let mut was_directive = false;

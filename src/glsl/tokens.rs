@@ -1,6 +1,6 @@
-//! The words of a shader's text: names, numbers, signs, and what lies between them.
+//! The tokens of a shader's text: names, numbers, signs, and the white space and comments between them.
 
-/// What a piece of text is.
+/// The kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     /// A name or keyword.
@@ -16,15 +16,15 @@ pub(super) enum Kind {
 /// A piece of a shader's text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Token<'a> {
-    /// What it is.
+    /// Its kind.
     pub(super) kind: Kind,
-    /// As it is written.
+    /// Its text, unchanged.
     pub(super) text: &'a str,
-    /// Whether it stands in a line that begins with `#`.
+    /// Whether its line begins with `#`.
     pub(super) is_directive: bool,
 }
 
-/// All of a text in pieces: put together again they are the text.
+/// Splits a text into pieces; together they are the whole text.
 pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
     let (mut tokens, mut rest) = (Vec::new(), text);
     let (mut is_directive, mut begins_line) = (false, true);
@@ -45,7 +45,7 @@ pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
     tokens
 }
 
-/// The kind and the length of what a text begins with.
+/// Returns the kind and the length of a text's first token.
 fn token(text: &str, first: char) -> (Kind, usize) {
     let run = |is_part: fn(char) -> bool| text.find(|c| !is_part(c)).unwrap_or(text.len());
     let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -67,7 +67,7 @@ fn token(text: &str, first: char) -> (Kind, usize) {
     }
 }
 
-/// How long a number is: digits, a point, an exponent with its sign, a suffix.
+/// Returns the length of a number: digits, a point, an exponent with its sign, a suffix.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let is_exponent = |place: usize| matches!(bytes[place], b'e' | b'E') && !text.starts_with("0x");

@@ -1,26 +1,26 @@
-//! A temporary file on the target's file system: without a name where the system has such files.
+//! A temporary file on the target's file system: without a name if the system supports that.
 //!
-//! Linux makes files that no name leads to (`O_TMPFILE`) and lets them go when the process ends, however it ends. Such a
-//! file gets its name when it is whole. Elsewhere, and on file systems without them (NFS, FAT), it is called `.tinta-` and
-//! six letters until then, and that name stays behind where the process is killed.
+//! Linux has files without a name (`O_TMPFILE`) and frees them when the process ends, however it ends. Such a file gets its name
+//! when it is complete. Elsewhere, and on file systems without them (NFS, FAT), its temporary name is `.tinta-` and six letters,
+//! and stays behind if the process is killed.
 
 use std::fs::File;
 use std::io::Result;
 use std::path::Path;
 use tempfile::NamedTempFile;
 
-/// Such a file. Dropped, it is gone.
+/// An unnamed or temporary file, deleted when dropped.
 #[derive(Debug)]
 pub(super) enum StagedFile {
     /// No name leads to it.
     #[cfg(target_os = "linux")]
     Unnamed(File),
-    /// Under a name of its own.
+    /// With a temporary name.
     Named(NamedTempFile),
 }
 
 impl StagedFile {
-    /// An empty file in the folder of `target`, with the permissions a new file there would get.
+    /// Opens an empty file in the folder of `target`, with the permissions of a new file there.
     pub(super) fn open(target: &Path) -> Result<Self> {
         #[cfg(target_os = "linux")]
         if let Some(file) = unnamed(folder(target))? {
@@ -45,7 +45,7 @@ impl StagedFile {
         }
     }
 
-    /// Gives it the name `target`, which an old file loses in the same instant.
+    /// Atomically renames the file to `target`, replacing any existing file.
     pub(super) fn put_in_place(self, target: &Path) -> Result<()> {
         match self {
             #[cfg(target_os = "linux")]
@@ -55,14 +55,14 @@ impl StagedFile {
     }
 }
 
-/// How the names begin that files have until they are whole.
+/// The prefix of temporary names.
 const PREFIX: &str = ".tinta-";
 
 fn folder(target: &Path) -> &Path {
     target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// A file without a name in this folder; `None` where it could not be made or not be named.
+/// Opens a file without a name in this folder; `None` if it cannot be made or cannot be named.
 #[cfg(target_os = "linux")]
 fn unnamed(folder: &Path) -> Result<Option<File>> {
     use rustix::fs::{Mode, OFlags, open};
@@ -71,17 +71,17 @@ fn unnamed(folder: &Path) -> Result<Option<File>> {
     match open(folder, flags, Mode::from_raw_mode(0o666)) {
         Ok(file) => {
             let file = File::from(file);
-            // Without /proc there is no way to name it.
+            // Without /proc the file cannot be named.
             Ok(door(&file).symlink_metadata().is_ok().then_some(file))
         }
-        // The file system's answer, and those of kernels that do not know the flag.
+        // Errors of the file system, and of kernels that do not support the flag.
         Err(Errno::OPNOTSUPP | Errno::ISDIR | Errno::INVAL) => Ok(None),
         Err(error) => Err(error.into()),
     }
 }
 
-/// Links the file to its name. An old file is in the way of a link, and only a name can be renamed over it: the file then
-/// has another for the time between two system calls.
+/// Links the file to its name. A link cannot replace an existing file, but a rename can: the file then has a temporary name
+/// between two system calls.
 #[cfg(target_os = "linux")]
 fn name(file: &File, target: &Path) -> Result<()> {
     use rustix::fs::{AtFlags, CWD, linkat};
@@ -94,7 +94,7 @@ fn name(file: &File, target: &Path) -> Result<()> {
     named.persist(target).map_err(|error| error.error)
 }
 
-/// Where an open file can be linked from.
+/// The path that an open file can be linked from.
 #[cfg(target_os = "linux")]
 fn door(file: &File) -> std::path::PathBuf {
     use std::os::fd::AsRawFd;
@@ -151,7 +151,7 @@ mod tests {
         staged.file().write_all(b"<svg/>").unwrap();
         match staged {
             StagedFile::Unnamed(_) => assert!(names(folder.path()).is_empty()),
-            // A file system without such files, as the folder for temporary files may be on.
+            // The folder for temporary files may be on a file system without unnamed files.
             StagedFile::Named(_) => assert_eq!(names(folder.path()).len(), 1),
         }
     }

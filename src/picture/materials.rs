@@ -10,10 +10,10 @@ use std::collections::hash_map::Entry;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Where a material's picture is read from.
+/// The source of a material's picture.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum Source<'a> {
-    /// A file, and the folder that it must lie in.
+    /// A file, and the folder that must contain it.
     File(&'a Path, Option<&'a Path>),
     /// The model's own file: the picture's place in memory, which materials share.
     Embedded(*const EmbeddedPicture),
@@ -24,7 +24,7 @@ enum Source<'a> {
 pub struct MaterialPictures(Vec<(ObjectIdentity, Vec<Option<Arc<Picture>>>)>);
 
 impl MaterialPictures {
-    /// Reads what these objects have and is not there yet, and lets go of what is no longer theirs.
+    /// Reads these objects' missing pictures and releases unused ones.
     ///
     /// # Errors
     ///
@@ -39,14 +39,15 @@ impl MaterialPictures {
         Ok(())
     }
 
-    /// An object's, by material; `None` for a material without one, and no list before [`MaterialPictures::prepare`].
+    /// Returns an object's pictures, by material; `None` for a material without one, and an empty list before
+    /// [`MaterialPictures::prepare`].
     pub fn of(&self, object: &Object) -> &[Option<Arc<Picture>>] {
         self.0.iter().find(|(identity, _)| identity.is_of(object)).map_or(&[], |(_, pictures)| pictures)
     }
 }
 
-/// A mesh's pictures, by material, each file read once, all of them together within [`MODEL_PICTURES_BYTES`]; `None` for a
-/// material without one.
+/// Returns a mesh's pictures, by material. Each file is read once, and together they stay within [`MODEL_PICTURES_BYTES`]; `None`
+/// for a material without one.
 ///
 /// # Errors
 ///
@@ -87,7 +88,7 @@ pub fn material_pictures(materials: &[Material]) -> Result<Vec<Option<Arc<Pictur
     Ok(pictures)
 }
 
-/// Puts what a texture's alpha leaves out on white.
+/// Blends a texture's transparent parts with white.
 fn flatten(picture: &mut Picture, alpha: TextureAlpha) {
     const WHITE: u32 = 255;
     let share = |own: u8| match alpha {

@@ -1,5 +1,5 @@
-//! PCX pictures as games and paint programs of the nineties left them: 256 colours with the palette at the end, or 24 bits
-//! in three planes; run-length coded. The reader is our own, over [`Bytes`].
+//! PCX pictures from games and paint programs of the nineties: 256 colours with the palette at the end, or 24 bits in three
+//! planes; run-length coded. The reader is our own, over [`Bytes`].
 
 use super::Picture;
 use super::size::check_size;
@@ -7,16 +7,16 @@ use crate::bytes::Bytes;
 use crate::values::Size;
 
 const HEADER_BYTES: usize = 128;
-/// A byte that says so, and 256 colours.
+/// A marker byte and 256 colours.
 const PALETTE_BYTES: usize = 1 + 256 * 3;
 const PALETTE_MARK: u8 = 12;
 const MANUFACTURER: u8 = 10;
-/// A byte from here on is how often, in its lower six bits, the next one stands there.
+/// Bytes from this value up are counts: the lower six bits say how often the next byte repeats.
 const RUN: u8 = 0xc0;
 
 const CUT_OFF: &str = "it is cut off or damaged; save it again";
 
-/// Whether a file begins like PCX: the maker's number, a version there was, and whether it is coded.
+/// Whether a file begins like PCX: the maker's number, an existing version, and the coding flag.
 pub(super) fn looks_like(bytes: &[u8]) -> bool {
     matches!(bytes, [MANUFACTURER, 0 | 2 | 3 | 4 | 5, 0 | 1, 1 | 2 | 4 | 8, ..])
 }
@@ -69,11 +69,11 @@ pub(super) fn read(bytes: &[u8], most: u64) -> Result<Picture, String> {
 struct Header<'a> {
     coded: bool,
     bits: u8,
-    /// Left, top, right and bottom pixel, the last two included.
+    /// Left, top, right and bottom pixel, inclusive.
     window: [u16; 4],
     planes: u8,
     line_bytes: u16,
-    /// What follows the header.
+    /// The data after the header.
     data: &'a [u8],
 }
 
@@ -99,7 +99,7 @@ impl<'a> Header<'a> {
 
 /// Undoes the run-length coding up to `count` bytes; `None` if there are fewer.
 fn decode(data: &[u8], count: usize) -> Option<Vec<u8>> {
-    // Two bytes become at most 63, so a header cannot ask for more memory than the file is worth.
+    // Two bytes decode to at most 63, which stops a header from requesting more memory than its file justifies.
     if count > data.len().saturating_mul(32) {
         return None;
     }

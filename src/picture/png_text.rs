@@ -1,13 +1,14 @@
-//! PNG with a text in it, written and read: what the image crate does not do.
+//! Writes and reads PNG files with a text in them, which the image crate cannot do.
 
 use crate::values::Size;
 use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
-/// What reading a text may take, bytes.
+/// Memory limit for reading a text, bytes.
 #[cfg(feature = "recipes")]
 const LARGEST_BYTES: usize = 4 << 20;
 
-/// Encodes as the image crate is asked to elsewhere, with a `tEXt` chunk; `text` is ASCII. Opaque pixels have three bytes, others four.
+/// Encodes with the image crate's settings used elsewhere, and adds a `tEXt` chunk; `text` is ASCII. Opaque pixels have three
+/// bytes, others four.
 pub(super) fn encode(
     Size { width, height }: Size,
     pixels: &[u8],
@@ -27,13 +28,13 @@ pub(super) fn encode(
     Ok(bytes)
 }
 
-/// Whether a file begins as PNG does.
+/// Whether a file begins like PNG.
 #[cfg(feature = "recipes")]
 pub(crate) fn is_png(head: &[u8]) -> bool {
     head.starts_with(b"\x89PNG\r\n\x1a\n")
 }
 
-/// The `tEXt` chunk of this keyword, if it stands before the pixels; the error is a sentence without the file's name.
+/// Returns the `tEXt` chunk of this keyword, if it precedes the pixels; the error is a sentence without the file's name.
 #[cfg(feature = "recipes")]
 pub(crate) fn find(head: &[u8], keyword: &str) -> Result<Option<String>, String> {
     use png::{Decoder, Limits};

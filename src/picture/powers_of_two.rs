@@ -1,15 +1,16 @@
-//! Pictures whose sides are powers of two, for textures that repeat where a driver repeats no others.
+//! Pictures whose sides are powers of two, for textures that repeat on drivers that repeat only such textures.
 
 use super::Picture;
 use crate::values::Size;
 
 impl Picture {
-    /// The same picture with sides of the next powers of two: between texels as GL_LINEAR reads it, over its edges as GL_REPEAT.
+    /// Returns the picture with sides of the next powers of two, interpolated as by GL_LINEAR, and across its edges as by
+    /// GL_REPEAT.
     #[must_use]
     pub(crate) fn with_powers_of_two(&self) -> Self {
         let Size { width, height } = self.size;
         let size = Size { width: width.next_power_of_two(), height: height.next_power_of_two() };
-        // A new texel's middle lies between two of the old ones: the first, and the share of the second.
+        // A new texel's middle lies between two old texels: the first, and the share of the second.
         let between = |place: u32, new: u32, old: u32| {
             let middle = (f64::from(place) + 0.5) * f64::from(old) / f64::from(new) - 0.5;
             let first = middle.floor();

@@ -1,4 +1,4 @@
-//! Picture files to pictures: skins and textures. Known by content, where that says too little by extension.
+//! Reads picture files: skins and textures. The content identifies the format, or else the extension.
 
 use super::size::{check_size, too_large};
 use super::{Picture, pcx};
@@ -12,7 +12,7 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 use std::path::Path;
 
-/// How TGA files may end since 1989; the older ones say nothing of what they are.
+/// The footer of TGA files since 1989; older files have no signature.
 const TGA_END: &[u8] = b"TRUEVISION-XFILE.\0";
 
 impl Picture {
@@ -20,13 +20,14 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] with the path when it is missing, unreadable, damaged, in no such format, longer than 16384
-    /// pixels on a side, or larger in memory than [`PICTURE_BYTES`] without a file to match.
+    /// [`Error::File`] with the path when it is missing, unreadable, damaged, in another format, longer than 16384 pixels on a
+    /// side, or larger in memory than [`PICTURE_BYTES`] without a file of matching size.
     pub fn read(path: &Path) -> Result<Self> {
         Self::read_within(path, None, u64::MAX).map(|(picture, _)| picture)
     }
 
-    /// The same of a file in the folder of real path `within`, if any, whose pixels may take `most` bytes; with the file's size.
+    /// Reads a file in the folder of real path `within`, if given, whose pixels may take `most` bytes; returns the file's size
+    /// too.
     pub(crate) fn read_within(path: &Path, within: Option<&Path>, most: u64) -> Result<(Self, u64)> {
         let failed = |problem: String| Error::picture(path, problem);
         let bytes = files::read_within(path, within, PICTURE_FILE_BYTES)
@@ -36,7 +37,7 @@ impl Picture {
         Ok((picture, bytes.len() as u64))
     }
 
-    /// Reads a picture file's bytes; `name` is for messages, and its extension tells TGA and PCX, which begin like nothing.
+    /// Reads a picture file's bytes. `name` is for messages; its extension identifies TGA and PCX, which have no signature.
     ///
     /// # Errors
     ///
@@ -45,7 +46,7 @@ impl Picture {
         Self::from_bytes_of(bytes, name, u64::MAX)
     }
 
-    /// The same of a picture whose pixels may take `most` bytes.
+    /// Reads a picture whose pixels may take `most` bytes.
     pub(crate) fn from_bytes_of(bytes: &[u8], name: &str, most: u64) -> Result<Self> {
         let path = Path::new(name);
         let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
@@ -53,7 +54,7 @@ impl Picture {
     }
 }
 
-/// A picture out of a file's bytes, of at most `most` bytes; the error is a sentence without the file's name.
+/// Decodes a file's bytes into a picture of at most `most` bytes; the error is a sentence without the file's name.
 fn decode(bytes: &[u8], extension: &str, most: u64) -> std::result::Result<Picture, String> {
     if bytes.is_empty() {
         return Err("the file is empty; save the picture again".to_owned());
@@ -73,7 +74,7 @@ fn decode(bytes: &[u8], extension: &str, most: u64) -> std::result::Result<Pictu
     let mut limits = Limits::default();
     limits.max_image_width = Some(PICTURE_SIDE_PX);
     limits.max_image_height = Some(PICTURE_SIDE_PX);
-    // Twice the pixels' memory, as they may have 16 bits a channel in the file, and what the decoder needs itself.
+    // Twice the pixels' memory, because files may have 16 bits per channel, and the decoder's own memory.
     limits.max_alloc = Some(2 * PICTURE_BYTES.max((bytes.len() * MEMORY_FACTOR) as u64) + MEMORY_SLACK_BYTES as u64);
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
@@ -88,7 +89,7 @@ fn decode(bytes: &[u8], extension: &str, most: u64) -> std::result::Result<Pictu
     Ok(Picture { size, pixels: picture.into_raw() })
 }
 
-/// Whether a PNG file's palette, if it has one, is whole colours and not too many: the png crate (0.18) panics where it is not.
+/// Whether a PNG file's palette, if any, has whole colours and not too many: the png crate (0.18) panics otherwise.
 fn has_sound_palette(file: &[u8]) -> bool {
     const SIGNATURE_BYTES: usize = 8;
     let mut bytes = Bytes(file);
@@ -99,7 +100,7 @@ fn has_sound_palette(file: &[u8]) -> bool {
         if kind == b"PLTE" && (length > 256 * 3 || length % 3 != 0) {
             return false;
         }
-        // A checksum of four bytes follows; where the file ends too early the decoder says so.
+        // A checksum of four bytes follows; the decoder reports a file that ends too early.
         if bytes.take(length).and_then(|_| bytes.take(4)).is_none() {
             return true;
         }
@@ -110,7 +111,7 @@ fn in_words(error: &ImageError) -> String {
     match error {
         ImageError::Limits(limit) if matches!(limit.kind(), LimitErrorKind::DimensionError) => too_large(),
         ImageError::Limits(_) => "it takes too much memory; scale it down".to_owned(),
-        // It may quote the file.
+        // Its text may quote the file.
         error => {
             let cause = shown(&error.to_string());
             format!("it is damaged or of an unsupported kind ({cause}); save it again")
@@ -129,7 +130,7 @@ mod tests {
         Picture { size, pixels }
     }
 
-    /// The same picture in each format written here, with its extension.
+    /// Returns the same picture in each written format, with its extension.
     fn files() -> Vec<(&'static str, Vec<u8>)> {
         let encoded = |(extension, format): &(&'static str, PictureFormat)| {
             let mut bytes = Vec::new();
@@ -181,7 +182,7 @@ mod tests {
 
     #[test]
     fn palettes_of_broken_colours_or_too_many_are_refused() {
-        // A PNG of 4 x 1 pixels with a palette of so many bytes; its checksums do not count here.
+        // A PNG of 4 x 1 pixels with a palette of this many bytes; its checksums are irrelevant here.
         let with = |length: u32| {
             let chunk = |kind: &[u8], data: &[u8]| [&(data.len() as u32).to_be_bytes(), kind, data, &[0; 4]].concat();
             let header = chunk(b"IHDR", &[0, 0, 0, 4, 0, 0, 0, 1, 8, 3, 0, 0, 0]);

@@ -1,9 +1,9 @@
-//! How large pictures may be.
+//! The limits on the size of pictures.
 
 use crate::limits::{MEMORY_FACTOR, PICTURE_BYTES, PICTURE_SIDE_PX, PIXELS_A_BYTE};
 use crate::values::Size;
 
-/// Refuses a picture whose pixels would take more than they may, `most` bytes among it, or more than its file can hold.
+/// Returns an error for a picture whose pixels would exceed the limits, `most` bytes among them, or more than its file can hold.
 pub(super) fn check_size(
     Size { width, height }: Size,
     file_bytes: usize,

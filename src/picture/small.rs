@@ -1,23 +1,23 @@
-//! A picture for a page that holds many of them: with as many colours as a file below a limit allows.
+//! A picture for a page with many pictures: as many colours as a size limit allows.
 
 use super::Picture;
 use std::collections::BTreeSet;
 
-/// Fewest bits a channel: below them grey tones show steps even where they are grain.
+/// Fewest bits per channel: with fewer, grey tones show steps even in grain.
 const FEWEST_BITS: u32 = 4;
 
-/// Colours of a file with a table of them.
+/// Most colours of a file with a colour table.
 const TABLE: usize = 256;
 
 impl Picture {
-    /// The picture as a PNG, opaque: with as many bits a channel as a file of `most_bytes` allows, or with the fewest that are still
-    /// looked at. `None` for a picture without a pixel.
+    /// Returns the picture as an opaque PNG, with as many bits per channel as a file of `most_bytes` allows, or the fewest that
+    /// still look good. `None` for a picture without pixels.
     pub fn small_png(&self, most_bytes: usize) -> Option<Vec<u8>> {
         let of = |bits| self.with_bits(bits);
         (FEWEST_BITS + 1..=8).rev().filter_map(of).find(|bytes| bytes.len() <= most_bytes).or_else(|| of(FEWEST_BITS))
     }
 
-    /// With a table of colours where they are few, which takes least.
+    /// A table of few colours takes the fewest bytes.
     fn with_bits(&self, bits: u32) -> Option<Vec<u8>> {
         let steps = (1u32 << bits) - 1;
         let nearest = |value: u8| (((u32::from(value) * steps + 127) / 255) * 255 / steps) as u8;
@@ -49,7 +49,7 @@ impl Picture {
         }
         encoder.set_compression(png::Compression::Balanced);
         encoder.set_filter(filter);
-        // Writing into memory fails for pictures without a pixel only.
+        // Writing into memory fails only for pictures without pixels.
         encoder.write_header().ok()?.write_image_data(data).ok()?;
         Some(bytes)
     }

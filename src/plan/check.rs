@@ -1,20 +1,19 @@
-//! What is wrong with a plan, found without a GL context: what it reads before it writes it, targets and textures that are
-//! not there, sizes that do not fit.
+//! Finds a plan's mistakes without a GL context: reads before writes, missing targets and textures, wrong sizes.
 //!
-//! In: a plan and the scene it is to be drawn for. Out: nothing, or the first [`Flaw`], a sentence. The renderer asks before it
-//! draws: what an earlier plan left in a texture or a buffer never becomes part of a picture.
+//! In: a plan and the scene it will draw. Out: the first [`Flaw`], a sentence, if any. The renderer checks before it draws, which
+//! keeps the contents that an earlier plan left in a texture or a buffer out of the picture.
 
 use super::{Blend, Depth, Draw, Drawn, Faces, Format, Geometry, Paint, Plan, Step, Target, Texture};
 use crate::scene::{Rectangle, Scene, Size};
 
-/// What makes a plan unfit to be drawn.
+/// A mistake that makes a plan unfit for drawing.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Flaw {
-    /// There is nothing to draw.
+    /// The plan has no passes.
     #[error("it has no pass; give it one that draws a picture")]
     NoPass,
-    /// A step reads a texture that a later step makes, or draws over what no step has cleared.
+    /// A step reads a texture that a later step makes, or draws over pixels that no step has cleared.
     #[error("the pass {pass} reads {what} before a step has written it; clear, draw or copy it earlier")]
     ReadBeforeWritten {
         /// The pass.
@@ -22,7 +21,7 @@ pub enum Flaw {
         /// The texture or buffer.
         what: String,
     },
-    /// A step reads or draws into what the plan does not have.
+    /// A step reads or draws into a part that the plan lacks.
     #[error("the pass {pass} needs {what}, which the plan does not have; add it, or do without")]
     Missing {
         /// The pass.
@@ -44,14 +43,14 @@ pub enum Flaw {
         /// The texture.
         name: Drawn,
     },
-    /// Something is larger, smaller, longer or shorter than it must be.
+    /// A size or a length is wrong.
     #[error("{what} is {found}, not {expected}; make it fit")]
     WrongSize {
         /// What.
         what: String,
         /// The size it has.
         found: String,
-        /// The size it must have.
+        /// The correct size.
         expected: String,
     },
 }
@@ -101,7 +100,7 @@ impl Plan {
         written.needs_color(last.target, last.name)
     }
 
-    /// Passes, targets, tables, pictures and supersampling.
+    /// Checks passes, targets, tables, pictures and supersampling.
     fn check_as_a_whole(&self) -> Result<(), Flaw> {
         let mut formats: Vec<(Drawn, Format)> = Vec::new();
         for pass in &self.passes {
@@ -141,10 +140,10 @@ impl Plan {
     }
 }
 
-/// What the steps so far have written.
+/// The targets and textures that the steps so far have written.
 #[derive(Default)]
 struct Written {
-    /// Textures that passes leave.
+    /// Textures written by passes.
     textures: Vec<Texture>,
     /// Colour and depth of the framebuffer.
     framebuffer: [bool; 2],
@@ -285,7 +284,7 @@ fn has_depth(target: Target) -> bool {
     }
 }
 
-/// Whether a draw may be the first into its target: a square over all of it, whatever is there.
+/// Whether a draw may be the first into its target: a square that covers it all, whatever it held.
 fn fills(draw: &Draw) -> bool {
     matches!(draw.geometry, Geometry::ScreenSquare | Geometry::PictureSquare | Geometry::BackgroundSquare { .. })
         && draw.depth == Depth::Ignore

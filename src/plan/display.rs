@@ -8,7 +8,7 @@ use crate::scene::Rectangle;
 use std::fmt;
 
 impl fmt::Display for Plan {
-    /// Step by step; as `{:#}` with what is stated of each draw below it.
+    /// Prints step by step; `{:#}` adds the facts stated of each draw below it.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.supersample > 1 {
             writeln!(out, "everything drawn {} times as wide and high as the picture", self.supersample)?;
@@ -142,7 +142,7 @@ fn write_scissor(out: &mut fmt::Formatter<'_>, scissor: Option<Rectangle>) -> fm
     }
 }
 
-/// How many objects are drawn, and how many faces of those that are not drawn whole.
+/// Writes how many objects are drawn, and how many faces of those that are drawn in part.
 fn write_faces(out: &mut fmt::Formatter<'_>, faces: &[Faces]) -> fmt::Result {
     let drawn = faces.iter().filter(|faces| **faces != Faces::None).count();
     if drawn < faces.len() {
@@ -158,7 +158,7 @@ fn write_faces(out: &mut fmt::Formatter<'_>, faces: &[Faces]) -> fmt::Result {
     }
 }
 
-/// How many edges of each name and colour.
+/// Writes the number of edges of each name and colour.
 fn write_runs(out: &mut fmt::Formatter<'_>, runs: &[EdgeRun]) -> fmt::Result {
     let mut sums: Vec<(&str, [f32; 4], usize)> = Vec::new();
     for run in runs {

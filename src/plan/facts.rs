@@ -1,13 +1,13 @@
-//! What a style states of its draws, so that `prune` can shorten plans without knowing a shader.
+//! Facts that a style states of its draws. With them `prune` can shorten plans without knowing a shader.
 //!
-//! A draw's state says how it meets the depth buffer or what it is blended with; what its shaders do only their author knows.
-//! So a style states it beside the draw. A plan draws the same whatever it states: nobody but `prune` reads this, and what is
-//! not stated is not assumed. Where a shader is replaced by another text, its draws' facts are dropped.
+//! A draw's state includes its depth test and blending, but only the author knows the effect of its shaders. So the style states
+//! that effect beside the draw. A plan draws the same whatever it states: only `prune` reads the facts, and it assumes nothing
+//! else. When a shader is replaced by another text, its draws' facts are dropped.
 
 use super::Program;
 use std::fmt;
 
-/// What may be assumed of a draw's shaders. The default is nothing.
+/// Facts about a draw's shaders. The default states none.
 ///
 /// ```
 /// use tinta::plan::{Draw, Facts, Geometry, Paint, Program};
@@ -18,60 +18,60 @@ use std::fmt;
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Facts {
-    /// Vertices are drawn where the scene's camera has them, as `ftransform()` puts them. Faces outside the picture, turned
-    /// away or hidden can then be left out.
+    /// Vertices are drawn at the scene camera's projection of them, as by `ftransform()`. Faces outside the picture, turned away
+    /// or hidden can then be left out.
     pub keeps_places: bool,
-    /// Every pixel of a face gets a colour and has the depth of the face: none is discarded, no depth is written by a shader.
+    /// Every pixel of a face gets a colour and the face's depth: the shaders discard none and write no depth.
     pub keeps_pixels: bool,
     /// All its pixels get this colour: red, green, blue, alpha.
     pub constant_color: Option<[f32; 4]>,
-    /// It leaves every pixel's colour and depth as they are, for this reason.
+    /// It leaves every pixel's colour and depth unchanged, for this reason.
     pub adds_nothing: Option<String>,
-    /// How far from its own pixel it reads the textures that passes leave, at most, pixels.
+    /// Largest distance from its own pixel at which it reads the textures that passes leave, pixels.
     pub reach_px: Option<u32>,
-    /// Its vertex shader makes of a vertex's place in clip space something else than where it is drawn: clip space must then be the
-    /// whole picture's.
+    /// Its vertex shader uses the vertex's place in clip space for more than its position, so clip space must be the whole
+    /// picture's.
     pub reads_clip_place: bool,
-    /// What becomes of a pixel where all of these textures hold one value each as far as the draw reads.
+    /// The result for a pixel if each of these textures is uniform within the draw's reach.
     pub where_even: Option<WhereEven>,
     /// A program that draws the same with less work.
     pub shorter: Option<Shorter>,
 }
 
-/// What a filter makes of a pixel around which there is nothing to find.
+/// A filter's result for a pixel whose surroundings are uniform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum WhereEven {
-    /// It is left as it is.
+    /// The pixel stays unchanged.
     Unchanged,
     /// It gets this colour: red, green, blue, alpha.
     Color([f32; 4]),
 }
 
-/// A program for the same uniforms, textures and pixels that leaves out light no tone depends on.
+/// A program for the same uniforms, textures and pixels, without the light that no tone depends on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shorter {
     /// Its shaders.
     pub program: Program,
-    /// What they do not compute.
+    /// The light that they do not compute.
     pub without: &'static str,
     /// Why that makes no difference.
     pub because: String,
 }
 
 impl Facts {
-    /// Those of most shaders: places and pixels are kept.
+    /// Returns the facts of most shaders: they keep places and pixels.
     pub fn plain() -> Self {
         Self { keeps_places: true, keeps_pixels: true, ..Self::default() }
     }
 
-    /// Those of a square of one colour.
+    /// Returns the facts of a square of one colour.
     pub fn constant(color: [f32; 4]) -> Self {
         Self { constant_color: Some(color), ..Self::plain() }
     }
 }
 
 impl fmt::Display for Facts {
-    /// `keeps places, keeps pixels`; nothing where nothing is stated.
+    /// `keeps places, keeps pixels`; empty without facts.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let color = |[r, g, b, a]: [f32; 4]| format!("({r}, {g}, {b}, {a})");
         let facts = [
@@ -117,7 +117,7 @@ mod tests {
         assert_eq!(facts_after(facts.clone(), "a.vert"), Facts::default());
         assert_eq!(facts_after(facts.clone(), "a.frag"), Facts::default());
         assert_eq!(facts_after(facts.clone(), "c.frag"), facts);
-        // The program that was to draw the same does no longer.
+        // The shorter program no longer draws the same.
         assert_eq!(facts_after(facts, "b.frag"), Facts::constant([1.0; 4]));
     }
 

@@ -1,4 +1,4 @@
-//! Shaders that a draw runs, and what they read.
+//! The shaders that a draw runs, and the uniforms they read.
 
 use super::target::Drawn;
 use crate::picture::Picture;
@@ -34,14 +34,14 @@ pub enum Value {
     Vec3([f32; 3]),
     /// int
     Int(i32),
-    /// vec2: how far apart the texels of what a pass leaves are, 1 / its size in pixels. That of a tile is a tile's.
+    /// vec2: the distance between texels of a pass's result, 1 / its size in pixels. In a tile it is the tile's.
     TexelSize([f32; 2]),
-    /// vec2: a place on what is drawn, in pixels from its lower left corner. In a tile it is counted from the tile's.
+    /// vec2: a place on the surface, in pixels from its lower left corner. In a tile it is counted from the tile's.
     PixelPlace([f32; 2]),
 }
 
 impl Value {
-    /// [`Value::TexelSize`] of what is this large.
+    /// Returns the [`Value::TexelSize`] of a surface of this size.
     pub fn texel_size(size: Size) -> Self {
         Self::TexelSize([1.0 / size.width as f32, 1.0 / size.height as f32])
     }
@@ -51,17 +51,17 @@ impl Value {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Texture {
-    /// The framebuffer as the last [`Step::CopyFramebuffer`](super::Step::CopyFramebuffer) left it; NEAREST, CLAMP_TO_EDGE (errata E12).
+    /// The framebuffer at the last [`Step::CopyFramebuffer`](super::Step::CopyFramebuffer); NEAREST, CLAMP_TO_EDGE (errata E12).
     BorderMap,
-    /// What passes into [`Target::Textures`](super::Target::Textures) drew there; NEAREST, CLAMP_TO_EDGE.
+    /// The texture that passes into [`Target::Textures`](super::Target::Textures) drew; NEAREST, CLAMP_TO_EDGE.
     Drawn(Drawn),
-    /// The depth buffer as the last [`Step::CopyDepth`](super::Step::CopyDepth) left it, window z in red; NEAREST, CLAMP_TO_EDGE.
+    /// The depth buffer at the last [`Step::CopyDepth`](super::Step::CopyDepth), window z in red; NEAREST, CLAMP_TO_EDGE.
     DepthMap,
     /// The plan's table of this number, one-dimensional; NEAREST, CLAMP_TO_EDGE.
     Table(usize),
     /// The plan's picture of this number.
     Picture(usize),
-    /// The texture of each material, by the model's own texture coordinates, LINEAR, GL_REPEAT; white where it has none.
+    /// The texture of each material, by the model's own texture coordinates, LINEAR, GL_REPEAT; white for materials without one.
     Material,
 }
 
@@ -75,7 +75,7 @@ impl Program {
 /// A picture as a texture, its lowest row at coordinate 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanPicture {
-    /// What it is, for those who read the plan.
+    /// Its name for readers of the plan.
     pub name: &'static str,
     /// The picture.
     pub picture: Arc<Picture>,
@@ -83,13 +83,13 @@ pub struct PlanPicture {
     pub sampling: Sampling,
 }
 
-/// How a texture is read between and beyond its texels.
+/// The reading of a texture between and beyond its texels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sampling {
     /// NEAREST, CLAMP_TO_EDGE.
     NearestClamped,
     /// LINEAR, GL_REPEAT.
     LinearRepeated,
-    /// LINEAR_MIPMAP_LINEAR where smaller, LINEAR where larger, GL_REPEAT.
+    /// LINEAR_MIPMAP_LINEAR if reduced, LINEAR if enlarged, GL_REPEAT.
     MipmapRepeated,
 }

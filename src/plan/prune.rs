@@ -1,10 +1,10 @@
-//! Pruning: shortens a plan by facts about the scene so that it draws the same picture.
+//! Pruning: shortens a plan by facts about the scene without changing the picture.
 //!
-//! In: a [`Plan`] as published and the [`Scene`] it was made for. Out: [`Pruned`], the plan without what cannot change a
-//! byte of the picture, and of each [`Rule`] either the [`Omission`] it led to, with its reason and the facts it rests on,
-//! or why it left everything in. What shaders do is known from what the plan states of its draws ([`super::Facts`]), so that
-//! plans of anybody's making are shortened, and none by a shader that was replaced meanwhile. Every rule has to be exact on every driver, not nearly so; what is only nearly exact is an
-//! option of a style.
+//! In: a published [`Plan`] and the [`Scene`] it was made for. Out: [`Pruned`], the plan without steps that cannot change a byte
+//! of the picture. For each [`Rule`] it holds either the [`Omission`], with its reason and the facts it rests on, or why the rule
+//! left everything in. Shaders' effects come only from the facts that the plan states of its draws ([`super::Facts`]). So
+//! anyone's plans can be shortened, and replaced shaders are never misjudged. Every rule must be exact on every driver; nearly
+//! exact shortcuts are options of a style.
 
 mod background;
 mod dead;
@@ -31,18 +31,18 @@ pub struct Kept {
     pub reason: String,
 }
 
-/// A plan without what its scene does not need.
+/// A plan without parts that its scene does not need.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pruned {
-    /// What is left.
+    /// The shortened plan.
     pub plan: Plan,
-    /// What is not, in the order it was left out.
+    /// The parts left out, in order of removal.
     pub omissions: Vec<Omission>,
     /// The other rules.
     pub kept: Vec<Kept>,
 }
 
-/// Leaves out of a plan made for this scene what cannot change its picture.
+/// Removes all parts of a plan, made for this scene, that cannot change its picture.
 pub fn prune(plan: &Plan, scene: &Scene, pruning: &Pruning) -> Pruned {
     let mut pruned = Pruned { plan: plan.clone(), omissions: Vec::new(), kept: Vec::new() };
     pruned.plan.forget_facts_of(&pruning.replaced_shaders);
@@ -78,7 +78,7 @@ impl Draw {
 }
 
 impl Rule {
-    /// Shortens the plan, or says why not.
+    /// Shortens the plan; the error says why it could not.
     fn apply(self, plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
         match self {
             Self::Border => dead::border(plan),

@@ -2,45 +2,45 @@
 
 use std::fmt;
 
-/// What a pass draws into.
+/// The target of a pass.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Target {
     /// The framebuffer, 8 bits a channel.
     #[default]
     Framebuffer,
-    /// Textures as large as what is drawn, and a depth buffer that all passes into textures share.
+    /// Textures as large as the surface, with a depth buffer that all passes into textures share.
     Textures(&'static Attachments),
 }
 
 /// The textures of one framebuffer object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Attachments {
-    /// In the order of gl_FragData; the first is what is read where a pass's picture is.
+    /// In the order of gl_FragData; the first holds the pass's picture.
     pub colors: &'static [Attachment],
-    /// Whether there is a depth buffer.
+    /// Whether it has a depth buffer.
     pub has_depth: bool,
-    /// What asks for them, for a driver that has none.
+    /// The setting that needs them, named in the error of a driver without them.
     pub asked_by: SettingValue,
-    /// What to choose instead there.
+    /// The alternative for such a driver.
     pub instead: SettingValue,
-    /// What that draws, where it is not quite the same.
+    /// The picture that the alternative draws, if it differs.
     pub instead_draws: Option<&'static str>,
 }
 
-/// A texture that is drawn into: RGBA, NEAREST, CLAMP_TO_EDGE. Within a plan a name has one format.
+/// A texture that is drawn into: RGBA, NEAREST, CLAMP_TO_EDGE. Within a plan each name has one format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Attachment {
-    /// By which steps read it.
+    /// The name that steps read it by.
     pub name: Drawn,
-    /// What a channel holds.
+    /// The format of its channels.
     pub format: Format,
 }
 
-/// The name of a texture that is drawn into, which a style chooses.
+/// The name of a texture that is drawn into, chosen by the style.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Drawn(pub &'static str);
 
-/// A value of a setting, as a user would choose it.
+/// A value of a setting, in the user's notation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SettingValue {
     /// The setting's name.
@@ -49,7 +49,7 @@ pub struct SettingValue {
     pub value: &'static str,
 }
 
-/// What asks for a copy of the depth buffer, each with what to choose instead where there is none.
+/// The settings that need a copy of the depth buffer, each with the alternative for drivers without one.
 pub(crate) const DEPTH_COPIES: [[SettingValue; 2]; 2] = [
     [
         SettingValue { setting: "map-encoding", value: "depth-texture" },
@@ -58,12 +58,12 @@ pub(crate) const DEPTH_COPIES: [[SettingValue; 2]; 2] = [
     [SettingValue { setting: "crease-by", value: "normals" }, SettingValue { setting: "crease-by", value: "planes" }],
 ];
 
-/// What a channel of a texture that is drawn into holds.
+/// The format of the channels of a texture that is drawn into.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// 8 bits, from 0 to 1, as in the framebuffer.
     Unorm8,
-    /// 16 bits of floating point, 11 of them for the digits; not clamped.
+    /// 16 bits of floating point with 11 significant bits; not clamped.
     Float16,
     /// 32 bits of floating point; not clamped.
     Float32,
@@ -77,7 +77,7 @@ impl Format {
 }
 
 impl Target {
-    /// The texture that holds the picture of a pass into it, the first of its textures; `None` for the framebuffer.
+    /// Returns the texture that holds a pass's picture, the first of the target's textures; `None` for the framebuffer.
     pub fn picture(self) -> Option<Drawn> {
         match self {
             Self::Framebuffer => None,
@@ -87,7 +87,7 @@ impl Target {
 }
 
 impl Target {
-    /// How many colours a pass into it draws at once.
+    /// Returns how many colours a pass into it draws at once.
     pub(super) fn color_count(self) -> usize {
         match self {
             Self::Framebuffer => 1,

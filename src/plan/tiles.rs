@@ -1,27 +1,27 @@
-//! Pictures in tiles: parts of what is drawn, one after the other, for pictures larger than a driver can draw at once.
+//! Pictures in tiles: parts of the surface, drawn one after the other, for pictures larger than a driver can draw at once.
 //!
-//! In: a plan, the size of what is drawn, what a driver can draw. Out: [`Tile`]s that cover it, each with so much around it as the
-//! plan's filters read. A tile is drawn with the whole picture's viewport, shifted, so that its pixels lie on the same places of
-//! the model as in one piece.
+//! In: a plan, the surface's size, the driver's limits. Out: [`Tile`]s that cover the surface, each with the margin that the
+//! plan's filters read. A tile is drawn with the whole picture's viewport, shifted. Its pixels therefore sample the same places
+//! of the model as in one piece.
 
 use super::{Geometry, Plan, Step, Texture, Value};
 use crate::scene::{Rectangle, Size};
 use glam::{DMat4, DVec3, Mat4};
 
-/// A part of what is drawn, in pixels of the whole, counted from its lower left corner.
+/// A part of the surface, in pixels of the whole, counted from its lower left corner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tile {
     /// The size of the whole.
     pub whole: Size,
-    /// What is drawn: what is kept, and as much around it as filters read.
+    /// The rectangle to draw: `kept`, and the margin that filters read.
     pub drawn: Rectangle,
-    /// What of that becomes part of the picture.
+    /// The part of it that enters the picture.
     pub kept: Rectangle,
-    /// What the viewport spans: the whole, or as much of it around the tile as the driver's viewport can.
+    /// The viewport: the whole, or as much of it around the tile as the driver's viewport can span.
     pub viewport: Rectangle,
 }
 
-/// What a driver can draw at once.
+/// The largest surface and viewport that a driver can draw at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TileLimits {
     /// Largest surface.
@@ -30,8 +30,8 @@ pub struct TileLimits {
     pub viewport: Size,
 }
 
-/// Tiles begin and end at multiples of this many pixels: of all factors of supersampling, and of the pairs and blocks of pixels that
-/// drivers draw together.
+/// Tiles begin and end at multiples of this many pixels: of all factors of supersampling, and of the pairs and blocks of pixels
+/// that drivers draw together.
 const STEP_PX: u32 = 48;
 
 impl Tile {
@@ -46,18 +46,18 @@ impl Tile {
         *self == Self::whole(self.whole)
     }
 
-    /// The size of what is drawn of it.
+    /// The size of the drawn rectangle.
     pub fn size(&self) -> Size {
         Size { width: self.drawn.width, height: self.drawn.height }
     }
 
-    /// What of a rectangle of the whole is drawn here, counted from the tile's own corner; `None` for nothing.
+    /// Returns the part of a rectangle of the whole that lies in this tile, counted from the tile's own corner; `None` if empty.
     pub fn part(&self, of: Rectangle) -> Option<Rectangle> {
         let common = of.within(self.drawn)?;
         Some(Rectangle { x: common.x - self.drawn.x, y: common.y - self.drawn.y, ..common })
     }
 
-    /// From the picture's clip space to that of the tile's viewport; `None` where they are one.
+    /// Returns the matrix from the picture's clip space to that of the tile's viewport; `None` if they are equal.
     pub fn clip_from_picture(&self) -> Option<Mat4> {
         let Rectangle { x, y, width, height } = self.viewport;
         if (width, height) == (self.whole.width, self.whole.height) {
@@ -73,7 +73,7 @@ impl Tile {
         Some((DMat4::from_translation(DVec3::new(shift_x, shift_y, 0.0)) * scale).as_mat4())
     }
 
-    /// What a uniform of the whole is in this tile.
+    /// Converts a uniform of the whole to this tile.
     pub fn value(&self, value: Value) -> Value {
         match value {
             Value::TexelSize(_) if !self.is_whole() => Value::texel_size(self.size()),
@@ -84,8 +84,9 @@ impl Tile {
 }
 
 impl Plan {
-    /// The tiles that cover a surface of this size, from the top row down and each row from the left: one where the driver can draw it
-    /// at once. `None` where it cannot and the plan does not say how far its filters read, or has to be drawn in one piece.
+    /// Returns the tiles that cover a surface of this size, from the top row down and each row from the left: a single one if the
+    /// driver can draw it at once. `None` if it cannot, and the plan must be drawn in one piece or does not state how far its
+    /// filters read.
     pub fn tiles(&self, surface: Size, limits: TileLimits) -> Option<Vec<Tile>> {
         if surface.width <= limits.surface.width && surface.height <= limits.surface.height {
             return Some(vec![Tile::whole(surface)]);
@@ -115,7 +116,7 @@ impl Plan {
         Some(tiles)
     }
 
-    /// The largest surface it can be drawn on in tiles by such a driver; `None` for any.
+    /// Returns the largest surface that such a driver can draw in tiles; `None` for any.
     pub fn largest_surface(&self, limits: TileLimits) -> Option<Size> {
         let reads_clip_place = |step: &Step| matches!(step, Step::Draw(draw) if draw.facts.reads_clip_place);
         match self.margin_px() {
@@ -125,16 +126,17 @@ impl Plan {
         }
     }
 
-    /// How many pixels around a tile its filters read, one reading what another has drawn; `None` where that is not stated.
+    /// Returns how many pixels around a tile its filters read, including reads of other filters' results; `None` if that is not
+    /// stated.
     fn margin_px(&self) -> Option<u32> {
-        // Shaders that ask how something changes from pixel to pixel need a neighbour.
+        // Shaders that use derivatives between pixels need a neighbour.
         let mut margin = 2u32;
         for (_, step) in self.steps() {
             let Step::Draw(draw) = step else { continue };
             let reads = |(_, texture): &(_, Texture)| {
                 matches!(texture, Texture::BorderMap | Texture::DepthMap | Texture::Drawn(_))
             };
-            // The last step of supersampling reads its own pixels alone.
+            // The last step of supersampling reads only its own pixels.
             if draw.geometry != Geometry::PictureSquare && draw.textures.iter().any(reads) {
                 margin = margin.checked_add(draw.facts.reach_px?)?;
             }
@@ -150,7 +152,7 @@ struct Span {
     viewport: [u32; 2],
 }
 
-/// A side cut into about equal lengths, none of which with its margins is longer than `largest`.
+/// Cuts a side into about equal lengths; none exceeds `largest`, margins included.
 fn spans(side: u32, largest: u32, margin: u32, viewport: u32) -> Option<Vec<Span>> {
     let most = match side <= largest {
         true => side,
@@ -161,7 +163,7 @@ fn spans(side: u32, largest: u32, margin: u32, viewport: u32) -> Option<Vec<Span
     let span = |start: u32| {
         let end = side.min(start + each);
         let (first, last) = (start.saturating_sub(margin), side.min(end + margin));
-        // The viewport stands around the tile's middle, but not beyond the picture.
+        // The viewport surrounds the tile's middle but stays within the picture.
         let length = side.min(viewport);
         let middle = (first + last) / 2;
         let around = middle.saturating_sub(length / 2).min(side - length);
@@ -217,7 +219,7 @@ mod tests {
         assert_eq!(plan(None).tiles(small, limits(256, 256)), Some(vec![Tile::whole(small)]));
         let large = Size { width: 257, height: 100 };
         assert_eq!(plan(None).tiles(large, limits(256, 256)), None);
-        // Margins that leave nothing between them.
+        // The margins leave no pixels between them.
         assert_eq!(plan(Some(128)).tiles(large, limits(256, 16_384)), None);
         assert!(plan(Some(60)).tiles(large, limits(256, 16_384)).is_some());
     }

@@ -21,7 +21,7 @@ pub struct CameraRecord {
 }
 
 impl CameraRecord {
-    /// The camera of a scene.
+    /// Returns the camera of a scene.
     pub fn new(scene: &Scene) -> Self {
         let camera = &scene.camera;
         let (fov_y_degrees, parallel_height) = match camera.projection {

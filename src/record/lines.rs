@@ -8,26 +8,26 @@ use crate::scene::Scene;
 use serde::Serialize;
 use std::fmt::Write;
 
-/// How exact lines were found.
+/// The settings and times of exact lines.
 #[derive(Debug, Clone, Serialize)]
 pub struct LinesMade {
-    /// How many edges there are of each class, each counted in its first one.
+    /// Number of edges in each class; an edge counts in its first class.
     pub edges: ClassCounts,
-    /// Where along smooth silhouettes what is seen begins and ends; absent with others.
+    /// Places along smooth silhouettes where visibility changes; absent with other silhouettes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changes: Option<VisibilityChanges>,
-    /// How many lines are missing because the time was over.
+    /// Number of lines that are missing because the time was over.
     pub undecided: usize,
-    /// Pieces of lines, and what they were chained to.
+    /// Pieces of lines, and the numbers after chaining.
     pub counts: LineCounts,
-    /// Topology, silhouettes, visibility.
+    /// Times for topology, silhouettes and visibility.
     #[serde(flatten)]
     pub times: LineTimes,
-    /// Chaining and writing the text.
+    /// Time to chain the lines and write the text.
     pub lines_ms: f64,
 }
 
-/// How many pieces and paths there are.
+/// The number of pieces and paths.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct LineCounts {
     /// Pieces seen.
@@ -36,7 +36,7 @@ pub struct LineCounts {
     pub hidden_segments: usize,
     /// Polylines seen.
     pub visible_paths: usize,
-    /// Polylines hidden, as far as they are drawn: none without `--hidden`, and none of what lies under other lines.
+    /// Hidden polylines that are drawn: none without `--hidden`, and none under other lines.
     pub hidden_paths: usize,
 }
 
@@ -54,7 +54,7 @@ impl LineCounts {
     }
 }
 
-/// A piece of a line as the file has it.
+/// A piece of a line as written to the file.
 #[derive(Serialize)]
 struct SegmentRecord {
     class: &'static str,
@@ -68,8 +68,8 @@ struct SegmentRecord {
     object: u32,
 }
 
-/// All lines as one JSON object: `size`, `camera`, and `segments`, one a line of the text; pixels, y down. Of a part also
-/// `partial`, a sentence, and `undecided`, how many lines are missing.
+/// Returns all lines as one JSON object: `size`, `camera`, and `segments`, one per line of the text; pixels, y down. A partial
+/// result also has `partial`, a sentence, and `undecided`, the number of missing lines.
 ///
 /// # Errors
 ///

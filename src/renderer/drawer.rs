@@ -1,4 +1,4 @@
-//! One context with what it holds: plans go in, frames come out.
+//! One context and its resources: plans go in, frames come out.
 
 use crate::error::{Error, Result};
 use crate::gl::context::{Context, Current};
@@ -14,10 +14,10 @@ pub(super) struct Drawer {
     // Dropped with the context current: see `Drop`.
     pub(super) resources: Resources,
     pub(super) context: Context,
-    /// Of the context's surface: the picture's size times the plan's supersampling, or a tile's.
+    /// Size of the context's surface: the picture's size times the plan's supersampling, or a tile's.
     pub(super) surface: Option<Size>,
     pixels: Vec<u8>,
-    /// Largest surface drawn at once, where that is to be less than the context's largest.
+    /// Largest surface to draw at once, if below the context's largest.
     confined_to: Option<Size>,
 }
 
@@ -27,7 +27,7 @@ impl Drawer {
         Self { resources, context, surface: None, pixels: Vec::new(), confined_to: None }
     }
 
-    /// Draws what is larger than this in tiles that are not.
+    /// Draws larger surfaces in tiles of at most this size.
     pub(super) fn confine(&mut self, largest: Option<Size>) {
         self.confined_to = largest;
     }
@@ -40,7 +40,7 @@ impl Drawer {
             && self.confined_to.is_none_or(is_within)
     }
 
-    /// What of a surface of this size is drawn at once, one after the other; `None` where it cannot be drawn.
+    /// Returns the tiles of a surface of this size, drawn one after the other; `None` if it cannot be drawn.
     pub(super) fn tiles(&self, plan: &Plan, surface: Size) -> Option<Vec<Tile>> {
         match self.draws_at_once(surface) {
             true => Some(vec![Tile::whole(surface)]),
@@ -56,7 +56,7 @@ impl Drawer {
         TileLimits { surface, viewport: info.largest_viewport }
     }
 
-    /// Why a surface of this size is not drawn.
+    /// Returns the error that explains why a surface of this size cannot be drawn.
     fn refusal(&self, scene: &Scene, plan: &Plan) -> Error {
         let info = self.context.info();
         let limits = TileLimits { surface: info.largest_picture, ..self.limits() };
@@ -85,7 +85,7 @@ impl Drawer {
         Ok(())
     }
 
-    /// Works on a plan that was found sound for this scene, with the context current.
+    /// Runs work on a plan that was checked for this scene, with the context current.
     pub(super) fn with_context<T>(
         &mut self,
         scene: &Scene,
@@ -110,18 +110,18 @@ impl Drawer {
         });
         let explained = self.resources.explain("drawing", result);
         if explained.is_err() {
-            // What was half made must not be taken for whole by the next picture.
+            // The next picture must not use half-made resources.
             self.resources.clear();
         }
         drop(current);
         explained
     }
 
-    /// Uses these texts as shaders, and no others; those before stay where one of these is refused.
+    /// Uses these texts as shaders in place of all earlier ones; if one of these is refused, the earlier ones stay.
     pub(super) fn replace_shaders(&mut self, shaders: &HashMap<String, String>) -> Result<()> {
         let _current = self.context.enter()?;
         let before = self.resources.replace_shaders(shaders.clone());
-        // In a fixed order: of several mistakes the same one is said every time.
+        // Sorted, to report the same one of several mistakes every time.
         let mut paths: Vec<&String> = shaders.keys().collect();
         paths.sort();
         let compiled = paths.into_iter().try_for_each(|path| self.resources.compile(path));
@@ -134,7 +134,7 @@ impl Drawer {
     pub(super) fn release(&mut self) {
         match self.context.enter() {
             Ok(_current) => self.resources.clear(),
-            // The driver is gone and its objects with it; deleting them now would be calling GL without a context.
+            // The driver is gone with its objects; deleting them now would call GL without a context.
             Err(_) => self.resources.forget(),
         }
     }
@@ -146,7 +146,7 @@ impl Drop for Drawer {
     }
 }
 
-/// So many bytes of 0, or that there is no memory for them.
+/// Returns this many bytes of 0, or an error if memory is short.
 fn memory(bytes: usize) -> Result<Vec<u8>> {
     let mut memory = Vec::new();
     memory.try_reserve_exact(bytes).map_err(|_| Error::gl("reading the picture back", "not enough memory"))?;
@@ -154,11 +154,11 @@ fn memory(bytes: usize) -> Result<Vec<u8>> {
     Ok(memory)
 }
 
-/// A picture in the making, its context current.
+/// A picture in progress, its context current.
 pub(super) struct Frame<'a> {
     pub(super) resources: &'a mut Resources,
     pub(super) pixels: &'a mut Vec<u8>,
-    /// What is drawn at once, one after the other.
+    /// The tiles, drawn one after the other.
     pub(super) tiles: Vec<Tile>,
     scene: &'a Scene,
     plan: &'a Plan,
@@ -175,11 +175,11 @@ impl Frame<'_> {
         Ok(())
     }
 
-    /// Carries out one step of a tile and puts what it drew, or for a copy the copy, where it belongs.
+    /// Carries out one step of a tile and puts its result, or for a copy the copy, into its place.
     pub(super) fn step(&mut self, pass: &Pass, step: &Step, tile: Tile, times: u32, canvas: &mut Canvas) -> Result<()> {
         self.resources.begin(pass.target, pass.scissor)?;
         self.resources.step(self.scene, step)?;
-        // Before reading: a copy that failed leaves a texture of another size.
+        // Before reading: a failed copy leaves a texture of another size.
         self.resources.check(pass.name)?;
         let (part, place) = shrunk(tile, times);
         match step {
@@ -197,7 +197,7 @@ impl Frame<'_> {
         self.resources.check(pass.name)
     }
 
-    /// Reads back what the picture has of a tile.
+    /// Reads back a tile's part of the picture.
     pub(super) fn read_back(&mut self, tile: Tile) -> Result<Rectangle> {
         self.resources.begin(self.plan.picture_target(), None)?;
         let (part, place) = shrunk(tile, self.plan.supersample);
@@ -222,7 +222,7 @@ impl Frame<'_> {
     }
 }
 
-/// Where in a tile the part of the picture lies that it holds, and where that lies in the picture.
+/// Returns the rectangle of the picture within a tile, and its place in the picture.
 fn shrunk(tile: Tile, times: u32) -> (Rectangle, Rectangle) {
     let by_times = |Rectangle { x, y, width, height }: Rectangle| {
         let [x, y, width, height] = [x, y, width, height].map(|number| number / times);
@@ -233,13 +233,13 @@ fn shrunk(tile: Tile, times: u32) -> (Rectangle, Rectangle) {
     (by_times(part), by_times(tile.kept))
 }
 
-/// A part of rows of pixels.
+/// Cuts a rectangle out of rows of pixels.
 fn cut(pixels: &[u8], size: Size, part: Rectangle) -> Vec<u8> {
     let rows = pixels.chunks_exact(size.width as usize * 4).skip(part.y as usize).take(part.height as usize);
     rows.flat_map(|row| &row[part.x as usize * 4..][..part.width as usize * 4]).copied().collect()
 }
 
-/// A picture that is put together from parts.
+/// A picture assembled from parts.
 pub(super) struct Canvas {
     pub(super) picture: Picture,
 }
@@ -249,7 +249,7 @@ impl Canvas {
         Ok(Self { picture: Picture { size, pixels: memory(size.pixel_count() * 4)? } })
     }
 
-    /// Puts GL's rows, bottom row first, where they belong.
+    /// Puts GL's rows, bottom row first, into their place.
     pub(super) fn put(&mut self, place: Rectangle, pixels: &[u8]) {
         let Size { width, height } = self.picture.size;
         let (length, start) = (place.width as usize * 4, place.x as usize * 4);

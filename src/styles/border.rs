@@ -12,17 +12,17 @@ use crate::settings::{ON_OFF, Setting, under};
 pub struct Border {
     /// The filter. Default laplacian4, the article's.
     pub filter: Filter,
-    /// What its response is multiplied by. Default 0.2; more makes fainter edges darker.
+    /// Factor on its response. Default 0.2; more makes fainter edges darker.
     pub detection_factor: f32,
-    /// Width of a line, where the map has a step; `None` leaves the filter's taps where the listing
-    /// has them, 2 pixels (1 with Roberts' cross). Default none; more pixels also join what lies near each other.
+    /// Width of a line at a step of the map. `None`, the default, keeps the listing's taps: 2 pixels, or 1 with Roberts' cross.
+    /// More pixels also join neighbouring lines.
     pub width: Option<LineWidth>,
-    /// Whether depth answers by a threshold that knows the surface's slope instead of by the filter. Default no.
+    /// Whether a threshold that accounts for the surface's slope, instead of the filter, decides on depth. Default no.
     pub slope_threshold: bool,
 }
 
-/// The least step in depth that is a line: widths of a picture's pixel on the surface, and steps of the map's rounding,
-/// by 2 of which a second difference can be off.
+/// The smallest step in depth that is a line: widths of a picture's pixel on the surface, and rounding steps of the map. Rounding
+/// shifts a second difference by up to 2 of these.
 const LEAST_GAP: [f32; 2] = [1.5, 2.0];
 
 tinta_geometry::choices! {
@@ -34,8 +34,8 @@ tinta_geometry::choices! {
         Laplacian8 = "laplacian8",
         /// The centre against its diagonal neighbours (figure 10, right; Mitchell 2002).
         Mitchell = "mitchell",
-        /// The same in two programs, as Mitchell's shading language made him: one reads the normals, one the depth, and each is
-        /// blended (section 4.1). Where both answer, the line is fainter than with one program.
+        /// The same in two programs, a limit of Mitchell's shading language: one reads the normals, one the depth, and each is
+        /// blended (section 4.1). Where both respond, the line is fainter than with one program.
         MitchellTwo = "mitchell-two",
         /// Sobel's gradient.
         Sobel = "sobel",
@@ -111,7 +111,7 @@ impl Border {
         under(CARTOON, filter).chain(under(IMAGE_SPACE, vec![width])).collect()
     }
 
-    /// Whether these are the constants of the listing, so that the listing itself can run.
+    /// Whether these are the listing's constants, for which the listing itself can run.
     fn is_published(&self) -> bool {
         *self == Self::default()
     }
@@ -141,7 +141,7 @@ impl Border {
         }
     }
 
-    /// A filter's shader and what it calls.
+    /// A filter's shader and the shaders it calls.
     fn parts(&self, filter: &'static str, encoding: MapEncoding) -> [&'static str; 4] {
         let tap = if self.width.is_some() { "improved/tap-apart.frag" } else { "evangelista/tap-next.frag" };
         let depth = match self.slope_threshold {
@@ -180,9 +180,9 @@ impl Border {
                 blend: Blend::Over,
                 facts: Facts {
                     reach_px: Some(self.reach_px(scene, surface)),
-                    // No difference is an alpha of 0.
+                    // Without differences the alpha is 0.
                     where_even: Some(WhereEven::Unchanged),
-                    // The slope's threshold is black or white by itself.
+                    // The slope's threshold alone is black or white.
                     adds_nothing: (self.detection_factor == 0.0 && !self.slope_threshold)
                         .then(|| "the detection factor is 0".to_owned()),
                     ..Facts::plain()
@@ -194,7 +194,7 @@ impl Border {
         self.filter.programs().iter().map(square).collect()
     }
 
-    /// How far the filter looks in a map of this size, pixels; one more costs nothing.
+    /// How far the filter reads in a map of this size, pixels; one more costs nothing.
     pub(super) fn reach_px(&self, scene: &Scene, surface: Size) -> u32 {
         let [before, behind] = taps(self.width_px(scene.size), surface.width / scene.size.width, self.is_one_sided());
         // The slope's threshold looks twice as far.
@@ -209,12 +209,12 @@ impl Border {
         self.filter == Filter::Roberts
     }
 
-    /// The uniforms of the listing: how far apart texels are.
+    /// Returns the uniforms of the listing: the distance between texels.
     pub(super) fn published_uniforms(surface: Size) -> Vec<Uniform> {
         vec![texture_unit(surface)]
     }
 
-    /// The uniforms of the filters with settings, for a map of this size.
+    /// Returns the uniforms of the filters with settings, for a map of this size.
     pub(super) fn uniforms(&self, scene: &Scene, surface: Size, encoding: MapEncoding) -> Vec<Uniform> {
         let scale = surface.width / scene.size.width;
         let mut uniforms = Self::published_uniforms(surface);
@@ -231,8 +231,8 @@ impl Border {
     }
 }
 
-/// How many pixels taps reach to the left or below and to the right or above for a line of this width in a map so many times
-/// the picture's size; a one-sided filter has taps to the right and above only.
+/// Returns how many pixels the taps reach to the left or below, and to the right or above, for a line of this width. The map is
+/// this many times the picture's size. A one-sided filter has taps to the right and above only.
 pub(super) fn taps(width_px: Option<u32>, scale: u32, one_sided: bool) -> [u32; 2] {
     match width_px.map(|width| width * scale) {
         None => [1, 1],
@@ -241,7 +241,7 @@ pub(super) fn taps(width_px: Option<u32>, scale: u32, one_sided: bool) -> [u32; 
     }
 }
 
-/// [`taps`] for a shader.
+/// Returns [`taps`] for a shader.
 pub(super) fn reach(name: &'static str, width_px: Option<u32>, scale: u32, one_sided: bool) -> Uniform {
     let taps = taps(width_px, scale, one_sided);
     Uniform { name, value: Value::Vec2(taps.map(|pixels| pixels as f32)) }

@@ -1,7 +1,7 @@
 //! `three-pass` and `two-pass`: Evangelista et al. 2005.
 //!
-//! With the article's settings the published shaders run; any other setting runs their twins in which the constants are
-//! uniforms (`*-settings.frag`). A test shows that the twins draw the same picture.
+//! With the article's settings the published shaders run. Other settings run their twins (`*-settings.frag`), which have uniforms
+//! in place of the constants. A test shows that the twins draw the same picture.
 
 use super::textured::textured;
 use super::{
@@ -19,18 +19,18 @@ pub struct Cartoon {
     pub tones: Tones,
     /// The border; `None` draws the tones alone.
     pub border: Option<Border>,
-    /// Whether a square of the background's colour is drawn behind the scene, as the article does in every scene.
-    /// Default yes; without it the two-pass style loses the outer half of every silhouette (errata E10).
+    /// Whether to draw a square of the background's colour behind the scene, as the article does in every scene. Default yes;
+    /// without it the two-pass style loses the outer half of every silhouette (errata E10).
     pub background_square: bool,
-    /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
-    /// picture of closed models. Default no.
+    /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
+    /// outlines. Default no.
     pub cull_back_faces: bool,
     /// How normals and depth are stored between the passes. Default as in the listing.
     pub map_encoding: MapEncoding,
-    /// How the map gets from pass to pass. Default as in the listing; either way it is the same picture.
+    /// How the map gets from pass to pass. Default as in the listing; both ways give the same picture.
     pub map_target: MapTarget,
-    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge and makes lines finer.
-    /// Pictures of the map itself are drawn at their own size.
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge and makes
+    /// lines finer. Pictures of the map itself keep their size.
     pub supersample: Supersample,
 }
 
@@ -76,7 +76,7 @@ impl Cartoon {
     }
 }
 
-/// The setting whether the map holds a square behind the scene.
+/// Returns the setting that draws a square behind the scene into the map.
 pub(super) fn background_square<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
     let help = "Draw a square behind the scene, on or off; without it outer borders are lost";
     Setting::field("background-quad", ON_OFF, help, field)
@@ -93,7 +93,7 @@ impl Cartoon {
         self.check(scene, show)?;
         let mut passes = Vec::new();
         let border = self.border.filter(|_| show != Show::Tones);
-        // Made and copied without a border too: the published pipeline has it, and `prune` finds that nothing reads it.
+        // Made and copied without a border too, as in the published pipeline; `prune` removes it because it is unread.
         if show != Show::Tones {
             passes.push(self.map_pass(scene, !shows_map(show)));
         }
@@ -113,7 +113,7 @@ impl Cartoon {
         self.check(scene, show)?;
         let border = self.border.filter(|_| show != Show::Tones);
         let Some(border) = border.filter(|_| !shows_map(show) && show != Show::Borders) else {
-            // Its map, tones and borders by themselves are those of the three passes.
+            // The three passes draw its map, tones and borders when shown alone.
             return self.three_pass(scene, show);
         };
         if scene.background == Background::Transparent && self.background_square {
@@ -192,7 +192,7 @@ impl Cartoon {
         if shows_map(show) { plan } else { self.supersample.finish(plan, scene.size) }
     }
 
-    /// Step 1: normals and depth into the framebuffer and, to be read later, into a texture.
+    /// Step 1: normals and depth into the framebuffer and, for later reading, into a texture.
     fn map_pass(&self, scene: &Scene, is_read: bool) -> Pass {
         let encoding = self.map_encoding;
         let draw = |geometry| self.draw(geometry, encoding.program());
@@ -204,7 +204,7 @@ impl Cartoon {
             steps.push(Step::Draw(Draw { depth: Depth::Ignore, facts, ..square }));
         }
         steps.push(Step::Draw(draw(Geometry::Objects(Paint::Materials))));
-        // The picture of a map is the framebuffer's.
+        // The picture of a map is in the framebuffer.
         let target = if is_read { encoding.target(self.map_target) } else { Target::Framebuffer };
         if is_read && target == Target::Framebuffer {
             steps.push(Step::CopyFramebuffer);
@@ -244,13 +244,13 @@ impl Cartoon {
         Draw { cull_back_faces: self.cull_back_faces, facts: Facts::plain(), ..Draw::new(geometry, Some(program)) }
     }
 
-    /// Clear, background square, objects; `draw` makes the draw for the background (true) or the objects (false).
+    /// Clear, background square, objects; `draw` returns the draw of the background (true) or of the objects (false).
     fn scene_steps(&self, scene: &Scene, draw: impl Fn(bool) -> Draw) -> Vec<Step> {
         let color = scene.background.clear_color();
         let mut steps = vec![Step::clear(color)];
         if self.background_square && scene.background != Background::Transparent {
             let geometry = Geometry::BackgroundSquare { color };
-            // It follows the clear and is behind everything, so it needs no depth.
+            // It follows the clear, behind everything, so it needs no depth.
             steps.push(Step::Draw(Draw { geometry, depth: Depth::Ignore, ..draw(true) }));
         }
         let objects = draw(false);

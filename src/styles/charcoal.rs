@@ -1,8 +1,8 @@
 //! `charcoal` and `sand`: Valente 2007, after Majumder and Gopi 2002.
 //!
-//! One pass: the paper over the whole picture, then the objects, dark grain where little light falls. The published listings
-//! run unless a setting is none of their uniforms; then their parts do, each of which can be exchanged alone
-//! (`glsl/valente/charcoal-parts.frag`). A test shows that listing and parts draw the same picture.
+//! One pass: the paper over the whole picture, then the objects, dark grain where little light falls. The published listings run
+//! if their uniforms cover the settings. Otherwise their exchangeable parts run (`glsl/valente/charcoal-parts.frag`). A test
+//! shows that listing and parts draw the same picture.
 
 mod choices;
 mod improvements;
@@ -32,16 +32,16 @@ use std::sync::Arc;
 /// Settings of `charcoal` and `sand`; the defaults are the text's where it gives them, ours elsewhere (errata V7).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Charcoal {
-    /// Exponent m of the contrast operator, above 0. Default 1.5, ours; more darkens all but the lights.
+    /// Exponent m of the contrast operator, above 0. Default 1.5, ours; more darkens everything except the lights.
     pub contrast_exponent: f32,
-    /// What the contrast-enhanced light is multiplied by, at least 0. Default 1; 1.2 lightens by a fifth, so that faint
-    /// lines vanish: the text's closure.
+    /// Factor on the contrast-enhanced light, at least 0. Default 1; 1.2 lightens by a fifth, which hides faint lines: the text's
+    /// closure.
     pub saturation: f32,
     /// Whether the drawing is multiplied by the light again, which darkens. Default no.
     pub smudge: bool,
-    /// Directions towards the two lights, eye space, of any length above 0; `None` leaves one out, not both. Default two,
-    /// the text's, in directions of ours: from above and from the lower left, 122 degrees apart, so that together they
-    /// nowhere exceed 1; nearer to each other they wrap (errata V3).
+    /// Directions towards the two lights, eye space, of any length above 0. `None` leaves one out, not both. The text has two
+    /// lights; our default directions, from above and from the lower left, are 122 degrees apart. At that angle their sum never
+    /// exceeds 1; closer lights wrap (errata V3).
     pub lights: [Option<[f32; 3]>; 2],
     /// Share of black in the contrast-enhanced texture before its grains are moved, percent. Default 60: the text says
     /// "density 60" without a unit, which is read as percent here (errata V10); more is darker.
@@ -49,13 +49,13 @@ pub struct Charcoal {
     /// Exponent of the contrast-enhanced texture, at least 1. Default 5.5, the middle one of figure 3; which one the text
     /// draws with it does not say. More leaves fewer grains in light tones.
     pub cet_exponent: f64,
-    /// Standard deviation of the blur of the contrast-enhanced texture, pixels, 0 to 100. Default 0.8, ours; more is softer
-    /// grain, and none at all where it is as wide as a row of tones.
+    /// Standard deviation of the blur of the contrast-enhanced texture, pixels, 0 to 100. Default 0.8, ours. More softens the
+    /// grain, and removes it at the width of a row of tones.
     pub cet_blur_px: f64,
-    /// Where the random numbers of all textures begin. Default 0.
+    /// Seed of the random numbers of all textures. Default 0.
     pub seed: u64,
-    /// Where the random numbers of all textures come from. Default SplitMix64, ours; the text's are its platform's `rand()`,
-    /// of which two are here to try (errata V8).
+    /// Source of the random numbers of all textures. Default SplitMix64, ours. The text uses its platform's `rand()`; two of
+    /// these are available (errata V8).
     pub random: Generator,
     /// Size of the textures made here, pixels. Default 512 x 512. Noise and paper are stretched once over the picture, as
     /// published: more is finer grain.
@@ -69,20 +69,20 @@ pub struct Charcoal {
     pub paper: TextureSource,
     /// How the contrast-enhanced texture is filtered. Default linear, as published.
     pub cet_filter: CetFilter,
-    /// By which light its rows are read. Default that before saturation, as published.
+    /// The light that selects its rows. Default the light before saturation, as published.
     pub cet_coordinate: CetCoordinate,
-    /// What enhances contrast. Default the power, as published.
+    /// The operator that enhances contrast. Default the power, as published.
     pub operator: ContrastOperator,
-    /// Where the noise lies. Default on the picture, as published.
+    /// The position of the noise. Default on the picture, as published.
     pub noise: Noise,
-    /// Which of the text's flaws are mended, and what goes beyond the text. Default none.
+    /// The flaws of the text to mend, and additions beyond the text. Default none.
     pub improve: Improvements,
-    /// Whether faces turned away from the eye are left out. Default no.
+    /// Whether to skip faces turned away from the eye. Default no.
     pub cull_back_faces: bool,
-    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge, grain and paper are as
-    /// wide.
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge and keeps
+    /// the width of grain and paper.
     pub supersample: Supersample,
-    /// The textures once they are made; kept for the next picture with the same settings and shared between clones.
+    /// The finished textures, kept for the next picture with the same settings and shared between clones.
     pub pictures: CharcoalPictures,
 }
 
@@ -114,17 +114,17 @@ impl Default for Charcoal {
     }
 }
 
-/// Where a plan's pictures are in its list.
+/// The indices of a plan's pictures in its list.
 const NOISE: usize = 0;
 const CET: usize = 1;
 const PAPER: usize = 2;
 const TOOTH: usize = 3;
 
-/// The ground of the light and the contrast-enhanced model, shown by themselves.
+/// The ground under the light or the contrast-enhanced model when shown alone.
 const WHITE: [f32; 4] = [1.0; 4];
 
-/// A light whose length the shader's `normalize` can compute: as it is, or one as long as 1 where the square of its length is
-/// beyond f32.
+/// Returns a light whose length the shader's `normalize` can compute: unchanged, or scaled to length 1 if its squared length
+/// exceeds f32.
 fn measurable(light: [f32; 3]) -> [f32; 3] {
     const SQUARES: std::ops::RangeInclusive<f32> = 1e-30..=1e30;
     if SQUARES.contains(&light.iter().map(|x| x * x).sum()) {
@@ -143,7 +143,7 @@ impl Charcoal {
         self.pictures.of(self.texture_settings()).map(|Made { noise, cet, paper, .. }| [noise, cet, paper])
     }
 
-    /// What its textures follow from.
+    /// Returns the settings that determine its textures.
     fn texture_settings(&self) -> TextureSettings {
         let (size, seed, random) = (self.texture_size, self.seed, self.random);
         TextureSettings {
@@ -161,7 +161,7 @@ impl Charcoal {
         }
     }
 
-    /// The settings of one of the text's recipes.
+    /// Returns the settings of one of the text's recipes.
     pub fn recipe(recipe: CharcoalRecipe) -> Self {
         let base = Self::default();
         match recipe {
@@ -171,7 +171,7 @@ impl Charcoal {
         }
     }
 
-    /// That faces lie on each other where it matters which of them is drawn, and what helps, a sentence for each model.
+    /// Returns a remark for each model with coincident faces whose order changes the picture, and a remedy.
     pub(super) fn remarks(&self, scene: &Scene) -> Vec<String> {
         if self.improve.two_sided || self.cull_back_faces {
             return Vec::new();
@@ -199,7 +199,7 @@ impl Charcoal {
         self.plan(scene, show, false)
     }
 
-    /// Paper and drawing mixed with the models' own textures in sepia.
+    /// Returns paper and drawing mixed with the models' own textures in sepia.
     pub(super) fn sand(&self, scene: &Scene, show: Show) -> Result<Plan> {
         let has_texture = |mesh: &Mesh| {
             !mesh.triangle_texture_coordinates.is_empty() && mesh.materials.iter().any(|m| m.has_texture())
@@ -248,7 +248,7 @@ impl Charcoal {
                 false => vec!["valente/paper-even.frag", self.spread(), self.grain()],
             };
             let program = Program { vertex: "valente/paper.vert", fragments };
-            // The text draws it in 2D over the whole screen; what follows is nearer, so it needs no depth.
+            // The text draws it in 2D over the whole screen. Later draws are nearer, so it needs no depth.
             steps.push(Step::Draw(Draw {
                 uniforms: if is_published { Vec::new() } else { layout.places() },
                 textures: vec![("paperTexture", Texture::Picture(PAPER))],
@@ -259,7 +259,7 @@ impl Charcoal {
         }
         if show != Show::Paper {
             let objects = self.objects(show, is_sand, &layout);
-            // The text's sand has textures of its own way.
+            // The text's sand already has textures in its own way.
             let own = textured(scene, &objects).filter(|_| show == Show::Final && !is_sand);
             steps.push(Step::Draw(objects));
             steps.extend(own);
@@ -271,7 +271,7 @@ impl Charcoal {
     /// The drawing itself.
     fn objects(&self, show: Show, is_sand: bool, layout: &Layout) -> Draw {
         let uniform = |name, value| Uniform { name, value };
-        // The first that there is; the second is read where there are two.
+        // The first light that is set; the second is read if both are.
         let lights = self.lights.iter().flatten().zip(["inputLight1", "inputLight2"]);
         let mut uniforms: Vec<Uniform> =
             lights.map(|(light, name)| uniform(name, Value::Vec3(measurable(*light)))).collect();
@@ -282,7 +282,7 @@ impl Charcoal {
         ]);
         let mut textures = Vec::new();
         if is_sand && show == Show::Final {
-            // First, for the first unit's coordinates are those the listing reads.
+            // First, because the listing reads the first unit's coordinates.
             textures.push(("origTexture", Texture::Material));
         }
         textures.extend([
@@ -330,12 +330,12 @@ impl Charcoal {
         if self.improve.proportion { "valente/spread-even.frag" } else { "valente/spread-stretched.frag" }
     }
 
-    /// The part that says where a sample reads them.
+    /// The part that computes where a sample reads them.
     fn grain(&self) -> &'static str {
         if self.supersample == Supersample::One { "valente/grain-sample.frag" } else { "valente/grain-pixel.frag" }
     }
 
-    /// The listing in parts, each the one that is asked for.
+    /// Returns the listing in parts, each with the selected variant.
     fn parts(&self, show: Show, is_sand: bool) -> Program {
         let either = |condition: bool, yes, no| if condition { yes } else { no };
         let improve = &self.improve;

@@ -1,5 +1,5 @@
-//! `dietrich`: the hardware's alternative to the edge list, as the text's section "Alternative Techniken" describes it:
-//! per pixel the normal against the view, ink below a threshold. Fast, and its lines are as wide as the surface is round.
+//! `dietrich`: the hardware's alternative to the edge list, from the text's section "Alternative Techniken". Per pixel it
+//! compares normal and view; ink is below a threshold. It is fast, and the surface's curvature sets the lines' width.
 
 use super::{ALL_STYLES, Show, Supersample, cull, no_borders};
 use crate::error::{Error, Result};
@@ -15,9 +15,9 @@ pub struct Dietrich {
     pub threshold: f32,
     /// The ink's colour. Default black.
     pub ink: Color,
-    /// Whether faces turned away from the eye are left out. Default no.
+    /// Whether to skip faces turned away from the eye. Default no.
     pub cull_back_faces: bool,
-    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge.
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge.
     pub supersample: Supersample,
 }
 

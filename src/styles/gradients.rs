@@ -1,4 +1,4 @@
-//! Which gradient of a ramp each surface of a scene gets, and how bright its vertices are: the texture coordinates of the text's
+//! The ramp's gradient for each surface of a scene, and the brightness of its vertices: the texture coordinates of the text's
 //! section "Painting".
 
 use super::ramp::{ROWS, Ramp, RampRow, WIDTH, gradient};
@@ -9,18 +9,18 @@ use glam::{DVec3, Vec3};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// The direction towards the light, eye space, before it is given length 1: the listing's.
+/// The direction towards the light, eye space, before normalisation: the listing's.
 const LIGHT_DIRECTION: DVec3 = DVec3::new(0.0, 1.0, 1.0);
 
-/// What the listing clamps the light to.
+/// The range that the listing clamps the light to.
 const LIGHT_RANGE: [f32; 2] = [0.1, 0.9];
 
-/// The gradients of a ramp, and which of them each surface of a scene gets.
+/// The gradients of a ramp, and their assignment to a scene's surfaces.
 pub(super) struct Gradients<'a> {
     scene: &'a Scene,
     ramp: &'a Ramp,
     row: RampRow,
-    /// Of the materials' own gradients the base colours, from the top, and the picture they make.
+    /// With the materials' own gradients: their base colours, from the top, and the picture they make.
     own: Option<(Vec<[u8; 3]>, Arc<Picture>)>,
 }
 
@@ -29,12 +29,12 @@ impl<'a> Gradients<'a> {
         Self { scene, ramp, row, own: (row == RampRow::Own).then(|| own_gradients(scene)) }
     }
 
-    /// The picture they are in.
+    /// Returns the picture that holds them.
     pub(super) fn picture(&self) -> &Arc<Picture> {
         self.own.as_ref().map_or(&self.ramp.picture, |(_, picture)| picture)
     }
 
-    /// How many there are.
+    /// Returns their number.
     fn count(&self) -> u32 {
         self.own.as_ref().map_or(ROWS, |(bases, _)| bases.len() as u32)
     }
@@ -58,13 +58,13 @@ impl<'a> Gradients<'a> {
         }
     }
 
-    /// The texture coordinate of a surface's row.
+    /// Returns the texture coordinate of a surface's row.
     pub(super) fn coordinate(&self, object: usize, material: u32) -> f32 {
         // The picture's top is at 1.
         1.0 - (self.row(object, material) as f32 + 0.5) / self.count() as f32
     }
 
-    /// What GL reads at a texture coordinate: red, green, blue.
+    /// Returns GL's colour at a texture coordinate: red, green, blue.
     pub(super) fn texel(&self, [light, row]: [f32; 2]) -> [u8; 3] {
         let Size { width, height } = self.picture().size;
         let from_bottom = (row * height as f32) as i64;
@@ -73,7 +73,7 @@ impl<'a> Gradients<'a> {
         [red, green, blue]
     }
 
-    /// The texture coordinates of all objects' vertices: light, where it is `lit` here, and row.
+    /// Returns the texture coordinates of all objects' vertices: the light, if it is `lit` here, and the row.
     pub(super) fn coordinates(&self, lit: bool) -> VertexLists<[f32; 2]> {
         let light = Light::of(self.scene);
         self.of_objects(|number, object| {
@@ -82,7 +82,7 @@ impl<'a> Gradients<'a> {
         })
     }
 
-    /// One thing for each object; copies, which stand the same way in the light, share theirs.
+    /// Returns one value for each object; copies with the same orientation to the light share theirs.
     pub(super) fn of_objects<T: Clone>(&self, make: impl Fn(usize, &Object) -> T) -> Arc<Vec<T>> {
         let objects = &self.scene.objects;
         let mut made: Vec<T> = Vec::with_capacity(objects.len());
@@ -95,7 +95,7 @@ impl<'a> Gradients<'a> {
     }
 }
 
-/// A gradient for each colour that the materials of a scene have: the colours in order, and a row of pixels for each.
+/// Makes a gradient for each colour of a scene's materials: the colours in order, and a row of pixels for each.
 fn own_gradients(scene: &Scene) -> (Vec<[u8; 3]>, Arc<Picture>) {
     let mut bases = BTreeSet::new();
     for object in &scene.objects {
@@ -120,20 +120,20 @@ pub(super) type VertexLists<T> = Arc<Vec<Arc<Vec<T>>>>;
 /// The text's light.
 #[derive(Clone, Copy)]
 pub(super) struct Light {
-    /// The direction towards it, world space.
+    /// The direction towards the light, world space.
     direction: Vec3,
 }
 
 impl Light {
-    /// The light of a scene, which stands still in eye space.
+    /// Returns the light of a scene, which is fixed in eye space.
     pub(super) fn of(scene: &Scene) -> Self {
-        // The listing turns every normal into eye space by the inverse of a modelview it takes for rigid (errata D7); turning
-        // the light the other way once comes to the same.
+        // The listing turns every normal into eye space by the inverse of a modelview it assumes rigid (errata D7). Turning the
+        // light the other way once is equivalent.
         let world_from_view = scene.camera.view_from_world().transpose();
         Self { direction: world_from_view.transform_vector3(LIGHT_DIRECTION.normalize()).as_vec3() }
     }
 
-    /// How bright a surface is, by its normal in world space: 0.1 to 0.9.
+    /// Returns a surface's brightness from its normal in world space: 0.1 to 0.9.
     pub(super) fn on(self, normal: Vec3) -> f32 {
         self.direction.dot(normal).clamp(LIGHT_RANGE[0], LIGHT_RANGE[1])
     }
@@ -171,7 +171,7 @@ mod tests {
 
     #[test]
     fn a_texel_is_that_of_its_row_and_column_and_beyond_the_picture_that_at_its_edge() {
-        // Each pixel tells its place.
+        // Each pixel encodes its place.
         let size = Size { width: 10, height: 8 };
         let pixel = |place: u32| [(place % 10) as u8, (place / 10) as u8, 7, 255];
         let picture = Picture { size, pixels: (0..80).flat_map(pixel).collect() };
@@ -205,7 +205,7 @@ mod tests {
             assert_eq!(middle, base);
             assert!((0..3).all(|channel| shadow[channel] <= base[channel] && base[channel] <= highlight[channel]));
         }
-        // One colour for all is one gradient.
+        // One colour for all gives one gradient.
         let red = SceneSettings { color: Some(Color([1.0, 0.0, 0.0])), ..settings };
         let scene = Scene::new(vec![scene.objects[0].mesh.clone()], &red).unwrap();
         let gradients = Gradients::new(&scene, &ramp, RampRow::Own);

@@ -1,8 +1,8 @@
-//! What the settings of styles are listed under, and those that several styles have.
+//! The headings of styles' settings, and the settings that several styles share.
 
 use crate::settings::Setting;
 
-/// What the settings are listed under, in this order.
+/// The headings of the settings, in this order.
 pub(super) const HEADINGS: [&str; 8] =
     [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE, INK, SUGGESTIVE, CHARCOAL];
 
@@ -14,14 +14,14 @@ pub(super) const INK: &str = "Style ink (also the tone options of three-pass, --
 pub(super) const SUGGESTIVE: &str = "Style suggestive (also the tone options of three-pass)";
 pub(super) const CHARCOAL: &str = "Styles charcoal and sand (defaults are the text's where it gives them)";
 
-/// The setting whether lines are left out.
+/// Returns the setting that turns lines off.
 pub(super) fn no_borders<T: Clone + 'static>(get: fn(&T) -> bool, set: fn(&mut T, bool)) -> Setting<T> {
     Setting::flag("no-borders", "Leave out the lines: draw tones or paint alone", get, set)
         .deduced("E and D draw their figures with lines, and some without")
         .labelled("no lines")
 }
 
-/// The setting whether faces turned away are left out.
+/// Returns the setting that skips faces turned away.
 pub(super) fn cull<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
     let help = "Faces to leave out: none, or back (those that point away): faster, and nearly the same picture of \
         closed models";

@@ -1,9 +1,9 @@
-//! Which options change nothing in the styles that are drawn, so that whoever gives one can be told.
+//! Finds options that change nothing in the drawn styles, for a warning to the user.
 
 use super::{Style, StyleName};
 use crate::settings::HasSettings;
 
-/// Whether this option changes nothing in any of the styles; options that are no style's are not meant.
+/// Whether this option changes nothing in any of the styles; false for options outside the styles.
 ///
 /// ```
 /// use tinta::styles::is_ignored;

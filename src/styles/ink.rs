@@ -1,6 +1,6 @@
-//! `ink`: the best ink an image-space filter was found to draw at no more than the faithful three passes' time.
+//! `ink`: the best ink found for an image-space filter that takes no more time than the faithful three passes.
 //!
-//! Evangelista's three passes with another map and another filter: the map holds each pixel's own plane, the filter asks
+//! Evangelista's three passes with another map and another filter: the map holds each pixel's own plane, and the filter tests
 //! whether neighbouring planes meet. `docs/results/measuring.md` has its measurements.
 
 use super::border::{reach, taps};
@@ -23,66 +23,66 @@ use glam::DVec3;
 /// Settings of `ink`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ink {
-    /// How much time the picture may take. Default standard.
+    /// The time budget of the picture. Default standard.
     pub quality: Quality,
-    /// How much larger than the picture it is drawn, to be shrunk; `None` is as the quality has it. Default none.
+    /// Supersampling factor of the drawing; `None`, the default, follows the quality.
     pub supersample: Option<Supersample>,
-    /// Whether lines are drawn at all. Default yes.
+    /// Whether to draw lines. Default yes.
     pub is_inked: bool,
-    /// From which angle between planes there is a crease. Default 30 degrees; more draw fewer lines.
+    /// Smallest angle between planes at a crease. Default 30 degrees; more draws fewer lines.
     pub crease_angle: CreaseAngle,
-    /// What of a surface turns at a crease. Default its planes.
+    /// The property of a surface that changes at a crease. Default its planes.
     pub crease_by: CreaseBy,
-    /// Whether ink that touches no other and is at most twice as long as a line is wide is left out; `None` is as the quality
-    /// has it: a look at the neighbours of all ink takes about half of the picture's time again with a software driver. Default none.
+    /// Whether to remove isolated ink at most twice as long as a line is wide; `None`, the default, follows the quality. Testing
+    /// the neighbours of all ink takes about half of the picture's time again with a software driver.
     pub removes_specks: Option<bool>,
-    /// Width of the lines. Default 2 pixels; more also joins what lies near each other.
+    /// Width of the lines. Default 2 pixels; more also joins neighbouring lines.
     pub line_width: LineWidth,
-    /// Width of the lines that do not border on the background; `None` for that of all. Default none.
+    /// Width of the lines that do not border on the background; `None`, the default, uses that of all lines.
     pub inner_width: Option<LineWidth>,
     /// The least step from one surface to another that is a line, in widths of a pixel. Default 1.5; more draws fewer lines.
     pub least_gap_px: f32,
-    /// What is added to it for each unit of a surface's slope towards the eye, which the map knows less exactly the steeper.
-    /// Default 0.3; more draws fewer lines near outlines.
+    /// Added to it per unit of a surface's slope towards the eye, because the map is less exact on steep surfaces. Default 0.3;
+    /// more draws fewer lines near outlines.
     pub gap_per_slope: f32,
-    /// The direction towards a light that is far away, eye space, of any length; `None` is the listing's, near at (1, 1, 1). Default
-    /// none.
+    /// The direction towards a distant light, eye space, of any length; `None`, the default, is the listing's near light at (1,
+    /// 1, 1).
     pub tone_light: Option<[f32; 3]>,
     /// The tones below. Default those of the three passes.
     pub tones: Tones,
-    /// Whether faces turned away from the eye are left out. Default no.
+    /// Whether to skip faces turned away from the eye. Default no.
     pub cull_back_faces: bool,
-    /// How the map gets from pass to pass. Default by a copy of the framebuffer; either way it is the same picture.
+    /// How the map gets from pass to pass. Default by a copy of the framebuffer; both ways give the same picture.
     pub map_target: MapTarget,
 }
 
 tinta_geometry::choices! {
-    /// What turns where there is a crease.
+    /// The property that changes at a crease.
     #[derive(Default)]
     pub enum CreaseBy {
         /// The planes of the triangles: every fold of a model, also the small ones of scans.
         #[default]
         Planes = "planes",
-        /// The model's normals, where they are split: where none are in the file, along edges that the smoothing angle exceeds and that go
-        /// on from vertex to vertex.
+        /// The model's split normals. If the file has none, normals are split along edges that exceed the smoothing angle and
+        /// continue from vertex to vertex.
         Normals = "normals",
     }
 }
 
 tinta_geometry::choices! {
-    /// How much time a picture may take.
+    /// The time budget of a picture.
     #[derive(Default)]
     pub enum Quality {
-        /// No more than the faithful three passes.
+        /// At most that of the faithful three passes.
         #[default]
         Standard = "standard",
-        /// As much as helps: drawn larger, without specks, and shrunk.
+        /// Every improvement: drawn larger, without specks, and shrunk.
         Best = "best",
     }
 }
 
 impl Quality {
-    /// How much larger than the picture it is drawn.
+    /// Returns the supersampling factor.
     fn supersample(self) -> Supersample {
         match self {
             Self::Standard => Supersample::One,
@@ -276,7 +276,7 @@ impl Ink {
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
         let mut steps = vec![Step::clear([0.0; 4]), Step::Draw(objects)];
-        // The picture of a map is the framebuffer's.
+        // The picture of a map is in the framebuffer.
         let target = if is_read { self.map_target.target() } else { Target::Framebuffer };
         if is_read && target == Target::Framebuffer {
             steps.push(Step::CopyFramebuffer);
@@ -287,7 +287,7 @@ impl Ink {
         Pass { target, ..Pass::new("map", steps) }
     }
 
-    /// Of what depths the map's are: those of the depth buffer, where it is the map.
+    /// Returns the range of the map's depths: that of the depth buffer, if it is the map.
     fn depth_range(&self, scene: &Scene) -> DepthRange {
         match self.crease_by {
             CreaseBy::Planes => DepthRange::of_scene(scene),
@@ -306,7 +306,7 @@ impl Ink {
         let vertex = match self.tone_light {
             None => "evangelista/toon.vert",
             Some(light) => {
-                // In f64 no length of three numbers in f32 is beyond reach.
+                // In f64 the length of any three f32 numbers is finite.
                 let direction = DVec3::from_array(light.map(f64::from)).normalize().as_vec3();
                 uniforms.push(Uniform { name: "lightDirection", value: Value::Vec3(direction.to_array()) });
                 "improved/toon-far.vert"
@@ -364,7 +364,7 @@ impl Ink {
             depth: Depth::Ignore,
             facts: Facts {
                 reach_px: Some(before.max(behind) + 1),
-                // It leaves out the pixels that are not inked.
+                // It discards pixels without ink.
                 keeps_pixels: false,
                 where_even: Some(WhereEven::Unchanged),
                 ..Facts::plain()
@@ -373,7 +373,7 @@ impl Ink {
         }
     }
 
-    /// The ink once more, without its specks.
+    /// Redraws the ink without its specks.
     fn without_specks(&self, scene: &Scene, surface: Size) -> Draw {
         let size = self.speck_size(scene);
         let program = Program { vertex: "evangelista/border.vert", fragments: vec!["improved/specks.frag"] };
@@ -386,7 +386,7 @@ impl Ink {
             depth: Depth::Ignore,
             facts: Facts {
                 reach_px: Some(size + 1),
-                // It leaves out the pixels that are not inked.
+                // It discards pixels without ink.
                 keeps_pixels: false,
                 where_even: Some(WhereEven::Unchanged),
                 ..Facts::plain()
@@ -395,20 +395,20 @@ impl Ink {
         }
     }
 
-    /// Width and height up to which ink is a speck, in pixels of what is drawn: a mark not twice as long as wide is no stroke.
+    /// Largest width and height of a speck, in drawn pixels: a mark less than twice as long as wide is no stroke.
     fn speck_size(&self, scene: &Scene) -> u32 {
         (2 * self.line_width.pixels(scene.size) * self.supersample().factor()).min(LARGEST_SPECK)
     }
 }
 
-/// By normals a step of less than this share of a line's width is no line either: under a wide line, as print needs it, the facets of
-/// a round surface make such steps. It is the default step's share of the line of `print` at 1200 pixels.
+/// With normals, a step below this share of a line's width is no line: under a wide line, as print needs it, the facets of a
+/// round surface make such steps. It is the default step's share of the line of `print` at 1200 pixels.
 const LEAST_GAP_SHARE: f32 = 0.375;
 
-/// Largest speck, pixels of what is drawn: looking farther costs time, and what is larger is seldom one.
+/// Largest speck, in drawn pixels. Larger marks are rarely specks, and a wider search costs time.
 const LARGEST_SPECK: u32 = 16;
 
-/// The ground for ink alone: white, or nothing.
+/// Returns the ground for ink alone: white, or transparent.
 fn blank(scene: &Scene) -> [f32; 4] {
     if scene.background == Background::Transparent { [0.0; 4] } else { [1.0; 4] }
 }

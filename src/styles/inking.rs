@@ -1,8 +1,8 @@
 //! `inking`: lines from an edge list over painted faces. C. Dachsbacher, *Beethoven aus Bits und Bytes*.
 //!
-//! Faces first, pushed back by polygon offset; then the edges worth drawing as GL lines, and GL points at their ends so
-//! that lines of some width join. All of it in the fixed-function pipeline, as in the text, but for the variant whose
-//! vertex shader computes the light.
+//! Faces first, pushed back by polygon offset; then the selected edges as GL lines, with GL points at their ends to join wide
+//! lines. As in the text, everything uses the fixed-function pipeline, except for the variant whose vertex shader computes the
+//! light.
 
 mod runs;
 
@@ -24,49 +24,50 @@ use std::sync::Arc;
 /// Settings of `inking`; the defaults are the text's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inking {
-    /// Whether lines are drawn. Default yes.
+    /// Whether to draw lines. Default yes.
     pub is_inked: bool,
-    /// Which classes of edges are drawn. Default boundary, silhouette and crease; the text names the others but its
-    /// listing leaves them out.
+    /// The classes of edges to draw. Default boundary, silhouette and crease; the text names the others but its listing leaves
+    /// them out.
     pub classes: ClassSet,
-    /// From which angle between faces an edge is a crease. Default a cosine of 0.4; more degrees draw fewer lines.
+    /// Smallest angle between faces at a crease. Default a cosine of 0.4; more degrees draw fewer lines.
     pub crease_angle: CreaseAngle,
-    /// How silhouettes are found. Default the listing's rule.
+    /// The rule for silhouettes. Default the listing's.
     pub silhouette: SilhouetteRule,
     /// Width of the lines and of the points at their ends, pixels. Default 2.
     pub line_width_px: f32,
     /// Whether lines are smoothed and blended, the text's optional part. Default yes.
     pub is_smooth: bool,
-    /// Whether points are drawn at the lines' ends, which join them. Default yes, as in the text; without them lines of
-    /// some width have notches where they meet, thin ones hardly any.
+    /// Whether points at the lines' ends join them. Default yes, as in the text. Without them wide lines have notches where they
+    /// meet; thin ones hardly any.
     pub has_joints: bool,
-    /// Whether edges both of whose faces are turned away are drawn. Default yes, as in the text; on a closed model the faces
-    /// in front hide them but for what polygon offset and their width let through.
+    /// Whether to draw edges whose two faces are both turned away. Default yes, as in the text. On a closed model the front faces
+    /// hide them, except where polygon offset or line width lets them through.
     pub back_edges: bool,
     /// How lines get their width. Default as GL draws them.
     pub line_drawing: LineDrawing,
-    /// Whether lines write depth, as the text leaves it. Default yes; then a smoothed line's faint end hides the point that
-    /// should close the gap to the next one.
+    /// Whether lines write depth, as in the text. Default yes. A smoothed line's faint end then hides the point that should close
+    /// the gap to the next one.
     pub writes_depth: bool,
     /// The lines' colours. Default black.
     pub colors: ClassColors,
-    /// glPolygonOffset's factor and units. Default 1 and 5; more frees lines from their own faces and lets hidden ones
+    /// glPolygonOffset's factor and units. Default 1 and 5; more keeps faces from covering their own lines and lets hidden lines
     /// through.
     pub polygon_offset: [f32; 2],
     /// How faces are painted. Default by the ramp.
     pub paint: PaintMode,
     /// The ramp. Default four gradients of three tones.
     pub ramp: Ramp,
-    /// Which of its gradients a surface gets. Default by material.
+    /// The gradient that a surface gets. Default by material.
     pub ramp_row: RampRow,
-    /// Where the light is computed. Default here, as in the listing.
+    /// Where the light is computed. Default on the CPU, as in the listing.
     pub light: LightOn,
     /// Whether the model's own texture is multiplied in, by the second texture stage. Default no.
     pub has_texture: bool,
-    /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
-    /// picture of closed models. Default no.
+    /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
+    /// outlines. Default no.
     pub cull_back_faces: bool,
-    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge, lines are as wide.
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge and keeps
+    /// the lines' width.
     pub supersample: Supersample,
 }
 
@@ -200,22 +201,22 @@ impl Inking {
 tinta_geometry::choices! {
     /// How faces are painted.
     pub enum PaintMode {
-        /// In the background's colour: they only hide lines.
+        /// In the background's colour, only to hide lines.
         None = "none",
         /// Each material in its colour.
         Flat = "flat",
         /// By the light, looked up in the ramp at every pixel.
         Ramp = "ramp",
-        /// By the light on each face, looked up in the ramp once a face: flat shading, which shows the triangles.
+        /// By the light on each face, looked up in the ramp once per face: flat shading, which shows the triangles.
         FlatShaded = "flat-shaded",
-        /// By the light at each vertex, looked up in the ramp there; between vertices the colours are mixed: Gouraud shading, in
-        /// which there are more colours than the ramp has.
+        /// By the light at each vertex, looked up in the ramp. Between vertices the colours are mixed (Gouraud shading), which
+        /// gives more colours than the ramp has.
         Gouraud = "gouraud",
     }
 }
 
 tinta_geometry::choices! {
-    /// Where the light that the ramp is looked up by is computed.
+    /// Where the ramp's light is computed.
     pub enum LightOn {
         /// On the CPU at every vertex, as in the listing.
         Cpu = "cpu",
@@ -224,7 +225,7 @@ tinta_geometry::choices! {
     }
 }
 
-/// Widest line, pixels: as wide as the largest picture of most drivers.
+/// Widest line, pixels: the largest picture of most drivers.
 const WIDEST_LINE: f32 = 16_384.0;
 
 impl Inking {
@@ -259,7 +260,7 @@ impl Inking {
         Ok(self.supersample.finish(Plan { pictures, ..Plan::new(passes) }, scene.size))
     }
 
-    /// How many pixels of what is drawn lie along one of the picture.
+    /// Drawn pixels per picture pixel, along a side.
     fn scale(&self) -> f32 {
         self.supersample.factor() as f32
     }
@@ -317,7 +318,7 @@ impl Inking {
         Ok(())
     }
 
-    /// The faces, painted or blank, and the pictures they read.
+    /// Draws the faces, painted or blank; returns the pictures they read.
     fn fill(&self, scene: &Scene, show: Show) -> (Vec<Draw>, Vec<PlanPicture>) {
         let paint_mode = if show == Show::Borders { None } else { Some(self.paint) };
         let gradients = Gradients::new(scene, &self.ramp, self.ramp_row);
@@ -345,7 +346,7 @@ impl Inking {
         if self.has_texture && !matches!(paint_mode, None | Some(PaintMode::None)) {
             textures.push(("own", Texture::Material));
         }
-        // Its factor counts steps of depth from pixel to pixel, which are smaller where pixels are; its units do not.
+        // Its factor counts depth steps between pixels, which shrink with the pixels; its units do not.
         let [factor, units] = self.polygon_offset;
         let draw = |(paint, faces)| Draw {
             textures: textures.clone(),
@@ -359,7 +360,7 @@ impl Inking {
     }
 }
 
-/// The ground for lines alone: white, or nothing.
+/// Returns the ground for lines alone: white, or transparent.
 fn blank(scene: &Scene) -> [f32; 4] {
     if scene.background == Background::Transparent { [0.0; 4] } else { [1.0; 4] }
 }

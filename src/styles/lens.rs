@@ -1,10 +1,10 @@
-//! What filters need to know of the camera to judge depth by the size of pixels.
+//! Camera data that filters need to judge depth by the size of pixels.
 
 use crate::camera::Projection;
 use crate::plan::{Uniform, Value};
 use crate::scene::{Scene, Size};
 
-/// The angle from pixel to pixel in the picture's middle, as a tangent; 0 in parallel projection.
+/// The angle between neighbouring pixels in the picture's middle, as a tangent; 0 in parallel projection.
 fn pixel_angle(scene: &Scene, surface: Size) -> f64 {
     match scene.camera.projection {
         Projection::Perspective { fov_y_degrees } => {
@@ -14,7 +14,7 @@ fn pixel_angle(scene: &Scene, surface: Size) -> f64 {
     }
 }
 
-/// Distances from the eye at which a map's depth is 0 and 1, file units.
+/// Distances from the eye where a map's depth is 0 and 1, file units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct DepthRange {
     near: f64,
@@ -22,13 +22,13 @@ pub(super) struct DepthRange {
 }
 
 impl DepthRange {
-    /// The camera's planes: a map that takes its depth from the window has them.
+    /// The camera's planes, for a map that takes its depth from the window.
     pub(super) fn of_camera(scene: &Scene) -> Self {
         Self { near: scene.camera.near, far: scene.camera.far }
     }
 
-    /// The camera's planes, but no farther apart than the ball around the scene: planes given far apart then leave a map's
-    /// few bits to where something is. Planes that were fitted are nearer to each other than that, and stay.
+    /// The camera's planes, but no farther apart than the ball around the scene. Distant planes then do not waste a map's few
+    /// bits on empty space. Fitted planes are closer than that, and stay.
     pub(super) fn of_scene(scene: &Scene) -> Self {
         let camera = &scene.camera;
         let middle = (scene.centre - camera.eye).dot(-camera.backward());
@@ -66,7 +66,7 @@ pub(super) fn footprint(scene: &Scene, surface: Size, depth: DepthRange) -> Unif
     Uniform { name: "footprint", value: Value::Vec2(footprint.map(|number| number as f32)) }
 }
 
-/// `pixelAngle` and `middle`: from them a filter has the ray through each pixel.
+/// `pixelAngle` and `middle`: a filter computes the ray through each pixel from them.
 pub(super) fn rays(scene: &Scene, surface: Size) -> [Uniform; 2] {
     let middle = [surface.width as f32 * 0.5, surface.height as f32 * 0.5];
     [
@@ -120,7 +120,7 @@ mod tests {
             let depth = |z: f64| clip_from_view.project_point3(DVec3::new(0.0, 0.0, z)).z * 0.5 + 0.5;
             for share in [0.1, 0.5, 0.9] {
                 let z = -(camera.near + share * (camera.far - camera.near));
-                // As wide as a pixel: what a step of 2 / 512 in the picture is at this distance.
+                // One pixel wide: the length at this distance of a step of 2 / 512 in the picture.
                 let width = 2.0 / 512.0 * (clip_from_view * DVec4::new(0.0, 0.0, z, 1.0)).w / clip_from_view.y_axis.y;
                 let step = (depth(z - width * 1e-3) - depth(z + width * 1e-3)) / 2e-3;
                 let Value::Vec2([x, y]) = footprint(&scene, scene.size, DepthRange::of_camera(&scene)).value else {

@@ -1,25 +1,25 @@
-//! Exact visible lines as a style: which lines are found and how they are drawn.
+//! Exact visible lines as a style: the lines to find and how to draw them.
 
 use crate::lines::{DrawingSettings, Hidden, LineSettings};
 use crate::settings::{Setting, within};
 
-/// What settings of edges are listed under.
+/// The heading of edge settings.
 const LINES: &str = "Style lines: which lines";
 
 /// Exact visible lines.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LineStyle {
-    /// Which lines there are. What is found of them besides follows from `drawing`: see [`LineStyle::wanted`].
+    /// The classes of lines. Further lines to find follow from `drawing`: see [`LineStyle::wanted`].
     pub lines: LineSettings,
     /// How they are drawn.
     pub drawing: DrawingSettings,
 }
 
 impl LineStyle {
-    /// The settings of the lines, then of the drawing.
+    /// Returns the settings of the lines, then of the drawing.
     pub(super) fn settings() -> Vec<Setting<Self>> {
         let lines = within(LineSettings::settings(), |style: &mut Self| Some(&mut style.lines));
-        // Those of edges have no heading of their own: other styles have them, too.
+        // Settings of edges have no heading here because other styles share them.
         let lines = lines.map(|mut setting| {
             setting.heading = if setting.heading.is_empty() { LINES } else { setting.heading };
             setting
@@ -27,7 +27,7 @@ impl LineStyle {
         lines.chain(within(DrawingSettings::settings(), |style: &mut Self| Some(&mut style.drawing))).collect()
     }
 
-    /// What is to be found for this drawing: outlines and hidden lines only where they show.
+    /// Returns the lines to find for this drawing: outlines and hidden lines only if they show.
     pub fn wanted(&self) -> LineSettings {
         LineSettings {
             finds_outline: self.drawing.tells_outline(),

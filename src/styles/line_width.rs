@@ -1,30 +1,30 @@
-//! Widths of lines that a filter of the picture draws: in pixels, or as a share of the picture's height.
+//! Widths of lines that an image filter draws: in pixels, or as a share of the picture's height.
 
 use crate::error::{Error, Result};
 use crate::scene::Size;
 use crate::settings::{Kind, Problem, Value};
 
-/// How wide a line is.
+/// The width of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LineWidth {
-    /// So many pixels of the picture.
+    /// This many pixels of the picture.
     Pixels(u32),
-    /// So many hundredths of the picture's height, to the nearest pixel and at least two pixels: the same drawing
-    /// at every size.
+    /// This many hundredths of the picture's height, to the nearest pixel and at least two pixels: the same drawing at every
+    /// size.
     Percent(f64),
 }
 
-/// Widest line, pixels: beyond it taps miss whatever is narrower.
+/// Widest line, pixels: wider taps miss narrower features.
 const WIDEST: u32 = 64;
 
-/// Pixels that a line as a share of the height is at least wide; a narrower one is broken.
+/// Smallest width in pixels of a line given as a share of the height; narrower lines break up.
 const NARROWEST_SHARE: u32 = 2;
 
 /// Largest share of the height, hundredths.
 const LARGEST_PERCENT: f64 = 10.0;
 
 impl LineWidth {
-    /// In pixels of a picture of this size.
+    /// Returns the width in pixels of a picture of this size.
     pub fn pixels(self, picture: Size) -> u32 {
         match self {
             Self::Pixels(pixels) => pixels,
@@ -35,7 +35,7 @@ impl LineWidth {
         }
     }
 
-    /// Refuses what cannot be drawn, by the setting's name.
+    /// Returns an error, with the setting's name, for a width that cannot be drawn.
     pub(super) fn check(self, name: &'static str) -> Result<()> {
         let is_drawable = match self {
             Self::Pixels(pixels) => (1..=WIDEST).contains(&pixels),

@@ -12,7 +12,7 @@ tinta_geometry::choices! {
         Published = "paper",
         /// Normals as 0.5 n + 0.5, depth in 8 bits.
         Biased = "biased",
-        /// Both as they are, 16 bits each, in a floating-point target.
+        /// Both unencoded, 16 bits each, in a floating-point target.
         Float16 = "float16",
         /// The same with 32 bits.
         Float = "float",
@@ -22,11 +22,11 @@ tinta_geometry::choices! {
 }
 
 impl MapEncoding {
-    /// What the setting does.
+    /// The setting's help text.
     pub(super) const HELP: &'static str = "Storage of normals and depth: paper, biased (0.5 n + 0.5), float16, float, \
          depth-texture (biased, depth from the depth buffer); mrt has paper only";
 
-    /// The shaders that write it.
+    /// Returns the shaders that write it.
     pub(super) fn program(self) -> Program {
         let (vertex, fragment) = match self {
             Self::Published => ("evangelista/map.vert", "evangelista/map.frag"),
@@ -36,7 +36,7 @@ impl MapEncoding {
         Program { vertex, fragments: vec![fragment] }
     }
 
-    /// What a pixel of the map holds where nothing is drawn and no square either: no normal, farthest depth.
+    /// The map's value for a pixel that neither object nor square covers: no normal, farthest depth.
     pub(super) fn empty(self) -> [f32; 4] {
         match self {
             Self::Published | Self::Float16 | Self::Float => [0.0, 0.0, 0.0, 1.0],
@@ -44,7 +44,7 @@ impl MapEncoding {
         }
     }
 
-    /// What the background square leaves in a pixel of the map: its normal in eye space, and the depth of the far plane.
+    /// The map's value under the background square: its normal in eye space, and the depth of the far plane.
     pub(super) fn background(self) -> [f32; 4] {
         match self {
             Self::Published | Self::Float16 | Self::Float => [0.0, 0.0, 1.0, 1.0],
@@ -52,7 +52,7 @@ impl MapEncoding {
         }
     }
 
-    /// What it is written into.
+    /// The target that the map is written into.
     pub(super) fn target(self, map_target: MapTarget) -> Target {
         match self {
             Self::Float16 => Target::Textures(&FLOAT16_MAP),
@@ -61,7 +61,7 @@ impl MapEncoding {
         }
     }
 
-    /// The textures a filter reads it from.
+    /// Returns the textures that a filter reads it from.
     pub(super) fn textures(self, map_target: MapTarget) -> Vec<(&'static str, Texture)> {
         let mut textures = vec![("borderMap", map_texture(self.target(map_target)))];
         if self == Self::DepthTexture {
@@ -70,7 +70,7 @@ impl MapEncoding {
         textures
     }
 
-    /// The fragment shader by which a filter reads it.
+    /// The fragment shader that lets a filter read the map.
     pub(super) fn shader(self) -> &'static str {
         match self {
             Self::Published | Self::Float16 | Self::Float => "evangelista/texel-map.frag",
@@ -79,7 +79,7 @@ impl MapEncoding {
         }
     }
 
-    /// The step between the depths it tells apart.
+    /// Returns the smallest step of its depths.
     pub(super) fn depth_step(self) -> f32 {
         match self {
             Self::Published | Self::Biased => 1.0 / 255.0,
@@ -103,7 +103,7 @@ tinta_geometry::choices! {
 }
 
 impl MapTarget {
-    /// The setting of a style that has one.
+    /// Returns the setting of a style that has one.
     pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let help = "Copy the map into its texture (copy) or draw it there with a framebuffer object (texture); \
                     pictures differ by rounding only; mrt always draws it there";
@@ -111,7 +111,7 @@ impl MapTarget {
             .printed("E, section 4.1: drawn into the framebuffer, then copied into a texture")
     }
 
-    /// What a map of 8 bits a channel is written into.
+    /// The target of a map with 8 bits per channel.
     pub(super) fn target(self) -> Target {
         match self {
             Self::Copy => Target::Framebuffer,
@@ -120,7 +120,7 @@ impl MapTarget {
     }
 }
 
-/// The texture in which a map drawn there is read.
+/// The texture that holds a map drawn into this target.
 pub(super) fn map_texture(target: Target) -> Texture {
     match target {
         Target::Framebuffer => Texture::BorderMap,

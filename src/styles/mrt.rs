@@ -1,8 +1,8 @@
 //! `mrt`: the three passes' picture with one pass over the geometry, which draws tones and map into two targets at once.
 //!
-//! The future work of Evangelista et al. 2005 (section 6). The tones' texture is then the target of the border, which is
-//! blended over it as in the third pass, and it is read back itself: nothing is copied. The background needs no square:
-//! both textures are cleared to what the square would leave in them.
+//! The future work of Evangelista et al. 2005 (section 6). The border is blended over the tones' texture, as in the third pass,
+//! and that texture is read back without a copy. The background needs no square: each texture is cleared to the value the square
+//! would leave.
 
 use super::cartoon::background_square;
 use super::map::MAP_TEXTURE;
@@ -22,13 +22,14 @@ pub struct Mrt {
     pub tones: Tones,
     /// The border; `None` draws the tones alone.
     pub border: Option<Border>,
-    /// Whether the map holds behind the scene what the article's square leaves there, a normal towards the eye. Default yes;
-    /// without it outer borders are fainter where the surface is seen at a grazing angle.
+    /// Whether the map's background holds the value of the article's square, a normal towards the eye. Default yes. Without it
+    /// outer borders are fainter at grazing angles.
     pub background_square: bool,
-    /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
-    /// picture of closed models. Default no.
+    /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
+    /// outlines. Default no.
     pub cull_back_faces: bool,
-    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge and makes lines finer.
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge and makes
+    /// lines finer.
     pub supersample: Supersample,
 }
 
@@ -55,7 +56,7 @@ impl Mrt {
             cull(|mrt: &mut Self| &mut mrt.cull_back_faces),
             Supersample::setting(|mrt: &mut Self| &mut mrt.supersample),
         ];
-        // There for who draws both: the three passes have more encodings.
+        // For callers that draw both: the three passes have more encodings.
         let encoding = Setting::of(
             "map-encoding",
             "ENCODING",
@@ -81,7 +82,7 @@ impl Mrt {
     }
 }
 
-/// The picture before its borders, then with them.
+/// The picture before and after its borders.
 const TONES: Attachment = Attachment { name: Drawn("Tones"), format: Format::Unorm8 };
 const MAP: Attachment = Attachment { name: MAP_TEXTURE, format: Format::Unorm8 };
 
@@ -93,17 +94,17 @@ const TONES_AND_MAP: Attachments = Attachments {
     instead_draws: Some("the same picture except for rounding"),
 };
 
-/// What the border is blended over while it reads the map.
+/// The target that the border is blended over while it reads the map.
 const TONES_ALONE: Attachments = Attachments { colors: &[TONES], has_depth: false, ..TONES_AND_MAP };
 
 impl Mrt {
-    /// Tones and map, border blended on top.
+    /// Tones and map, with the border blended on top.
     pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
         let cartoon = self.cartoon();
         // Textures are multiplied with the tones alone, while here tones and map are drawn at once.
         let at_once = show == Show::Final && !scene.has_textured_surfaces();
         let Some(border) = self.border.filter(|_| at_once) else {
-            // Its map, tones and borders by themselves are those of the three passes.
+            // The three passes draw its map, tones and borders when shown alone.
             return cartoon.three_pass(scene, show);
         };
         cartoon.check(scene, show)?;
@@ -120,7 +121,7 @@ impl Mrt {
         Ok(self.supersample.finish(plan, scene.size))
     }
 
-    /// The three passes with the same settings.
+    /// Returns the three passes with the same settings.
     fn cartoon(&self) -> Cartoon {
         Cartoon {
             tones: self.tones.clone(),

@@ -1,4 +1,4 @@
-//! `phong`: the realistic rendering the first article compares its cartoons with (figures 5a and 8).
+//! `phong`: the realistic rendering that the first article compares its cartoons with (figures 5a and 8).
 
 use super::textured::textured;
 use super::{ALL_STYLES, Show, Supersample, cull};
@@ -10,16 +10,16 @@ use crate::settings::{Setting, under};
 /// Settings of `phong`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phong {
-    /// Share of the colour seen where no light falls. Default 0.25; more lightens the shadows.
+    /// Share of the colour visible without light. Default 0.25; more lightens the shadows.
     pub ambient: f32,
     /// Weight of the white highlight. Default 0.35.
     pub specular: f32,
     /// Exponent of the highlight. Default 24; more makes it smaller.
     pub shininess: f32,
-    /// Whether faces turned away from the eye are left out: faster, and but for a few pixels at outlines the same
-    /// picture of closed models. Default no.
+    /// Whether to skip faces turned away from the eye: faster. The picture of closed models changes only in a few pixels at
+    /// outlines. Default no.
     pub cull_back_faces: bool,
-    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge.
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge.
     pub supersample: Supersample,
 }
 

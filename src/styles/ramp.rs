@@ -1,4 +1,4 @@
-//! The ramp texture of the text's section "Painting": gradients of a few flat tones, one a row, looked up by the light.
+//! The ramp texture of the text's section "Painting": gradients of a few flat tones, one per row, indexed by the light.
 
 use crate::error::{Error, ParseError, Result};
 use crate::picture::Picture;
@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::{Arc, LazyLock};
 
-/// Rows of a ramp: as many as the text's picture has.
+/// Rows of a ramp, as in the text's picture.
 pub(super) const ROWS: u32 = 4;
 
-/// Light in which a gradient shows its base colour.
+/// The light at which a gradient shows its base colour.
 pub(super) const MIDDLING_LIGHT: f32 = 0.6;
 
 /// A picture of four gradients one above the other, dark at the left.
@@ -20,7 +20,7 @@ pub(super) const MIDDLING_LIGHT: f32 = 0.6;
 pub struct Ramp {
     /// The picture; each quarter of its height is a gradient, the first at the top.
     pub picture: Arc<Picture>,
-    /// The file it came from; `None` for the built-in one.
+    /// Its source file; `None` for the built-in one.
     pub path: Option<PathBuf>,
 }
 
@@ -37,7 +37,7 @@ impl Ramp {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] when it cannot be read or is lower than its gradients are many.
+    /// [`Error::File`] when it cannot be read or has fewer rows than gradients.
     pub fn read(path: &Path) -> Result<Self> {
         Self::of(Picture::read(path)?, path)
     }
@@ -63,7 +63,7 @@ impl Ramp {
 }
 
 impl Ramp {
-    /// The row whose colour in middling light is nearest.
+    /// Returns the row whose colour in middling light is nearest.
     pub(super) fn nearest_row(&self, color: Color) -> u32 {
         let Size { width, height } = self.picture.size;
         let distance = |row: &u32| {
@@ -76,7 +76,7 @@ impl Ramp {
     }
 }
 
-/// What the built-in ramp is called.
+/// The name of the built-in ramp.
 const BUILT_IN: &str = "built-in";
 
 impl Value for Ramp {
@@ -84,7 +84,7 @@ impl Value for Ramp {
         Kind::File
     }
 
-    /// A ramp that is from no file has none.
+    /// A ramp without a file has no text.
     fn text(&self) -> String {
         match &self.path {
             Some(path) => path.to_string_lossy().into_owned(),
@@ -123,7 +123,7 @@ impl Value for RampRow {
     }
 }
 
-/// Which gradient a surface gets.
+/// The gradient that a surface gets.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum RampRow {
     /// Each material the one nearest to its colour; without a colour the first.
@@ -131,7 +131,7 @@ pub enum RampRow {
     Material,
     /// Each object the next one.
     Object,
-    /// Each colour of a material its own, in the tones of the built-in ramp: nothing is read from [`Ramp`].
+    /// Each of a material's colours in the tones of the built-in ramp; [`Ramp`] is ignored.
     Own,
     /// This one for all, 0 to 3.
     Row(u8),
@@ -159,7 +159,7 @@ impl FromStr for RampRow {
 const BASES: [[f32; 3]; ROWS as usize] =
     [[0.93, 0.74, 0.52], [0.80, 0.36, 0.24], [0.60, 0.49, 0.38], [0.46, 0.58, 0.72]];
 
-/// Light from which the base colour and the highlight hold.
+/// The smallest light of the base colour and of the highlight.
 const TONES_FROM: [f32; 2] = [0.45, 0.82];
 
 /// Columns of a ramp made here.
@@ -167,12 +167,12 @@ pub(super) const WIDTH: u32 = 256;
 
 fn built_in() -> Picture {
     let size = Size { width: WIDTH, height: 64 };
-    // All lines of a gradient are the same.
+    // All rows of a gradient are equal.
     let lines = |base: &[f32; 3]| gradient(*base).repeat((size.height / ROWS) as usize);
     Picture { size, pixels: BASES.iter().flat_map(lines).collect() }
 }
 
-/// A line of pixels: a colour in shadow, as it is, and as a highlight.
+/// Returns a row of pixels: a colour in shadow, unchanged, and as a highlight.
 pub(super) fn gradient(base: [f32; 3]) -> Vec<u8> {
     let pixel = |x: u32| {
         let light = (x as f32 + 0.5) / WIDTH as f32;

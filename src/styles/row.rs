@@ -1,4 +1,4 @@
-//! What stands in a style's row, and the macro that makes the styles of their rows.
+//! The contents of a style's row, and the macro that makes the styles from their rows.
 
 use super::{LineStyle, Show, Style, StyleName};
 use crate::error::Result;
@@ -6,7 +6,7 @@ use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::settings::Setting;
 
-/// A style's row: what is known of it besides its settings, which stand beside their struct.
+/// A style's row: its properties other than settings, which are declared with their struct.
 #[derive(Debug)]
 pub struct StyleInfo {
     /// Which style.
@@ -17,9 +17,9 @@ pub struct StyleInfo {
     pub shows: &'static [Show],
     /// Where it comes from.
     pub origin: Origin,
-    /// Its mark in plots; without one a grey circle.
+    /// Its mark in plots; `None` for a grey circle.
     pub mark: Option<Mark>,
-    /// Whether it draws exact lines, which need no OpenGL, and no passes.
+    /// Whether it draws exact lines, without OpenGL or passes.
     pub draws_lines: bool,
     /// The style with the published settings.
     pub(super) published: fn() -> Style,
@@ -27,7 +27,7 @@ pub struct StyleInfo {
     pub(super) settings: fn() -> Vec<Setting<Style>>,
 }
 
-/// How a style with the settings `S` draws.
+/// The way a style with the settings `S` draws.
 pub(super) enum Draw<S> {
     /// In passes, by OpenGL.
     Plan(fn(&S, &Scene, Show) -> Result<Plan>),
@@ -35,10 +35,10 @@ pub(super) enum Draw<S> {
     Lines(fn(&S) -> LineStyle),
 }
 
-/// Where a style comes from.
+/// The origin of a style.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
-    /// A text of this year, with the values that are the defaults.
+    /// A text of this year, whose values are the defaults.
     Published(u16),
     /// A text that names it without values.
     Named,
@@ -46,8 +46,8 @@ pub enum Origin {
     Own,
 }
 
-/// A style's mark in plots: a colour and a shape, so that neither is needed alone. The colours can be told apart by the
-/// colour-blind (Okabe and Ito 2008) and be seen on white and near black.
+/// A style's mark in plots: a colour and a shape, either of which is sufficient. The colours suit the colour-blind (Okabe and Ito
+/// 2008) and are visible on white and near black.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mark {
     /// Red, green and blue.
@@ -65,16 +65,16 @@ pub enum Outline {
     Polygon {
         /// How many corners.
         corners: usize,
-        /// Of the first corner from the top, radians.
+        /// Angle of the first corner from the top, radians.
         turn: f64,
     },
-    /// A star of five points.
+    /// A five-pointed star.
     Star,
 }
 
-/// Makes of the rows [`Style`], [`StyleName`], and what each style does in its own way.
+/// Makes [`Style`], [`StyleName`] and each style's special functions from the rows.
 ///
-/// A macro because a style is a variant of two types, an arm of each match over them and a table's entry: six places without one.
+/// Without the macro a style would need code in six places: a variant of two types, match arms over them and a table entry.
 macro_rules! styles {
     ($($(#[$about:meta])* $style:ident($settings:ty) {
         name: $name:literal, draw: $draw:expr, has_lines: $has_lines:expr, $($field:ident: $value:expr),*,
@@ -95,7 +95,7 @@ macro_rules! styles {
             }
         }
 
-        /// Every style, in the order in which they are listed.
+        /// Every style, in listing order.
         static STYLES: [StyleInfo; StyleName::ALL.len()] = [$(StyleInfo {
             style: StyleName::$style,
             name: $name,
@@ -119,7 +119,7 @@ macro_rules! styles {
                 }
             }
 
-            /// Whether it draws lines that can be shown by themselves.
+            /// Whether the style draws lines that it can show alone.
             pub fn has_lines(&self) -> bool {
                 match self {
                     $(Self::$style(settings) => {
@@ -129,12 +129,12 @@ macro_rules! styles {
                 }
             }
 
-            /// What GL has to do for this scene.
+            /// Returns the plan: GL's steps for this scene.
             ///
             /// # Errors
             ///
-            /// [`crate::Error::Setting`] when a setting is nonsense, by itself or with this scene or `show`, and for a style that
-            /// draws exact lines.
+            /// [`crate::Error::Setting`] for an invalid setting, alone or with this scene or `show`, and for a style that draws
+            /// exact lines.
             pub fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
                 match self {
                     $(Self::$style(settings) => {
@@ -147,7 +147,7 @@ macro_rules! styles {
                 }
             }
 
-            /// The exact lines that it draws; `None` for a style that draws in passes.
+            /// Returns its exact lines; `None` for a style that draws in passes.
             pub fn lines(&self) -> Option<LineStyle> {
                 match self {
                     $(Self::$style(settings) => {

@@ -10,7 +10,7 @@ use crate::settings::*;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// Sets every setting of every form to each of its samples and asserts that what is then written is read back.
+/// Sets every setting of every form to each of its samples, writes it and asserts that it reads back equal.
 fn there_and_back<T: HasSettings + Debug>(record: fn(&T) -> String) -> usize {
     let table = T::table();
     let mut count = 0;
@@ -69,12 +69,12 @@ fn a_style_is_what_its_options_say() {
     let style = Style::from_options(&options(&[("style", "charcoal"), ("charcoal", "darker"), ("seed", "7")])).unwrap();
     let darker = Charcoal { seed: 7, ..Charcoal::recipe(CharcoalRecipe::Darker) };
     assert_eq!(style, Style::Charcoal(darker));
-    // A recipe is written as what it sets.
+    // A recipe holds the style's options.
     let written = style.to_options().unwrap();
     assert_eq!(written["density"], OptionValue::text("85"));
     assert!(!written.contains_key("charcoal"));
     assert_eq!(Style::from_options(&written).unwrap(), style);
-    // What stands beside a recipe counts more, whatever its name.
+    // Options beside a recipe override it, whatever its name.
     let beside = options(&[("charcoal", "darker"), ("density", "50")]);
     let Style::Sand(sand) = Style::with_options(StyleName::Sand, &beside).unwrap() else { panic!("sand") };
     assert_eq!((sand.density_percent, sand.smudge), (50.0, true));

@@ -1,8 +1,8 @@
-//! Flat and Gouraud shading in the ramp's tones: what the section "Painting" of C. Dachsbacher's article tries first, to be
-//! shown beside the ramp.
+//! Flat and Gouraud shading in the ramp's tones, for comparison with the ramp. The section "Painting" of C. Dachsbacher's article
+//! tries them first.
 //!
-//! Light and tones are the ramp's. Flat shading looks a tone up once a face, Gouraud shading once a vertex, and GL mixes them
-//! between; the ramp as a texture is looked up at every pixel.
+//! Light and tones are the ramp's. Flat shading looks a tone up once a face, Gouraud shading once a vertex, with GL mixing
+//! between vertices; the ramp as a texture is looked up at every pixel.
 
 use super::gradients::{Gradients, Light, VertexLists};
 use crate::mesh::Part;
@@ -17,7 +17,7 @@ type Tone = [u8; 3];
 /// An object's faces by their tone.
 type ByTone = Arc<BTreeMap<Tone, Arc<FaceList>>>;
 
-/// Each vertex's tone as a colour: red, green, blue, alpha.
+/// Returns each vertex's tone as a colour: red, green, blue, alpha.
 pub(super) fn vertex_colors(gradients: &Gradients<'_>) -> VertexLists<[f32; 4]> {
     let coordinates = gradients.coordinates(true);
     gradients.of_objects(|number, _| {
@@ -25,7 +25,7 @@ pub(super) fn vertex_colors(gradients: &Gradients<'_>) -> VertexLists<[f32; 4]> 
     })
 }
 
-/// The faces of each tone, an entry for each object, and the tone as a colour.
+/// Returns the faces of each tone, an entry for each object, and the tone as a colour.
 pub(super) fn faces_by_tone(scene: &Scene, gradients: &Gradients<'_>) -> Vec<([f32; 4], Arc<Vec<Faces>>)> {
     let light = Light::of(scene);
     let lists: Arc<Vec<ByTone>> =
@@ -37,7 +37,7 @@ pub(super) fn faces_by_tone(scene: &Scene, gradients: &Gradients<'_>) -> Vec<([f
     tones.iter().map(|tone| (opaque(*tone), Arc::new(faces(tone)))).collect()
 }
 
-/// An object's faces by tone, each list in drawing order.
+/// Returns an object's faces by tone, each list in drawing order.
 fn of_object(scene: &Scene, light: Light, gradients: &Gradients<'_>, number: usize, object: &Object) -> ByTone {
     let (mesh, arrays) = (&object.mesh, scene.arrays(object));
     let mut lists: BTreeMap<Tone, FaceList> = BTreeMap::new();

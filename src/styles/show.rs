@@ -1,7 +1,7 @@
 //! The pictures that styles can show.
 
 tinta_geometry::choices! {
-    /// Which of a style's pictures is wanted.
+    /// The picture of a style to show.
     #[derive(Default)]
     #[non_exhaustive]
     pub enum Show {

@@ -1,8 +1,9 @@
 //! `suggestive`: contours and suggestive contours found in a picture, after the image-space method of DeCarlo et al. 2003.
 //!
-//! The surface is drawn with the cosine between its normal and the view as its only shade, bright where it faces the eye. A pixel is
-//! ink where that picture has a valley: few of the pixels around it are darker, and one at least is much brighter. So contours are
-//! found as well, beside which the ground is bright. The lines on the surface itself are style `lines`' (`--classes suggestive`).
+//! The surface is drawn with the cosine between its normal and the view as its only shade, bright where it faces the eye. A pixel
+//! is ink where that picture has a valley: few pixels around it are darker, and at least one is much brighter. This finds
+//! contours too, because the ground beside them is bright. Style `lines` finds the lines on the surface itself (`--classes
+//! suggestive`).
 
 use super::ink::Ink;
 use super::{ALL_STYLES, SUGGESTIVE, Show, Supersample, Tones, cull, no_borders, supersample};
@@ -14,21 +15,21 @@ use crate::settings::{Setting, under, within};
 /// Settings of `suggestive`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Suggestive {
-    /// Whether lines are drawn at all. Default yes.
+    /// Whether to draw lines. Default yes.
     pub is_inked: bool,
-    /// How far from a pixel the others are that it is compared with, 1 to 16. Default 5 pixels; more finds wider valleys, draws
+    /// Radius of the neighbourhood that a pixel is compared with, 1 to 16. Default 5 pixels; more finds wider valleys, draws
     /// wider lines and takes longer by its square.
     pub radius_px: u32,
-    /// The largest share of them that may be darker than a pixel in a valley, above 0 and below 1. Default 0.2; more draws wider
-    /// lines and at last slopes.
+    /// Largest share of darker neighbours of a pixel in a valley, above 0 and below 1. Default 0.2; more draws wider lines and
+    /// eventually slopes.
     pub darker_share: f32,
-    /// How much brighter than it one of them must be, 0 to 1. Default 0.1; more leaves out shallow valleys.
+    /// Least excess of the brightest neighbour's brightness, 0 to 1. Default 0.1; more leaves out shallow valleys.
     pub least_depth: f32,
     /// The tones below. Default those of the three passes.
     pub tones: Tones,
-    /// Whether faces turned away from the eye are left out. Default no.
+    /// Whether to skip faces turned away from the eye. Default no.
     pub cull_back_faces: bool,
-    /// How much larger than the picture it is drawn, to be shrunk. Default 1; more smooths every edge.
+    /// Supersampling factor of the drawing. Default 1; more smooths every edge.
     pub supersample: Supersample,
 }
 
@@ -46,7 +47,7 @@ impl Default for Suggestive {
     }
 }
 
-/// Largest radius, pixels of the picture: nine hundred reads a pixel.
+/// Largest radius, pixels of the picture: 900 reads per pixel.
 const LARGEST_RADIUS: u32 = 16;
 
 impl Suggestive {
@@ -135,7 +136,7 @@ impl Suggestive {
         self.tones.check()
     }
 
-    /// Each pixel's cosine between normal and view.
+    /// Draws each pixel's cosine between normal and view.
     fn shade_pass(&self, is_read: bool) -> Pass {
         let program = Program { vertex: "dietrich/dietrich.vert", fragments: vec!["improved/facing.frag"] };
         let objects = Draw {
@@ -143,7 +144,7 @@ impl Suggestive {
             facts: Facts::plain(),
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
-        // The ground is as bright as can be, and not marked as surface.
+        // The ground has full brightness and is not marked as surface.
         let mut steps = vec![Step::clear([1.0, 1.0, 0.0, 0.0]), Step::Draw(objects)];
         if is_read {
             steps.push(Step::CopyFramebuffer);
@@ -167,7 +168,7 @@ impl Suggestive {
             depth: Depth::Ignore,
             facts: Facts {
                 reach_px: Some(radius + 1),
-                // It leaves out the pixels that are not inked.
+                // It discards pixels without ink.
                 keeps_pixels: false,
                 where_even: Some(WhereEven::Unchanged),
                 ..Facts::plain()

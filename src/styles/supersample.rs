@@ -1,11 +1,11 @@
-//! Drawing larger than the picture and taking the mean: edges are smooth, lines finer than a pixel.
+//! Draws larger than the picture and averages: edges are smooth, lines finer than a pixel.
 
 use crate::plan::{Depth, Draw, Geometry, Pass, Plan, Program, Step, Target, Texture, Uniform, Value};
 use crate::scene::Size;
 use crate::settings::Setting;
 
 tinta_geometry::choices! {
-    /// How many times as wide and high as the picture it is drawn.
+    /// The factor from the picture's sides to the drawing's.
     #[derive(Default)]
     pub enum Supersample {
         /// As large as the picture, as published.
@@ -21,10 +21,10 @@ tinta_geometry::choices! {
 }
 
 impl Supersample {
-    /// What the setting does.
+    /// The setting's help text.
     pub(super) const HELP: &'static str = "Smooth edges: draw 1 to 4 times larger and shrink";
 
-    /// The setting of a style that always has a factor.
+    /// Returns the setting of a style that always has a factor.
     pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         Setting::field("supersample", "N", Self::HELP, field)
             .ours("no text draws larger than its picture")
@@ -42,17 +42,17 @@ impl Supersample {
         }
     }
 
-    /// The size of what is drawn for a picture of this size.
+    /// Returns the size of the drawing surface for a picture of this size.
     pub(super) fn surface(self, picture: Size) -> Size {
         picture.times(self.factor())
     }
 
-    /// Makes of a plan drawn at [`Supersample::surface`]'s size one of the picture.
+    /// Converts a plan drawn at [`Supersample::surface`]'s size into one of the picture.
     pub(super) fn finish(self, plan: Plan, picture: Size) -> Plan {
         if self == Self::One {
             return plan;
         }
-        // What was drawn into a texture is read there.
+        // A picture drawn into a texture is read from that texture.
         let (mut steps, samples) = match plan.picture_target() {
             Target::Framebuffer => (vec![Step::CopyFramebuffer], Texture::BorderMap),
             Target::Textures(attachments) => (Vec::new(), Texture::Drawn(attachments.colors[0].name)),
@@ -74,7 +74,7 @@ impl Supersample {
     }
 }
 
-/// How far apart the texels of a texture of this size are.
+/// Returns the distance between texels of a texture of this size.
 pub(super) fn texture_unit(size: Size) -> Uniform {
     Uniform { name: "textureUnit", value: Value::texel_size(size) }
 }

@@ -1,12 +1,11 @@
-//! The model's own textures and colours at vertices under a style's shading: multiplied with what has been drawn, so that no style's
-//! shaders know of them.
+//! Multiplies the model's own textures and vertex colours into the finished picture. No style's shaders need to handle them.
 
 use crate::plan::{Blend, Depth, Draw, Facts, Geometry, Paint, Step, Texture};
 use crate::scene::Scene;
 use std::sync::Arc;
 
-/// The objects that `shaded` drew once more, unlit in these, multiplied with what of them is seen; `None` where nothing
-/// has any, or the scene is to be without.
+/// Returns a step that redraws the objects of `shaded`, unlit in their textures and colours, multiplied with the visible pixels.
+/// `None` if no object has any, or if the scene turns them off.
 pub(super) fn textured(scene: &Scene, shaded: &Draw) -> Option<Step> {
     scene.has_textured_surfaces().then(|| {
         let paint = match scene.vertex_colors() {

@@ -1,4 +1,4 @@
-//! The tones of the cartoon styles: which light gets which of one, two or three levels (section 3.2, figure 5).
+//! The tones of the cartoon styles: the mapping from light to one, two or three levels (section 3.2, figure 5).
 
 use super::CARTOON;
 use crate::error::{Error, Result};
@@ -9,11 +9,11 @@ use crate::tolerances::UNREACHED_LIGHT;
 /// Settings of the tones; the defaults are the listing's constants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tones {
-    /// How many tones, 1 to 3: the first, then the diffuse one, then the highlight. Default 3, the listing.
+    /// Number of tones, 1 to 3: the first, then the diffuse one, then the highlight. Default 3, the listing.
     pub count: u8,
-    /// Diffuse value, in [0, 1], from which the second tone holds. Default 0.8; more shrinks the lit part.
+    /// Smallest diffuse value of the second tone, in [0, 1]. Default 0.8; more shrinks the lit part.
     pub diffuse_threshold: f32,
-    /// Specular value, in [0, 1], above which the third tone holds. Default 0.65; more shrinks the highlight.
+    /// Specular value, in [0, 1], above which the third tone applies. Default 0.65; more shrinks the highlight.
     pub specular_threshold: f32,
     /// The factor each tone multiplies the colour by. Default 0.65, 0.95, 1.
     pub levels: [f32; 3],
@@ -22,7 +22,7 @@ pub struct Tones {
 }
 
 tinta_geometry::choices! {
-    /// How a tone is found from the light.
+    /// The way a tone is found from the light.
     pub enum ToneLookup {
         /// By comparing with the thresholds, as in the listing.
         Steps = "steps",
@@ -88,7 +88,7 @@ impl Default for Tones {
     }
 }
 
-/// A threshold no light reaches: light values end at 1.
+/// A threshold above all light values, which end at 1.
 const NEVER: f32 = 2.0;
 
 /// The part that compares both kinds of light with their thresholds.
@@ -98,7 +98,7 @@ const STEPS: &str = "evangelista/tone-steps.frag";
 const TABLE_SIZE: usize = 1024;
 
 impl Tones {
-    /// Whether these are the constants of the listing, so that the listing itself can run.
+    /// Whether these are the listing's constants, for which the listing itself can run.
     pub(super) fn are_published(&self) -> bool {
         *self == Self::default()
     }
@@ -116,7 +116,7 @@ impl Tones {
         Ok(())
     }
 
-    /// Diffuse and specular thresholds with those of unused tones out of reach.
+    /// Returns the diffuse and specular thresholds; those of unused tones are out of reach.
     fn thresholds(&self) -> [f32; 2] {
         let with = |used: bool, threshold: f32| if used { threshold } else { NEVER };
         [with(self.count >= 2, self.diffuse_threshold), with(self.count >= 3, self.specular_threshold)]
@@ -136,7 +136,7 @@ impl Tones {
         }
     }
 
-    /// The fragment shader that finds the tones.
+    /// Returns the fragment shader that finds the tones.
     pub(super) fn shader(&self) -> &'static str {
         match self.lookup {
             ToneLookup::Steps => STEPS,
@@ -144,8 +144,8 @@ impl Tones {
         }
     }
 
-    /// A program that compares with thresholds, without the light that reaches none: the driver then leaves that light out
-    /// of both shaders.
+    /// Returns a program for threshold tones without the light that no threshold depends on; the driver then removes that light
+    /// from both shaders.
     pub(super) fn shorter(&self, program: &Program) -> Option<Shorter> {
         let [diffuse, specular] = self.thresholds();
         if specular < UNREACHED_LIGHT || !program.has_shader(STEPS) {
@@ -161,7 +161,7 @@ impl Tones {
         Some(Shorter { program, without, because })
     }
 
-    /// Its uniforms; on the `background` every tone is 1, so that the square has the colour it was given.
+    /// Returns its uniforms. On the `background` every tone is 1, which leaves the square its given colour.
     pub(super) fn uniforms(&self, background: bool) -> Vec<Uniform> {
         match self.lookup {
             ToneLookup::Steps => vec![
@@ -178,7 +178,7 @@ impl Tones {
         }
     }
 
-    /// The textures it reads.
+    /// Returns the textures it reads.
     pub(super) fn textures(&self) -> Vec<(&'static str, Texture)> {
         match self.lookup {
             ToneLookup::Steps => Vec::new(),
@@ -186,14 +186,14 @@ impl Tones {
         }
     }
 
-    /// The plan's tables where one is read: the tone of a diffuse value, and that of a specular value or 0.
+    /// Returns the plan's tables if one is read: the tone of a diffuse value, and that of a specular value or 0.
     pub(super) fn tables(&self) -> Vec<PlanTable> {
         let table = (self.lookup == ToneLookup::Texture).then(|| {
             let byte = |level: f32| (level * 255.0).round() as u8;
             let [_, specular_threshold] = self.thresholds();
             let texel = |index: usize| {
                 let light = index as f32 / (TABLE_SIZE - 1) as f32;
-                // 0 says "no highlight", so a black highlight is as dark as can be told from that.
+                // 0 means no highlight, so a black highlight gets the darkest other value.
                 let highlight = if light > specular_threshold { byte(self.levels[2]).max(1) } else { 0 };
                 [byte(self.tone(light, f32::NEG_INFINITY)), highlight]
             };

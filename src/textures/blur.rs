@@ -1,8 +1,8 @@
-//! Gaussian blur of a grid of numbers. Columns wrap around, as textures do under GL_REPEAT; rows as asked.
+//! Gaussian blur of a grid of numbers. Columns wrap around, as textures do under GL_REPEAT; a parameter decides for rows.
 
 use crate::scene::Size;
 
-/// What lies above the first row and below the last.
+/// The values above the first row and below the last.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Rows {
     /// The rows at the other end.
@@ -21,7 +21,7 @@ pub(super) fn gaussian(values: &[f32], size: Size, deviation_px: f64, rows: Rows
     for (row, sums) in values.chunks_exact(width).zip(across.chunks_exact_mut(width)) {
         let wrapped = row.iter().cycle().skip((width - reach % width) % width);
         padded.iter_mut().zip(wrapped).for_each(|(to, from)| *to = *from);
-        // Tap by tap over the whole row: the compiler makes vector instructions of it, and the order of sums is fixed.
+        // Tap by tap over the whole row: the compiler vectorises it, and the order of sums is fixed.
         for (tap, weight) in weights.iter().enumerate() {
             sums.iter_mut().zip(&padded[tap..]).for_each(|(sum, value)| *sum += weight * value);
         }
@@ -41,8 +41,8 @@ pub(super) fn gaussian(values: &[f32], size: Size, deviation_px: f64, rows: Rows
     down
 }
 
-/// An odd number of weights with the sum 1, whole multiples of 2^-16: what a library's `exp` does to the last bit of one is
-/// rounded away, and sums of them times bytes are exact.
+/// Returns an odd number of weights with the sum 1, in whole multiples of 2^-16. The rounding hides differences of libraries'
+/// `exp` in the last bit, and makes sums of weights times bytes exact.
 fn weights(deviation_px: f64) -> Vec<f32> {
     const UNIT: f64 = 65_536.0;
     if deviation_px <= 0.0 {

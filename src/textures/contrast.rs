@@ -1,5 +1,5 @@
-//! The contrast-enhanced texture (CET; Valente 2007, sections 2.1.3 and 3.1, figures 2 and 3): how charcoal's grains thin
-//! out from the darkest tone, t = 0, to the lightest, t = 1.
+//! The contrast-enhanced texture (CET; Valente 2007, sections 2.1.3 and 3.1, figures 2 and 3). In it charcoal's grains thin out
+//! from the darkest tone, t = 0, to the lightest, t = 1.
 //!
 //! Black pixels are scattered over a white picture, each is moved along t to t^m, and the result is blurred.
 
@@ -17,26 +17,26 @@ use serde::Serialize;
 /// Its pictures have t = 0 in their bottom row and s = 0 in their left column, as GL draws a texture upright.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ContrastTexture {
-    /// Pixels along s and t. Default 512 x 512; the text gives none (errata V7). More is finer grain.
+    /// Pixels along s and t. Default 512 x 512; the text gives none (errata V7). More gives finer grain.
     pub size: Size,
-    /// Share of pixels that are made black before they are moved, percent. Default 60: the text says "density 60" without a
-    /// unit, which is read as percent here (errata V10). More is darker.
+    /// Share of black pixels before they are moved, percent. Default 60: the text says "density 60" without a unit, which is read
+    /// as percent here (errata V10). More is darker.
     pub density_percent: f64,
-    /// The exponent m of t^m, at least 1. Default 5.5, the middle one of figure 3's three (1.3, 5.5, 15); which one the text
-    /// draws with it does not say. More gathers the grains at the darkest tones, so that the drawing has fewer.
+    /// The exponent m of t^m, at least 1. Default 5.5, the middle one of figure 3's three (1.3, 5.5, 15); the text does not say
+    /// which one it draws with. More gathers the grains at the darkest tones and leaves fewer in the drawing.
     pub exponent: f64,
     /// Standard deviation of the final blur, pixels. Default 0.8; the text gives none (errata V7). More is softer.
     pub blur_px: f64,
-    /// Where the random numbers begin. Default 0; another seed is another texture of the same kind.
+    /// Seed of the random numbers. Default 0; another seed gives another texture of the same kind.
     pub seed: u64,
-    /// Where the random numbers come from. Default SplitMix64, ours; the text's are its platform's `rand()`.
+    /// Source of the random numbers. Default SplitMix64, ours; the text uses its platform's `rand()`.
     pub random: Generator,
 }
 
 /// The exponents of figure 3, from left to right.
 const PUBLISHED_EXPONENTS: [f64; 3] = [1.3, 5.5, 15.0];
 
-/// The largest blur, pixels; beyond it no grain is left.
+/// The largest blur, pixels; a larger one would leave no grain.
 const LARGEST_BLUR_PX: f64 = 100.0;
 
 impl Default for ContrastTexture {
@@ -52,7 +52,7 @@ impl Default for ContrastTexture {
     }
 }
 
-/// How many black pixels lie at each place after they were moved, before the blur.
+/// The number of black pixels at each place after they were moved, before the blur.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Grains {
     /// Pixels along s and t.
@@ -62,12 +62,12 @@ pub struct Grains {
 }
 
 impl Grains {
-    /// Share of pixels with a grain, from 0 to 1.
+    /// Returns the share of pixels with a grain, from 0 to 1.
     pub fn black_share(&self) -> f64 {
         self.counts.iter().filter(|count| **count > 0).count() as f64 / self.counts.len() as f64
     }
 
-    /// Mean t of all grains, those that share a pixel counted one by one; `None` without any.
+    /// Returns the mean t of all grains; grains that share a pixel count separately. `None` without grains.
     pub fn mean_t(&self) -> Option<f64> {
         let rows = self.counts.chunks_exact(self.size.width as usize).rev().enumerate();
         let (count, sum) = rows.fold((0.0, 0.0), |(count, sum), (row, counts)| {
@@ -77,31 +77,31 @@ impl Grains {
         (count > 0.0).then_some(sum / count / f64::from(self.size.height))
     }
 
-    /// Black where there is a grain, white elsewhere.
+    /// Returns a picture with black grains on white.
     pub fn picture(&self) -> Picture {
         opaque(self.size, self.counts.iter().map(|count| [if *count > 0 { 0 } else { u8::MAX }; 3]))
     }
 }
 
 impl ContrastTexture {
-    /// The textures of figure 3 in this size, from this seed: exponents 1.3, 5.5 and 15 at density 60.
+    /// Returns the textures of figure 3 in this size, from this seed: exponents 1.3, 5.5 and 15 at density 60.
     pub fn figure_3(size: Size, seed: u64) -> [Self; 3] {
         PUBLISHED_EXPONENTS.map(|exponent| Self { size, seed, exponent, ..Self::default() })
     }
 
-    /// The texture of figure 2: the grains of density 60 where they were scattered, neither moved nor blurred.
+    /// Returns the texture of figure 2: the grains of density 60 as scattered, neither moved nor blurred.
     pub fn figure_2(size: Size, seed: u64) -> Self {
         Self { size, seed, exponent: 1.0, blur_px: 0.0, ..Self::default() }
     }
 
     /// Makes the texture.
     ///
-    /// It repeats along s, where the drawing's random numbers reach over the edge. It does not along t: there the blur
-    /// ends with the picture (ours, errata V11), for the darkest row is no neighbour of the lightest and would put specks into the lights.
+    /// It repeats along s, where the drawing's random numbers cross the edge. It does not repeat along t: there the blur ends
+    /// with the picture (ours, errata V11). Otherwise the darkest row would mix with the lightest and put specks into the lights.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] by the option's name for nonsense.
+    /// [`Error::Setting`] by the option's name for an invalid value.
     pub fn picture(&self) -> Result<Picture> {
         let grains = self.grains()?;
         let white: Vec<f32> = grains.counts.iter().map(|count| if *count > 0 { 0.0 } else { 255.0 }).collect();
@@ -109,7 +109,7 @@ impl ContrastTexture {
         Ok(opaque(self.size, blurred.iter().map(|value| [value.round() as u8; 3])))
     }
 
-    /// The texture before its blur.
+    /// Returns the texture before its blur.
     ///
     /// # Errors
     ///
@@ -118,7 +118,7 @@ impl ContrastTexture {
         self.check()?;
         let mut numbers = Numbers::new(self.random, self.seed, "contrast");
         let Size { width, height } = self.size;
-        // Of 2^32 numbers so many make a pixel black.
+        // This many of 2^32 numbers make a pixel black.
         let black = (self.density_percent / 100.0 * (1u64 << 32) as f64).round() as u64;
         let mut counts = vec![0u16; self.size.pixel_count()];
         for row in 0..height {
@@ -134,14 +134,14 @@ impl ContrastTexture {
         Ok(Grains { size: self.size, counts })
     }
 
-    /// The row that t^m puts a grain into, rows counted from t = 0.
+    /// Returns the row that t^m moves a grain into; rows count from t = 0.
     ///
-    /// A grain lies somewhere within its pixel, which is ours (errata V9). Were all of a row in its middle, they would be moved
-    /// together and leave rows without any between them: stripes in the lights.
+    /// A grain lies at a random place within its pixel, which is ours (errata V9). If all grains of a row lay in its middle, they
+    /// would move together and leave empty rows between them: stripes in the lights.
     fn moved(&self, row: f64) -> u32 {
         let height = f64::from(self.size.height);
         let moved = (row / height).powf(self.exponent) * height;
-        // On the edge of two rows the last bit of a library's `pow` must not decide.
+        // Near the edge of two rows the last bit of a library's `pow` must not decide.
         let nearest = moved.round();
         let settled = if (moved - nearest).abs() < ROW_EDGE { nearest } else { moved };
         (settled as u32).min(self.size.height - 1)
@@ -208,7 +208,7 @@ mod tests {
         let grains = texture.grains().unwrap();
         let edge = |row: i32| (f64::from(row) / 64.0).powf(1.0 / 5.5) * 64.0;
         for row in 0..64 {
-            // What comes from each row is the part of it between the two edges, taken back before they were moved.
+            // Each row contributes the part between its two edges, at their places before they were moved.
             let (low, high) = (edge(row), edge(row + 1));
             let part = |from: i32| (high.min(f64::from(from + 1)) - low.max(f64::from(from))).max(0.0);
             let white: f64 = (0..64).map(|from| 1.0 - 0.6 * part(from)).product();
@@ -250,7 +250,7 @@ mod tests {
             picture.pixels.chunks_exact(4).map(|pixel| f64::from(pixel[0])).sum::<f64>() / 512.0 / 512.0
         };
         assert!((mean(&sharp) - mean(&soft)).abs() < 1.0);
-        // The bottom row is black throughout; of the top row 6 % are expected to be.
+        // The bottom row is black throughout; the top row should be 6 % black.
         let row = |y: i64| (0..512).map(|x| f64::from(soft.pixel(x, y)[0])).sum::<f64>() / 512.0;
         assert!(row(511) < 10.0 && row(0) > 225.0, "{} {}", row(511), row(0));
     }

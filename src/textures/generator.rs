@@ -1,15 +1,15 @@
-//! The generators of random numbers that textures are made with: ours, and the `rand()` of two C libraries of the report's time.
+//! The random number generators of the textures: ours, and the `rand()` of two C libraries of the report's time.
 //!
-//! The report makes its textures with `rand()`, does not say whose, and supposes that a better generator would change little
-//! (Valente 2007, section 5; errata V8). Both are here after their published definitions, so that it can be tried.
+//! The report makes its textures with `rand()` of an unnamed library, and supposes that a better generator would change little
+//! (Valente 2007, section 5; errata V8). Both libraries' generators follow their published definitions and allow a test of that.
 
 use crate::random::Random;
 
 tinta_geometry::choices! {
-    /// Where a texture's random numbers come from.
+    /// The source of a texture's random numbers.
     #[derive(Default)]
     pub enum Generator {
-        /// SplitMix64, other numbers for each texture of one seed. Ours.
+        /// SplitMix64, with different numbers for each texture of one seed. Ours.
         #[default]
         SplitMix = "splitmix",
         /// `rand()` of Microsoft's C runtime after `srand(seed)`: 15 bits of a linear congruential generator of 32.
@@ -27,8 +27,8 @@ pub(super) enum Numbers {
 }
 
 impl Numbers {
-    /// The numbers of a seed. What they are for makes other numbers of ours; a C program's begin at its `srand`, of which the
-    /// seed's lower 32 bits are the argument.
+    /// Starts the numbers of a seed. Our generator also varies them by `purpose`. A C program's begin at its `srand`, whose
+    /// argument is the seed's lower 32 bits.
     pub(super) fn new(generator: Generator, seed: u64, purpose: &str) -> Self {
         match generator {
             Generator::SplitMix => Self::SplitMix(Random::new(seed, purpose)),
@@ -37,7 +37,7 @@ impl Numbers {
         }
     }
 
-    /// `rand()`, scaled to 32 bits; of ours the upper half of a number.
+    /// Returns `rand()` scaled to 32 bits, or the upper half of one of our numbers.
     fn scaled(&mut self) -> u32 {
         match self {
             Self::SplitMix(random) => (random.bits() >> 32) as u32,
@@ -46,7 +46,7 @@ impl Numbers {
         }
     }
 
-    /// Two numbers of 32 bits.
+    /// Returns two numbers of 32 bits.
     pub(super) fn pair(&mut self) -> [u32; 2] {
         match self {
             Self::SplitMix(random) => {
@@ -57,7 +57,7 @@ impl Numbers {
         }
     }
 
-    /// Red, green and blue; `rand() % 256` each, as a C program has them.
+    /// Returns red, green and blue; `rand() % 256` each, as in a C program.
     pub(super) fn color(&mut self) -> [u8; 3] {
         match self {
             Self::SplitMix(random) => {
@@ -69,18 +69,18 @@ impl Numbers {
         }
     }
 
-    /// A number from -1 up to but not 1.
+    /// Returns a number in [-1, 1).
     pub(super) fn signed(&mut self) -> f32 {
         (self.scaled() >> 8) as f32 / (1u32 << 23) as f32 - 1.0
     }
 
-    /// A number from 0 up to but not 1.
+    /// Returns a number in [0, 1).
     pub(super) fn share(&mut self) -> f32 {
         (self.scaled() >> 8) as f32 / (1u32 << 24) as f32
     }
 }
 
-/// Microsoft's: state * 214013 + 2531011, of which bits 16 to 30 are the number.
+/// Microsoft's: state * 214013 + 2531011; bits 16 to 30 are the number.
 pub(super) struct Msvc(u32);
 
 impl Msvc {
@@ -90,15 +90,15 @@ impl Msvc {
     }
 }
 
-/// GNU's: r[i] = r[i - 3] + r[i - 31], of which all but the lowest bit are the number.
+/// GNU's: r[i] = r[i - 3] + r[i - 31]; all bits except the lowest are the number.
 pub(super) struct Glibc {
     words: [u32; 31],
-    /// The word that is replaced next; the oldest.
+    /// The oldest word, which is replaced next.
     oldest: usize,
 }
 
 impl Glibc {
-    /// After `srand(seed)`, for which 0 is 1.
+    /// Starts as `srand(seed)` does, which treats 0 as 1.
     fn new(seed: u32) -> Self {
         const MODULUS: i64 = 2_147_483_647;
         let mut word = i64::from(seed.max(1) as i32);
@@ -111,9 +111,9 @@ impl Glibc {
             }
             this
         });
-        // The words 31 to 33 are the first three again, so that the fourth is the oldest.
+        // The words 31 to 33 repeat the first three, which makes the fourth the oldest.
         let mut made = Self { words, oldest: 3 };
-        // What the library throws away.
+        // The library discards these.
         for _ in 0..310 {
             made.next();
         }

@@ -10,11 +10,11 @@ use serde::Serialize;
 /// Settings of the noise texture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NoiseTexture {
-    /// Pixels. Default 512 x 512; one as large as the drawing gives every pixel a number of its own.
+    /// Pixels. Default 512 x 512. A texture as large as the drawing gives every pixel a separate number.
     pub size: Size,
-    /// Where the random numbers begin. Default 0; another seed is another texture of the same kind.
+    /// Seed of the random numbers. Default 0; another seed gives another texture of the same kind.
     pub seed: u64,
-    /// Where the random numbers come from. Default SplitMix64, ours; the text's are its platform's `rand()`.
+    /// Source of the random numbers. Default SplitMix64, ours; the text uses its platform's `rand()`.
     pub random: Generator,
 }
 
@@ -29,7 +29,7 @@ impl NoiseTexture {
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] for a size that no texture has.
+    /// [`crate::Error::Setting`] for an unsupported size.
     pub fn picture(&self) -> Result<Picture> {
         check_size(self.size)?;
         let mut numbers = Numbers::new(self.random, self.seed, "noise");

@@ -1,7 +1,7 @@
-//! The paper the drawing is made on: ours, for the text shows none it could be made from (errata V7).
+//! The paper under the drawing. It is ours, because the text does not specify one (errata V7).
 //!
-//! A sheet of drawing paper lit flatly from the upper left: its tooth (fine and coarse grain) as relief, fibres in the
-//! pulp, cloudy where it is thicker, slightly yellow. It repeats in both directions.
+//! A sheet of drawing paper lit flatly from the upper left: its tooth (fine and coarse grain) as relief, fibres in the pulp,
+//! cloudy where it is thicker, slightly yellow. It repeats in both directions.
 
 use super::blur::{Rows, gaussian};
 use super::generator::{Generator, Numbers};
@@ -16,9 +16,9 @@ use serde::Serialize;
 pub struct PaperTexture {
     /// Pixels. Default 512 x 512. Grain and fibres keep their size in pixels: more is a larger sheet, not a sharper one.
     pub size: Size,
-    /// Where the random numbers begin. Default 0; another seed is another sheet.
+    /// Seed of the random numbers. Default 0; another seed gives another sheet.
     pub seed: u64,
-    /// Where the random numbers come from. Default SplitMix64, ours.
+    /// Source of the random numbers. Default SplitMix64, ours.
     pub random: Generator,
 }
 
@@ -28,10 +28,10 @@ impl Default for PaperTexture {
     }
 }
 
-/// The sheet's colour where it is plane: red, green, blue of 255.
+/// The sheet's colour where it is flat: red, green, blue of 255.
 const COLOR: [f32; 3] = [245.0, 242.0, 233.0];
 
-/// How much of each part's change red, green and blue take: thick and shaded places are a little warmer.
+/// How strongly each part changes red, green and blue: thick and shaded places are a little warmer.
 const TINT: [f32; 3] = [0.94, 1.0, 1.1];
 
 /// Strength of each part, as standard deviation in steps of 255.
@@ -40,18 +40,18 @@ const TOOTH: f32 = 1.5;
 const FIBRES: f32 = 1.0;
 const CLOUDS: f32 = 1.1;
 
-/// What is smaller than this in a picture of paper is taken for its tooth, pixels.
+/// Details smaller than this in a picture of paper count as its tooth, pixels.
 const COARSEST_TOOTH_PX: f64 = 4.5;
 
-/// Steps of 255 a standard deviation of the height.
+/// Steps of 255 per standard deviation of the height.
 const HEIGHT_STEP: f32 = 56.0;
 
 impl PaperTexture {
-    /// How high each place of the paper lies, as grey: 128 in the middle, lighter is higher.
+    /// Returns the height of the paper at each place, as grey: 128 in the middle, lighter is higher.
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] for a size that no texture has.
+    /// [`crate::Error::Setting`] for an unsupported size.
     pub fn height(&self) -> Result<Picture> {
         check_size(self.size)?;
         let mut random = Numbers::new(self.random, self.seed, "paper");
@@ -65,7 +65,7 @@ impl PaperTexture {
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Setting`] for a size that no texture has.
+    /// [`crate::Error::Setting`] for an unsupported size.
     pub fn picture(&self) -> Result<Picture> {
         check_size(self.size)?;
         let size = self.size;
@@ -82,14 +82,14 @@ impl PaperTexture {
     }
 }
 
-/// The height that a picture of paper seems to have: how much lighter each place is than its surroundings.
+/// Returns the apparent height of a picture of paper: how much lighter each place is than its surroundings.
 pub fn height_of(paper: &Picture) -> Picture {
     let light: Vec<f32> = paper.pixels.chunks_exact(4).map(|pixel| f32::from(pixel[1])).collect();
     let around = gaussian(&light, paper.size, COARSEST_TOOTH_PX, Rows::Wrap);
     as_greys(paper.size, &light.iter().zip(around).map(|(light, around)| light - around).collect::<Vec<f32>>())
 }
 
-/// Heights as grey, in standard deviations.
+/// Converts heights, in standard deviations, to grey.
 fn as_greys(size: Size, heights: &[f32]) -> Picture {
     let grey = |height: f32| (128.0 + HEIGHT_STEP * height).round().clamp(0.0, 255.0) as u8;
     opaque(size, standardised(heights.to_vec()).into_iter().map(|height| [grey(height); 3]))
@@ -100,12 +100,12 @@ fn fibres_of(size: Size, random: &mut Numbers) -> Vec<f32> {
     standardised(gaussian(&fibres(size, random), size, 0.6, Rows::Wrap))
 }
 
-/// Fibres lie on the surface and so belong to its height as well.
+/// Fibres lie on the surface and so add to its height.
 fn surface(tooth: &[f32], fibres: &[f32]) -> Vec<f32> {
     tooth.iter().zip(fibres).map(|(tooth, fibre)| tooth + 0.3 * fibre).collect()
 }
 
-/// The height of the surface: grain of two sizes.
+/// Returns the height of the surface: grain of two sizes.
 fn tooth(size: Size, random: &mut Numbers) -> Vec<f32> {
     let [fine, coarse] = tooth_of_two_sizes(size, random);
     standardised(fine.iter().zip(&coarse).map(|(fine, coarse)| 0.55 * fine + coarse).collect())
@@ -115,7 +115,7 @@ fn tooth_of_two_sizes(size: Size, random: &mut Numbers) -> [Vec<f32>; 2] {
     [between(size, random, 0.8, 1.8), between(size, random, 1.7, COARSEST_TOOTH_PX)]
 }
 
-/// Noise with the details between two sizes, pixels.
+/// Returns noise with details between two sizes, pixels.
 fn between(size: Size, random: &mut Numbers, finest_px: f64, coarsest_px: f64) -> Vec<f32> {
     let noise: Vec<f32> = (0..size.pixel_count()).map(|_| random.signed()).collect();
     let fine = gaussian(&noise, size, finest_px, Rows::Wrap);
@@ -123,7 +123,7 @@ fn between(size: Size, random: &mut Numbers, finest_px: f64, coarsest_px: f64) -
     standardised(fine.iter().zip(coarse).map(|(fine, coarse)| fine - coarse).collect())
 }
 
-/// Threads of a pixel's width that bend a little, some lighter and some darker than the pulp.
+/// Draws fibres a pixel wide that bend a little, some lighter and some darker than the pulp.
 fn fibres(size: Size, random: &mut Numbers) -> Vec<f32> {
     const PIXELS_PER_FIBRE: usize = 260;
     const BEND: f32 = 0.07;
@@ -164,7 +164,7 @@ fn splat(values: &mut [f32], size: Size, x: f32, y: f32, value: f32) {
     }
 }
 
-/// A unit vector; from a point in the unit disc, for sine and cosine are not the same on every platform.
+/// Returns a unit vector, from a point in the unit disc, because sine and cosine differ between platforms.
 fn direction(random: &mut Numbers) -> (f32, f32) {
     loop {
         let (x, y) = (random.signed(), random.signed());
@@ -205,7 +205,7 @@ fn clouds(size: Size, random: &mut Numbers) -> Vec<f32> {
     standardised(values)
 }
 
-/// For each pixel of a side: the lattice points before and after it, and how far it lies between them, smoothed.
+/// Returns for each pixel of a side the lattice points before and after it, and its smoothed position between them.
 fn steps(side: u32, cells: usize) -> Vec<(usize, usize, f32)> {
     let step = |pixel: u32| {
         let at = pixel as f32 * cells as f32 / side as f32;
@@ -216,7 +216,7 @@ fn steps(side: u32, cells: usize) -> Vec<(usize, usize, f32)> {
     (0..side).map(step).collect()
 }
 
-/// How much the surface rises towards the upper left: light from there falls on what rises away from it.
+/// Returns how much the surface rises towards the upper left: light from there falls on the opposite slopes.
 fn slope(height: &[f32], size: Size) -> Vec<f32> {
     let (width, rows) = (size.width as usize, size.height as usize);
     let at = |x: usize, y: usize| height[y % rows * width + x % width];
@@ -224,7 +224,7 @@ fn slope(height: &[f32], size: Size) -> Vec<f32> {
     pixels.map(|(x, y)| at(x + 1, y + 1) - at(x + width - 1, y + rows - 1)).collect()
 }
 
-/// The same with mean 0 and standard deviation 1; all 0 where nothing varies.
+/// Returns the values with mean 0 and standard deviation 1; all 0 if they are constant.
 fn standardised(mut values: Vec<f32>) -> Vec<f32> {
     let count = values.len() as f64;
     let mean = values.iter().map(|value| f64::from(*value)).sum::<f64>() / count;

@@ -1,47 +1,47 @@
-//! The ways to a context, and what came of those tried.
+//! The ways to a context, and the outcomes of attempts.
 
 use super::ContextInfo;
 use serde::Serialize;
 
 tinta_geometry::choices! {
-    /// Which way to take. Those of other systems are refused with a sentence when they are asked for: a recipe or a script that
-    /// names one is understood everywhere.
+    /// The way to an OpenGL context. Recipes and scripts may name every backend on every system; a backend of another system
+    /// fails when it is opened.
     #[derive(Default)]
     #[non_exhaustive]
     pub enum Backend {
-        /// Those of this system, in this order: WGL, CGL, EGL, OSMesa, EGL's surfaceless platform. The first that works; for pictures
-        /// too large for it the next that draws them.
+        /// This system's backends, in this order: WGL, CGL, EGL, OSMesa, EGL's surfaceless platform. The first that works draws;
+        /// the next that can draws pictures too large for it.
         #[default]
         Auto = "auto",
         /// EGL on a device, without a window system; hardware first.
         Egl = "egl",
-        /// EGL on Mesa's surfaceless platform: another screen of the same driver, so that two contexts need not take turns.
+        /// EGL on Mesa's surfaceless platform: another screen of the same driver, for two contexts that need not take turns.
         Surfaceless = "surfaceless",
-        /// Mesa's off-screen library, which Mesa has no more since 25.1.
+        /// Mesa's off-screen library; Mesa 25.1 removed it.
         OsMesa = "osmesa",
-        /// Windows' own, beside a window that is never shown.
+        /// Windows' own, with a hidden window.
         Wgl = "wgl",
-        /// That of macOS.
+        /// CGL, on macOS.
         Cgl = "cgl",
     }
 }
 
-/// One way that was tried.
+/// An attempt to open a context.
 #[derive(Debug, Clone, Serialize)]
 pub struct Attempt {
-    /// The library, and the device where there is a choice.
+    /// The library, and the device if there are several.
     pub device: String,
-    /// What came of it: the context, or why there is none.
+    /// The result: the context, or the reason for its failure.
     #[serde(flatten)]
     pub outcome: Outcome,
 }
 
-/// What came of an attempt.
+/// The outcome of an attempt.
 #[derive(Debug, Clone, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
-    /// It works.
+    /// The context works.
     Context(Box<ContextInfo>),
-    /// Why it does not.
+    /// The reason for its failure.
     Error(String),
 }

@@ -1,4 +1,4 @@
-//! A canvas of a browser's page: the one context there is there, WebGL 1, OpenGL 2.1's nearest kin.
+//! The canvas of a web page: a browser's only context, WebGL 1, the closest relative of OpenGL 2.1.
 
 use super::super::Gl;
 use super::super::faults::Fault;
@@ -16,7 +16,7 @@ use web_sys::{HtmlCanvasElement, WebGlContextAttributes, WebGlRenderingContext};
 /// Debugging's name of the renderer behind WebGL, WEBGL_debug_renderer_info.
 const UNMASKED_RENDERER: u32 = 0x9246;
 
-/// A canvas and what draws into it.
+/// A canvas and its context.
 pub(crate) struct Context {
     canvas: HtmlCanvasElement,
     gl: Rc<Gl>,
@@ -28,33 +28,33 @@ pub(crate) struct Current<'a> {
 }
 
 impl Drop for Current<'_> {
-    /// Nothing is released; where drivers' contexts end to be current, this one's user says so too.
+    /// WebGL has nothing to release. The driver's twin stops being current here.
     fn drop(&mut self) {}
 }
 
-/// No context is opened without a canvas.
+/// Without a canvas no context opens.
 pub fn attempts(_: Backend) -> Vec<Attempt> {
     Vec::new()
 }
 
-/// A page gives its canvas; there is nothing to choose from.
+/// The page provides its canvas, the only choice.
 pub fn witnesses() -> [Backend; 2] {
     [Backend::Auto; 2]
 }
 
 impl Context {
-    /// Refused: a page gives its canvas.
+    /// Returns an error, because a page provides its canvas.
     pub(crate) fn open(_: Backend, _: Option<Fault>) -> Result<Self> {
         let attempts = vec!["WebGL: it needs a canvas; use Renderer::on_canvas".to_owned()];
         Err(Error::NoContext { attempts })
     }
 
-    /// There is no other.
+    /// The canvas is the only context.
     pub(crate) fn open_for(_: Backend, _: Option<Fault>, _: Size, _: &[&str]) -> Option<Self> {
         None
     }
 
-    /// That of a canvas, which must not have another.
+    /// Opens the context of a canvas that has no other.
     pub(crate) fn on_canvas(canvas: HtmlCanvasElement) -> Result<Self> {
         let refused = |reason: &str| Error::NoContext { attempts: vec![format!("WebGL: {reason}")] };
         let attributes = WebGlContextAttributes::new();
@@ -66,7 +66,7 @@ impl Context {
         let found = canvas.get_context_with_context_options("webgl", &attributes);
         let raw = found.ok().flatten().and_then(|context| context.dyn_into::<WebGlRenderingContext>().ok());
         let raw = raw.ok_or_else(|| refused("this browser has none, or it is switched off"))?;
-        // Asked before glow, which takes for granted that every question is answered.
+        // Checked before glow, which assumes that every query is answered.
         if raw.is_context_lost() {
             return Err(refused("the context was lost at once"));
         }
@@ -88,7 +88,7 @@ impl Context {
         &self.gl
     }
 
-    /// Makes the canvas this large; refuses what the context cannot draw.
+    /// Resizes the canvas; an error if the size exceeds the context's limits.
     pub(crate) fn resize(&mut self, size: Size) -> Result<()> {
         let limit = self.info().largest_picture;
         let too_large = |limit: Size| Error::PictureTooLarge {
@@ -103,7 +103,7 @@ impl Context {
         }
         self.canvas.set_width(size.width);
         self.canvas.set_height(size.height);
-        // A browser that lacks the memory makes it smaller, and says so here alone.
+        // A browser short of memory makes the drawing buffer smaller and reports it only here.
         let [width, height] = self.gl.legacy.surface();
         match (width, height) == (size.width, size.height) || self.gl.legacy.is_lost() {
             true => Ok(()),
@@ -111,13 +111,13 @@ impl Context {
         }
     }
 
-    /// Nothing has to be done for it to be current.
+    /// A canvas's context is already current.
     pub(crate) fn enter(&self) -> Result<Current<'_>> {
         Ok(Current { _context: self })
     }
 }
 
-/// What a context has, and what it says about itself; an error is why it cannot serve.
+/// Loads a context's functions and properties; the error says why the context cannot serve.
 fn load(raw: WebGlRenderingContext) -> std::result::Result<Gl, String> {
     let named = raw.get_extension("WEBGL_debug_renderer_info").ok().flatten().is_some();
     let glow = Rc::new(glow::Context::from_webgl1_context(raw.clone()));
@@ -125,15 +125,15 @@ fn load(raw: WebGlRenderingContext) -> std::result::Result<Gl, String> {
     if !has("OES_element_index_uint") {
         return Err("it draws models of up to 65,536 vertices only (no OES_element_index_uint)".to_owned());
     }
-    // Those of a context before it was lost and restored.
-    // SAFETY: as any question; a browser that is broken could report errors for ever, hence the bound.
+    // Clears errors from before the context was lost and restored. SAFETY: as for any query; a broken browser could report errors
+    // for ever, hence the bound.
     (0..16).take_while(|_| unsafe { glow.get_error() } != glow::NO_ERROR).count();
-    // What glow does not ask for by itself.
+    // glow does not request these extensions.
     let has_floats = ["OES_texture_float", "WEBGL_color_buffer_float"].iter().all(|name| turn_on(&raw, name));
     let has_halves = ["OES_texture_half_float", "EXT_color_buffer_half_float"].iter().all(|name| turn_on(&raw, name));
     turn_on(&raw, "EXT_float_blend");
     turn_on(&raw, "OES_standard_derivatives");
-    // SAFETY: these are questions that every WebGL context answers.
+    // SAFETY: every WebGL context answers these queries.
     let (text, integer) =
         unsafe { (|name: u32| glow.get_parameter_string(name), |name: u32| glow.get_parameter_i32(name)) };
     let (mut viewport, mut line_width) = ([0; 2], [0.0; 2]);
@@ -182,7 +182,7 @@ fn load(raw: WebGlRenderingContext) -> std::result::Result<Gl, String> {
     Ok(gl)
 }
 
-/// Turns an extension on; whether there is such a one.
+/// Turns an extension on; returns whether it exists.
 fn turn_on(raw: &WebGlRenderingContext, name: &str) -> bool {
     raw.get_extension(name).is_ok_and(|extension| extension.map(JsValue::from).is_some())
 }

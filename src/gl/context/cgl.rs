@@ -1,7 +1,7 @@
-//! CGL on macOS: a context without any surface, and a framebuffer object in its place (`surface_framebuffer`).
+//! CGL on macOS: a context without a surface, drawing into a framebuffer object (`surface_framebuffer`).
 //!
-//! The system's legacy profile is OpenGL 2.1 with GLSL 1.20, just what the articles need. glutin's CGL asks for a core profile
-//! first and for the main thread, hence the calls by name. This was compiled and never run: see docs/guide/installing.md.
+//! The system's legacy profile is OpenGL 2.1 with GLSL 1.20, as the articles need. glutin's CGL requests a core profile first and
+//! needs the main thread, hence the calls by name. This was compiled and never run: see docs/guide/installing.md.
 
 use super::platform::{NotCurrent, Platform};
 use crate::scene::Size;
@@ -16,7 +16,7 @@ type CreateContext = unsafe extern "C" fn(Handle, Handle, *mut Handle) -> i32;
 type Destroy = unsafe extern "C" fn(Handle) -> i32;
 type ErrorString = unsafe extern "C" fn(i32) -> *const c_char;
 
-/// Where the system has it, whether or not there is a file.
+/// The system's path of it, which need not exist as a file.
 const LIBRARY: &str = "/System/Library/Frameworks/OpenGL.framework/OpenGL";
 
 const COLOR_SIZE: i32 = 8;
@@ -26,7 +26,7 @@ const ALLOW_OFFLINE_RENDERERS: i32 = 96;
 const OPENGL_PROFILE: i32 = 99;
 const LEGACY_PROFILE: i32 = 0x1000;
 
-/// The library and the functions of it used here.
+/// The library and its functions used here.
 struct Cgl {
     library: &'static Library,
     choose_pixel_format: ChoosePixelFormat,
@@ -47,10 +47,10 @@ impl Cgl {
         // SAFETY: loading the system's OpenGL runs its initialisers, which have no preconditions.
         let library = unsafe { Library::new(LIBRARY) };
         let library = library.map_err(|error| format!("the library cannot be loaded ({error})"))?;
-        // It stays for the life of the process.
+        // Never unloaded.
         let library: &'static Library = Box::leak(Box::new(library));
         let find = |name: &CStr| {
-            // SAFETY: the symbol is only looked for.
+            // SAFETY: this looks the symbol up without calling it.
             let found = unsafe { library.get::<*const c_void>(name.to_bytes_with_nul()) };
             found.map(|symbol| *symbol).map_err(|error| format!("the library lacks a function ({error})"))
         };
@@ -71,7 +71,7 @@ impl Cgl {
     }
 
     fn in_words(&self, error: i32) -> String {
-        // SAFETY: any number may be asked about; the texts end with 0 and live for ever.
+        // SAFETY: every number is a valid argument; the texts end with 0 and are static.
         unsafe {
             let text = (self.error_string)(error);
             if text.is_null() { error.to_string() } else { CStr::from_ptr(text).to_string_lossy().into_owned() }
@@ -86,7 +86,7 @@ pub(super) struct CglContext {
 }
 
 impl CglContext {
-    /// A context of the legacy profile, which is 2.1 whatever is asked for; a version above that is refused.
+    /// Opens a context of the legacy profile, which is always 2.1; a higher version is refused.
     pub(super) fn open((major, minor): (u8, u8)) -> Result<Self, String> {
         let failed = |reason: String| format!("making a GL {major}.{minor} context failed ({reason})");
         if (major, minor) > (2, 1) {
@@ -96,7 +96,8 @@ impl CglContext {
         let wanted = [COLOR_SIZE, 24, ALPHA_SIZE, 8, DEPTH_SIZE, 24, ALLOW_OFFLINE_RENDERERS];
         let wanted = [&wanted[..], &[OPENGL_PROFILE, LEGACY_PROFILE, 0]].concat();
         let (mut format, mut count, mut context) = (ptr::null_mut(), 0, ptr::null_mut());
-        // SAFETY: the list ends with 0; the format is let go of once, after the context was made from it, which keeps what it needs.
+        // SAFETY: the list ends with 0. The format is released once, after the context was made from it; the context keeps the
+        // data it needs.
         let error = unsafe {
             match (cgl.choose_pixel_format)(wanted.as_ptr(), &mut format, &mut count) {
                 0 if format.is_null() => return Err("it has no format with 8 alpha and 24 depth bits".to_owned()),
@@ -116,7 +117,7 @@ impl CglContext {
 }
 
 impl Platform for CglContext {
-    /// There is no surface; its framebuffer object is made larger elsewhere.
+    /// The context has no surface; its framebuffer object is enlarged elsewhere.
     fn resize(&mut self, _: Size) -> Result<(), String> {
         Ok(())
     }
@@ -133,12 +134,12 @@ impl Platform for CglContext {
     }
 
     fn release(&self) {
-        // SAFETY: no context: the system lets go of this one.
+        // SAFETY: no context: the system releases this one.
         unsafe { (self.cgl.set_current_context)(ptr::null_mut()) };
     }
 
     fn proc_address(&self, name: &CStr) -> *const c_void {
-        // SAFETY: the symbol is only looked for.
+        // SAFETY: this looks the symbol up without calling it.
         let found = unsafe { self.cgl.library.get::<*const c_void>(name.to_bytes_with_nul()) };
         found.map_or(ptr::null(), |symbol| *symbol)
     }
@@ -154,7 +155,7 @@ impl Platform for CglContext {
 
 impl Drop for CglContext {
     fn drop(&mut self) {
-        // SAFETY: the context is alive and, its guards being gone, not current.
+        // SAFETY: the context is alive and, without guards, not current.
         unsafe { (self.cgl.destroy_context)(self.context) };
     }
 }

@@ -19,18 +19,18 @@ use crate::scene::Size;
 use std::mem::ManuallyDrop;
 use std::rc::Rc;
 
-/// The OpenGL that contexts are asked for.
+/// The OpenGL version requested for contexts.
 pub(super) const VERSION: (u8, u8) = (2, 1);
 
-/// One that no driver has, for [`Fault::ContextRefused`].
+/// A version that no driver has, for [`Fault::ContextRefused`].
 const NO_VERSION: (u8, u8) = (9, 9);
 
-/// A context with its loaded functions; current on this thread only between [`Context::enter`] and its guard's end.
+/// A context with its loaded functions; current on this thread only from [`Context::enter`] until its guard is dropped.
 pub(crate) struct Context {
     platform: ManuallyDrop<Box<dyn Platform>>,
     gl: Rc<Gl>,
     faults: Option<Rc<Faults>>,
-    /// Shared with the contexts of the same screen; `None` for those of hardware, which may all be at work at once.
+    /// Shared with the contexts of the same screen; `None` for those of hardware, which can all work at once.
     lock: Option<&'static ContextLock>,
 }
 
@@ -40,14 +40,14 @@ type Open = Box<dyn FnOnce((u8, u8)) -> std::result::Result<Box<dyn Platform>, S
 /// A way not yet tried.
 struct Candidate {
     backend: &'static str,
-    /// For people: the library, and the device where there is a choice.
+    /// The name to display: the library, and the device if there are several.
     name: String,
     lock: &'static ContextLock,
     open: Open,
 }
 
 impl Candidate {
-    /// The ways of this backend on this system, in the order they are tried.
+    /// This backend's ways on this system, in the order they are tried.
     fn all(backend: Backend) -> Vec<Self> {
         let is_wanted = |one: Backend| backend == one || backend == Backend::Auto;
         let mut candidates = Vec::new();
@@ -104,7 +104,7 @@ impl Candidate {
 
     fn open(self, fault: Option<Fault>) -> std::result::Result<Context, String> {
         let version = if fault == Some(Fault::ContextRefused) { NO_VERSION } else { VERSION };
-        // Whether the context is software's is known only when it is there.
+        // Only an open context shows whether it is software.
         let _guard = self.lock.lock();
         let platform = (self.open)(version)?;
         Context::load(platform, self.backend, self.name, fault, self.lock)
@@ -115,7 +115,7 @@ fn boxed(context: impl Platform + 'static) -> Box<dyn Platform> {
     Box::new(context)
 }
 
-/// Tries every way of this backend and tells what came of each.
+/// Tries every way of this backend and returns each outcome.
 pub fn attempts(backend: Backend) -> Vec<Attempt> {
     each(backend)
         .map(|(device, opened)| {
@@ -128,13 +128,13 @@ pub fn attempts(backend: Backend) -> Vec<Attempt> {
         .collect()
 }
 
-/// A context of every way of this backend, one after the other, by its device's name; else why there is none.
+/// Returns a context for every way of this backend, one after the other, with its device's name; or the reason for its failure.
 pub(crate) fn each(backend: Backend) -> impl Iterator<Item = (String, std::result::Result<Context, String>)> {
     Candidate::all(backend).into_iter().map(|candidate| (candidate.name.clone(), candidate.open(None)))
 }
 
-/// Two backends of this system, for what is drawn twice and compared: its own, and OSMesa or where there is none another screen of
-/// the first one's driver.
+/// Two backends of this system for comparing two drawings of one picture: its own, and OSMesa. Without OSMesa the second is
+/// another screen of the first one's driver.
 pub fn witnesses() -> [Backend; 2] {
     let own = match () {
         () if cfg!(windows) => Backend::Wgl,
@@ -150,7 +150,7 @@ pub fn witnesses() -> [Backend; 2] {
 }
 
 impl Context {
-    /// The first way of this backend that works; with a fault something will go wrong in it.
+    /// Opens the first working context of this backend; `fault` makes something go wrong in it.
     pub(crate) fn open(backend: Backend, fault: Option<Fault>) -> Result<Self> {
         let mut attempts = Vec::new();
         for candidate in Candidate::all(backend) {
@@ -163,8 +163,8 @@ impl Context {
         Err(Error::NoContext { attempts })
     }
 
-    /// The first way of this backend, but for these devices, that draws surfaces of this size, or the one that draws the
-    /// largest; `None` where no other works.
+    /// Returns this backend's first context, except on these devices, that draws surfaces of this size; otherwise the one that
+    /// draws the largest. `None` if every other way fails.
     pub(crate) fn open_for(backend: Backend, fault: Option<Fault>, surface: Size, but: &[&str]) -> Option<Self> {
         let mut largest: Option<Self> = None;
         for candidate in Candidate::all(backend).into_iter().filter(|other| !but.contains(&other.name.as_str())) {
@@ -203,7 +203,7 @@ impl Context {
         Ok(Self { platform: ManuallyDrop::new(platform), gl: Rc::new(gl), faults, lock })
     }
 
-    /// Waits until no other context of the same screen is at work.
+    /// Waits until other contexts of the same screen are idle.
     fn lock_context(&self) -> Option<ContextGuard> {
         self.lock.map(ContextLock::lock)
     }
@@ -216,7 +216,7 @@ impl Context {
         &self.gl
     }
 
-    /// Makes the surface this large; refuses what the context cannot draw.
+    /// Resizes the surface; an error if the size exceeds the context's limits.
     pub(crate) fn resize(&mut self, size: Size) -> Result<()> {
         let limit = self.info().largest_picture;
         if !self.draws(size) {
@@ -240,8 +240,8 @@ impl Context {
         Ok(())
     }
 
-    /// Makes the context current until the guard is dropped, after waiting for its lock: a thread has one such guard at most.
-    /// Contexts of both platforms share one dispatch table inside Mesa, so none is left current when another may be entered.
+    /// Makes the context current until the guard is dropped, after waiting for its lock. A thread has at most one such guard.
+    /// Contexts of both platforms share one dispatch table inside Mesa, so none stays current while another may be entered.
     pub(crate) fn enter(&self) -> Result<Current<'_>> {
         let guard = self.lock_context();
         self.platform.make_current().map_err(|NotCurrent { is_lost, reason }| {
@@ -258,15 +258,15 @@ impl Context {
 impl Drop for Context {
     fn drop(&mut self) {
         let _guard = self.lock_context();
-        // SAFETY: it is dropped here alone, and nothing uses it afterwards.
+        // SAFETY: only this code drops it, and later code does not use it.
         unsafe { ManuallyDrop::drop(&mut self.platform) };
     }
 }
 
-/// While it lives its context is current.
+/// A guard that keeps its context current.
 pub(crate) struct Current<'a> {
     platform: &'a dyn Platform,
-    /// Ends after the context has been released, below.
+    /// Dropped after the context has been released, below.
     _guard: Option<ContextGuard>,
 }
 

@@ -15,7 +15,7 @@ pub(super) const LIBRARIES: [&str; 2] = ["libEGL.so.1", "libEGL.so"];
 #[cfg(windows)]
 pub(super) const LIBRARIES: [&str; 2] = ["libEGL.dll", "atioglxx.dll"];
 
-/// What of it is called here and by glutin, which takes for granted that a library of this name has it.
+/// The EGL functions called here and by glutin, which assumes that a library of this name has them.
 const FUNCTIONS: [&CStr; 15] = [
     c"eglBindAPI",
     c"eglChooseConfig",
@@ -34,7 +34,7 @@ const FUNCTIONS: [&CStr; 15] = [
     c"eglTerminate",
 ];
 
-/// Makes sure that the library is there and is EGL, once.
+/// Checks once that the library exists and is EGL.
 pub(super) fn check_library() -> Result<(), String> {
     static CHECKED: OnceLock<Result<(), String>> = OnceLock::new();
     let check = || {
@@ -42,7 +42,7 @@ pub(super) fn check_library() -> Result<(), String> {
         for name in LIBRARIES {
             // SAFETY: loading EGL runs its initialisers, which have no preconditions.
             let library = match unsafe { Library::new(name) } {
-                // It stays for the life of the process, as glutin's own.
+                // Never unloaded, like glutin's own.
                 Ok(library) => Box::leak(Box::new(library)),
                 Err(error) => {
                     reasons.push(error.to_string());
@@ -50,7 +50,7 @@ pub(super) fn check_library() -> Result<(), String> {
                 }
             };
             for function in FUNCTIONS {
-                // SAFETY: the symbol is only looked for.
+                // SAFETY: this looks the symbol up without calling it.
                 let found = unsafe { library.get::<*const c_void>(function.to_bytes_with_nul()) };
                 found.map_err(|error| format!("the library lacks a function ({error})"))?;
             }
@@ -61,14 +61,14 @@ pub(super) fn check_library() -> Result<(), String> {
     CHECKED.get_or_init(check).clone()
 }
 
-/// A device EGL knows.
+/// An EGL device.
 pub(super) struct Device {
     device: device::Device,
-    /// For people: EGL and what the device calls itself.
+    /// The name to display: EGL and the device's own name.
     pub name: String,
 }
 
-/// The devices, hardware before software.
+/// Returns the devices, hardware before software.
 pub(super) fn devices() -> Result<Vec<Device>, String> {
     check_library()?;
     let found = device::Device::query_devices().map_err(|error| format!("no devices ({error})"))?;
@@ -93,7 +93,7 @@ pub(super) fn devices() -> Result<Vec<Device>, String> {
         .collect())
 }
 
-/// A compatibility context of this version of OpenGL on this device with a surface of one pixel.
+/// Opens a compatibility context of this version of OpenGL on this device with a surface of one pixel.
 pub(super) fn open(device: &Device, version: (u8, u8)) -> Result<Pbuffer<()>, String> {
     // SAFETY: the device was given by EGL and no native display handle is passed.
     let display = unsafe { Display::with_device(&device.device, None) }
@@ -103,9 +103,9 @@ pub(super) fn open(device: &Device, version: (u8, u8)) -> Result<Pbuffer<()>, St
     Pbuffer::open(makes, version, largest_surface, ())
 }
 
-/// What EGL says of the sides of pbuffers.
+/// Returns EGL's limits for the sides of pbuffers.
 fn largest_surface(display: &glutin::display::Display, config: &glutin::config::Config) -> Size {
-    // Elsewhere displays and configs may be of other kinds; these are EGL's.
+    // On other systems displays and configs have further kinds; these are EGL's.
     #[cfg_attr(not(windows), expect(irrefutable_let_patterns, reason = "EGL is all there is"))]
     let (glutin::display::Display::Egl(egl), RawDisplay::Egl(raw), RawConfig::Egl(config)) =
         (display, display.raw_display(), config.raw_config())
@@ -116,7 +116,7 @@ fn largest_surface(display: &glutin::display::Display, config: &glutin::config::
         let mut value = 0;
         // SAFETY: display and config are alive, and the attribute is one integer.
         let known = unsafe { egl.egl().GetConfigAttrib(raw.cast(), config.cast(), attribute as i32, &mut value) };
-        // Some drivers leave it at 0 and mean "no limit of its own".
+        // Some drivers leave it at 0, meaning no limit.
         if known == 0 || value <= 0 { u32::MAX } else { value as u32 }
     };
     const MAX_PBUFFER_HEIGHT: u32 = 0x302A;

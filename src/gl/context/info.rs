@@ -1,12 +1,12 @@
-//! What a context says about itself.
+//! The properties that a context reports.
 
 use crate::scene::Size;
 use serde::Serialize;
 
-/// Fewest bits of the framebuffer's alpha: it holds the map's depth.
+/// Fewest bits of the framebuffer's alpha, which holds the map's depth.
 const ALPHA_BITS: i32 = 8;
 
-/// Fewest bits of the depth buffer: with fewer, surfaces of a fitted scene show through each other.
+/// Smallest depth buffer, bits: with fewer, surfaces of a fitted scene show through each other.
 const DEPTH_BITS: i32 = 24;
 
 /// Sub-pixel bits that OpenGL promises.
@@ -18,12 +18,12 @@ pub fn is_software(renderer: &str) -> bool {
     ["llvmpipe", "softpipe", "swrast", "swiftshader", "software", "gdi generic"].iter().any(|n| renderer.contains(n))
 }
 
-/// What a context says about itself.
+/// The properties that a context reports.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ContextInfo {
-    /// `egl`, `surfaceless`, `osmesa`, `wgl` or `cgl`, in a browser `webgl`.
+    /// `egl`, `surfaceless`, `osmesa`, `wgl` or `cgl`; in a browser `webgl`.
     pub backend: &'static str,
-    /// The library, and the device where there is a choice.
+    /// The library, and the device if there are several.
     pub device: String,
     /// GL_VENDOR
     pub vendor: String,
@@ -47,26 +47,26 @@ pub struct ContextInfo {
     pub smooth_point_size: [f32; 2],
     /// Largest width and height of a texture, pixels.
     pub largest_texture: u32,
-    /// How many textures a fragment shader can read; OpenGL 2.1 promises 2.
+    /// Number of textures a fragment shader can read; OpenGL 2.1 promises 2.
     pub texture_units: u32,
-    /// Largest picture in one piece, pixels: the smallest of viewport, texture and surface limits. Larger ones are drawn in tiles.
+    /// Largest picture in one piece, pixels: the smallest of viewport, texture and surface limits. Larger ones need tiles.
     pub largest_picture: Size,
     /// Largest viewport, pixels.
     pub largest_viewport: Size,
     /// Whether passes can draw into textures (ARB_framebuffer_object).
     pub framebuffer_objects: bool,
-    /// Into how many of them at once (ARB_draw_buffers).
+    /// Number of textures that a pass can draw into at once (ARB_draw_buffers).
     pub draw_buffers: u32,
     /// Whether passes can draw into floating-point textures.
     pub float_targets: bool,
-    /// Bits to which a vertex is placed within a pixel; OpenGL promises 4.
+    /// Bits of a vertex's position within a pixel; OpenGL promises 4.
     pub subpixel_bits: u32,
     /// Whether passes can be timed on the device.
     pub timer_queries: bool,
 }
 
 impl ContextInfo {
-    /// Why its framebuffer cannot hold what the styles draw into it; `None` where it can.
+    /// Why its framebuffer lacks bits that the styles need; `None` if it has them.
     pub(super) fn lacks_bits(&self) -> Option<String> {
         (self.alpha_bits < ALPHA_BITS || self.depth_bits < DEPTH_BITS).then(|| {
             format!(
@@ -76,13 +76,12 @@ impl ContextInfo {
         })
     }
 
-    /// Whether it draws on the processor: then work done here before drawing takes from drawing's own time.
+    /// Whether it draws on the processor, where CPU work before drawing competes with the drawing.
     pub fn is_software(&self) -> bool {
         is_software(&self.renderer)
     }
 
-    /// Whether GL draws lines, and points to join them, this wide; what is narrower or wider it draws at the nearest width it
-    /// can.
+    /// Whether GL draws lines, and points to join them, at this width; it draws other widths at the nearest it can.
     pub fn draws_edges(&self, width_px: f32, is_smooth: bool) -> bool {
         let ranges = match is_smooth {
             false => [self.aliased_line_width, self.aliased_point_size],

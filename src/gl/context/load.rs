@@ -1,4 +1,4 @@
-//! The loading of a context's functions, and the questions it is asked.
+//! Loads a context's functions and queries its properties.
 
 use super::super::Gl;
 use super::super::faults::Faults;
@@ -15,13 +15,13 @@ use std::cell::{Cell, RefCell};
 use std::ffi::CStr;
 use std::rc::Rc;
 
-/// The two numbers a GL_VERSION begins with.
+/// Returns the two numbers at the start of a GL_VERSION.
 fn version_numbers(version: &str) -> Option<(u32, u32)> {
     let mut numbers = version.split(['.', ' ']).map(|number| number.parse().ok());
     Some((numbers.next()??, numbers.next()??))
 }
 
-/// Loads GL for the current context and asks it about itself; an error is why it cannot serve.
+/// Loads GL for the current context and queries its properties; the error says why the context cannot serve.
 pub(super) fn load_functions(
     platform: &dyn Platform,
     faults: Option<&Faults>,
@@ -34,8 +34,7 @@ pub(super) fn load_functions(
     };
     // SAFETY: the platform's context is current, and its loader returns GL functions of that context.
     let mut legacy = unsafe { Legacy::load(load) }?;
-    // Before anything else is asked: glow takes for granted that a context knows its version.
-    // SAFETY: the context is current.
+    // Checked first, because glow assumes that a context knows its version. SAFETY: the context is current.
     let version = unsafe { legacy.string(glow::VERSION) }.ok_or("it reports no version")?;
     match version_numbers(&version) {
         Some((major, minor)) if (major, minor) >= (2, 1) => {}
@@ -44,7 +43,7 @@ pub(super) fn load_functions(
     }
     // SAFETY: as above.
     let glow = unsafe { glow::Context::from_loader_function_cstr(load) };
-    // Before the questions about the framebuffer.
+    // Before the queries about the framebuffer.
     #[cfg(any(target_os = "macos", test))]
     let own_surface = platform.lacks_surface().then(|| SurfaceFramebuffer::new(&glow)).transpose()?;
     let has = |name: &str| glow.supported_extensions().contains(name);
@@ -114,7 +113,7 @@ pub(super) fn load_functions(
         replaced_shaders: RefCell::default(),
         lost,
     };
-    // A core profile answers the questions about alpha and lines with an error: it lacks what the articles use.
+    // A core profile answers the queries about alpha and lines with an error: it lacks features that the articles use.
     gl.check("asking the context about itself").map_err(|error| match error {
         Error::ContextLost { what, .. } => format!("the context was lost at once ({what})"),
         _ => "it is not a compatibility context".to_owned(),

@@ -1,4 +1,4 @@
-//! Mesa's off-screen library: a context that draws into our memory, with no device at all. Mesa 25.1 removed it.
+//! Mesa's off-screen library: a context that draws into our memory, without any device. Mesa 25.1 removed it.
 
 use super::platform::{NotCurrent, Platform};
 use crate::scene::Size;
@@ -15,7 +15,7 @@ type MakeCurrent = unsafe extern "system" fn(Handle, *mut c_void, u32, i32, i32)
 type GetInteger = unsafe extern "system" fn(i32, *mut i32);
 type GetProcAddress = unsafe extern "system" fn(*const c_char) -> *const c_void;
 
-/// The functions of the library used here.
+/// The library's functions used here.
 struct Functions {
     /// The library's file name.
     library: &'static str,
@@ -26,7 +26,7 @@ struct Functions {
     get_proc_address: GetProcAddress,
 }
 
-/// Its names, as Mesa's makers and packagers have them.
+/// Its file names from Mesa and from packagers.
 #[cfg(windows)]
 const LIBRARIES: [&str; 1] = ["osmesa.dll"];
 #[cfg(target_os = "macos")]
@@ -40,7 +40,7 @@ fn functions() -> Result<&'static Functions, String> {
     FUNCTIONS.get_or_init(load).as_ref().map_err(Clone::clone)
 }
 
-/// Whether the library is there, with the driver that GALLIUM_DRIVER asks for.
+/// Whether the library is installed, with the driver that GALLIUM_DRIVER names.
 pub(super) fn is_there() -> bool {
     functions().is_ok() && check_driver(asked_driver().as_deref()).is_ok()
 }
@@ -50,7 +50,7 @@ fn asked_driver() -> Option<String> {
     std::env::var_os("GALLIUM_DRIVER").map(|name| name.to_string_lossy().into_owned())
 }
 
-/// For people: OSMesa and the library it is.
+/// The name to display: OSMesa and its library.
 pub(super) fn name() -> String {
     functions().map_or("OSMesa".to_owned(), |functions| format!("OSMesa {}", functions.library))
 }
@@ -60,7 +60,7 @@ fn load() -> Result<Functions, String> {
     for name in LIBRARIES {
         // SAFETY: loading Mesa runs its initialisers, which have no preconditions.
         match unsafe { Library::new(name) } {
-            // The library stays for the life of the process.
+            // The library is never unloaded.
             Ok(library) => return find_functions(name, Box::leak(Box::new(library))),
             Err(error) => reasons.push(error.to_string()),
         }
@@ -100,7 +100,7 @@ fn find_functions(name: &'static str, library: &'static Library) -> Result<Funct
 /// The drivers inside OSMesa; GALLIUM_DRIVER may choose one.
 const DRIVERS: [&str; 3] = ["", "llvmpipe", "softpipe"];
 
-/// Refuses a GALLIUM_DRIVER that OSMesa does not have: Mesa itself then goes on without a driver, into a crash.
+/// Refuses a GALLIUM_DRIVER that OSMesa lacks: Mesa would continue without a driver and crash.
 fn check_driver(chosen: Option<&str>) -> Result<(), String> {
     match chosen {
         Some(chosen) if !DRIVERS.contains(&chosen) => Err(format!(
@@ -117,26 +117,25 @@ pub(super) struct OsMesaContext {
     size: Size,
     /// RGBA8, bottom row first; Mesa writes here whenever the context is flushed while current.
     memory: RefCell<Vec<u32>>,
-    /// The size it was last made current with.
+    /// The size at which it was last made current.
     made_current: Cell<Size>,
 }
 
 /// Small blocks of memory, held while a surface of another size is made current.
 ///
-/// OSMesa then frees its record of the old surface and allocates one for the new. If that comes to lie where the old one lay,
-/// Mesa takes the old surface, which it knows by that address, for one still in use, and keeps its textures for as long as
-/// that goes on: 170 KB for every other picture of 64 and 128 pixels. The allocators of C hand out first what was freed last;
-/// glibc's `calloc` does so only where its list of freed blocks of that size, seven long, is full. So all that is free of
-/// such sizes is taken before.
+/// OSMesa then frees its record of the old surface and allocates one for the new. Mesa knows a surface by its record's address.
+/// If the new record gets the old address, Mesa takes the old surface for one still in use and keeps its textures: 170 KB leak
+/// with every other picture of 64 and 128 pixels. C allocators first return the block freed last; glibc's `calloc` returns it
+/// only if its list of freed blocks of that size, seven long, is full. So all free blocks of such sizes are taken first.
 struct SmallBlocks {
     _blocks: Vec<Vec<u8>>,
 }
 
 impl SmallBlocks {
-    /// The record has 56 bytes in Mesa 22.3, eight more or less in others.
+    /// The record has 56 bytes in Mesa 22.3; other versions differ by eight.
     const BYTES: [usize; 4] = [40, 56, 72, 88];
 
-    /// More than are ever found free: the lists behind the first one fill it again.
+    /// More than the most blocks ever found free, because other lists refill the first one.
     const OF_EACH: usize = 256;
 
     fn take() -> Self {
@@ -146,14 +145,14 @@ impl SmallBlocks {
 }
 
 impl OsMesaContext {
-    /// A compatibility context of this version of OpenGL with a surface of one pixel.
+    /// Opens a compatibility context of this version of OpenGL with a surface of one pixel.
     pub(super) fn open((major, minor): (u8, u8)) -> Result<Self, String> {
         let functions = functions()?;
         check_driver(asked_driver().as_deref())?;
         let [major, minor] = [major, minor].map(i32::from);
         // OSMESA_FORMAT RGBA, DEPTH_BITS 24, STENCIL_BITS 0, ACCUM_BITS 0, PROFILE compatibility, VERSION, end.
         let attributes = [0x22, 0x1908, 0x30, 24, 0x31, 0, 0x32, 0, 0x33, 0x35, 0x36, major, 0x37, minor, 0, 0];
-        // SAFETY: the list ends with 0 and nothing is shared with another context.
+        // SAFETY: the list ends with 0, and the context shares no objects with another.
         let context = unsafe { (functions.create_context)(attributes.as_ptr(), ptr::null_mut()) };
         if context.is_null() {
             return Err(format!("making a GL {major}.{minor} context failed"));
@@ -191,7 +190,7 @@ impl Platform for OsMesaContext {
     }
 
     fn release(&self) {
-        // SAFETY: no context, no memory: Mesa flushes and lets go of both.
+        // SAFETY: no context, no memory: Mesa flushes and releases both.
         unsafe { (self.functions.make_current)(ptr::null_mut(), ptr::null_mut(), glow::UNSIGNED_BYTE, 0, 0) };
     }
 
@@ -215,7 +214,7 @@ impl Platform for OsMesaContext {
 
 impl Drop for OsMesaContext {
     fn drop(&mut self) {
-        // SAFETY: the context is alive and, its guards being gone, not current.
+        // SAFETY: the context is alive and, without guards, not current.
         unsafe { (self.functions.destroy_context)(self.context) };
     }
 }

@@ -14,19 +14,19 @@ use raw_window_handle::RawWindowHandle;
 use std::ffi::{CStr, c_void};
 use std::num::NonZeroU32;
 
-/// What a context is made by.
+/// The objects that a context is made from.
 pub(super) struct Makes {
     pub display: Display,
-    /// A window that the context is made for, alive as long as the context.
+    /// The window that the context is made for, alive as long as the context.
     pub window: Option<RawWindowHandle>,
     pub surfaces: ConfigSurfaceTypes,
-    /// What to say where there is no pbuffer.
+    /// The hint for the error where pbuffers are missing.
     pub hint: &'static str,
 }
 
 /// A context with its pbuffer.
 pub(super) struct Pbuffer<Kept> {
-    // Declared, and so dropped, in this order: each before what it was made from.
+    // Declared, and so dropped, in this order: each before the object it was made from.
     context: PossiblyCurrentContext,
     surface: Surface<PbufferSurface>,
     size: Size,
@@ -37,7 +37,7 @@ pub(super) struct Pbuffer<Kept> {
 }
 
 impl<Kept> Pbuffer<Kept> {
-    /// A compatibility context of this version of OpenGL with a surface of one pixel; `kept` is dropped after it.
+    /// Opens a compatibility context of this version of OpenGL with a surface of one pixel; `kept` is dropped after it.
     pub(super) fn open(
         makes: Makes,
         (major, minor): (u8, u8),
@@ -68,7 +68,7 @@ impl<Kept> Pbuffer<Kept> {
             // SAFETY: config, display and window belong together and are alive.
             unsafe { makes.display.create_context(&config, &attributes) }
         };
-        // One that says when it is lost where the driver has such, which software does not; else any.
+        // Preferably a context that reports its loss, which software drivers lack; otherwise any.
         let context = create(Robustness::RobustLoseContextOnReset)
             .or_else(|_| create(Robustness::NotRobust))
             .map_err(|error| format!("making a GL {major}.{minor} context failed ({error})"))?;
@@ -83,7 +83,7 @@ impl Makes {
     fn create_surface(&self, config: &Config, size: Size) -> Result<Surface<PbufferSurface>, String> {
         let side = |pixels: u32| NonZeroU32::new(pixels).ok_or("a surface of no pixels");
         let attributes = SurfaceAttributesBuilder::<PbufferSurface>::new().build(side(size.width)?, side(size.height)?);
-        // SAFETY: the config is the display's and was asked for with pbuffer support.
+        // SAFETY: the config is the display's and was chosen with pbuffer support.
         unsafe { self.display.create_pbuffer_surface(config, &attributes) }
             .map_err(|error| format!("making an off-screen surface of {size} pixels failed ({error}){}", self.hint))
     }
@@ -106,7 +106,7 @@ impl<Kept> Platform for Pbuffer<Kept> {
     }
 
     fn release(&self) {
-        // Fails only if the display is gone, and then there is nothing to release.
+        // Fails only if the display is gone; then nothing needs releasing.
         let _ = self.context.make_not_current_in_place();
     }
 

@@ -1,4 +1,4 @@
-//! What a platform gives: a context and the surface it draws into.
+//! The interface of a platform: a context and the surface it draws into.
 
 use crate::scene::Size;
 use std::ffi::{CStr, c_void};
@@ -17,16 +17,16 @@ pub(super) trait Platform {
     /// Makes the context current on this thread.
     fn make_current(&self) -> std::result::Result<(), NotCurrent>;
 
-    /// Ends that.
+    /// Stops it being current.
     fn release(&self);
 
     /// The address of a GL function, or null. The context is current.
     fn proc_address(&self, name: &CStr) -> *const c_void;
 
-    /// The largest surface, where the platform has a limit of its own.
+    /// The largest surface, if the platform has its own limit.
     fn largest_surface(&self) -> Size;
 
-    /// Whether there is no surface, so that a framebuffer object has to stand for it.
+    /// Whether the context lacks a surface and needs a framebuffer object in its place.
     #[cfg_attr(not(any(target_os = "macos", test)), expect(dead_code, reason = "only contexts of macOS do"))]
     fn lacks_surface(&self) -> bool {
         false

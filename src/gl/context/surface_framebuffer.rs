@@ -1,13 +1,14 @@
-//! A framebuffer object in the place of a surface, for contexts that have none: those of macOS.
+//! A framebuffer object in place of a surface, for contexts without one, as on macOS.
 //!
-//! It has what a surface is asked for, 8 bits of alpha and 24 of depth, and is bound wherever another context's own framebuffer
-//! would be. Drawing, copying and reading back do not see the difference but in lines, which Mesa draws from below there; a test compares by EGL.
+//! Like a surface it has 8 bits of alpha and 24 of depth. It is bound wherever another context binds its own framebuffer.
+//! Drawing, copying and reading back give the same results except for lines, which Mesa draws from below there; a test compares
+//! by EGL.
 
 use super::super::legacy;
 use crate::scene::Size;
 use glow::HasContext;
 
-/// The framebuffer object and what it draws into; it goes with its context.
+/// The framebuffer object and its attachments; it is destroyed with its context.
 pub(in crate::gl) struct SurfaceFramebuffer {
     id: glow::Framebuffer,
     color: glow::Renderbuffer,
@@ -15,7 +16,7 @@ pub(in crate::gl) struct SurfaceFramebuffer {
 }
 
 impl SurfaceFramebuffer {
-    /// One of a single pixel, bound. The context is current; an error is why it cannot be had.
+    /// Makes a framebuffer of one pixel and binds it. The context is current; the error says why it failed.
     pub(in crate::gl) fn new(gl: &glow::Context) -> Result<Self, String> {
         // SAFETY: the context is current, and a driver without framebuffer objects reports an error instead of a name.
         let made = unsafe {
@@ -31,7 +32,7 @@ impl SurfaceFramebuffer {
         Ok(made)
     }
 
-    /// Makes it this large and leaves it bound; the context is current.
+    /// Resizes it and leaves it bound; the context is current.
     pub(in crate::gl) fn resize(&self, gl: &glow::Context, size: Size) -> Result<(), String> {
         let (width, height) = (size.width as i32, size.height as i32);
         // SAFETY: the context is current, and both buffers are alive and this framebuffer's.
@@ -49,7 +50,7 @@ impl SurfaceFramebuffer {
         }
     }
 
-    /// Its name.
+    /// The framebuffer's name.
     pub(in crate::gl) fn id(&self) -> glow::Framebuffer {
         self.id
     }

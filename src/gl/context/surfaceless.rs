@@ -1,7 +1,7 @@
-//! EGL on Mesa's surfaceless platform: the driver of EGL's devices on a display of its own, and so with a screen of its own.
+//! EGL on Mesa's surfaceless platform: the same driver as EGL's devices, with a separate display and so a separate screen.
 //!
-//! Two contexts of a software driver's screen must take turns (`context_lock`). A context here and one of a device need not, as
-//! OSMesa's need not; unlike OSMesa it is there wherever EGL is. glutin knows no such display, hence the calls by name.
+//! Two contexts of one software driver's screen must take turns (`context_lock`). A context here and one of a device need not,
+//! nor need OSMesa's; unlike OSMesa, this platform exists wherever EGL does. glutin lacks this display, hence the calls by name.
 
 use super::egl;
 use super::platform::{NotCurrent, Platform};
@@ -65,7 +65,7 @@ struct Egl {
 
 // SAFETY: EGL's functions may be called from any thread, and the display is one of its names.
 unsafe impl Send for Egl {}
-// SAFETY: as above; nothing here changes.
+// SAFETY: as above; this code changes no fields.
 unsafe impl Sync for Egl {}
 
 fn opened() -> Result<&'static Egl, String> {
@@ -76,16 +76,16 @@ fn opened() -> Result<&'static Egl, String> {
 impl Egl {
     fn open() -> Result<Self, String> {
         egl::check_library()?;
-        // SAFETY: it is loaded already, and stays for the life of the process.
+        // SAFETY: it is loaded already and never unloaded.
         let library = egl::LIBRARIES.iter().find_map(|name| unsafe { Library::new(name) }.ok());
         let library: &'static Library = Box::leak(Box::new(library.ok_or("the library cannot be loaded")?));
         let find = |name: &CStr| {
-            // SAFETY: the symbol is only looked for.
+            // SAFETY: this looks the symbol up without calling it.
             let found = unsafe { library.get::<*const c_void>(name.to_bytes_with_nul()) };
             found.map(|symbol| *symbol).map_err(|error| format!("the library lacks a function ({error})"))
         };
-        // SAFETY: these are the types of EGL 1.4's functions of these names, and of EGL_EXT_platform_base's, which is asked for
-        // only where the library says that it has it.
+        // SAFETY: these are the types of EGL 1.4's functions of these names. EGL_EXT_platform_base's function is looked up only
+        // if the library reports the extension.
         unsafe {
             let query_string = std::mem::transmute::<*const c_void, QueryString>(find(c"eglQueryString")?);
             let extensions = query_string(ptr::null_mut(), EXTENSIONS);
@@ -126,15 +126,15 @@ impl Egl {
         }
     }
 
-    /// What failed, with EGL's number for it.
+    /// Returns an error text with EGL's number.
     fn failed(&self, what: &str) -> String {
-        // SAFETY: asking for this thread's last error has no preconditions.
+        // SAFETY: a query of this thread's last error has no preconditions.
         format!("{what} failed (0x{:X})", unsafe { (self.get_error)() })
     }
 
     fn attribute(&self, config: Handle, name: i32) -> i32 {
         let mut value = 0;
-        // SAFETY: display and config are alive, and the attribute is one integer; 0 stays where it is not known.
+        // SAFETY: display and config are alive, and the attribute is one integer; an unknown attribute stays 0.
         unsafe { (self.get_config_attribute)(self.display, config, name, &mut value) };
         value
     }
@@ -145,7 +145,7 @@ impl Egl {
         let [red, green, blue, alpha] = [RED_SIZE, GREEN_SIZE, BLUE_SIZE, ALPHA_SIZE].map(|name| [name, 8]);
         let kinds = [[SURFACE_TYPE, PBUFFER_BIT], [RENDERABLE_TYPE, OPENGL_BIT], [DEPTH_SIZE, 24], [NONE, NONE]];
         let wanted = [[red, green, blue, alpha], kinds].concat().concat();
-        // SAFETY: the list ends with EGL_NONE, and there is room for as many as are asked for.
+        // SAFETY: the list ends with EGL_NONE, and the buffer has room for the requested number of configs.
         let asked = unsafe {
             (self.choose_config)(self.display, wanted.as_ptr(), configs.as_mut_ptr(), MOST as i32, &mut count)
         };
@@ -182,12 +182,12 @@ pub(super) struct SurfacelessContext {
 }
 
 impl SurfacelessContext {
-    /// A compatibility context of this version of OpenGL with a surface of one pixel.
+    /// Opens a compatibility context of this version of OpenGL with a surface of one pixel.
     pub(super) fn open((major, minor): (u8, u8)) -> Result<Self, String> {
         let egl = opened()?;
         let config = egl.config()?;
         let attributes = [CONTEXT_MAJOR_VERSION, i32::from(major), CONTEXT_MINOR_VERSION, i32::from(minor), NONE];
-        // SAFETY: display and config belong together, nothing is shared, and the list ends with EGL_NONE.
+        // SAFETY: display and config belong together, the context shares no objects, and the list ends with EGL_NONE.
         let context = unsafe {
             (egl.bind_api)(OPENGL_API);
             (egl.create_context)(egl.display, config, ptr::null_mut(), attributes.as_ptr())
@@ -229,13 +229,13 @@ impl Platform for SurfacelessContext {
         if made != 0 {
             return Ok(());
         }
-        // SAFETY: asking for this thread's last error has no preconditions.
+        // SAFETY: a query of this thread's last error has no preconditions.
         let error = unsafe { (self.egl.get_error)() };
         Err(NotCurrent { is_lost: error == CONTEXT_LOST, reason: format!("it cannot be made current (0x{error:X})") })
     }
 
     fn release(&self) {
-        // SAFETY: no surface and no context: EGL lets go of both.
+        // SAFETY: no surface and no context: EGL releases both.
         unsafe { (self.egl.make_current)(self.egl.display, ptr::null_mut(), ptr::null_mut(), ptr::null_mut()) };
     }
 
@@ -245,7 +245,7 @@ impl Platform for SurfacelessContext {
     }
 
     fn largest_surface(&self) -> Size {
-        // Some drivers leave it at 0 and mean "no limit of its own".
+        // Some drivers leave it at 0, meaning no limit.
         let limit = |name: i32| u32::try_from(self.egl.attribute(self.config, name)).unwrap_or_default();
         let [width, height] = [MAX_PBUFFER_WIDTH, MAX_PBUFFER_HEIGHT].map(|name| match limit(name) {
             0 => u32::MAX,
@@ -258,7 +258,7 @@ impl Platform for SurfacelessContext {
 impl Drop for SurfacelessContext {
     fn drop(&mut self) {
         self.destroy_surface();
-        // SAFETY: the context is alive and, its guards being gone, not current.
+        // SAFETY: the context is alive and, without guards, not current.
         unsafe { (self.egl.destroy_context)(self.egl.display, self.context) };
     }
 }

@@ -22,7 +22,7 @@ fn open(backend: Backend) -> Context {
     Context::open(backend, None).unwrap_or_else(|error| panic!("{backend:?}: {error}"))
 }
 
-/// While one context is current, another of the same screen waits on its thread; when the first has ended, it goes on.
+/// While one context is current, another of the same screen waits on its thread and continues when the first has ended.
 fn take_turns(backend: Backend, lock: &'static ContextLock) {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let first = open(backend);
@@ -88,7 +88,7 @@ fn a_context_of_a_device_and_one_of_another_screen_are_at_work_together() {
     drop(current);
 }
 
-/// So many pictures of three styles, by each of two contexts at once on threads of their own.
+/// Draws this many pictures of three styles in each of two contexts at once, each on its own thread.
 fn draw_at_once(pictures: usize, backends: [Backend; 2]) {
     let draw = |backend: Backend| {
         let mut renderer = Renderer::new(backend).unwrap();
@@ -171,7 +171,7 @@ fn a_framebuffer_object_in_the_place_of_a_surface_draws_the_same_but_for_lines_a
     let [mut without, mut with] = [Renderer::of(context), Renderer::new(Backend::Egl).unwrap()];
     let mesh = Arc::new(load("builtin:gear", &LoadOptions::default()).unwrap().mesh);
     let mut wrong = Vec::new();
-    // Larger and smaller again, so that what stands for the surface is made anew; sand needs a model with a texture.
+    // Larger and smaller again, to recreate the surface's framebuffer object; sand needs a model with a texture.
     for (width, height) in [(96, 64), (160, 120), (64, 64)] {
         let settings = SceneSettings { size: Size { width, height }, ..SceneSettings::default() };
         let scene = Scene::new(vec![mesh.clone()], &settings).unwrap();
@@ -181,9 +181,9 @@ fn a_framebuffer_object_in_the_place_of_a_surface_draws_the_same_but_for_lines_a
                 let pictures = [&mut without, &mut with].map(|renderer| renderer.draw(&scene, &plan).unwrap());
                 let difference = pictures[0].difference(&pictures[1]).unwrap();
                 let is_edge = |step: &Step| matches!(step, Step::Draw(Draw { geometry: Geometry::Edges { .. }, .. }));
-                // Mesa draws into a surface from above and into a framebuffer object from below. What lies between is rounded from
-                // the other side, which charcoal's tables turn into another shade here and there, and a line's pixels are those
-                // of one side where it passes between two.
+                // Mesa draws into a surface from above and into a framebuffer object from below, so halfway values round to
+                // opposite sides. Charcoal's tables turn that into another shade here and there. A line between two pixels covers
+                // those of one side.
                 let all = scene.size.pixel_count();
                 let is_near = match plan.steps().any(|(_, step)| is_edge(step)) {
                     true => difference.pixels <= all / 8,

@@ -1,4 +1,4 @@
-//! WGL on Windows, through glutin: a pbuffer, and a window that is never shown, which Windows wants a context to be made for.
+//! WGL on Windows, through glutin: a pbuffer, and a hidden window, which Windows needs to make a context.
 
 use super::pbuffer::{Makes, Pbuffer};
 use crate::scene::Size;
@@ -15,7 +15,7 @@ use windows_sys::Win32::UI::WindowsAndMessaging::{
 };
 use windows_sys::w;
 
-/// A window that is never shown. Windows ties it to the thread that made it, to which a context belongs too.
+/// A hidden window. Windows ties it to the thread that made it, as it does contexts.
 pub(super) struct HiddenWindow {
     window: HWND,
     handle: RawWindowHandle,
@@ -25,8 +25,8 @@ impl HiddenWindow {
     fn open() -> Result<Self, String> {
         let failed = || format!("making a hidden window failed ({})", std::io::Error::last_os_error());
         let name = w!("tinta off-screen");
-        // SAFETY: the names end with 0 and live for ever; the class is that of this program, with Windows' own procedure. That it
-        // is there already is no error worth looking at: the window then has it.
+        // SAFETY: the names end with 0 and are static; the class is this program's, with Windows' own procedure. An already
+        // registered class is no error: the window then uses it.
         let (instance, window) = unsafe {
             let instance = GetModuleHandleW(ptr::null());
             let class = WNDCLASSW {
@@ -67,6 +67,6 @@ pub(super) fn open(version: (u8, u8)) -> Result<Pbuffer<HiddenWindow>, String> {
         surfaces: ConfigSurfaceTypes::WINDOW | ConfigSurfaceTypes::PBUFFER,
         hint: "; Windows' own OpenGL has none, a graphics card's driver or Mesa's for Windows has",
     };
-    // Making one says where the limit is; what the driver's viewport and textures allow is asked elsewhere.
+    // A failed pbuffer shows its limit; another check covers the driver's viewport and textures.
     Pbuffer::open(makes, version, |_, _| Size { width: u32::MAX, height: u32::MAX }, window)
 }

@@ -1,7 +1,7 @@
-//! A window's own OpenGL: a context that egui paints its shapes with, and the window it shows them in.
+//! A window's OpenGL context, which egui paints its shapes with, and the window itself.
 //!
-//! Models are not drawn here but by [`crate::Renderer`] without a window; their pictures come as textures. So a pane's
-//! pixels do not depend on what the window system does with its buffers, and a picture can have any size.
+//! [`crate::Renderer`] draws the models without a window and passes their pictures as textures. So a pane's pixels do not depend
+//! on the window system's buffers, and a picture can have any size.
 
 use super::context_lock::ContextLock;
 #[cfg(windows)]
@@ -21,27 +21,27 @@ use winit::event_loop::ActiveEventLoop;
 use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::{Window, WindowAttributes};
 
-/// Behind everything, where egui paints nothing.
+/// The colour behind everything, where egui paints nothing.
 const GROUND: [f32; 4] = [0.2, 0.2, 0.2, 1.0];
 
-/// The window's context, its surface, and what paints into it.
+/// The window's context, its surface, and its painter.
 pub(crate) struct WindowGl {
-    // Dropped in this order, each before what it was made from.
+    // Dropped in this order, each before the object it was made from.
     painter: egui_glow::Painter,
     surface: Surface<WindowSurface>,
     context: PossiblyCurrentContext,
-    /// Shared with the contexts that draw models, where they are of the same software driver's screen: on Windows. Elsewhere the
-    /// window's display is another than theirs.
+    /// Shared with the contexts that draw models if they use the same software driver's screen, as on Windows. Elsewhere the
+    /// window has a separate display.
     lock: Option<&'static ContextLock>,
 }
 
 /// Shapes on their way to the screen.
 pub(crate) struct Shapes {
-    /// What is painted.
+    /// The shapes to paint.
     pub primitives: Vec<egui::ClippedPrimitive>,
-    /// Textures to be made, changed and let go of.
+    /// Textures to make, change and release.
     pub textures: egui::TexturesDelta,
-    /// Pixels of the window to one of egui's points.
+    /// The window's pixels per egui point.
     pub pixels_per_point: f32,
 }
 
@@ -59,7 +59,7 @@ impl WindowGl {
         event_loop: &ActiveEventLoop,
         attributes: WindowAttributes,
     ) -> std::result::Result<(Window, Self), String> {
-        // Where the display's format does not depend on the window, it comes first, as X11 wants it.
+        // First where the display's format does not depend on the window, as X11 requires.
         #[cfg(not(windows))]
         let (window, config) = {
             #[cfg(not(target_os = "macos"))]
@@ -106,7 +106,8 @@ impl WindowGl {
         };
         #[cfg(not(windows))]
         let lock = None;
-        // A frame that waits for the screen would keep drawings waiting with it. Without it frames are shown at once, which is no worse.
+        // A frame that waits for the screen would delay drawings that need the lock. Without the wait frames appear at once, with
+        // no drawback.
         if lock.is_none() {
             let _ = surface.set_swap_interval(&context, SwapInterval::Wait(NonZeroU32::MIN));
         }
@@ -131,7 +132,7 @@ impl WindowGl {
         }
     }
 
-    /// Paints a frame of this size and shows it; if asked for, what it shows is returned.
+    /// Paints a frame of this size and shows it; returns its pixels if `is_wanted`.
     ///
     /// # Errors
     ///
@@ -158,7 +159,7 @@ impl WindowGl {
 
     /// Contexts of several libraries may live in this process: none stays current while another may be entered.
     fn release(&mut self) {
-        // Fails only when the display is gone, and then there is nothing to release.
+        // Fails only if the display is gone; then nothing needs releasing.
         let _ = self.context.make_not_current_in_place();
     }
 }
@@ -166,7 +167,7 @@ impl WindowGl {
 impl Drop for WindowGl {
     fn drop(&mut self) {
         let _guard = self.lock.map(ContextLock::lock);
-        // Without its context the driver has let go of its objects already.
+        // Without its context the driver has already released its objects.
         if self.context.make_current(&self.surface).is_ok() {
             self.painter.destroy();
             self.release();
@@ -174,7 +175,7 @@ impl Drop for WindowGl {
     }
 }
 
-/// The display's plainest format, or on Windows the window's. glutin-winit's own builder takes for certain that there is one.
+/// Returns the display's plainest format, or on Windows the window's. glutin-winit's builder assumes that one exists.
 fn config(event_loop: &ActiveEventLoop, window: Option<&Window>) -> std::result::Result<Config, String> {
     let handle = event_loop.display_handle().map_err(|error| format!("the display has no handle ({error})"))?;
     let window = window.map(HasWindowHandle::window_handle).transpose();

@@ -6,33 +6,33 @@ use std::collections::HashMap;
 use std::ffi::{CStr, CString, c_char, c_void};
 use std::rc::Rc;
 
-/// What a stand-in is called for.
+/// The kind of GL call that a stand-in replaces.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Call {
-    /// Takes memory on the device.
+    /// A call that allocates device memory.
     Allocation,
-    /// Changes what is drawn.
+    /// A call that changes the picture.
     Drawing,
-    /// Does nothing once the context is lost.
+    /// A call that does nothing once the context is lost.
     Other,
 }
 
-/// A context's fault and how far it has come.
+/// A context's fault and its progress.
 pub(in crate::gl) struct Faults {
     fault: Fault,
     counted: Cell<u32>,
-    /// What glGetError says next before it asks the driver.
+    /// The error that glGetError returns next, before it asks the driver.
     pending: Cell<u32>,
     /// The driver's own functions.
     real: RefCell<HashMap<CString, *const c_void>>,
 }
 
 thread_local! {
-    /// Those of the context that is current on this thread.
+    /// The faults of the context that is current on this thread.
     static CURRENT: RefCell<Option<Rc<Faults>>> = const { RefCell::new(None) };
 }
 
-/// Says whose stand-ins are called from now on: those of the context just made current, or of none.
+/// Selects the stand-ins to call: those of the context just made current, or none.
 pub(in crate::gl) fn set_current(faults: Option<&Rc<Faults>>) {
     CURRENT.with(|current| current.replace(faults.cloned()));
 }
@@ -42,7 +42,7 @@ impl Faults {
         Self { fault, counted: Cell::new(0), pending: Cell::new(glow::NO_ERROR), real: RefCell::default() }
     }
 
-    /// The address to call a GL function at: a stand-in's for some, for others the driver's own.
+    /// Returns the address to call a GL function at: a stand-in's for some functions, the driver's for the others.
     pub(in crate::gl) fn load(&self, name: &CStr, real: *const c_void) -> *const c_void {
         if self.fault == Fault::NoImmediateMode && name == c"glBegin" {
             return std::ptr::null();
@@ -60,7 +60,7 @@ impl Faults {
         matches!(self.fault, Fault::ContextLost { after } | Fault::ContextReset { after } if self.counted.get() > after)
     }
 
-    /// Counts a call; whether the driver gets it.
+    /// Counts a call; returns whether it reaches the driver.
     fn allows(&self, call: Call) -> bool {
         let count = || self.counted.set(self.counted.get().saturating_add(1));
         match self.fault {
@@ -100,7 +100,7 @@ fn allowed(name: &CStr, call: Call) -> Option<*const c_void> {
     faults.real.borrow().get(name).copied()
 }
 
-/// Functions of the C types the specification gives them that do nothing, and return 0, when it is their turn to fail.
+/// Defines functions with the C types of the specification. When it is their turn to fail they do nothing and return 0.
 macro_rules! stand_ins {
     ($($gl:literal $name:ident $call:ident ($($argument:ident: $kind:ty),*) $(-> $result:ty)?;)*) => {
         $(

@@ -1,4 +1,4 @@
-//! Shaders draw what the driver's pipeline draws.
+//! Tests that the shaders draw the same picture as the driver's pipeline.
 
 use crate::gl::Backend;
 use crate::gl::context::Context;

@@ -1,5 +1,5 @@
-//! The fixed-function pipeline where there is none: WebGL draws with shaders alone. Its state is kept here, and handed to them as
-//! uniforms and attributes of the names that [`crate::glsl::es`] gives to what they read of it.
+//! The fixed-function pipeline for WebGL, which draws with shaders alone. Its state is kept here and passed to the shaders as
+//! uniforms and attributes; [`crate::glsl::es`] names them.
 
 use super::{FIXED_UNITS, MODELVIEW, PROJECTION, QUADS};
 use crate::glsl::es::{ATTRIBUTES, UNIFORMS};
@@ -12,19 +12,19 @@ use wasm_bindgen::{JsCast, JsValue};
 use web_sys::js_sys::Array;
 use web_sys::{WebGlRenderingContext, WebglDrawBuffers};
 
-/// Draws without a program are drawn by the shaders in `glsl/fixed/`.
+/// The shaders in `glsl/fixed/` draw steps without a program.
 pub(in crate::gl) const HAS_PIPELINE: bool = false;
 
 /// Whether the depth buffer can be copied into a texture.
 pub(in crate::gl) const COPIES_DEPTH: bool = false;
 
-/// What a table of a plan is: a picture a texel high.
+/// The texture target of a plan's tables: a picture one texel high.
 pub(in crate::gl) const TABLE_TARGET: u32 = glow::TEXTURE_2D;
 
 /// Luminance and alpha, 8 bits each.
 pub(in crate::gl) const TABLE_TEXELS: u32 = super::LUMINANCE_ALPHA;
 
-/// Pictures, 8 bits a channel, in the form they are handed over.
+/// The format of uploaded pictures, 8 bits a channel.
 pub(in crate::gl) const PICTURE_TEXELS: u32 = glow::RGBA;
 
 /// Whether a texture that repeats has to have powers of two for sides.
@@ -33,32 +33,32 @@ pub(in crate::gl) const REPEATS_POWERS_OF_TWO_ONLY: bool = true;
 /// `GL_HALF_FLOAT_OES`
 const HALF_FLOAT: u32 = 0x8D61;
 
-/// The texels of what is drawn into, as they are and as they are handed over: of 8 bits, of 16 and 32 of floating point.
+/// The format and the type of texels drawn into: 8 bits, then floating point of 16 and 32 bits.
 pub(in crate::gl) const DRAWN_TEXELS: [(u32, u32); 3] =
     [(glow::RGBA, glow::UNSIGNED_BYTE), (glow::RGBA, HALF_FLOAT), (glow::RGBA, glow::FLOAT)];
 
-/// A depth buffer of 24 bits, and where it is attached: WebGL has them with a stencil only.
+/// A depth buffer of 24 bits, and its attachment point: WebGL has them only with a stencil.
 pub(in crate::gl) const DEPTH_BUFFER: (u32, u32) = (glow::DEPTH_STENCIL, glow::DEPTH_STENCIL_ATTACHMENT);
 
-/// The attributes' places, in the order of [`ATTRIBUTES`].
+/// The attributes' locations, in the order of [`ATTRIBUTES`].
 const VERTEX: u32 = 0;
 const NORMAL: u32 = 1;
 const COLOR: u32 = 2;
 const COORDINATES: u32 = 3;
 
-/// Where a program has [`UNIFORMS`].
+/// The locations of [`UNIFORMS`] in a program.
 type Locations = [Option<glow::UniformLocation>; UNIFORMS.len()];
 
 /// The pipeline's state.
 pub(in crate::gl) struct Legacy {
     gl: Rc<glow::Context>,
-    /// The same context, for what glow does not ask.
+    /// The same context, for queries that glow lacks.
     raw: WebGlRenderingContext,
     view_from_object: Cell<Mat4>,
     clip_from_view: Cell<Mat4>,
     program: Cell<Option<glow::Program>>,
     locations: RefCell<HashMap<glow::Program, Locations>>,
-    /// Indices that make triangles of four corners each, and for how many such squares they reach.
+    /// Indices that split squares of four corners into triangles, and the number of squares they cover.
     squares: Cell<Option<(glow::Buffer, u32)>>,
 }
 
@@ -80,7 +80,7 @@ impl Legacy {
         self.raw.is_context_lost()
     }
 
-    /// The width and height of what is drawn into, pixels.
+    /// The width and height of the current drawing surface, pixels.
     pub(in crate::gl) fn surface(&self) -> [u32; 2] {
         [self.raw.drawing_buffer_width(), self.raw.drawing_buffer_height()].map(|side| side.max(0) as u32)
     }
@@ -145,11 +145,11 @@ impl Legacy {
         }
     }
 
-    /// Texture coordinates of a unit, so many floats a vertex, from the start of the bound array buffer.
+    /// Texture coordinates of a unit, this many floats per vertex, from the start of the bound array buffer.
     ///
     /// # Safety
     ///
-    /// The context is current and the bound buffer holds them for as many vertices as will be drawn.
+    /// The context is current and the bound buffer holds them for all vertices that will be drawn.
     pub(in crate::gl) unsafe fn texture_coordinate_array(&self, unit: u32, numbers: i32) {
         // SAFETY: as above.
         unsafe {
@@ -195,7 +195,7 @@ impl Legacy {
     /// None; the driver's twin calls the driver.
     pub(in crate::gl) unsafe fn point_size(&self, _: f32) {}
 
-    /// Gives the attributes their places.
+    /// Sets the attributes' locations.
     pub(in crate::gl) fn before_linking(&self, gl: &glow::Context, program: glow::Program) {
         for (place, (.., name)) in (0..).zip(ATTRIBUTES) {
             // SAFETY: the context is current, the program alive.
@@ -203,12 +203,12 @@ impl Legacy {
         }
     }
 
-    /// What is drawn next is drawn by this program.
+    /// Records the program that the following draws use.
     pub(in crate::gl) fn program_bound(&self, program: glow::Program) {
         self.program.set(Some(program));
     }
 
-    /// Nothing to be said before a picture is uploaded.
+    /// WebGL needs no call before a picture is uploaded.
     ///
     /// # Safety
     ///
@@ -225,7 +225,7 @@ impl Legacy {
         unsafe { gl.generate_mipmap(glow::TEXTURE_2D) }
     }
 
-    /// glDrawBuffers, by the extension itself: glow 0.17 hands it a list within a list, which names no buffer.
+    /// glDrawBuffers, by the extension itself: glow 0.17 passes it a list within a list, which names no buffer.
     ///
     /// # Safety
     ///
@@ -268,7 +268,7 @@ impl Legacy {
         }
     }
 
-    /// Binds indices for at least so many squares.
+    /// Binds indices for at least this many squares.
     unsafe fn bind_squares(&self, gl: &glow::Context, count: u32) {
         let present = self.squares.get().filter(|(_, reach)| *reach >= count);
         // SAFETY: the caller's promise: the context is current.
@@ -288,7 +288,7 @@ impl Legacy {
         }
     }
 
-    /// Sets what the bound program reads of the pipeline's state.
+    /// Sets the uniforms through which the bound program reads the pipeline's state.
     unsafe fn hand_over(&self, gl: &glow::Context) {
         let Some(program) = self.program.get() else { return };
         let mut all = self.locations.borrow_mut();
@@ -299,7 +299,7 @@ impl Legacy {
         let (view_from_object, clip_from_view) = (self.view_from_object.get(), self.clip_from_view.get());
         let normal = Mat3::from_mat4(view_from_object).as_dmat3().inverse().transpose().as_mat3();
         let [model_view, projection, both, normals] = &*locations;
-        // SAFETY: as above; a uniform that the program has not is not set.
+        // SAFETY: as above; uniforms that the program lacks are skipped.
         unsafe {
             gl.uniform_matrix_4_f32_slice(model_view.as_ref(), false, view_from_object.as_ref());
             gl.uniform_matrix_4_f32_slice(projection.as_ref(), false, clip_from_view.as_ref());
@@ -308,7 +308,7 @@ impl Legacy {
         }
     }
 
-    /// A program is gone, and its name may be another's.
+    /// Forgets a deleted program, whose name may be reused.
     pub(in crate::gl) fn program_deleted(&self, program: glow::Program) {
         self.locations.borrow_mut().remove(&program);
     }

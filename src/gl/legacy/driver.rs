@@ -4,13 +4,13 @@ use super::FIXED_UNITS;
 use glow::HasContext;
 use std::ffi::{CStr, c_char, c_void};
 
-/// Draws without a program are the pipeline's.
+/// The pipeline draws steps without a program.
 pub(in crate::gl) const HAS_PIPELINE: bool = true;
 
 /// Whether the depth buffer can be copied into a texture.
 pub(in crate::gl) const COPIES_DEPTH: bool = true;
 
-/// What a table of a plan is.
+/// The texture target of a plan's tables.
 pub(in crate::gl) const TABLE_TARGET: u32 = glow::TEXTURE_1D;
 
 /// Luminance and alpha, 8 bits each.
@@ -22,11 +22,11 @@ pub(in crate::gl) const PICTURE_TEXELS: u32 = glow::RGB8;
 /// Whether a texture that repeats has to have powers of two for sides.
 pub(in crate::gl) const REPEATS_POWERS_OF_TWO_ONLY: bool = false;
 
-/// The texels of what is drawn into, as they are and as they are handed over: of 8 bits, of 16 and 32 of floating point.
+/// The format and the type of texels drawn into: 8 bits, then floating point of 16 and 32 bits.
 pub(in crate::gl) const DRAWN_TEXELS: [(u32, u32); 3] =
     [(glow::RGBA8, glow::UNSIGNED_BYTE), (glow::RGBA16F, glow::FLOAT), (glow::RGBA32F, glow::FLOAT)];
 
-/// A depth buffer of 24 bits, and where it is attached.
+/// A depth buffer of 24 bits, and its attachment point.
 pub(in crate::gl) const DEPTH_BUFFER: (u32, u32) = (glow::DEPTH_COMPONENT24, glow::DEPTH_ATTACHMENT);
 
 /// `GL_SMOOTH_LINE_WIDTH_RANGE`
@@ -62,7 +62,7 @@ type PointSize = unsafe extern "system" fn(f32);
 type GetString = unsafe extern "system" fn(u32) -> *const c_char;
 type ResetStatus = unsafe extern "system" fn() -> u32;
 
-/// The functions, each of the type the specification gives it.
+/// The functions, each with the type of the specification.
 pub(in crate::gl) struct Legacy {
     matrix_mode: Enumerated,
     load_matrix: LoadMatrix,
@@ -119,11 +119,11 @@ impl Legacy {
         }
     }
 
-    /// Adds what ARB_robustness has, for [`Legacy::reset_status`].
+    /// Adds the function of ARB_robustness, for [`Legacy::reset_status`].
     ///
     /// # Safety
     ///
-    /// As [`Legacy::load`], and the context has the extension: drivers give addresses for functions they do not have.
+    /// As [`Legacy::load`], and the context has the extension: drivers give addresses even for functions they lack.
     pub(in crate::gl) unsafe fn load_robustness(&mut self, mut load: impl FnMut(&CStr) -> *const c_void) {
         // The extension's own name, then that of KHR_robustness and OpenGL 4.5.
         let names = [c"glGetGraphicsResetStatusARB", c"glGetGraphicsResetStatus"];
@@ -133,7 +133,7 @@ impl Legacy {
         }
     }
 
-    /// glGetGraphicsResetStatusARB: why the context is lost, GL_NO_ERROR if it is not or nobody knows.
+    /// glGetGraphicsResetStatusARB: why the context is lost. GL_NO_ERROR if it is not lost or the cause is unknown.
     ///
     /// # Safety
     ///
@@ -214,11 +214,11 @@ impl Legacy {
         }
     }
 
-    /// Texture coordinates of a unit, so many floats a vertex, from the start of the bound array buffer.
+    /// Texture coordinates of a unit, this many floats per vertex, from the start of the bound array buffer.
     ///
     /// # Safety
     ///
-    /// The context is current and the bound buffer holds them for as many vertices as will be drawn.
+    /// The context is current and the bound buffer holds them for all vertices that will be drawn.
     pub(in crate::gl) unsafe fn texture_coordinate_array(&self, unit: u32, numbers: i32) {
         // SAFETY: as above.
         unsafe {
@@ -271,16 +271,16 @@ impl Legacy {
         unsafe { (self.point_size)(size_px) }
     }
 
-    /// Programs are whole as they are linked.
+    /// Programs need no further parts before linking.
     pub(in crate::gl) fn before_linking(&self, _: &glow::Context, _: glow::Program) {}
 
-    /// The pipeline knows by itself which program is bound.
+    /// The driver's pipeline already knows the bound program.
     pub(in crate::gl) fn program_bound(&self, _: glow::Program) {}
 
-    /// A program is gone.
+    /// Forgets a deleted program.
     pub(in crate::gl) fn program_deleted(&self, _: glow::Program) {}
 
-    /// Lets the texture just bound have smaller levels, which follow whenever the largest is uploaded: the way of GL 1.4 to 2.1.
+    /// Makes GL compute the smaller levels of the texture just bound at each upload of the largest: the way of GL 1.4 to 2.1.
     ///
     /// # Safety
     ///
@@ -290,7 +290,7 @@ impl Legacy {
         unsafe { gl.tex_parameter_i32(glow::TEXTURE_2D, GENERATE_MIPMAP, 1) }
     }
 
-    /// They are there.
+    /// They already exist.
     ///
     /// # Safety
     ///
@@ -301,7 +301,7 @@ impl Legacy {
     ///
     /// # Safety
     ///
-    /// The context is current and has as many.
+    /// The context is current and has that many.
     pub(in crate::gl) unsafe fn draw_buffers(&self, gl: &glow::Context, buffers: &[u32]) {
         // SAFETY: the caller's promise.
         unsafe { gl.draw_buffers(buffers) }

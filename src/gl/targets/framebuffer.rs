@@ -13,7 +13,7 @@ pub(super) struct Framebuffer {
     id: glow::Framebuffer,
 }
 
-/// Draws go there, and copies and read-back come from there; `None` is the context's own framebuffer.
+/// Makes this framebuffer the target of draws and the source of copies and read-back; `None` is the context's own.
 pub(super) fn bind(gl: &Gl, framebuffer: Option<&Framebuffer>) {
     // SAFETY: the context is current and has framebuffer objects; this one is alive.
     unsafe {
@@ -22,7 +22,7 @@ pub(super) fn bind(gl: &Gl, framebuffer: Option<&Framebuffer>) {
     }
 }
 
-/// Clears each of the bound framebuffer's colours to one of its own, and depth to 1.
+/// Clears each of the bound framebuffer's textures to its given colour, and depth to 1.
 pub(crate) fn clear_each(gl: &Gl, colors: &[[f32; 4]]) {
     for (index, [red, green, blue, alpha]) in colors.iter().enumerate() {
         let mut buffers = vec![glow::NONE; colors.len()];
@@ -49,7 +49,7 @@ fn draw_into_all(gl: &Gl, count: usize) {
 }
 
 impl Framebuffer {
-    /// One that draws into these textures and this depth buffer, all of one size.
+    /// Makes a framebuffer of these textures and this depth buffer, all of one size.
     pub(super) fn new(gl: &Rc<Gl>, colors: &[&Texture], depth: Option<&Renderbuffer>) -> Result<Self> {
         // SAFETY: the context is current and has framebuffer objects, as `Targets::prepare` has checked.
         let id = unsafe { gl.glow.create_framebuffer() }.map_err(out_of_names)?;
@@ -74,7 +74,7 @@ impl Framebuffer {
         Ok(framebuffer)
     }
 
-    /// Whether the driver can draw into what it was given.
+    /// Whether the driver can draw into these attachments.
     pub(super) fn is_complete(&self) -> bool {
         // SAFETY: the context is current, this framebuffer alive; the context's own is bound again.
         unsafe {
@@ -94,14 +94,14 @@ impl Drop for Framebuffer {
     }
 }
 
-/// A buffer that is drawn into and never read as a texture.
+/// A buffer for drawing that is never read as a texture.
 pub(super) struct Renderbuffer {
     live: Live,
     id: glow::Renderbuffer,
 }
 
 impl Renderbuffer {
-    /// 24 bits of depth, as in the framebuffer.
+    /// Makes a buffer with 24 bits of depth, as in the framebuffer.
     pub(super) fn depth(gl: &Rc<Gl>, size: Size) -> Result<Self> {
         // SAFETY: the context is current and has framebuffer objects, as `Targets::prepare` has checked.
         let id = unsafe { gl.glow.create_renderbuffer() }.map_err(out_of_names)?;

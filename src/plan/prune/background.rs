@@ -1,4 +1,4 @@
-//! Pixels without an object: squares that could be a clear, squares that need not reach there, clears that are drawn over.
+//! Pixels without an object: squares that a clear can replace, squares that need not cover them, clears that are overdrawn.
 
 use super::ground::{Ground, covers, stays_in_objects};
 use super::rule::{Omission, Rule, Situation, counted, drop_empty_passes};
@@ -6,7 +6,7 @@ use crate::plan::{Blend, Depth, Draw, Geometry, Pass, Plan, Step, Target, Textur
 use crate::scene::Rectangle;
 use crate::tolerances::EIGHT_BIT_TIE;
 
-/// Clears to what the background square would draw.
+/// Replaces the background square by a clear to its values.
 pub(super) fn square(plan: &mut Plan) -> Result<Omission, String> {
     let mut passes = Vec::new();
     let mut kept = "no step draws one".to_owned();
@@ -43,7 +43,7 @@ pub(super) fn square(plan: &mut Plan) -> Result<Omission, String> {
     })
 }
 
-/// Whether a channel of what is drawn into has 8 bits.
+/// Whether the target has 8 bits per channel.
 fn has_eight_bits(target: Target) -> bool {
     match target {
         Target::Framebuffer => true,
@@ -51,7 +51,7 @@ fn has_eight_bits(target: Target) -> bool {
     }
 }
 
-/// Whether clearing and drawing round this channel to the same of 8 bits, whichever way they round a tie.
+/// Whether clearing and drawing round this channel to the same 8 bits, whichever way they round a tie.
 fn rounds_alike(channel: f32) -> bool {
     ((f64::from(channel) * 255.0).fract() - 0.5).abs() > EIGHT_BIT_TIE
 }
@@ -76,7 +76,7 @@ pub(super) fn empty_pixels(plan: &mut Plan, situation: &Situation<'_>) -> Result
         let Some((place, reach)) = confined else { continue };
         let needed = situation.extent().map(|extent| extent.grown(reach, situation.surface));
         let count = needed.map_or(0, Rectangle::pixel_count);
-        // Nothing is saved by a frame of single pixels.
+        // A frame of single pixels saves no time.
         if count * 20 > whole * 19 {
             continue;
         }
@@ -107,7 +107,7 @@ pub(super) fn empty_pixels(plan: &mut Plan, situation: &Situation<'_>) -> Result
     })
 }
 
-/// Confines clearing, drawing and copying a map to the pixels that are read of it, where only confined squares and objects do.
+/// Confines clearing, drawing and copying of a map to the pixels that are read, where only confined squares and objects read it.
 fn confine_maps(plan: &mut Plan, situation: &Situation<'_>) {
     for number in 0..plan.passes.len().saturating_sub(1) {
         let pass = &plan.passes[number];
@@ -121,7 +121,7 @@ fn confine_maps(plan: &mut Plan, situation: &Situation<'_>) {
         let clears_all = |pass: &Pass| {
             matches!(pass.steps.first(), Some(Step::Clear { color: Some(_), depth: true })) && pass.scissor.is_none()
         };
-        // What the pass itself draws must be gone, or read by these textures alone.
+        // The pass's own picture must be gone, or read by these textures alone.
         let is_gone = match pass.target {
             Target::Framebuffer => later().find(|pass| pass.target == Target::Framebuffer).is_some_and(clears_all),
             Target::Textures(_) => !later().any(|later| later.target != Target::Framebuffer),
@@ -137,7 +137,7 @@ fn confine_maps(plan: &mut Plan, situation: &Situation<'_>) {
         if readers.is_empty() || !is_gone || pass.scissor.is_some() {
             continue;
         }
-        // As far as the squares go, and from there as far as they look.
+        // The squares' pixels, extended by their reach.
         let read: Option<Vec<Rectangle>> = readers.iter().map(|draw| read_px(draw, situation)).collect();
         if let Some(all) = read.and_then(|parts| parts.into_iter().reduce(Rectangle::around)) {
             plan.passes[number].scissor = Some(all);
@@ -145,7 +145,7 @@ fn confine_maps(plan: &mut Plan, situation: &Situation<'_>) {
     }
 }
 
-/// The pixels of a map that a draw reads; `None` where that may be all.
+/// Returns the pixels of a map that a draw reads; `None` if it may read all.
 fn read_px(draw: &Draw, situation: &Situation<'_>) -> Option<Rectangle> {
     let drawn = match draw.scissor {
         Some(scissor) => scissor,
@@ -155,7 +155,7 @@ fn read_px(draw: &Draw, situation: &Situation<'_>) -> Option<Rectangle> {
     Some(drawn.grown(draw.facts.reach_px?, situation.surface))
 }
 
-/// The texture that a step copies into.
+/// Returns the texture that a step copies into.
 fn copied(step: &Step) -> Option<Texture> {
     match step {
         Step::CopyFramebuffer => Some(Texture::BorderMap),
@@ -164,8 +164,8 @@ fn copied(step: &Step) -> Option<Texture> {
     }
 }
 
-/// How far from objects, in pixels, a square may change something: where it leaves pixels as they are, or as they were cleared,
-/// wherever the map is the same all around; `None` for any other draw.
+/// Returns the distance from objects, in pixels, within which a square may change pixels. Beyond it the square leaves them
+/// unchanged, or as cleared, wherever the surrounding map is uniform. `None` for any other draw.
 fn reach_beyond_objects(draw: &Draw, before: &[Step], ground: &Ground) -> Option<u32> {
     let is_square = matches!(draw.geometry, Geometry::ScreenSquare | Geometry::BackgroundSquare { .. });
     let is_seen = match draw.facts.where_even? {
@@ -181,7 +181,7 @@ fn reach_beyond_objects(draw: &Draw, before: &[Step], ground: &Ground) -> Option
     draw.facts.reach_px?.checked_add(beyond)
 }
 
-/// Leaves a colour uncleared that the next step draws over.
+/// Skips clearing a colour that the next step draws over.
 pub(super) fn overwritten_clear(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
     let mut passes = Vec::new();
     // Measured: charcoal takes 1.1 times as long without it.

@@ -3,7 +3,7 @@
 use super::rule::{Omission, Rule, counted, drop_empty_passes};
 use crate::plan::{Draw, Plan, Step, Target, Texture};
 
-/// Leaves out draws that add nothing, as borders do whose response is multiplied by 0.
+/// Leaves out draws that add nothing, such as borders whose response is multiplied by 0.
 pub(super) fn border(plan: &mut Plan) -> Result<Omission, String> {
     let reason = |step: &Step| if let Step::Draw(draw) = step { draw.facts.adds_nothing.clone() } else { None };
     let (mut what, mut facts) = (Vec::new(), Vec::new());
@@ -22,7 +22,7 @@ pub(super) fn border(plan: &mut Plan) -> Result<Omission, String> {
     Ok(Omission { rule: Rule::Border, what: what.join(", "), reason: "it changes no pixel".to_owned(), facts })
 }
 
-/// Leaves out passes, draws and copies whose result nothing reads, going back from the picture.
+/// Leaves out passes, draws and copies whose result no later step reads, from the picture backwards.
 pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
     let textures_of = |target: Target| -> Vec<Texture> {
         match target {
@@ -32,7 +32,7 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
             }
         }
     };
-    // What later steps read: textures, and of the framebuffer whether they do.
+    // Textures that later steps read, and whether they read the framebuffer.
     let mut framebuffer_is_read = plan.picture_target() == Target::Framebuffer;
     let mut read: Vec<Texture> = textures_of(plan.picture_target()).into_iter().take(1).collect();
     let mut dropped = Vec::new();
@@ -41,7 +41,7 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
         let mut kept = Vec::new();
         for step in std::mem::take(&mut pass.steps).into_iter().rev() {
             let is_read = match (&step, pass.target) {
-                // Where a part is copied, the rest is still that of the copy before.
+                // After a partial copy the rest still holds the earlier copy.
                 (Step::CopyFramebuffer, _) if is_partial => read.contains(&Texture::BorderMap),
                 (Step::CopyDepth, _) if is_partial => read.contains(&Texture::DepthMap),
                 (Step::CopyFramebuffer, _) => take(&mut read, &[Texture::BorderMap]),
@@ -55,7 +55,7 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
             }
             match &step {
                 Step::CopyFramebuffer | Step::CopyDepth => framebuffer_is_read = true,
-                // What was there before is gone.
+                // The clear erases the earlier contents.
                 Step::Clear { color: Some(_), depth: true } | Step::ClearEach { .. } if !is_partial => {
                     match pass.target {
                         Target::Framebuffer => framebuffer_is_read = false,
@@ -83,7 +83,7 @@ pub(super) fn unread_map(plan: &mut Plan) -> Result<Omission, String> {
     })
 }
 
-/// Removes textures from those that are read; whether one of them was.
+/// Removes textures from those that are read; returns whether any was read.
 fn take(read: &mut Vec<Texture>, textures: &[Texture]) -> bool {
     let count = read.len();
     read.retain(|other| !textures.contains(other));
@@ -119,20 +119,20 @@ pub(super) fn unread_textures(plan: &mut Plan) -> Result<Omission, String> {
     })
 }
 
-/// What is left of a list, and what is not.
+/// The parts of a list that remain, and the others.
 struct Left<T> {
     is_read: Vec<bool>,
     dropped: Vec<T>,
 }
 
 impl<T> Left<T> {
-    /// The number now of what had this number.
+    /// Returns the new number of the item that had this number.
     fn number(&self, old: usize) -> usize {
         self.is_read[..old].iter().filter(|is_read| **is_read).count()
     }
 }
 
-/// Leaves in a list what is read of it, by number.
+/// Drops a list's unread items, by number.
 fn drop_unread<T: Clone>(list: &mut Vec<T>, is_read: impl Fn(usize) -> bool) -> Left<T> {
     let is_read: Vec<bool> = (0..list.len()).map(is_read).collect();
     let of =

@@ -3,12 +3,12 @@
 use crate::plan::{Blend, Depth, Draw, Geometry, Step, Target, Texture, WhereEven};
 use crate::scene::Rectangle;
 
-/// What of a plan holds one value wherever no object is near, as far as its steps have been followed.
+/// The parts of a plan that hold one value wherever no object is near, after the steps followed so far.
 #[derive(Default)]
 pub(super) struct Ground {
-    /// Of these colours all that is farther than so many pixels from the objects is the same.
+    /// The colours that are uniform farther than this many pixels from the objects.
     colors: Vec<(Place, u32)>,
-    /// Of these depth buffers likewise.
+    /// The depth buffers, likewise.
     depths: Vec<DepthBuffer>,
 }
 
@@ -27,8 +27,8 @@ enum DepthBuffer {
 }
 
 impl Ground {
-    /// How far from the objects, in pixels, all textures that a draw reads and passes leave are even; `None` where one of them
-    /// may nowhere be.
+    /// Returns the distance from the objects, in pixels, beyond which all textures of passes that a draw reads are uniform;
+    /// `None` if one of them may be uniform nowhere.
     pub(super) fn even_beyond(&self, draw: &Draw) -> Option<u32> {
         let is_of_passes =
             |texture: &Texture| matches!(texture, Texture::BorderMap | Texture::DepthMap | Texture::Drawn(_));
@@ -87,13 +87,13 @@ impl Ground {
         }
     }
 
-    /// How far from the objects a draw leaves all pixels as they are; `None` where it may change any.
+    /// Returns the distance from the objects beyond which a draw leaves all pixels unchanged; `None` if it may change any.
     fn unchanged_beyond(&self, draw: &Draw) -> Option<u32> {
         let reach = draw.facts.reach_px.filter(|_| draw.facts.where_even == Some(WhereEven::Unchanged))?;
         self.even_beyond(draw)?.checked_add(reach)
     }
 
-    /// Beyond so many pixels they are even, or nowhere.
+    /// Records that they are uniform beyond this many pixels, or nowhere.
     fn set_colors(&mut self, places: &[Place], beyond: Option<u32>) {
         self.colors.retain(|(place, _)| !places.contains(place));
         if let Some(beyond) = beyond {
@@ -124,7 +124,7 @@ pub(super) fn stays_in_objects(draw: &Draw) -> bool {
     draw.is_of_objects() && draw.keeps_places()
 }
 
-/// Whether a draw is a square that gives every pixel a colour, whatever was there.
+/// Whether a draw is a square that gives every pixel a colour, whatever it held.
 pub(super) fn covers(draw: &Draw) -> bool {
     matches!(draw.geometry, Geometry::ScreenSquare | Geometry::BackgroundSquare { .. })
         && draw.depth == Depth::Ignore

@@ -59,7 +59,7 @@ pub(super) fn outside(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omis
     })
 }
 
-/// Leaves out faces that the driver would cull once it has computed their vertices.
+/// Leaves out faces that the driver would otherwise cull after computing their vertices.
 pub(super) fn culled_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
     let Situation { scene, surface, pruning, .. } = *situation;
     let is_culled = |draw: &Draw| draw.cull_back_faces && draw.keeps_places();
@@ -90,10 +90,10 @@ pub(super) fn culled_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
     })
 }
 
-/// Which faces of each object a draw draws.
+/// The faces of each object that a draw draws.
 type Selection = Arc<Vec<Faces>>;
 
-/// Has the draws that `is_meant` draw only the faces listed of objects that they draw whole; how many are left out.
+/// Restricts draws of whole objects that satisfy `is_meant` to the listed faces; returns how many faces are left out.
 fn choose(
     plan: &mut Plan,
     scene: &Scene,
@@ -119,7 +119,7 @@ fn choose(
     if left_out == 0 {
         return 0;
     }
-    // One list for all draws that drew the same before.
+    // Draws with the same list before share the new list.
     let mut made: Vec<(Option<Selection>, Selection)> = Vec::new();
     for draw in plan.draws_mut().filter(|draw| draw.is_of_objects() && is_meant(draw)) {
         let before = draw.faces.take();

@@ -1,4 +1,4 @@
-//! What rules of pruning are, what they know of a scene, and what they leave out.
+//! The rules of pruning, the facts they use of a scene, and the parts they leave out.
 
 use crate::choice::Choice;
 use crate::plan::Plan;
@@ -7,18 +7,18 @@ use serde::Serialize;
 use std::cell::OnceCell;
 
 tinta_geometry::choices! {
-    /// A kind of thing that can be left out, in the order in which the rules are applied.
+    /// A kind of part that can be left out. The rules apply in this order.
     #[non_exhaustive]
     pub enum Rule {
-        /// Draws that add nothing: the border's square where its filter is multiplied by 0.
+        /// Draws that add nothing: the border's square if its filter is multiplied by 0.
         Border = "border",
         /// Objects outside the picture.
         OutsideObjects = "outside-objects",
         /// Faces that the driver would cull anyway.
         CulledFaces = "culled-faces",
-        /// Light that no tone depends on: highlights below three tones, all of it with one.
+        /// Light that no tone depends on: highlights below three tones, all light with one.
         UnusedLight = "unused-light",
-        /// The background square where clearing does the same.
+        /// The background square, if a clear does the same.
         BackgroundSquare = "background-square",
         /// Pixels of full-screen squares that no object reaches.
         EmptyPixels = "empty-pixels",
@@ -32,24 +32,23 @@ tinta_geometry::choices! {
 }
 
 impl Rule {
-    /// As the user writes it.
+    /// Returns the name as the user writes it.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.choice_name()
     }
 }
 
-/// How to prune; [`crate::Renderer::pruning`] has what holds of a renderer.
+/// Settings of pruning; [`crate::Renderer::pruning`] returns those for a renderer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Pruning {
-    /// Rules that are not to be applied. Default none.
+    /// Rules to skip. Default none.
     pub keep: Vec<Rule>,
-    /// Whether GL draws on the processor, where faces left out here are worth the search for them. Default yes.
+    /// Whether GL draws on the processor, where leaving faces out here is worth the search. Default yes.
     pub is_software: bool,
-    /// Bits to which GL places a vertex within a pixel. Default 4, as many as every driver has.
+    /// Bits of a vertex's position within a pixel. Default 4, the number that every driver has.
     pub subpixel_bits: u32,
-    /// Shaders, by their paths, whose texts are no longer those that the styles know: what a plan states of draws by them
-    /// does not count. Default none.
+    /// Shaders, by path, whose texts have been replaced: facts of draws that use them are ignored. Default none.
     pub replaced_shaders: Vec<String>,
 }
 
@@ -59,31 +58,31 @@ impl Default for Pruning {
     }
 }
 
-/// Something left out that cannot change the picture.
+/// An omission that cannot change the picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Omission {
     /// Its name.
     #[serde(rename = "name")]
     pub rule: Rule,
-    /// What is not done any more.
+    /// The work that is left out.
     pub what: String,
     /// Why the picture is the same without it.
     pub reason: String,
-    /// What about this scene and plan that rests on.
+    /// The facts about this scene and plan behind that reason.
     pub facts: Vec<String>,
 }
 
-/// What is known of the scene, found out when first asked for.
+/// The facts about a scene, computed on first use.
 pub(super) struct Situation<'a> {
     pub scene: &'a Scene,
-    /// The size of what is drawn into.
+    /// The size of the drawing surface.
     pub surface: Size,
     pub pruning: &'a Pruning,
     pub extent: OnceCell<Option<Rectangle>>,
 }
 
 impl Situation<'_> {
-    /// The pixels that faces of objects can touch.
+    /// Returns the pixels that faces of objects can touch.
     pub(super) fn extent(&self) -> Option<Rectangle> {
         *self.extent.get_or_init(|| {
             let inside = self.scene.objects.iter().filter(|object| !self.scene.is_outside(object, 0.0));
@@ -92,7 +91,7 @@ impl Situation<'_> {
     }
 }
 
-/// Leaves out passes without steps; the last one stays where the picture would be another target's without it.
+/// Drops passes without steps, except the last one if the picture would otherwise be another target's.
 pub(super) fn drop_empty_passes(plan: &mut Plan) {
     let (target, last) = (plan.picture_target(), plan.passes.last().cloned());
     plan.passes.retain(|pass| !pass.steps.is_empty());

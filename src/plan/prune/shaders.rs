@@ -3,7 +3,7 @@
 use super::rule::{Omission, Rule};
 use crate::plan::{Plan, Shorter};
 
-/// Exchanges programs for those without the light that reaches no threshold.
+/// Replaces programs by versions without the light that reaches no threshold.
 pub(super) fn unused_light(plan: &mut Plan) -> Result<Omission, String> {
     let (mut facts, mut left_out) = (Vec::new(), "");
     for draw in plan.draws_mut() {

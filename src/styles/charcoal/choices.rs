@@ -1,7 +1,7 @@
-//! The charcoal drawing's choices that have names.
+//! The charcoal drawing's named choices.
 
 tinta_geometry::choices! {
-    /// Ways to draw: the listing as it is, and the two that the text's conclusions name.
+    /// A way to draw: the published listing, or one of the two that the text's conclusions name.
     #[derive(Default)]
     pub enum CharcoalRecipe {
         /// The default settings: the listing, with values of ours where the text gives none (errata V7).
@@ -27,19 +27,19 @@ tinta_geometry::choices! {
 }
 
 tinta_geometry::choices! {
-    /// By which light the rows of the contrast-enhanced texture are read.
+    /// The light that selects the rows of the contrast-enhanced texture.
     #[derive(Default)]
     pub enum CetCoordinate {
         /// Before saturation, as published.
         #[default]
         Original = "original",
-        /// After it: figure 8.
+        /// After saturation: figure 8.
         Saturated = "saturated",
     }
 }
 
 tinta_geometry::choices! {
-    /// What enhances contrast.
+    /// The operator that enhances contrast.
     #[derive(Default)]
     pub enum ContrastOperator {
         /// The light to the power of the exponent, as published.
@@ -53,7 +53,7 @@ tinta_geometry::choices! {
 }
 
 tinta_geometry::choices! {
-    /// Where the noise lies that chooses grains.
+    /// The position of the noise that chooses grains.
     #[derive(Default)]
     pub enum Noise {
         /// On the picture, as published: the model moves behind it.

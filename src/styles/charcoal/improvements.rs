@@ -1,34 +1,34 @@
-//! What is drawn better than published: the text's flaws mended, and what goes beyond the text.
+//! Improvements on the published drawing: mended flaws of the text, and additions.
 //!
-//! `all` is the text's flaws, as it was before there was anything else: pictures and measured rows with it stay what they were.
-//! `everything` is these and the rest.
+//! `all` mends the text's flaws. It dates from before the additions and keeps its meaning, so old pictures and measured rows stay
+//! valid. `everything` adds the rest.
 
 use crate::error::ParseError;
 use crate::settings::{Kind, Problem, Value};
 use std::str::FromStr;
 
-/// Which flaws are mended, and what is added.
+/// The flaws to mend and the improvements to add.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Improvements {
     /// V2: the saturated light is clamped to 1.
     pub clamp: bool,
-    /// V3: the texture's rows do not wrap, so that lights stay free of specks.
+    /// V3: the texture's rows do not wrap, which keeps lights free of specks.
     pub wrap: bool,
     /// V4: paper and noise are placed by the pixel.
     pub paper_coordinate: bool,
     /// V5: luminance by Rec. 709 (the style sand only).
     pub luminance: bool,
-    /// Paper and noise keep their own proportion in a picture that is not square: they cover it instead of being stretched.
+    /// Paper and noise keep their proportions in a picture that is not square: they cover it instead of being stretched.
     pub proportion: bool,
-    /// The paper's tooth catches the grain: more on what stands out, less in the hollows.
+    /// The paper's tooth catches the grain: raised parts take more, hollows less.
     pub tooth: bool,
-    /// A face seen from behind is lit as one that faces the eye.
+    /// Faces seen from behind are lit as if they faced the eye.
     pub two_sided: bool,
-    /// Tone and grain vary as the strokes of a hand do.
+    /// Tone and grain vary like the strokes of a hand.
     pub strokes: bool,
 }
 
-/// How many there are.
+/// The number of improvements.
 const COUNT: usize = 8;
 
 impl Improvements {
@@ -44,16 +44,16 @@ impl Improvements {
         strokes: false,
     };
 
-    /// The text's flaws, and what goes beyond it.
+    /// The text's flaws, and additions beyond it.
     pub const EVERYTHING: Self = Self { proportion: true, tooth: true, two_sided: true, strokes: true, ..Self::ALL };
 
-    /// Whether anything is done that the text does not mean.
+    /// Whether any improvement goes beyond the text.
     pub fn go_beyond_the_text(self) -> bool {
         let Self { proportion, tooth, two_sided, strokes, .. } = self;
         proportion || tooth || two_sided || strokes
     }
 
-    /// Each one's name, and whether it is chosen.
+    /// Returns each improvement's name, and whether it is chosen.
     fn named(&mut self) -> [(&'static str, &mut bool); COUNT] {
         let Self { clamp, wrap, paper_coordinate, luminance, proportion, tooth, two_sided, strokes } = self;
         [

@@ -1,4 +1,4 @@
-//! How the textures lie on the picture: what the shaders' parts are told of sizes.
+//! The position of the textures on the picture: the sizes passed to the shaders' parts.
 //!
 //! In: the textures and the picture's size. Out: uniforms.
 
@@ -13,13 +13,13 @@ pub(super) struct Layout {
     samples: u32,
     noise: Size,
     cet: Size,
-    /// Shares of the textures that the picture's width and height cover.
+    /// The shares of the textures that the picture's width and height cover.
     noise_spread: [f32; 2],
     paper_spread: [f32; 2],
 }
 
 impl Layout {
-    /// Of these textures: stretched once over the picture, or each in its own proportion.
+    /// The layout of these textures: stretched once over the picture, or each in its own proportions.
     pub(super) fn of(made: &Made, picture: Size, samples: u32, is_even: bool) -> Self {
         let spread = |texture: Size| if is_even { even(picture, texture) } else { [1.0; 2] };
         Self {
@@ -32,7 +32,7 @@ impl Layout {
         }
     }
 
-    /// What spread-* and grain-* read.
+    /// Returns the uniforms of spread-* and grain-*.
     pub(super) fn places(&self) -> Vec<Uniform> {
         vec![
             vec2("noiseSpread", self.noise_spread),
@@ -41,7 +41,7 @@ impl Layout {
         ]
     }
 
-    /// What the parts read.
+    /// Returns the uniforms that the parts read.
     pub(super) fn uniforms(&self) -> Vec<Uniform> {
         let (picture, shorter) = (self.picture, shorter(self.picture));
         let sides = [picture.width, picture.height].map(|side| side as f32);
@@ -69,7 +69,7 @@ fn shorter(picture: Size) -> f32 {
     picture.width.min(picture.height) as f32
 }
 
-/// The share of a texture along each side of a picture that it covers whole and unstretched: all of it along one side.
+/// Returns the share of a texture, along each side, that covers the picture unstretched: all of it along one side.
 fn even(picture: Size, texture: Size) -> [f32; 2] {
     let pixels_a_texel =
         [f64::from(picture.width) / f64::from(texture.width), f64::from(picture.height) / f64::from(texture.height)];
@@ -93,7 +93,7 @@ mod tests {
         assert_eq!(even(size(600, 300), size(200, 100)), [1.0; 2]);
         for (picture, texture) in [(size(900, 400), size(300, 700)), (size(31, 77), size(100, 3))] {
             let [x, y] = even(picture, texture);
-            // Pixels of the picture a texel, along both sides.
+            // Picture pixels per texel, along both sides.
             let across = picture.width as f32 / (x * texture.width as f32);
             let down = picture.height as f32 / (y * texture.height as f32);
             assert!((across / down - 1.0).abs() < 1e-5, "{across} {down}");

@@ -7,7 +7,7 @@ use crate::textures::{ContrastTexture, LARGEST_SIDE_PX, NoiseTexture, PaperTextu
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Where one of the drawing's textures comes from.
+/// The source of one of the drawing's textures.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub enum TextureSource {
     /// Made from the seed.
@@ -15,7 +15,7 @@ pub enum TextureSource {
     Made,
     /// A picture of the user's.
     File {
-        /// Where it came from.
+        /// Its source file.
         path: PathBuf,
         /// The picture; its alpha is not used.
         picture: Arc<Picture>,
@@ -34,7 +34,7 @@ impl TextureSource {
         Ok(Self::File { path: path.to_path_buf(), picture })
     }
 
-    /// The picture of the file, or else the one that is made.
+    /// Returns the picture of the file, or else makes one.
     fn or_made(&self, make: impl FnOnce() -> Result<Picture>) -> Result<Arc<Picture>> {
         match self {
             Self::Made => make().map(Arc::new),
@@ -51,7 +51,7 @@ impl TextureSource {
     }
 }
 
-/// What a texture that is made is called.
+/// The name of a generated texture.
 const MADE: &str = "made";
 
 impl Value for TextureSource {
@@ -71,7 +71,7 @@ impl Value for TextureSource {
     }
 }
 
-/// Textures kept for the next picture; shared between clones. Two of them are always equal: they follow from the settings.
+/// Textures kept for the next picture; shared between clones. Any two compare equal, because the settings determine them.
 #[derive(Debug, Clone, Default)]
 pub struct CharcoalPictures(Arc<Mutex<Option<(TextureSettings, Made)>>>);
 
@@ -81,14 +81,14 @@ impl PartialEq for CharcoalPictures {
     }
 }
 
-/// What the textures follow from.
+/// The settings that determine the textures.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TextureSettings {
     pub contrast: ContrastTexture,
     pub noise: NoiseTexture,
-    /// Of noise, contrast-enhanced texture and paper.
+    /// Sources of noise, contrast-enhanced texture and paper.
     pub sources: [TextureSource; 3],
-    /// Whether the paper's height is wanted.
+    /// Whether the drawing needs the paper's height.
     pub has_tooth: bool,
 }
 
@@ -98,12 +98,12 @@ pub(super) struct Made {
     pub noise: Arc<Picture>,
     pub cet: Arc<Picture>,
     pub paper: Arc<Picture>,
-    /// The paper's height, where it is wanted.
+    /// The paper's height, if the drawing needs it.
     pub tooth: Option<Arc<Picture>>,
 }
 
 impl CharcoalPictures {
-    /// The textures of these settings: those kept, or else made now.
+    /// Returns the textures of these settings, kept or made now.
     pub(super) fn of(&self, settings: TextureSettings) -> Result<Made> {
         let (size, seed, random) = (settings.noise.size, settings.noise.seed, settings.noise.random);
         if size.width.max(size.height) > LARGEST_SIDE_PX {
@@ -113,7 +113,7 @@ impl CharcoalPictures {
                 format!("a texture has 1 to {LARGEST_SIDE_PX} pixels on each side"),
             ));
         }
-        // What is behind the lock is replaced as a whole, so a panic elsewhere leaves nothing half done.
+        // The value behind the lock is replaced as a whole, so a panic elsewhere leaves it intact.
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((known, made)) = kept.as_ref()
             && *known == settings

@@ -26,7 +26,7 @@ impl Charcoal {
                 Ok(())
             },
         )
-        // The old name made values of ours look like the text's.
+        // The old name made our values look like the text's.
         .formerly(&[("published", "plain")])
         .ours("V, section 5 lists which parameters to raise and lower, not by how much");
         let grain = vec![
@@ -186,14 +186,14 @@ impl Charcoal {
     }
 }
 
-/// The setting of a light that may be left out.
+/// Returns the setting of a light that may be left out.
 fn light(
     name: &'static str,
     help: &'static str,
     field: fn(&mut Charcoal) -> &mut Option<[f32; 3]>,
 ) -> Setting<Charcoal> {
     let mut light = Setting::open_field(name, "X,Y,Z|none", "none", help, field).range(-1.0, 1.0, 2);
-    // The default is no light left out but a direction, which the help then says.
+    // The default is a direction, as the help says.
     light.said_default = None;
     light
 }

@@ -6,7 +6,7 @@ fn scene() -> Scene {
     Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings::default()).unwrap()
 }
 
-/// Textures that are made at once, as what is on them is tested elsewhere; the published ones where full sizes are asked for.
+/// Small textures for speed, as other tests cover their contents; the published ones if full sizes are requested.
 fn small() -> Size {
     match std::env::var_os("TINTA_FULL_SIZES") {
         Some(_) => Charcoal::default().texture_size,

@@ -1,7 +1,7 @@
 //! The edges that `inking` draws of a scene.
 //!
-//! In: a scene and the settings. Out: runs of lines, object by object and class by class. Edges share the vertices of the faces, so that their
-//! depths agree with them; smooth silhouettes run through faces and have vertices of their own.
+//! In: a scene and the settings. Out: runs of lines, object by object and class by class. Edges share the vertices of the faces,
+//! so their depths agree. Smooth silhouettes run through faces and have separate vertices.
 
 use super::Inking;
 use crate::edges::{Class, Side, SilhouetteRule, side_of_face};
@@ -13,7 +13,7 @@ use glam::DVec3;
 use std::collections::HashMap;
 
 impl Inking {
-    /// The edges to draw, object by object and class by class.
+    /// Returns the edges to draw, object by object and class by class.
     pub(super) fn runs(&self, scene: &Scene) -> Vec<EdgeRun> {
         let is_smooth = self.silhouette == SilhouetteRule::Smooth && self.classes.contains(Class::Silhouette);
         let smooth = if is_smooth { smooth_silhouettes(scene, self.crease_angle) } else { Vec::new() };
@@ -22,7 +22,7 @@ impl Inking {
             let edges = scene.edges(object);
             let arrays = scene.arrays(object);
             let mesh = &object.mesh;
-            // Where the eye really is, whatever the rule for silhouettes.
+            // The true eye, whatever the rule for silhouettes.
             let true_eye = scene.eye(object, SilhouetteRule::Exact);
             let is_turned_away = |face: &u32| {
                 let corners = mesh.triangles[*face as usize].map(|position| mesh.positions[position as usize]);
@@ -50,7 +50,7 @@ impl Inking {
             for (class, mut chosen) in chosen {
                 chosen.retain(&is_drawn);
                 if let Some(smooth) = smooth.filter(|_| class > Class::Silhouette) {
-                    // The parts that are silhouette are drawn as that.
+                    // Silhouette parts are drawn as silhouettes.
                     chosen.retain(|edge| {
                         let between = between_parts(smooth.parts_of(*edge));
                         let is_whole = between == [[0.0, 1.0]];
@@ -83,7 +83,7 @@ impl Inking {
     }
 }
 
-/// Lines with vertices of their own, each of these once.
+/// Lines with separate vertices, each vertex once.
 #[derive(Debug, Default)]
 struct OwnLines {
     vertices: Vec<[f32; 6]>,
@@ -104,13 +104,13 @@ impl OwnLines {
     }
 }
 
-/// A part of an edge, in the mesh's own coordinates.
+/// Returns a part of an edge, in the mesh's own coordinates.
 fn along(mesh: &Mesh, ends: [u32; 2], part: [f64; 2]) -> [DVec3; 2] {
     let [low, high] = ends.map(|position| mesh.positions[position as usize]);
     part.map(|share| if share == 1.0 { high } else { low + (high - low) * share })
 }
 
-/// What parts of a whole leave of it.
+/// Returns the gaps that parts leave of a whole.
 fn between_parts(parts: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     let mut from = 0.0;
     let mut between: Vec<[f64; 2]> = Vec::new();
