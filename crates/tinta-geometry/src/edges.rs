@@ -1,8 +1,8 @@
 //! The edge list of a mesh: each edge once with its faces, and from it the lines worth drawing.
 //!
 //! In: a [`Mesh`](crate::mesh::Mesh). Out: [`EdgeList`] (the edges), [`Classes`] (the boundary, crease, non-manifold and seam
-//! edges, for any view) and [`Silhouettes`] (the edges between front and back faces, for an [`Eye`]). Dachsbacher, *Beethoven
-//! aus Bits und Bytes*, section "Inking"; errata D1 to D5 and D10.
+//! edges, independent of the view) and [`Silhouettes`] (the edges between front and back faces, for an [`Eye`]). Dachsbacher,
+//! *Beethoven aus Bits und Bytes*, section "Inking"; errata D1 to D5 and D10.
 //!
 //! ```
 //! # fn main() -> tinta_geometry::Result<()> {

@@ -1,8 +1,8 @@
 //! Wavefront OBJ, with MTL colours and textures.
 //!
 //! The file is cut between lines into pieces, which all cores read in parallel. A first pass counts each piece's declarations,
-//! from which each piece knows its faces' indices. tobj is only the tests' second opinion on sound files: it takes three times
-//! as long on one core, stops at the first index out of range, knows no line numbers and invents normals for corners that have
+//! which gives each piece its faces' indices. tobj is only the tests' second opinion on sound files: it takes three times as
+//! long on one core, stops at the first index out of range, knows no line numbers and invents normals for corners that have
 //! none.
 
 #[cfg(test)]

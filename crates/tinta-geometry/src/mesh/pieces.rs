@@ -161,7 +161,7 @@ fn turned([a, b, c]: [u32; 3]) -> [u32; 3] {
 ///
 /// Triangles are ordered by their lowest vertex alone, by counting; the few that share it are sorted.
 fn repeated(triangles: &[[u32; 3]], vertices: usize) -> Vec<u32> {
-    // Each vertex's first triangle after the ordering, its end before.
+    // For each vertex where its triangles end; once they are ordered, where they begin.
     let mut ends = vec![0u32; vertices + 1];
     let lowest = |[a, b, c]: &[u32; 3]| *a.min(b).min(c) as usize;
     triangles.iter().for_each(|triangle| ends[lowest(triangle)] += 1);
