@@ -147,7 +147,7 @@ impl fmt::Display for Color {
     }
 }
 
-/// What is behind the objects.
+/// The background behind the objects.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Background {

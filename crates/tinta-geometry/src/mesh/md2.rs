@@ -93,7 +93,7 @@ impl Header {
     }
 }
 
-/// Reads an MD2 file's bytes. `path` is for messages; its skin is looked for in `folder`.
+/// Reads an MD2 file's bytes. `path` is for messages; `folder` holds its skin.
 pub(super) fn read(
     bytes: &[u8],
     path: &str,

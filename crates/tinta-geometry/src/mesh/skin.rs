@@ -86,7 +86,7 @@ fn beside(folder: &Folder<'_>, base: &str) -> Lookup {
     };
     let mut candidates: Vec<(usize, &String)> =
         folder.names().iter().filter_map(|name| Some((rank(name)?, name))).collect();
-    // The order of a folder's entries is nobody's promise: rank, then name decide.
+    // A folder's entries have no fixed order: rank, then name decide.
     candidates.sort_unstable();
     let mut best = Lookup::Nowhere;
     for (_, name) in candidates {

@@ -73,7 +73,7 @@ fn chunks<'a>(mut bytes: Bytes<'a>) -> impl Iterator<Item = std::result::Result<
     })
 }
 
-/// What is read of a file before faces know their materials.
+/// A file's contents before faces know their materials.
 #[derive(Default)]
 struct Contents {
     soup: Soup,

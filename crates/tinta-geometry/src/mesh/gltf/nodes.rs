@@ -4,7 +4,7 @@ use crate::limits::NODE_LEVELS;
 use glam::{DMat4, DQuat, DVec3};
 use gltf_json::{Index, Node, Root, Scene};
 
-/// What the scene shows.
+/// The scene's contents.
 pub(super) struct Nodes {
     /// For each node of the file where it lies: scene from node.
     pub scene_from_node: Vec<DMat4>,

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-/// What a mesh holds, before any of it is read.
+/// A mesh's contents, before reading.
 pub(super) struct Outline<'a> {
     mesh: &'a Mesh,
     sets: Vec<Set<'a>>,

@@ -22,7 +22,7 @@ pub(super) enum Uri {
     File(String),
 }
 
-/// Takes an address apart; nothing is fetched from anywhere.
+/// Takes an address apart; network addresses are not read.
 pub(super) fn parse(uri: &str) -> Result<Uri, String> {
     if let Some(data) = uri.strip_prefix("data:") {
         let (kind, data) = data.split_once(',').ok_or("an address in it begins with data: but holds no data")?;

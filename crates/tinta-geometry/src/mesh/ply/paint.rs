@@ -1,5 +1,4 @@
-//! What a PLY file's faces have besides their corners: texture coordinates and the number of a picture, as MeshLab writes
-//! them, or a colour.
+//! The attributes of a PLY file's faces: texture coordinates and the number of a picture, as MeshLab writes them, or a colour.
 
 use super::colors::{full_color, share};
 use super::header::Header;
