@@ -127,7 +127,7 @@ pub(super) fn find_all(soup: &mut Soup, folder: &Folder<'_>, path: &str, remarks
     remark(path, lost, "pictures are missing or were not read", remarks);
 }
 
-/// Why a file that is there is not read.
+/// Why an existing file is not read.
 pub(super) fn outside(what: &str, name: &str) -> String {
     format!("the {what} {} is outside its folder and was not read; --allow-external reads it", shown(name))
 }

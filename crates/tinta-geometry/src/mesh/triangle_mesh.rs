@@ -65,7 +65,7 @@ pub struct Material {
 /// The meaning of a texture's alpha. Surfaces are never drawn transparent: anything behind them shows as white, like paper.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub enum TextureAlpha {
-    /// Ignored: colours stay unchanged.
+    /// Ignored: colours keep their values.
     #[default]
     Ignored,
     /// Texels below this alpha, of 255, are left out; others keep their colours.

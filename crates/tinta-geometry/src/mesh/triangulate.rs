@@ -49,7 +49,7 @@ pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut
     true
 }
 
-/// The corners moved to the first one and scaled to a size of 1 to 2, so that products of lengths stay ordinary numbers. The
+/// The corners moved to the first one and scaled to a size of 1 to 2, which keeps products of lengths ordinary numbers. The
 /// scale is a power of two: no division rounds, and corners in line stay so.
 fn of_size_one(corners: &[DVec3]) -> Vec<DVec3> {
     let size = corners.iter().map(|corner| (corner - corners[0]).abs().max_element()).fold(0.0, f64::max);

@@ -13,7 +13,7 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Which of a primitive's texture coordinates a material reads, and what it does to them.
+/// The texture coordinates of a primitive that a material reads, and their change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Coordinates {
     /// The number after `TEXCOORD_`.

@@ -1,4 +1,4 @@
-//! Tests that tobj, by itself, reads sound files alike, and that any file is read alike whatever pieces it is cut into.
+//! Tests that tobj reads sound files alike, and that the pieces a file is cut into do not affect the result.
 
 use super::super::NONE;
 use super::super::folder::Folder;

@@ -14,7 +14,7 @@ pub(super) fn vertex(line: &[u8]) -> Option<DVec3> {
 }
 
 /// Adds a face's corners, whose numbers count from the file's first and are below `most` of positions, texture coordinates and
-/// normals; returns how many there are. `None` for anything else; what was added then is the caller's to take away.
+/// normals; returns how many there are. `None` for anything else; the caller then removes the additions.
 pub(super) fn face(line: &[u8], most: [u32; 3], corners: &mut Vec<Corner>) -> Option<usize> {
     let mut rest = blanks(line);
     let before = corners.len();

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 pub(super) struct Paint {
     /// The names of the file's pictures.
     pictures: Vec<String>,
-    /// What a colour's full strength is; `None` where faces have none, or something else is drawn in their place.
+    /// A colour's full strength; `None` where faces have none, or something else is drawn in their place.
     full_color: Option<f64>,
     /// The colour of each face.
     colors: Vec<[f32; 3]>,
