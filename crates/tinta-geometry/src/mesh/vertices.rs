@@ -169,7 +169,7 @@ impl<'a> CornerKeys<'a> {
 }
 
 /// Sorts the triangles by material and then along a space-filling curve: neighbours are drawn together and share cached
-/// vertices: a scan in its file's order costs a quarter more (GL picks among equal depths the triangle drawn first, so only the
+/// vertices. A scan in its file's order costs a quarter more (GL picks among equal depths the triangle drawn first, so only the
 /// order of coincident triangles can show).
 fn drawing_order(mesh: &Mesh) -> Vec<u32> {
     let (low, high) = mesh.bounds();
