@@ -1,4 +1,4 @@
-//! Decides exactly on which side of a face the eye is.
+//! Decides exactly which side of a face the eye sees.
 //!
 //! In perspective the side is the sign of Shewchuk's orient3d, from the `robust` crate. In parallel projection it is the sign
 //! of the determinant of two sides of the face and the direction to the eye. That is computed here: first in f64 with an error

@@ -23,7 +23,7 @@ pub(super) struct Soup {
     pub corners: Vec<Corner>,
     /// How many corners each polygon has; empty when all are triangles.
     pub polygon_sizes: Vec<u32>,
-    /// Each polygon's material or [`NONE`]; empty when there are none.
+    /// Each polygon's material or [`NONE`]; empty without materials.
     pub polygon_materials: Vec<u32>,
     /// The materials.
     pub materials: Vec<Material>,

@@ -82,7 +82,7 @@ fn project(corners: &[DVec3], normal: DVec3) -> impl Iterator<Item = DVec2> {
     corners.iter().map(move |corner| DVec2::new(corner.dot(across), corner.dot(along)))
 }
 
-/// The triangle turned so that it winds like its polygon: earcut does not promise an order.
+/// Turns the triangle to wind like its polygon: earcut does not promise an order.
 fn oriented(triangle: [u32; 3], corners: &[DVec3], normal: DVec3) -> [u32; 3] {
     let [a, b, c] = triangle.map(|index| corners[index as usize]);
     if (b - a).cross(c - a).dot(normal) < 0.0 { [triangle[0], triangle[2], triangle[1]] } else { triangle }

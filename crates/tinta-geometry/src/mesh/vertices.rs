@@ -112,7 +112,7 @@ impl CornerVertices {
             let [x, y, z] = ((point - centre) / unit).as_vec3().to_array();
             corners.clear();
             corners.extend(incidence.corners(position).iter().map(|corner| (keys.of(*corner as usize), *corner)));
-            // Where all of them are one vertex, as on smooth surfaces, there is nothing to sort.
+            // A single vertex, as on smooth surfaces, needs no sorting.
             if corners.windows(2).any(|pair| pair[0].0 != pair[1].0) {
                 corners.sort_unstable();
             }

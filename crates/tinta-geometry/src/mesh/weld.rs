@@ -155,8 +155,8 @@ mod tests {
 
     #[test]
     fn points_of_which_most_are_repeated_are_welded_as_if_each_were_swept() {
-        // Three times each, in clusters, zeros of both signs and what is not finite among them; then the same so far apart in the
-        // list that equal ones are not found at once.
+        // Three times each, in clusters, with zeros of both signs and numbers that are not finite; then the same so far apart
+        // in the list that equal ones are not found at once.
         let number = |i: i32, by: i32, of: i32| f64::from(i * by % of) * if i % 2 == 0 { -1e-3 } else { 1e-3 };
         let some = (0..300).map(|i| DVec3::new(number(i, 31, 97), number(i, 17, 5), number(i, 7, 83)));
         let mut points: Vec<DVec3> = some.flat_map(|point| [point, -(-point + 0.0), point]).collect();
@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn sweep_and_grid_weld_the_same_points() {
-        // Three dozen clusters of points that are a little apart, so that who is welded to whom depends on the order.
+        // Three dozen clusters of points that are a little apart: the order decides which are welded.
         let points: Vec<DVec3> = (0..600)
             .map(|i| {
                 let at = DVec3::new(f64::from(i % 7), f64::from(i % 5), 0.0);

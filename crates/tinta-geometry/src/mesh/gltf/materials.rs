@@ -18,7 +18,7 @@ use std::sync::Arc;
 pub(super) struct Coordinates {
     /// The number after `TEXCOORD_`.
     pub set: u32,
-    /// What they are multiplied with before the offset is added, both in the file's sense, v downwards.
+    /// Their factor, applied before the offset, both in the file's sense, v downwards.
     matrix: Mat2,
     offset: Vec2,
     /// Whether it changes them.

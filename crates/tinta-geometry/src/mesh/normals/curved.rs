@@ -4,7 +4,7 @@
 //! In: a surface's triangles and edges. Out: the answer for each triangle, the same throughout a patch: all faces connected
 //! over edges below the smoothing angle. A surface has double curvature at a vertex if the angles around it do not add up to a
 //! full turn (its Gaussian curvature); on a plane, a cylinder or a cone they do. A patch is curved if most of its area lies at
-//! such vertices, in facets from which the surface bulges by less than the width of `print`'s outline.
+//! such vertices, in facets with a bulge below the width of `print`'s outline.
 
 use super::denoise_normals::Faces;
 use super::incidence::{Incidence, angle_at};

@@ -59,7 +59,7 @@ fn tobjs(bytes: &[u8], folder: &Folder<'_>) -> Vec<Face> {
     models.into_iter().flat_map(|model| of_mesh(model.mesh)).collect()
 }
 
-/// Compared as text, in which a number that is none equals itself.
+/// Compared as text, in which a NaN equals itself.
 fn assert_same(bytes: &[u8], length: usize, folder: &Folder<'_>) {
     let [ours, tobjs] = [ours(bytes, length, folder), tobjs(bytes, folder)].map(|faces| format!("{faces:?}"));
     assert!(ours == tobjs, "{:.900}\n{ours:.900}\n{tobjs:.900}", String::from_utf8_lossy(bytes));

@@ -72,8 +72,8 @@ const POWERS: [f64; 23] = [
     1e21, 1e22,
 ];
 
-/// A decimal without an exponent whose digits and power of ten f64 both holds, so that one division rounds it as it should be
-/// (Clinger 1990); any other is read by the standard library.
+/// A decimal without an exponent whose digits and power of ten f64 both holds: one division then rounds it correctly (Clinger
+/// 1990); any other is read by the standard library.
 fn decimal(bytes: &[u8]) -> Option<(f64, &[u8])> {
     /// Digits that any whole number below 2^53 may have.
     const DIGITS: usize = 15;

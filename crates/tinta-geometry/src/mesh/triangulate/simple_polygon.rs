@@ -83,7 +83,7 @@ impl Ord for Side {
             0.0 => self.turn(other.right),
             turn => turn,
         };
-        // Sides on one another have any order, as long as it is always the same.
+        // Overlapping sides may have any consistent order.
         0.0.partial_cmp(&turn).unwrap_or(Ordering::Equal).then(self.number.cmp(&other.number))
     }
 }
