@@ -2,7 +2,7 @@
 //!
 //! Nothing here panics or allocates by a file's own count: where the bytes end there is `None`, for the reader to explain.
 
-/// What is left of a file or of a part of it.
+/// The rest of a file or of a part of it.
 #[derive(Debug, Clone, Copy)]
 pub struct Bytes<'a>(pub &'a [u8]);
 
@@ -63,7 +63,7 @@ impl<'a> Bytes<'a> {
     }
 }
 
-/// A name in a field of fixed length: up to the first zero byte; what is not UTF-8 is replaced.
+/// A name in a field of fixed length: up to the first zero byte; invalid UTF-8 is replaced.
 pub fn name(field: &[u8]) -> String {
     let text = field.split(|byte| *byte == 0).next().unwrap_or_default();
     String::from_utf8_lossy(text).into_owned()

@@ -1,25 +1,25 @@
-//! Choices: values that are one of a few names, and the name that somebody meant who wrote another.
+//! Choices: values with fixed names, and suggestions for misspelt names.
 
 use crate::error::ParseError;
-/// What the macro `choices` needs of serde.
+/// Parts of serde for the macro `choices`.
 pub use serde::{Serialize, Serializer};
 
-/// A value that is one of a few names: what stands in its table is read, written, listed in help and offered by shells.
+/// A value from a table of names; the table serves reading, writing, help and shell completion.
 pub trait Choice: Copy + PartialEq + 'static {
-    /// Every value with its name, as the user writes it.
+    /// Every value with its name, as users write it.
     const NAMED: &'static [(&'static str, Self)];
 
-    /// The value's name.
+    /// Returns the value's name.
     fn choice_name(self) -> &'static str {
         // Every value is in its table.
         Self::NAMED.iter().find(|(_, known)| *known == self).map_or("", |(name, _)| name)
     }
 
-    /// The value of a name.
+    /// Returns the value with this name.
     ///
     /// # Errors
     ///
-    /// The name that was meant, or the names that there are.
+    /// Suggests the nearest name, or lists all names.
     fn of_name(name: &str) -> Result<Self, ParseError> {
         Self::NAMED.iter().find(|(known, _)| *known == name).map(|(_, value)| *value).ok_or_else(|| {
             let names: Vec<&str> = Self::NAMED.iter().map(|(name, _)| *name).collect();
@@ -28,12 +28,12 @@ pub trait Choice: Copy + PartialEq + 'static {
     }
 }
 
-/// What to say of a name that there is not: which was meant, or else this.
+/// Returns a message for an unknown name: a suggestion, or else `otherwise`.
 pub fn meant_or(name: &str, names: &[&str], otherwise: &str) -> String {
     nearest(name, names).map_or_else(|| otherwise.to_owned(), |nearest| format!("did you mean {nearest}?"))
 }
 
-/// What to say of an option that whatever is called so has not, both as the user writes them: which was meant, if one was.
+/// Returns a message for an unknown option of `owner`, both as users write them, with the suggestion `meant` if any.
 ///
 /// ```
 /// use tinta_geometry::choice::no_option;
@@ -45,9 +45,9 @@ pub fn no_option(owner: &str, given: &str, meant: Option<&str>) -> String {
     meant.map_or(sentence.clone(), |meant| format!("{sentence}; did you mean {meant}?"))
 }
 
-/// The name that somebody meant who wrote `word`: the nearest by letters added, left out, exchanged or swapped with the next,
-/// one for every three letters at most; else the only one that begins so. Capitals count as small letters, underscores and
-/// blanks as hyphens. `None` where no name is near.
+/// Returns the name nearest to `word`, counting letters added, left out, exchanged or swapped with the next, at most one for
+/// every three letters; else the only name that begins with `word`. Capitals count as small letters, underscores and blanks as
+/// hyphens. `None` if no name is near.
 ///
 /// ```
 /// use tinta_geometry::choice::nearest;
@@ -55,9 +55,9 @@ pub fn no_option(owner: &str, given: &str, meant: Option<&str>) -> String {
 /// assert_eq!(nearest("sharp", &["laplacian4", "sobel"]), None);
 /// ```
 pub fn nearest<'n>(word: &str, names: &[&'n str]) -> Option<&'n str> {
-    /// Longer words are not compared: nobody means a name by them.
+    /// Longer words are not compared: they are no misspelt names.
     const LONGEST: usize = 64;
-    /// Fewer letters begin too many names.
+    /// Shorter beginnings fit too many names.
     const LEAST_BEGINNING: usize = 3;
     let letters = |text: &str| -> Vec<char> {
         let lower = text.chars().take(LONGEST + 1).flat_map(char::to_lowercase);
@@ -75,7 +75,7 @@ pub fn nearest<'n>(word: &str, names: &[&'n str]) -> Option<&'n str> {
     })
 }
 
-/// How many letters must be added, left out, exchanged or swapped with the next to make one word of the other.
+/// Returns the number of letters to add, leave out, exchange or swap with the next to turn one word into the other.
 fn edits(from: &[char], to: &[char]) -> usize {
     let mut rows: Vec<Vec<usize>> = vec![(0..=to.len()).collect()];
     for (i, &letter) in from.iter().enumerate() {
@@ -93,8 +93,7 @@ fn edits(from: &[char], to: &[char]) -> usize {
     rows[from.len()][to.len()]
 }
 
-/// Makes an enum of values with a name each, as the user writes it: the type, its table `ALL` in the same order, and how a value is
-/// read by `parse`, displayed and serialised: as its name.
+/// Makes an enum of named values: the type, its table `ALL` in the same order, parsing, display and serialisation by name.
 ///
 /// ```
 /// tinta_geometry::choices! {
@@ -127,7 +126,7 @@ macro_rules! choices {
         }
 
         impl $choice {
-            /// All of them in order, as the user writes them.
+            /// All values in order, with their names as users write them.
             $access const ALL: [(&'static str, Self); [$($name),+].len()] = [$(($name, Self::$value)),+];
         }
 

@@ -1,8 +1,8 @@
 //! The faces that GL's own culling discards, found before GL computes their vertices.
 //!
-//! In: an object's arrays and how a view projects them. Out: the arrays' indices without those faces. GL decides by the sign
-//! of a face's area in window coordinates, after it has moved the vertices to sub-pixels. A face is left out only where that
-//! sign is certain, so the picture stays the same byte for byte.
+//! In: an object's arrays and a view's projection. Out: the arrays' indices without those faces. GL decides by the sign of a
+//! face's area in window coordinates, after moving the vertices to sub-pixels. A face is left out only if that sign is certain,
+//! so the picture stays the same byte for byte.
 //!
 //! ```
 //! use tinta_geometry::{LoadOptions, Scene, SceneSettings, culling::faces_not_culled, load};
@@ -33,7 +33,7 @@ pub struct DrawnFaces {
     pub left_out: usize,
 }
 
-/// Returns the faces of an object that are not surely culled; `None` where all of them are drawn.
+/// Returns the faces of an object that may not be culled; `None` if all of them are drawn.
 ///
 /// `clip_from_object` takes the arrays' coordinates to clip space, `surface` is the size drawn into, pixels (the picture's times
 /// its supersampling), and GL places vertices to 2^-`subpixel_bits` of a pixel (GL_SUBPIXEL_BITS; 8 on Mesa, 4 at least).
@@ -51,7 +51,7 @@ pub fn faces_not_culled(
     let count = arrays.indices.len() / 3;
     let is_culled = filled(count, threads_for(count), false, |face| {
         let [a, b, c] = [0, 1, 2].map(|corner| places[arrays.indices[face * 3 + corner] as usize]);
-        // Beyond a picture's width outside drivers cut faces off at places of their own choice.
+        // More than a picture's width outside, each driver cuts faces off at different places.
         let farthest =
             [a, b, c].map(|place| ((place - half) / half).abs().max_element()).into_iter().fold(0.0, f32::max);
         let (first, second) = (b - a, c - a);
@@ -63,7 +63,7 @@ pub fn faces_not_culled(
     (left_out > 0).then(|| without(arrays, &is_culled, left_out))
 }
 
-/// Where an object's vertices lie in the window, pixels; no numbers for one that the near or far plane may cut off.
+/// Returns the vertices' places in the window, pixels; NaN for a vertex that the near or far plane may cut off.
 fn window_places(arrays: &VertexArrays, clip_from_object: Mat4, half: Vec2) -> Vec<Vec2> {
     let threads = threads_for(arrays.vertices.len());
     filled(arrays.vertices.len(), threads, Vec2::ZERO, |vertex| {

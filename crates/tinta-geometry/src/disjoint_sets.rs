@@ -1,6 +1,6 @@
 //! Numbers joined into sets (union-find).
 
-/// The sets of the numbers below a count; at first each number is a set of its own.
+/// The sets of the numbers below a count; at first each number forms a separate set.
 pub(crate) struct DisjointSets {
     parents: Vec<u32>,
 }

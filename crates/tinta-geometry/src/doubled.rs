@@ -1,8 +1,8 @@
 //! Faces that lie on each other, one each way: a thin part modelled as two sheets, as the wings of many games' models are.
 //!
-//! In: a mesh. Out: how many pairs there are of which a picture may show the side that is turned away. Where both sheets have
-//! the same corners chance decides, and where the file's coarse coordinates have moved one through the other the wrong side
-//! is nearer. A plate that is thin but whole is no such pair: each of its faces lies behind the other's back.
+//! In: a mesh. Out: the number of pairs whose wrong side may show in a picture. If both sheets have the same corners, chance
+//! decides; if the file's coarse coordinates have moved one through the other, the wrong side is nearer. A thin but solid plate
+//! is no such pair: each of its faces lies behind the other's back.
 //!
 //! ```
 //! use tinta_geometry::{LoadOptions, Mesh, doubled::doubled_faces, glam::DVec3};
@@ -19,7 +19,7 @@ use crate::mesh::{Mesh, triangle_normal};
 use crate::tolerances::{DOUBLED, DOUBLED_AREA};
 use glam::DVec3;
 
-/// Pairs whose middles are near each other that are looked at, as a multiple of the faces: a sound mesh has hardly any.
+/// Most tested pairs with nearby middles, as a multiple of the faces: a sound mesh has hardly any.
 const PAIRS_OF_A_FACE: usize = 100;
 
 /// A face, its middle and how near another must come.
@@ -29,8 +29,8 @@ struct Face {
     near: f64,
 }
 
-/// How many pairs of faces lie on each other, one each way, and do not keep their sides apart. Not counted are faces too small to
-/// matter in a picture, and those of meshes of more than [`DOUBLED_FACES`] faces, where nobody looks.
+/// Returns the number of pairs of faces that lie on each other, one each way, and do not keep their sides apart. Faces too
+/// small to matter in a picture do not count, nor do meshes of more than [`DOUBLED_FACES`] faces.
 pub fn doubled_faces(mesh: &Mesh) -> usize {
     if mesh.triangles.len() > DOUBLED_FACES {
         return 0;
@@ -71,7 +71,7 @@ fn are_doubled(first: &Face, second: &Face) -> bool {
     let near_corners =
         turned.iter().find(|corners| [a, b, c].iter().zip(*corners).all(|(one, other)| one.distance(*other) < near));
     let (Some(corners), Some(normal)) = (near_corners, triangle_normal([a, b, c])) else { return false };
-    // Corners that both share say nothing of which is in front.
+    // Shared corners do not tell which face is in front.
     let apart = [a, b, c].into_iter().zip(corners).filter(|(one, other)| one != *other);
     let in_front: Vec<f64> = apart.map(|(one, other)| (*other - one).dot(normal)).collect();
     in_front.is_empty() || in_front.iter().any(|distance| *distance > 0.0)

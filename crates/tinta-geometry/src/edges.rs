@@ -1,7 +1,7 @@
 //! The edge list of a mesh: each edge once with its faces, and from it the lines worth drawing.
 //!
-//! In: a [`Mesh`](crate::mesh::Mesh). Out: [`EdgeList`] (which edges there are), [`Classes`] (which are boundary, crease, non-manifold or a
-//! seam, whatever the view) and [`Silhouettes`] (which separate front from back faces, for an [`Eye`]). Dachsbacher,
+//! In: a [`Mesh`](crate::mesh::Mesh). Out: [`EdgeList`] (the edges), [`Classes`] (the boundary, crease, non-manifold and seam
+//! edges, independent of the view) and [`Silhouettes`] (the edges between front and back faces, for an [`Eye`]). Dachsbacher,
 //! *Beethoven aus Bits und Bytes*, section "Inking"; errata D1 to D5 and D10.
 //!
 //! ```

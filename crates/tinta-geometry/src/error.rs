@@ -1,7 +1,7 @@
-//! Everything that can go wrong with what a user gave us, one sentence each.
+//! The errors that this library returns, one sentence each.
 //!
-//! A message names the file, option or driver concerned, says what is wrong and what to do about it.
-//! The library returns these and never prints or exits; `main` prints them and exits with code 2.
+//! A message names the file, option or driver, states the problem and says how to solve it. The library returns errors and
+//! never prints or exits; `main` prints them and exits with code 2.
 //!
 //! ```
 //! let error = tinta_geometry::load("nowhere.obj", &tinta_geometry::LoadOptions::default()).map(drop).unwrap_err();
@@ -13,10 +13,10 @@
 use std::io;
 use std::path::PathBuf;
 
-/// The result of anything in this crate that can fail.
+/// The result of a fallible function of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// Why a text is no value of a type: what it would have to be, without the text itself.
+/// Why a text cannot be parsed: describes the expected form, without the text itself.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct ParseError(pub String);
@@ -33,7 +33,7 @@ impl From<ParseError> for String {
     }
 }
 
-/// What a file that is at fault was to be.
+/// The role of a faulty file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FileKind {
@@ -45,32 +45,32 @@ pub enum FileKind {
     Preset,
     /// Measured rows to read.
     Rows,
-    /// A list of jobs, or what was written down of them.
+    /// A list of jobs, or a batch's records.
     Batch,
     /// Something to write.
     Output,
 }
 
-/// Why tinta could not do what was asked.
+/// Why tinta failed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A file could not be read, is not what it was to be, or cannot be written.
+    /// A file cannot be read, has the wrong content, or cannot be written.
     #[error("{}{}: {problem}", path.display(), line.map(|line| format!(": line {line}")).unwrap_or_default())]
     File {
-        /// What the file was to be.
+        /// The file's role.
         kind: FileKind,
         /// The file as the user named it; `-` for standard output, `builtin:…` for a built-in model.
         path: PathBuf,
         /// The line at fault, 1-based, where the format has lines and the reader knows it.
         line: Option<u64>,
-        /// What is wrong and what to do.
+        /// The problem and its solution.
         problem: String,
-        /// What the system said, where it said anything; `problem` says it too.
+        /// The system's error, if any; `problem` repeats it.
         #[source]
         cause: Option<io::Error>,
     },
-    /// A model has defects and `--strict` was asked for.
+    /// A model has defects and `--strict` is set.
     #[error("{}: {defects}; repair the model, or leave out strict to draw it without them", path.display())]
     Strict {
         /// The file as the user named it.
@@ -78,14 +78,14 @@ pub enum Error {
         /// The defects with their counts, in words.
         defects: String,
     },
-    /// A setting is nonsense.
+    /// A setting is invalid.
     #[error("{name}{}: {problem}", value.as_ref().map(|value| format!(" {value}")).unwrap_or_default())]
     Setting {
         /// The setting's name, without dashes: a key of presets and jobs, and with dashes an option.
         name: String,
-        /// Its value, as a user writes it; `None` where it is no matter of the value, or is too long to say.
+        /// Its value, as a user writes it; `None` if the value does not matter or is too long to show.
         value: Option<String>,
-        /// What is wrong and what to do.
+        /// The problem and its solution.
         problem: String,
     },
     /// Settings are nonsense together.
@@ -93,22 +93,22 @@ pub enum Error {
     Settings {
         /// Their names, without dashes.
         names: Vec<String>,
-        /// What is wrong and what to do.
+        /// The problem and its solution.
         problem: String,
     },
-    /// Exact lines that were computed cannot be written: a fault of this library.
+    /// Computed exact lines cannot be written: a fault of this library.
     #[error("{problem}")]
     Lines {
-        /// What is wrong and what to do.
+        /// The problem and its solution.
         problem: String,
     },
-    /// A text is no value of the type it was to be read as.
+    /// A text cannot be parsed as the expected type.
     #[error(transparent)]
     Text(#[from] ParseError),
     /// The command line is not understood.
     #[error("{problem}{}", if problem.ends_with('?') { "" } else { "; see --help" })]
     CommandLine {
-        /// What is wrong with it.
+        /// The problem.
         problem: String,
     },
     /// Another run is at work on the same slice of a batch.
@@ -117,10 +117,10 @@ pub enum Error {
         /// The slice's file.
         path: PathBuf,
     },
-    /// Nobody waits for the work any more.
+    /// The caller cancelled the work.
     #[error("the drawing was cancelled; ask for it again")]
     Cancelled,
-    /// The work takes longer than it was given.
+    /// The work exceeded its time limit.
     #[error(
         "not done within {seconds} s{}",
         if *asked_for_part {
@@ -130,26 +130,26 @@ pub enum Error {
         }
     )]
     OutOfTime {
-        /// The time it was given, seconds.
+        /// The time limit, seconds.
         seconds: f64,
-        /// Whether a part of it would have done.
+        /// Whether the caller would have accepted a part of it.
         asked_for_part: bool,
     },
-    /// No way to an OpenGL 2.1 context worked.
+    /// Every attempt to create an OpenGL 2.1 context failed.
     #[error(
         "no OpenGL 2.1 context could be made (tried {}); {INSTALL}",
         attempts.join("; ")
     )]
     NoContext {
-        /// What was tried and why each attempt failed.
+        /// Each attempt and why it failed.
         attempts: Vec<String>,
     },
-    /// There is no window to show a model in.
+    /// No window can be opened.
     #[error(
         "no window can be opened ({reason}); start tinta view where DISPLAY or WAYLAND_DISPLAY names a display with OpenGL, or draw without one: tinta render"
     )]
     NoWindow {
-        /// What was tried and why it failed.
+        /// The attempt and why it failed.
         reason: String,
     },
     /// The picture is larger than the context can draw.
@@ -157,9 +157,9 @@ pub enum Error {
         "size {width}x{height}: the largest picture {renderer} can draw is {limit_width}x{limit_height}; ask for a smaller one, or see `tinta info` for a backend that draws larger ones"
     )]
     PictureTooLarge {
-        /// Width asked for, pixels.
+        /// Requested width, pixels.
         width: u32,
-        /// Height asked for, pixels.
+        /// Requested height, pixels.
         height: u32,
         /// Largest width, pixels.
         limit_width: u32,
@@ -171,7 +171,7 @@ pub enum Error {
     /// A plan cannot be drawn for this scene.
     #[error("the plan cannot be drawn: {flaw}")]
     Plan {
-        /// What is wrong with it: a `Flaw`, of tinta's plans.
+        /// The problem: a `Flaw` of tinta's plans.
         #[source]
         flaw: Box<dyn std::error::Error + Send + Sync>,
     },
@@ -183,7 +183,7 @@ pub enum Error {
         /// The driver's log, on one line.
         log: String,
     },
-    /// GL reported an error after a plan, or lost what it was given.
+    /// GL reported an error after a plan, or lost its data.
     #[error("the GL driver failed in {during} ({what}); try another backend, or a smaller size")]
     Gl {
         /// The pass or call.
@@ -191,7 +191,7 @@ pub enum Error {
         /// The GL error by name.
         what: String,
     },
-    /// The driver has taken the GL context away, as it does when a device hangs or its driver is replaced.
+    /// The driver has taken the GL context away, for example after a device hang or a driver update.
     #[error(
         "the GL context was lost in {during} ({what}): the driver reset its device; draw again, and if that fails too, \
          try another backend or a smaller size"
@@ -199,12 +199,12 @@ pub enum Error {
     ContextLost {
         /// The pass or call.
         during: String,
-        /// What said so, by GL's name.
+        /// GL's name for the evidence of the loss.
         what: String,
     },
 }
 
-/// What [`Error::NoContext`] advises, by system.
+/// The advice of [`Error::NoContext`], by system.
 const INSTALL: &str = if cfg!(windows) {
     "install your graphics card's driver, or Mesa's opengl32.dll beside tinta.exe"
 } else if cfg!(target_os = "macos") {
@@ -213,13 +213,13 @@ const INSTALL: &str = if cfg!(windows) {
     "install Mesa's software renderer, on Debian: apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri"
 };
 
-/// What [`Error::PictureTooLarge`] ends with.
+/// The end of [`Error::PictureTooLarge`]'s message.
 const BACKEND_FOR_LARGER: &str = "a backend that draws larger ones";
 
-/// What [`Error::Gl`] and [`Error::ContextLost`] advise.
+/// The advice of [`Error::Gl`] and [`Error::ContextLost`].
 const ANOTHER_BACKEND: &str = "another backend";
 
-/// Names as a sentence has them: `a`, `a and b`, `a, b and c`.
+/// Joins names for a sentence: `a`, `a and b`, `a, b and c`.
 fn in_a_row(names: &[String]) -> String {
     match names {
         [] => String::new(),
@@ -229,7 +229,7 @@ fn in_a_row(names: &[String]) -> String {
 }
 
 impl Error {
-    /// What kind of error this is, in a word: for records, where the sentence would say too much.
+    /// Returns the kind of error in one word, for records.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::File { .. } if self.is_disk_full() => "disk-full",
@@ -259,27 +259,27 @@ impl Error {
         }
     }
 
-    /// A file is at fault: what it was to be, its name, what is wrong and what to do.
+    /// Creates an error for a file, from its role, its name and the problem with its solution.
     pub fn file(kind: FileKind, path: impl Into<PathBuf>, problem: impl Into<String>) -> Self {
         Self::File { kind, path: path.into(), line: None, problem: problem.into(), cause: None }
     }
 
-    /// A model is at fault.
+    /// Creates an error for a model.
     pub fn model(path: impl Into<PathBuf>, problem: impl Into<String>) -> Self {
         Self::file(FileKind::Model, path, problem)
     }
 
-    /// A picture to read is at fault.
+    /// Creates an error for a picture to read.
     pub fn picture(path: impl Into<PathBuf>, problem: impl Into<String>) -> Self {
         Self::file(FileKind::Picture, path, problem)
     }
 
-    /// An output cannot be written.
+    /// Creates an error for an output that cannot be written.
     pub fn output(path: impl Into<PathBuf>, problem: impl Into<String>) -> Self {
         Self::file(FileKind::Output, path, problem)
     }
 
-    /// The same at a line of the file, 1-based; other errors are left as they are.
+    /// Adds the line of the file, 1-based; other errors stay unchanged.
     #[must_use]
     pub fn at(mut self, number: impl Into<Option<u64>>) -> Self {
         if let Self::File { line, .. } = &mut self {
@@ -288,7 +288,7 @@ impl Error {
         self
     }
 
-    /// The same with what the system said, which callers can ask for its kind; other errors are left as they are.
+    /// Adds the system's error, whose kind [`Error::io_kind`] returns; other errors stay unchanged.
     #[must_use]
     pub fn because(mut self, error: &io::Error) -> Self {
         if let Self::File { cause, .. } = &mut self {
@@ -297,7 +297,7 @@ impl Error {
         self
     }
 
-    /// What the system said of a file, if that is what is wrong.
+    /// Returns the kind of the system's error, for a file with one.
     pub fn io_kind(&self) -> Option<io::ErrorKind> {
         match self {
             Self::File { cause, .. } => cause.as_ref().map(io::Error::kind),
@@ -305,7 +305,7 @@ impl Error {
         }
     }
 
-    /// Whether a file is not there, rather than unreadable or damaged.
+    /// Whether a file is missing, rather than unreadable or damaged.
     pub fn is_missing_file(&self) -> bool {
         self.io_kind() == Some(io::ErrorKind::NotFound)
     }
@@ -315,12 +315,12 @@ impl Error {
         matches!(self.io_kind(), Some(io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded))
     }
 
-    /// A setting is nonsense, whatever its value.
+    /// Creates an error for a setting, whatever its value.
     pub fn setting(name: impl Into<String>, problem: impl Into<String>) -> Self {
         Self::Setting { name: name.into(), value: None, problem: problem.into() }
     }
 
-    /// A setting's value is nonsense.
+    /// Creates an error for a setting's value.
     pub fn value(name: impl Into<String>, value: impl ToString, problem: impl Into<String>) -> Self {
         Self::Setting { name: name.into(), value: Some(value.to_string()), problem: problem.into() }
     }
@@ -330,7 +330,7 @@ impl Error {
         Self::Settings { names: names.iter().map(|name| (*name).to_owned()).collect(), problem: problem.into() }
     }
 
-    /// The sentence for a command line, where settings are options: `--tones 4`. The error's own text has no dashes.
+    /// Returns the sentence for a command line, with settings as options: `--tones 4`. The error's own text has no dashes.
     pub fn with_dashes(&self) -> String {
         let sentence = self.to_string();
         let dash = |name: &str| if name.len() == 1 { format!("-{name}") } else { format!("--{name}") };
@@ -365,7 +365,7 @@ impl Error {
         }
     }
 
-    /// A GL error.
+    /// Creates a GL error.
     pub fn gl(during: impl Into<String>, what: impl Into<String>) -> Self {
         Self::Gl { during: during.into(), what: what.into() }
     }

@@ -1,7 +1,7 @@
-//! Whole files into memory: only ordinary ones, none beyond its limit, whatever its size is said to be.
+//! Reads whole files into memory: only ordinary files, each up to a limit, whatever size it claims.
 //!
-//! A file may grow or shrink while it is read, and some systems' files say that they have no bytes and have many. What
-//! counts is what comes; the size only says how much memory to ask for first.
+//! A file may grow or shrink during reading, and some systems' files claim 0 bytes and hold many. Only the bytes read count;
+//! the size decides the first allocation alone.
 
 use crate::error::{Error, FileKind};
 use std::fmt::Write;
@@ -9,25 +9,25 @@ use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-/// Why a file's bytes are not there.
+/// Why a file cannot be read.
 #[derive(Debug)]
 pub enum Failure {
-    /// The system says so.
+    /// The system reports an error.
     System(io::Error),
     /// It is a folder.
     Folder,
-    /// It is a pipe, a socket or a device: it may never end, nor ever begin.
+    /// It is a pipe, a socket or a device, which may never begin or end.
     NotAFile,
     /// It lies outside the folder it must lie in.
     Outside,
     /// It has more bytes than the limit.
     TooLarge(u64),
-    /// There is no memory for so many bytes.
+    /// Memory is too small for this many bytes.
     NoMemory(u64),
 }
 
 impl Failure {
-    /// What is wrong and what to do, without the file's name; `what` names such a file: "a model file".
+    /// Returns the problem and its solution, without the file's name; `what` names such a file: "a model file".
     pub fn problem(&self, what: &str) -> String {
         match self {
             Self::System(error) => match error.kind() {
@@ -49,7 +49,7 @@ impl Failure {
 }
 
 impl Failure {
-    /// The same as an error of this file, which was to be of this kind; `what` as in [`Failure::problem`].
+    /// Converts the failure into an error for this file, with its role; `what` as in [`Failure::problem`].
     pub fn into_error(self, kind: FileKind, path: impl Into<PathBuf>, what: &str) -> Error {
         let error = Error::file(kind, path, self.problem(what));
         match &self {
@@ -60,16 +60,16 @@ impl Failure {
     }
 }
 
-/// A file's bytes, at most `limit`.
+/// Reads a file of at most `limit` bytes.
 pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
-    // Asked before it is opened: opening a pipe waits for somebody to write into it.
+    // Checked before opening: opening a pipe waits for a writer.
     check(&path.metadata().map_err(Failure::System)?)?;
     read_opened(File::open(path).map_err(Failure::System)?, limit)
 }
 
-/// The same of a file that must lie in the folder of real path `within`, if any.
+/// Reads a file that must lie in the folder with real path `within`, if any.
 ///
-/// The file that was opened is the one that is asked about, not only its name: a link may have taken its place since.
+/// Checks the opened file, not only its name: a link may have replaced it since.
 pub fn read_within(path: &Path, within: Option<&Path>, limit: u64) -> Result<Vec<u8>, Failure> {
     let Some(within) = within else { return read(path, limit) };
     check(&path.metadata().map_err(Failure::System)?)?;
@@ -82,19 +82,20 @@ pub fn read_within(path: &Path, within: Option<&Path>, limit: u64) -> Result<Vec
     read_opened(file, limit)
 }
 
-/// Whether a file's real path lies in the folder of real path `within`.
+/// Whether a file's real path lies in the folder with real path `within`.
 pub fn is_within(path: &Path, within: &Path) -> bool {
     path.canonicalize().is_ok_and(|real| real.starts_with(within))
 }
 
-/// Whether an open file is what lies at a real path, which is no link.
+/// Whether an open file is the file at a real path, which is no link.
 #[cfg(unix)]
 fn is_same(open: &std::fs::Metadata, real: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     real.symlink_metadata().is_ok_and(|there| (there.dev(), there.ino()) == (open.dev(), open.ino()))
 }
 
-/// Windows tells by handle alone which file one is, and std does not ask; what it says of both must be the same.
+/// Compares the files' properties, which must be equal: Windows identifies a file by handle alone, and std offers no access to
+/// that.
 #[cfg(windows)]
 fn is_same(open: &std::fs::Metadata, real: &Path) -> bool {
     use std::os::windows::fs::MetadataExt;
@@ -102,13 +103,13 @@ fn is_same(open: &std::fs::Metadata, real: &Path) -> bool {
     real.symlink_metadata().is_ok_and(|there| there.is_file() && of(&there) == of(open))
 }
 
-/// Elsewhere nothing can be asked of an open file that tells it from others.
+/// Other systems cannot identify an open file.
 #[cfg(not(any(unix, windows)))]
 fn is_same(_: &std::fs::Metadata, real: &Path) -> bool {
     real.symlink_metadata().is_ok_and(|there| there.is_file())
 }
 
-/// The bytes of a file that is open already.
+/// Reads an open file.
 fn read_opened(file: File, limit: u64) -> Result<Vec<u8>, Failure> {
     let metadata = file.metadata().map_err(Failure::System)?;
     check(&metadata)?;
@@ -126,12 +127,12 @@ fn check(metadata: &std::fs::Metadata) -> Result<(), Failure> {
     }
 }
 
-/// All that comes, at most `limit` bytes; `expected` is only what memory is asked for first.
+/// Reads everything, at most `limit` bytes; `expected` is only the size of the first allocation.
 pub fn read_from(mut from: impl Read, expected: u64, limit: u64) -> Result<Vec<u8>, Failure> {
-    /// Read at once where nothing is expected.
+    /// Least size of a read beyond the expected bytes.
     const STEP_BYTES: u64 = 64 << 10;
     let mut bytes = Vec::new();
-    // One byte more than expected, so that the end is seen without growing.
+    // One byte more than expected, to find the end without growing.
     let mut room = expected.min(limit) + 1;
     loop {
         let count = usize::try_from(room).map_err(|_| Failure::NoMemory(room))?;
@@ -148,7 +149,7 @@ pub fn read_from(mut from: impl Read, expected: u64, limit: u64) -> Result<Vec<u
     }
 }
 
-/// A number of bytes as people say it.
+/// Formats a number of bytes for people.
 fn in_bytes(bytes: u64) -> String {
     match bytes {
         bytes if bytes >= 1 << 30 && bytes.is_multiple_of(1 << 30) => format!("{} GiB", bytes >> 30),
@@ -157,7 +158,7 @@ fn in_bytes(bytes: u64) -> String {
     }
 }
 
-/// A name out of a file as a message shows it: on one line, and not without end.
+/// Formats a name from a file for a message: on one line and shortened.
 pub fn shown(name: &str) -> String {
     let mut text = String::new();
     for (place, c) in name.chars().enumerate() {

@@ -1,11 +1,11 @@
-//! The part of tinta that needs no OpenGL: reads model files into meshes, builds their edges, and computes the exact visible
-//! lines of a scene, as SVG.
+//! The part of tinta that needs no OpenGL: reads model files into meshes, builds their edges, computes a scene's exact visible
+//! lines and writes them as SVG.
 //!
 //! ```text
 //! model file ─► Mesh ─► EdgeList ─► Scene ─► VisibleLines (exact, f64) ─► SVG
 //! ```
 //!
-//! The settings of everything are declared here as well, each once, beside the struct it sets: see [`settings`].
+//! This crate also declares every setting, once, beside its struct: see [`settings`].
 //!
 //! ```
 //! use tinta_geometry::{LineSettings, LoadOptions, Scene, SceneSettings, DrawingSettings, VisibleLines, lines, load};
@@ -22,10 +22,10 @@
 
 #![deny(unreachable_pub)]
 
-// Floors, from the ground up: a module uses those above it in this list and none below (`tests/floors.rs`).
-// What is hidden from the documentation is shared with tinta, and may change without a word.
+// Floors, from the ground up: a module uses those above it in this list and none below (`tests/floors.rs`). Items hidden from
+// the documentation are shared with tinta and may change without notice.
 
-// What everything stands on.
+// The foundation.
 pub mod limits;
 pub mod tolerances;
 pub mod error;
@@ -47,7 +47,7 @@ pub mod threads;
 pub mod values;
 pub mod settings;
 
-// From a file to the lines that are seen.
+// From a file to visible lines.
 pub mod camera;
 pub mod mesh;
 pub mod edges;
@@ -61,7 +61,7 @@ pub mod lines;
 pub use camera::{Camera, CameraSettings, View};
 pub use edges::EdgeList;
 pub use error::{Error, FileKind, ParseError, Result};
-/// The vectors and matrices that the public types are made of.
+/// The vectors and matrices of the public types.
 pub use glam;
 pub use lines::{DrawingSettings, LineSettings, VisibleLines};
 pub use mesh::{LoadOptions, Mesh, load};

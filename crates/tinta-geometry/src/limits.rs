@@ -1,18 +1,19 @@
-//! Every limit on what is read from a file, with its unit and its reason.
+//! Limits on file contents, each with its unit and its reason.
 //!
-//! A file's own numbers are compared with what the file can hold before memory is asked for. What is left is bounded here:
-//! reading a model takes at most [`MEMORY_FACTOR`] times the bytes read and [`MEMORY_SLACK_BYTES`]; a picture has limits of its
-//! own, as a few bytes may rightly be a large one. The document `docs/dev/limits.md` lists them all, which a test checks.
+//! A reader compares the sizes that a file claims with the file's length before it allocates memory. The limits below bound the
+//! rest: reading a model takes at most [`MEMORY_FACTOR`] times the bytes read plus [`MEMORY_SLACK_BYTES`]. Pictures have
+//! separate limits, because a few bytes may be a large valid picture. A test checks that `docs/dev/limits.md` lists every
+//! limit.
 //!
 //! ```
 //! // Eight thousand pixels a side, four bytes each, is the largest picture believed.
 //! assert_eq!(tinta_geometry::limits::PICTURE_BYTES, 8192 * 8192 * 4);
 //! ```
 
-/// Most main memory that reading a model takes, in its files' bytes, beyond [`MEMORY_SLACK_BYTES`].
+/// Most main memory for reading a model, in multiples of its files' bytes, beyond [`MEMORY_SLACK_BYTES`].
 pub const MEMORY_FACTOR: usize = 20;
 
-/// Main memory that reading takes whatever the file's size, bytes: tables, threads' buffers, small files of dense formats.
+/// Main memory for reading a file of any size, bytes: tables, threads' buffers, small files of dense formats.
 pub const MEMORY_SLACK_BYTES: usize = 64 << 20;
 
 /// Largest model file, bytes: vertices and corners are counted in 32 bits.
@@ -30,7 +31,7 @@ pub const DRAWING_BYTES: u64 = 640 << 20;
 /// Largest file of measured rows, bytes.
 pub const ROWS_BYTES: u64 = 1 << 30;
 
-/// Largest list of a batch's jobs, and largest file of what is written down of them, bytes.
+/// Largest list of a batch's jobs, and largest file of a batch's records, bytes.
 pub const BATCH_BYTES: u64 = 1 << 30;
 
 /// Longest line of such a list, bytes: some hundred times what all options need.
@@ -49,8 +50,7 @@ pub const PICTURE_BYTES: u64 = 256 << 20;
 /// Most memory for all pictures on a model's materials, bytes, by the same rule.
 pub const MODEL_PICTURES_BYTES: u64 = 1 << 30;
 
-/// Most pixels that a byte of a picture file can stand for in any format read here: eight in a byte, of which PNG's
-/// compression makes 1032 from one.
+/// Most pixels per byte of a picture file, in any format read here: eight pixels a byte, compressed 1032 times by PNG.
 pub const PIXELS_A_BYTE: u64 = 8 * 1032;
 
 /// Most triangles of a model: their corners are counted in 32 bits.
@@ -78,22 +78,23 @@ pub const MATERIAL_FILES: usize = 1024;
 /// Most levels of a glTF file's tree of nodes: skeletons have a few dozen.
 pub const NODE_LEVELS: usize = 4096;
 
-/// Most skins of an MD2 model that are looked for; the game's own limit is 32.
+/// Most skins searched for an MD2 model; the game's own limit is 32.
 pub const SKINS: usize = 256;
 
-/// Sentences of one kind that are said about a file; the others are counted.
+/// Most remarks of one kind about a file; the others are counted.
 pub const REMARKS: usize = 8;
 
-/// Faces of a model beyond which nobody looks for faces that lie on each other: models of games have them, and scans would wait.
+/// Most faces of a model that is searched for faces that lie on each other: game models have such faces, and scans would take
+/// long.
 pub const DOUBLED_FACES: usize = 50_000;
 
-/// Most characters of a name out of a file that a message shows.
+/// Most characters that a message shows of a name from a file.
 pub const SHOWN_CHARACTERS: usize = 120;
 
 /// Most pixels of a picture that is drawn: 2 GiB of memory, A1 at 600 dots an inch nearly twice.
 pub const DRAWN_PIXELS: usize = 1 << 29;
 
-/// Most pixels drawn in one piece: with depth and copies such a surface takes some 3 GiB. What is larger is drawn in tiles.
+/// Most pixels drawn in one piece: with depth and copies such a surface takes some 3 GiB. Larger pictures are drawn in tiles.
 pub const DRAWN_AT_ONCE_PIXELS: usize = 1 << 27;
 
 /// Longest side of a tile, pixels: its surface, depth and copies then take 320 MiB at most.

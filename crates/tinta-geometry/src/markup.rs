@@ -1,11 +1,11 @@
-//! Texts that XML and HTML can hold.
+//! Escapes texts for XML and HTML.
 
-/// What neither can hold: most control characters.
+/// Whether neither can hold the character: most control characters.
 pub fn is_unprintable(letter: char) -> bool {
     (letter.is_control() && !matches!(letter, '\t' | '\n' | '\r')) || matches!(letter, '\u{fffe}' | '\u{ffff}')
 }
 
-/// A text for an element or an attribute; what cannot be held becomes U+FFFD.
+/// Escapes a text for an element or an attribute; forbidden characters become U+FFFD.
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -15,7 +15,7 @@ pub fn escaped(text: &str) -> String {
             '&' => escaped.push_str("&amp;"),
             '"' => escaped.push_str("&quot;"),
             '\'' => escaped.push_str("&#39;"),
-            // As they are, a reader would take them for blanks or other line ends.
+            // Unescaped, readers would take them for blanks or other line ends.
             '\t' | '\n' | '\r' => escaped.push_str(&format!("&#{};", letter as u32)),
             _ if is_unprintable(letter) => escaped.push(char::REPLACEMENT_CHARACTER),
             _ => escaped.push(letter),
@@ -24,10 +24,10 @@ pub fn escaped(text: &str) -> String {
     escaped
 }
 
-/// What stands before a recipe in an SVG's metadata.
+/// The text before a recipe in an SVG's metadata.
 pub const RECIPE_BEGIN: &str = "<tinta:recipe xmlns:tinta=\"urn:tinta:recipe\">";
 
-/// What stands behind it.
+/// The text after it.
 pub const RECIPE_END: &str = "</tinta:recipe>";
 
 /// A recipe, JSON, as an element of an SVG's metadata, with a line end; nothing for no recipe.

@@ -1,12 +1,12 @@
-//! Memory that is free, so that what takes more ends in a sentence before the system swaps, or ends the process without one.
+//! Finds free memory, to reject large work with a message before the system swaps or kills the process.
 
 use crate::error::{Error, Result};
 use crate::limits::MEMORY_SLACK_BYTES;
 use std::fs::read_to_string;
 
-/// Bytes that are free for this process without swapping, as the system and its control group have them; `None` where nobody says.
+/// Returns the bytes that this process can use without swapping, by the system and its control group; `None` if unknown.
 ///
-/// On Linux alone.
+/// Linux only.
 pub(crate) fn free() -> Option<u64> {
     let system = read_to_string("/proc/meminfo").ok().and_then(|text| free_of_system(&text));
     let group = read_to_string("/proc/self/cgroup").ok().and_then(|text| free_of_group(&text));
@@ -16,13 +16,13 @@ pub(crate) fn free() -> Option<u64> {
     }
 }
 
-/// By `/proc/meminfo`.
+/// Reads the free bytes from `/proc/meminfo`.
 fn free_of_system(text: &str) -> Option<u64> {
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }
 
-/// What the limit of the control group leaves that `/proc/self/cgroup` names, of version 2, or of those above it the tightest.
+/// Returns the bytes left by the tightest limit of the version 2 control group in `/proc/self/cgroup` and its parents.
 fn free_of_group(text: &str) -> Option<u64> {
     let mut path = text.lines().find_map(|line| line.strip_prefix("0::"))?.trim_matches('/');
     let mut least = None;
@@ -38,7 +38,7 @@ fn free_of_group(text: &str) -> Option<u64> {
     }
 }
 
-/// A limit less what is used, but for what is only kept of files and given up when memory is asked for.
+/// Returns the limit minus the used bytes. The file cache does not count as used, because the system frees it on demand.
 fn left(most: Option<String>, used: Option<String>, statistics: Option<String>) -> Option<u64> {
     let number = |text: &str| text.trim().parse::<u64>().ok();
     let (most, used) = (number(&most?)?, number(&used?)?);
@@ -50,7 +50,7 @@ fn left(most: Option<String>, used: Option<String>, statistics: Option<String>) 
     Some(most.saturating_sub(used.saturating_sub(kept)))
 }
 
-/// Refuses a model that takes so many bytes more than there are; what is little fits as long as anything does.
+/// Rejects a model that needs more bytes than are free; needs up to [`MEMORY_SLACK_BYTES`] always pass.
 ///
 /// # Errors
 ///
@@ -62,7 +62,7 @@ pub(crate) fn check(name: &str, needed: u64, free: Option<u64>) -> Result<()> {
     }
 }
 
-/// Refuses lines that take so many bytes more than there are.
+/// Rejects lines that need more bytes than are free.
 ///
 /// # Errors
 ///
@@ -78,7 +78,7 @@ pub(crate) fn check_lines(needed: usize, free: Option<u64>) -> Result<()> {
     }
 }
 
-/// `2.5 GiB of memory, and 1.0 GiB are free` where it is so.
+/// Returns `2.5 GiB of memory, and 1.0 GiB are free` if too little is free.
 fn too_much(needed: u64, free: Option<u64>) -> Option<String> {
     let free = free.filter(|free| needed > *free && needed > MEMORY_SLACK_BYTES as u64)?;
     let gib = |bytes: u64| format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30));

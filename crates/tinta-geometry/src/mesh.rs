@@ -1,8 +1,8 @@
 //! A model as triangles over welded positions, with its normals, texture coordinates and materials.
 //!
-//! In: a file's polygons (`Soup`, one reader a format). Out: [`Mesh`], which everything after it shares:
-//! the edge list needs the welded positions, GL the corners' normals, the reference lines the f64 coordinates.
-//! Positions stay in f64 and in the file's own units; what GL gets is recentred and scaled by the scene.
+//! In: a file's polygons (`Soup`, one reader per format). Out: [`Mesh`], shared by all later steps: the edge list needs the
+//! welded positions, GL the corners' normals, the reference lines the f64 coordinates. Positions stay in f64 and in the file's
+//! own units; the scene recentres and scales them for GL.
 //!
 //! ```
 //! # fn main() -> tinta_geometry::Result<()> {

@@ -1,36 +1,37 @@
-//! Work on several threads: results never depend on how many there are, and where none can be had the caller's does all.
+//! Work on several threads. Results never depend on the number of threads; if no other thread starts, the caller's does all the
+//! work.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-/// Faces below which a second thread costs more than it brings.
+/// Number of faces below which a second thread costs more than it gains.
 const FACES_WORTH_A_THREAD: usize = 100_000;
 
-/// Threads the machine runs at once.
+/// Returns the number of threads the machine runs at once.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// How many threads work on so many faces is worth.
+/// Returns the number of threads worth starting for this many faces.
 pub fn threads_for(faces: usize) -> usize {
     cores().min(faces / FACES_WORTH_A_THREAD).max(1)
 }
 
-/// How many threads work on so many simple items, such as points, is worth.
+/// Returns the number of threads worth starting for this many simple items, such as points.
 pub fn threads_for_items(count: usize) -> usize {
     const ITEMS_WORTH_A_THREAD: usize = 20_000;
     cores().min(count / ITEMS_WORTH_A_THREAD).max(1)
 }
 
-/// Cuts `0..count` into at most `pieces` ranges of nearly one length.
+/// Cuts `0..count` into at most `pieces` ranges of about equal length.
 pub fn ranges(count: usize, pieces: usize) -> Vec<std::ops::Range<usize>> {
     let length = count.div_ceil(pieces.max(1)).max(1);
     (0..count).step_by(length).map(|start| start..(start + length).min(count)).collect()
 }
 
-/// Puts `value` of each number into a list, each thread its own piece of it in place.
+/// Fills a list with `value` of each index; each thread writes its own piece in place.
 ///
-/// `blank` is what zeroed memory means: the system then hands out the list's pages where they are first written.
+/// `blank` is the value of zeroed memory: the system then provides the list's pages at the first write.
 pub fn filled<T: Copy + Send>(count: usize, threads: usize, blank: T, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let mut list = vec![blank; count];
     each_piece(&mut list, threads, |start, places| {
@@ -39,20 +40,20 @@ pub fn filled<T: Copy + Send>(count: usize, threads: usize, blank: T, value: imp
     list
 }
 
-/// Sorts a list of which no two elements are equal, each thread a piece of it.
+/// Sorts a list of distinct elements, one piece per thread.
 pub fn sort_by<T: Send>(list: &mut [T], threads: usize, order: impl Fn(&T, &T) -> std::cmp::Ordering + Sync) {
     each_piece(list, threads, |_, piece| piece.sort_unstable_by(&order));
     if threads > 1 {
-        // The stable sort finds runs that are in order and merges them.
+        // The stable sort finds ordered runs and merges them.
         list.sort_by(order);
     }
 }
 
-/// Does `work` for as many pieces of a list as there are threads; it gets each piece's place in the list, too.
+/// Does `work` for as many pieces of a list as there are threads; `work` also gets each piece's place in the list.
 fn each_piece<T: Send>(list: &mut [T], threads: usize, work: impl Fn(usize, &mut [T]) + Sync) {
     let length = list.len().div_ceil(threads.max(1)).max(1);
     let pieces = Mutex::new(list.chunks_mut(length).enumerate());
-    // Every thread takes pieces while there are any, this one too: where no other can be had, it does them all.
+    // Every thread takes pieces until none is left, this one too: if no other starts, it does them all.
     let take = || {
         let next = || pieces.lock().unwrap_or_else(PoisonError::into_inner).next();
         while let Some((piece, places)) = next() {
@@ -69,7 +70,7 @@ fn each_piece<T: Send>(list: &mut [T], threads: usize, work: impl Fn(usize, &mut
     });
 }
 
-/// Does `work` for each piece of `0..count`, one thread each, and returns the results in order.
+/// Does `work` for each piece of `0..count`, one thread per piece, and returns the results in order.
 pub fn in_parallel<T: Send>(count: usize, threads: usize, work: impl Fn(std::ops::Range<usize>) -> T + Sync) -> Vec<T> {
     let mut pieces = ranges(count, threads);
     let Some(last) = pieces.pop() else { return Vec::new() };
@@ -82,7 +83,7 @@ pub fn in_parallel<T: Send>(count: usize, threads: usize, work: impl Fn(std::ops
                     let piece = piece.clone();
                     move || work(piece)
                 });
-                // Where no thread can be had, this one does it all.
+                // If no thread starts, this one does it all.
                 started.map_err(|_| piece)
             })
             .collect();
@@ -95,9 +96,9 @@ pub fn in_parallel<T: Send>(count: usize, threads: usize, work: impl Fn(std::ops
     })
 }
 
-/// One list of what `work` makes of each piece of `0..count`, `each` items of every number; `None` where it is of any piece.
+/// Concatenates the results of `work` for each piece of `0..count`, `each` items per index; `None` if any piece returns `None`.
 ///
-/// Each thread writes a list of its own, so that the system hands out its pages to all at once; the first has room for all.
+/// Each thread writes a separate list, so the system provides their pages in parallel; the first has room for all.
 pub fn listed<T: Send>(
     count: usize,
     each: usize,
@@ -118,8 +119,8 @@ pub fn listed<T: Send>(
     Some(all)
 }
 
-/// Does `work` for pieces of `length` of `0..count`, each thread taking the next piece when it has done one, and returns the
-/// results in order: for work whose pieces take very different times.
+/// Does `work` for pieces of `length` of `0..count` and returns the results in order. Each thread takes the next piece when it
+/// finishes one, which suits pieces of very different cost.
 pub fn in_chunks<T: Send + Sync>(
     count: usize,
     length: usize,
@@ -129,7 +130,7 @@ pub fn in_chunks<T: Send + Sync>(
     in_strides(count, length, threads, |_| 1, work)
 }
 
-/// As [`in_chunks`], taking pieces from all over the whole, so that what is done at any time stands for what is not.
+/// Like [`in_chunks`], but takes pieces from all over the range, so the finished part always represents the rest.
 pub fn spread_chunks<T: Send + Sync>(
     count: usize,
     length: usize,
@@ -139,7 +140,7 @@ pub fn spread_chunks<T: Send + Sync>(
     in_strides(count, length, threads, stride, work)
 }
 
-/// A step that leads through all of so many places, each once, and is about their golden section: so neighbours come far apart.
+/// Returns a step that visits every place once, near their golden section, so neighbours are visited far apart.
 fn stride(count: usize) -> usize {
     let divisor = |mut a: usize, mut b: usize| {
         while b > 0 {
@@ -170,7 +171,7 @@ fn in_strides<T: Send + Sync>(
             }
             let index = (turn as u128 * stride as u128 % pieces.len() as u128) as usize;
             let piece = &pieces[index];
-            // Each index is taken once, so that nothing was there.
+            // Each index is taken once, so the place was empty.
             let _ = results[index].set(work(piece.clone()));
         }
     };
@@ -186,7 +187,7 @@ fn in_strides<T: Send + Sync>(
     results.into_iter().filter_map(OnceLock::into_inner).collect()
 }
 
-/// Does two things at once, the second on a thread of its own.
+/// Runs two functions at once, the second on another thread.
 pub fn both<A, B: Send>(first: impl FnOnce() -> A, second: impl Fn() -> B + Sync) -> (A, B) {
     std::thread::scope(|scope| match std::thread::Builder::new().spawn_scoped(scope, &second) {
         Ok(thread) => {
@@ -236,7 +237,7 @@ mod tests {
         let order = Mutex::new(Vec::new());
         spread_chunks(1000, 1, 1, |range| order.lock().unwrap().push(range.start));
         let order = order.into_inner().unwrap();
-        // Of the first tenth of the turns some are in every tenth of the whole.
+        // The first tenth of the turns reaches every tenth of the range.
         for tenth in 0..10 {
             let count = order[..100].iter().filter(|place| **place / 100 == tenth).count();
             assert!((5..=20).contains(&count), "{count} in tenth {tenth}");

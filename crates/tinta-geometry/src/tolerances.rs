@@ -1,4 +1,4 @@
-//! Every number that decides "near enough", with its unit and its reason.
+//! Tolerances, each with its unit and its reason.
 //!
 //! ```
 //! // The cosine of the angle between equal normals, rounded, still counts as parallel.
@@ -8,24 +8,23 @@
 /// Default of `--weld`, a share of the model's bounding-box diagonal: one unit in the last place of an f32 file.
 pub const WELD: f64 = 1e-7;
 
-/// How near each other open edges are taken for a crack, a share of the model's bounding-box diagonal: less than a tenth of a pixel of a
-/// picture a thousand wide, and far more than welding closes.
+/// Largest distance between open edges that count as a crack, a share of the model's bounding-box diagonal: less than a tenth
+/// of a pixel of a picture a thousand wide, and far more than welding closes.
 pub const CRACK: f64 = 1e-4;
 
 /// Largest `--weld`: a tenth of the model would no longer be a model.
 pub const LARGEST_WELD: f64 = 0.1;
 
-/// What rounding may move a projection by when vertices are swept for welding, as a share of its size: a few of f64's last
-/// places.
+/// Largest rounding error of a projection in the welding sweep, as a share of its size: a few of f64's last places.
 pub const SWEEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Largest coordinate of a model, eye or target, file units: fourth powers of lengths stay finite f64 numbers.
 pub const LARGEST_COORDINATE: f64 = 1e60;
 
-/// Smallest and largest scene radius drawn, file units, for the same reason at both ends.
+/// Smallest and largest scene radius drawn, file units: fourth powers of lengths stay finite f64 numbers and above 0.
 pub const SCENE_RADIUS: std::ops::RangeInclusive<f64> = 1e-60..=2e60;
 
-/// Distance of eye and target, as a share of their coordinates, below which they count as the same point.
+/// Distance between eye and target, as a share of their coordinates, below which they count as the same point.
 pub const SAME_POINT: f64 = 1e-12;
 
 /// Sine of the angle below which an up vector counts as being along the view: rounding then turns the picture.
@@ -34,7 +33,8 @@ pub const CAMERA_ALIGNMENT: f64 = 1e-6;
 /// Share of the picture's half-width and half-height that the fitted scene fills; the rest is margin for ink.
 pub const FRAME_FILL: f64 = 0.92;
 
-/// The same of what is seen of a scene where that is centred: a margin of 6 % on each side, as on a page.
+/// Share of the picture's half-width and half-height that the visible part of a scene fills when it is centred: a margin of 6 %
+/// on each side, as on a page.
 pub const OUTLINE_FILL: f64 = 0.88;
 
 /// Share of the scene's depth added before the nearest and behind the farthest point: the map's 8-bit depth (errata E8)
@@ -49,140 +49,146 @@ pub const NEAREST_FRACTION: f64 = 1e-3;
 /// than a thousand steps for the whole scene.
 pub const LARGEST_DISTANCE: f64 = 2e4;
 
-/// The same for exact lines: f64 then still places a point to a ten-thousandth of a pixel of 512.
+/// Largest distance of the eye for exact lines, scene radii: f64 then still places a point to a ten-thousandth of a pixel of
+/// 512.
 pub const LARGEST_EXACT_DISTANCE: f64 = 1e8;
 
-/// Least steps of a 24-bit depth buffer from the scene's nearest point to its farthest: with fewer, what is behind shows through
-/// what is in front of it.
+/// Least steps of a 24-bit depth buffer from the scene's nearest point to its farthest: with fewer, hidden surfaces show
+/// through nearer ones.
 pub const LEAST_DEPTH_STEPS: f64 = 256.0;
 
 /// Distance of the background square from the eye, scene radii: so far that light, view and normal are parallel on all of
 /// it and the article's highlight tone, 1, leaves its colour as given.
 pub const BACKGROUND_DISTANCE: f32 = 1000.0;
 
-/// Distance, in rows, from the edge of two texture rows at which a grain counts as lying on it: far more than a platform's
-/// `pow` is off by, far less than a grain.
+/// Distance, in rows, from the edge between two texture rows at which a grain counts as lying on the edge: far more than the
+/// error of a platform's `pow`, far less than a grain.
 pub const ROW_EDGE: f64 = 1e-9;
 
-/// What rounding may take from the cosine between two equal unit normals: without it a crease angle of 0 would make creases
-/// of flat surfaces.
+/// Largest rounding error of the cosine between two equal unit normals: without it a crease angle of 0 would make creases of
+/// flat surfaces.
 pub const PARALLEL_COSINE: f64 = 8.0 * f64::EPSILON;
 
-/// What the six digits of a file may take from the cosine between the faces of a prism with twelve sides, which is that of the
-/// crease angle of drawings.
+/// Largest error that a file's six digits cause in the cosine between neighbouring faces of a twelve-sided prism. That angle is
+/// the crease angle of drawings.
 pub const CREASE_DIGITS: f64 = 1e-5;
 
-/// What six printed digits may move a coordinate by, as a share of the model's bounding-box diagonal: corners of one polygon may lie
-/// that far from its plane.
+/// Largest error of a coordinate with six printed digits, as a share of the model's bounding-box diagonal: corners of one
+/// polygon may lie that far from its plane.
 pub const PRINTED_DIGITS: f64 = 5e-6;
 
-/// Distance of a point from a face, as a share of the shorter of the face's longest side and the line's length, below which
-/// they touch: then the face does not hide the line, and does not pass through its neighbour. Models that stand on one
-/// another meet as well as six printed digits let them.
+/// Distance between a point and a face below which they touch, as a share of the shorter of the face's longest side and the
+/// line's length. A face that touches a line neither hides it nor passes through its neighbour. Models that stand on one
+/// another touch only as closely as six printed digits allow.
 pub const CONTACT: f64 = 1e-5;
 
-/// Distance of a point from the image of a line, as a share of the picture's larger side, below which it lies on it: what is
-/// exactly behind the rim of something nearer is hidden on that thing's side only, whatever the last digit says.
+/// Distance between a point and the image of a line, as a share of the picture's larger side, below which the point lies on the
+/// line. A line exactly behind a nearer rim is then hidden on one side only, whatever the last digit.
 pub const TIE: f64 = 2e-11;
 
-/// Distance between the images of two lines, as a share of the picture's larger side, below which they lie on one another: both
-/// are cut where one ends or they are equally near, and only the nearest is seen. A cut too many costs a ray, one too few an
-/// error.
+/// Distance between the images of two lines, as a share of the picture's larger side, below which the lines overlap. Both are
+/// cut where one ends or where they are equally near, and only the nearer stays visible. An unnecessary cut costs a ray; a
+/// missing one causes an error.
 pub const TOUCH: f64 = 1e-7;
 
-/// Distance beside a line, as a share of the picture's larger side, at which background makes it outline: a twentieth of a pixel at
-/// 512 x 512. Far more than a file's six digits move a line by, so that a face which is edge-on but for these hides no outline.
+/// Distance beside a line, as a share of the picture's larger side, at which background makes the line outline: a twentieth of
+/// a pixel at 512 x 512. A file's six digits move lines far less, so a face that is edge-on within those digits hides no
+/// outline.
 pub const BESIDE: f64 = 1e-4;
 
-/// Distance along a line from a corner in which it ends, as a share of the picture's larger side, up to which a face with that
-/// corner hides it that does from there on: by the rule for contact alone it would be seen again beside the corner.
+/// Distance along a line from a corner at its end, as a share of the picture's larger side. A face with that corner that hides
+/// the line beyond this distance hides it up to the corner. By the contact rule alone the line would reappear beside the
+/// corner.
 pub const NEAR_CORNER: f64 = 4e-5;
 
-/// Distance along an intersection of faces from its end, as a share of the picture's larger side, up to which a face hides it that does
-/// from there on: twenty times [`TOUCH`], and at 512 x 512 a fifth of [`JOINED_PX`].
+/// Distance along an intersection of faces from its end, as a share of the picture's larger side. A face that hides the
+/// intersection beyond this distance hides it up to the end. Twenty times [`TOUCH`], and at 512 x 512 a fifth of [`JOINED_PX`].
 pub const TIP: f64 = 2e-6;
 
 /// Length, as a share of the picture's larger side, below which a line or a piece of one is a point: an edge seen end-on.
 pub const SHORTEST_LINE: f64 = 1e-7;
 
-/// What rounding may take from a coordinate as a share of the largest one in the scene: a few of f64's last places.
+/// Largest rounding error of a coordinate, as a share of the largest one in the scene: a few of f64's last places.
 pub const COORDINATE_NOISE: f64 = 16.0 * f64::EPSILON;
 
-/// Sine of the angle between a face and the view below which the face is seen edge-on: all its sides are then places where
-/// a surface may end, and those it shares with a face that is not edge-on are silhouette. One too many costs a ray.
+/// Sine of the angle between a face and the view below which the face is edge-on. A surface may end at each side of such a
+/// face, and a side shared with a face that is not edge-on is silhouette. An unnecessary one costs a ray.
 pub const EDGE_ON: f64 = 1e-9;
 
-/// Distance between a face's unit normal and those of the smooth surface at its corners up to which the face is flat: what six
-/// printed digits leave of it, and far below any angle that is drawn.
+/// Largest distance between a flat face's unit normal and the smooth surface's normals at its corners: the error of six printed
+/// digits, and far below any visible angle.
 pub const FLAT: f64 = 1e-6;
 
-/// Sine of the angle to straight across a line below which a face's side runs across it: a point moved aside from the line then
-/// stays on that side, which hides what is on either face at it.
+/// A face's side crosses a line when the sine of its angle to the line's perpendicular is below this: a point moved aside from
+/// the line then stays on that side, which hides both faces' points at it.
 pub const ACROSS: f64 = 1e-9;
 
-/// How far a drawn line may pass by a point it leaves out, pixels: one step of the numbers in an SVG, which have three decimals.
+/// Largest distance between a drawn line and a point it leaves out, pixels: one step of an SVG's numbers, which have three
+/// decimals.
 pub const STRAIGHT_PX: f64 = 1e-3;
 
-/// How far beyond the picture or between the planes a point must be, as a share of its distance, before f32 matrices agree
-/// that it is: some hundred of f32's last places.
+/// Distance of a point beyond the picture or between the planes, as a share of its distance from the eye, above which f32
+/// matrices agree with f64: some hundred of f32's last places.
 pub const CLIP_ROUNDING: f64 = 1e-5;
 
-/// How far a vertex can be drawn from where its coordinates say, pixels: f32 in the largest pictures is off by a hundredth, and
-/// GL's own sub-pixels may be sixteenths.
+/// Largest distance between a vertex as drawn and its coordinates, pixels: f32 in the largest pictures is off by a hundredth,
+/// and GL's own sub-pixels may be sixteenths.
 pub const WINDOW_ROUNDING_PX: f64 = 0.125;
 
 /// Light that no surface reaches: diffuse and specular values are cosines of unit vectors, which rounding leaves below it.
 pub const UNREACHED_LIGHT: f32 = 1.001;
 
-/// How far from the middle between two steps of 8 bits a colour must be, steps, before every driver rounds it to the same one.
+/// Least distance of a colour from the middle between two 8-bit steps, in steps, for every driver to round it alike.
 pub const EIGHT_BIT_TIE: f64 = 0.02;
 
-/// How far GL may move a vertex sideways before it fills a face, in steps of its sub-pixel grid: half a step by rounding, as
-/// much again for safety and for f32.
+/// Largest distance that GL moves a vertex sideways before it fills a face, in steps of its sub-pixel grid: half a step by
+/// rounding, as much again for safety and for f32.
 pub const SUBPIXEL_STEPS: f64 = 1.0;
 
-/// Length of a sum of unit normals up to which its direction is nothing but rounding: a million of them lose less.
+/// Length of a sum of unit normals up to which its direction is mere rounding: the error of a million of them is smaller.
 pub const CANCELLED_NORMALS: f64 = 1e-9;
 
-/// How far from the end of its model a place may lie that touches the ground there, as a share of the model's length along that axis.
+/// Largest distance between the end of a model and a place that touches the ground there, as a share of the model's length
+/// along that axis.
 pub const BASE_DEPTH: f64 = 0.02;
 
 /// Least height of a model above such an end, as a share of its largest extent: slabs and reliefs may well face z.
 pub const BASE_HEIGHT: f64 = 0.5;
 
-/// Share of the bounding box's side from which on what touches the ground is a base. Of the models tried that stand on one end, the least
-/// are 0.13, a doll's shoes, and 0.19, a bust's foot; ends on which they would fall have up to 0.09.
+/// Least share of the bounding box's side that touches the ground at a base. Among the tested models that stand on one end, the
+/// smallest shares are 0.13, a doll's shoes, and 0.19, a bust's foot; ends on which they would fall have up to 0.09.
 pub const BASE_SHARE: f64 = 0.1;
 
-/// How far from the rim of its base a model's middle must be to stand firmly, as a share of the side's geometric mean. The doll's is 0.03.
+/// Least distance of a model's middle from the rim of its base, for the model to stand firmly, as a share of the side's
+/// geometric mean. The doll's is 0.03.
 pub const BASE_MARGIN: f64 = 0.02;
 
-/// How far corners of two faces may lie apart, as a share of the longest side, where both are the two sides of one thin part:
-/// some steps of the bytes that Quake 2 models have for coordinates, on a wing of a quarter of the model.
+/// Largest distance between corners of two faces that are the two sides of one thin part, as a share of the longest side: some
+/// steps of a Quake 2 model's byte coordinates, on a wing a quarter of the model's size.
 pub const DOUBLED: f64 = 1.0 / 12.0;
 
 /// Least area of such a face, as a share of its model's: in a picture of 512 pixels a dozen or so.
 pub const DOUBLED_AREA: f64 = 5e-4;
 
-/// Distance between an end of a line and another line below which they touch in a drawing, pixels: some steps of the numbers in
-/// an SVG, so that what looks joined is.
+/// Distance between an end of a line and another line below which they touch in a drawing, pixels: some steps of an SVG's
+/// numbers.
 pub const JOINED_PX: f64 = 5e-3;
 
-/// Area of a triangle, as a share of its longest side's square, below which its corners' differences say nothing of a surface:
-/// what a file's six digits leave of a triangle that has none.
+/// Area of a triangle, as a share of its longest side's square, below which its corners carry no information about the surface:
+/// a file's six digits can give a triangle of no area this much.
 pub const NEEDLE: f64 = 1e-6;
 
-/// The length in which the thresholds of form lines are measured, as a share of the radius of curvature that a tenth of all
-/// principal curvatures is flatter than, as the authors of suggestive contours have it in their viewer.
+/// The unit length of form lines' thresholds, as a share of a radius of curvature. One tenth of all principal curvatures is
+/// flatter than that radius, as in the viewer by the authors of suggestive contours.
 pub const FEATURE_SHARE: f64 = 0.01;
 
-/// Most of that length, in the mesh's radii: where much of a model is flat.
+/// Largest unit length of form lines' thresholds, in the mesh's radii, for models that are mostly flat.
 pub const LARGEST_FEATURE: f64 = 0.05;
 
-/// Distance from an end of a face's side, as a share of the side, within which a form line that crosses the side runs through that
+/// Distance from an end of a face's side, as a share of the side, within which a form line across the side runs through that
 /// end: far less than the line may be off, far more than the shortest line.
 pub const THROUGH_VERTEX: f64 = 1e-4;
 
-/// How fast a curvature must fall beside its crest, as a share of its own third power, for the crest to be one: on pipes and balls
-/// it is constant but for the mesh's error.
+/// Least rate at which a curvature falls beside a crest, as a share of the curvature's third power. On pipes and balls the
+/// curvature is constant except for the mesh's error.
 pub const CREST_SHARPNESS: f64 = 0.05;

@@ -147,7 +147,7 @@ impl fmt::Display for Color {
     }
 }
 
-/// What is behind the objects.
+/// The background behind the objects.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Background {
@@ -158,8 +158,8 @@ pub enum Background {
 }
 
 impl Background {
-    /// The colour the framebuffer is cleared to: red, green, blue, alpha. Transparent is black without alpha, so that
-    /// ink blended over it is black with the ink's alpha.
+    /// The colour the framebuffer is cleared to: red, green, blue, alpha. Transparent is black without alpha: ink blended over
+    /// it is black with the ink's alpha.
     pub fn clear_color(self) -> [f32; 4] {
         match self {
             Self::Color(Color([red, green, blue])) => [red, green, blue, 1.0],

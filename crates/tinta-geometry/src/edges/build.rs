@@ -1,15 +1,15 @@
 //! Building the edge list in linear time: half-edges sorted by their lower position with a counting sort, then matched
 //! within each position.
 //!
-//! The text searches the whole list for every edge (errata D1). A hash table would be linear too, but would go to
-//! a place of its own in memory for every edge; a vertex's half-edges lie together here.
+//! The text searches the whole list for every edge (errata D1). A hash table would be linear too, but would access a separate
+//! place in memory for every edge; here a vertex's half-edges lie together.
 
 use super::{EdgeList, Incidence};
 use crate::mesh::Mesh;
 use crate::threads::{in_parallel, threads_for};
 
-/// One side of a triangle as found: its higher position, and its face times two plus 1 if it runs from high to low. An array
-/// and no struct, so that fresh memory need not be cleared by hand.
+/// One side of a triangle: its higher position, and its face times two, plus 1 if it runs from high to low. An array rather
+/// than a struct, which lets the system provide zeroed memory.
 type HalfEdge = [u32; 2];
 
 /// The edges of a range of lower positions.
@@ -21,7 +21,7 @@ struct EdgeRange {
     non_manifold: Vec<(u32, Vec<u32>)>,
 }
 
-/// Edges of one position among which a search from the first is quicker than a table.
+/// Number of a position's edges up to which a search from the first is quicker than a table.
 const SEARCHED: usize = 12;
 
 const NO_EDGE: u32 = u32::MAX;
@@ -32,10 +32,9 @@ impl EdgeList {
         Self::with_threads(mesh, threads_for(mesh.triangles.len()))
     }
 
-    /// As [`EdgeList::new`] with a number of threads, at least 1; the result is the same for all of them.
+    /// Like [`EdgeList::new`] with a number of threads, at least 1, which does not affect the result.
     ///
-    /// Faces that name a position twice or one that does not exist have no edges; [`EdgeList::degenerate_faces`] counts
-    /// them.
+    /// Faces that repeat a position or name one that does not exist have no edges; [`EdgeList::degenerate_faces`] counts them.
     pub fn with_threads(mesh: &Mesh, threads: usize) -> Self {
         edge_list(&mesh.triangles, mesh.positions.len() as u32, threads.max(1))
     }
@@ -43,7 +42,7 @@ impl EdgeList {
 
 fn edge_list(triangles: &[[u32; 3]], positions: u32, threads: usize) -> EdgeList {
     let is_degenerate = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a || *a.max(b).max(c) >= positions;
-    // Half-edges are counted in 32 bits: a mesh of more has 30 GB of edges, and what is beyond has none here.
+    // Half-edges are counted in 32 bits: a larger mesh has 30 GB of edges, and its further faces have none here.
     let (triangles, beyond) = triangles.split_at(triangles.len().min(u32::MAX as usize / 3));
     let degenerate_faces = in_parallel(triangles.len(), threads, |faces| {
         triangles[faces].iter().filter(|triangle| is_degenerate(triangle)).count()

@@ -1,4 +1,4 @@
-//! The classes of an edge that do not depend on the view.
+//! The classes of an edge that are independent of the view.
 
 use super::outside::fronts_outside;
 use super::{EdgeList, Incidence};
@@ -18,44 +18,44 @@ crate::choices! {
     pub enum Class {
         /// It has one face.
         Boundary = "boundary",
-        /// It has three faces or more; the text's listing overwrites one of them and never draws it (errata D2).
+        /// It has three faces or more; the text's listing overwrites one of them and never draws the edge (errata D2).
         NonManifold = "non-manifold",
         /// One of its two faces is seen from the front, the other from the back.
         Silhouette = "silhouette",
         /// The normals of its two faces differ by more than the crease angle.
         Crease = "crease",
-        /// The same where the surface is convex, for drawings that set both apart.
+        /// A crease where the surface is convex, for drawings that distinguish convex from concave.
         ConvexCrease = "convex-crease",
-        /// The same where it is concave.
+        /// The same where the surface is concave.
         ConcaveCrease = "concave-crease",
-        /// Its two faces have different materials: in the text an inner edge that counts as boundary (errata D10).
+        /// Its two faces have different materials: in the text, an inner edge that counts as boundary (errata D10).
         Material = "material",
-        /// The texture coordinates at it differ between its two faces; likewise.
+        /// Its texture coordinates differ between its two faces; likewise.
         Texture = "texture",
-        /// The vertex normals at it differ between its two faces; likewise.
+        /// Its vertex normals differ between its two faces; likewise.
         Normal = "normal",
-        /// No edge of the mesh: two faces pass through one another along it. Only the exact lines find it.
+        /// No edge of the mesh: two faces intersect along it. Only the exact lines find it.
         Intersection = "intersection",
-        /// No edge either, nor are the three below, which the exact lines find from the curvature of the surface that is meant: a
-        /// suggestive contour, where a nearby eye would see a contour (DeCarlo et al. 2003).
+        /// A suggestive contour: a nearby eye would see a contour there (DeCarlo et al. 2003). This and the three classes below
+        /// are no edges either; the exact lines find them from the surface's curvature.
         Suggestive = "suggestive",
-        /// Where a convex surface is most curved along the direction in which it is most curved (Ohtake et al. 2004).
+        /// A ridge: the crest of a convex surface's largest curvature, along its direction (Ohtake et al. 2004).
         Ridge = "ridge",
-        /// The same where it is concave.
+        /// The same where the surface is concave.
         Valley = "valley",
-        /// Where the surface seems most curved to the eye (Judd et al. 2007).
+        /// An apparent ridge: the surface's view-dependent curvature is largest there (Judd et al. 2007).
         ApparentRidge = "apparent-ridge",
     }
 }
 
 impl Class {
-    /// As the user writes it.
+    /// Returns the class's name, as users write it.
     pub fn name(self) -> &'static str {
         self.choice_name()
     }
 }
 
-/// Some classes.
+/// A set of classes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ClassSet(u16);
 
@@ -66,10 +66,10 @@ impl ClassSet {
     /// Every class that a mesh's edges can be of.
     pub const EDGES: Self = Self(Self::ALL.0 & !(1 << Class::Intersection as u8) & !Self::FORMS.0);
 
-    /// The classes of lines that run through faces where the curvature of the surface says so: form lines.
+    /// The classes of form lines, which cross faces where the surface's curvature requires it.
     pub const FORMS: Self = Self::of(&[Class::Suggestive, Class::Ridge, Class::Valley, Class::ApparentRidge]);
 
-    /// The set of these classes.
+    /// Returns the set of these classes.
     pub const fn of(classes: &[Class]) -> Self {
         let mut bits = 0;
         let mut index = 0;
@@ -80,47 +80,47 @@ impl ClassSet {
         Self(bits)
     }
 
-    /// Whether the class is in it.
+    /// Whether the set contains the class.
     pub fn contains(self, class: Class) -> bool {
         self.0 & 1 << class as u8 != 0
     }
 
-    /// Whether no class is in it.
+    /// Whether the set is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// The classes in both.
+    /// Returns the classes in both sets.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self(self.0 & other.0)
     }
 
-    /// The classes in either.
+    /// Returns the classes in either set.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
-    /// The classes in it but for these.
+    /// Returns this set without these classes.
     #[must_use]
     pub fn without(self, classes: &[Class]) -> Self {
         Self(self.0 & !Self::of(classes).0)
     }
 
-    /// The first class of [`Class::ALL`] in it: the one an edge of several is drawn as.
+    /// Returns the first class of [`Class::ALL`] in the set, as which an edge of several classes is drawn.
     pub fn first(self) -> Option<Class> {
         self.classes().next()
     }
 
-    /// Its classes in the order of [`Class::ALL`].
+    /// Returns its classes in the order of [`Class::ALL`].
     pub fn classes(self) -> impl Iterator<Item = Class> {
         Class::ALL.into_iter().map(|(_, class)| class).filter(move |class| self.contains(*class))
     }
 }
 
 impl ClassSet {
-    /// The setting of which classes are drawn; `all` are all that there can be.
+    /// Declares the setting for the classes drawn; `all` is the set of permitted classes.
     pub fn setting<T: Clone + 'static>(all: Self, field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let names = Class::ALL.map(|(name, _)| name).into_iter().chain(["all"]);
         Setting::of(
@@ -153,7 +153,7 @@ impl Serialize for ClassSet {
     }
 }
 
-/// The angle of drawings that no text published, degrees.
+/// Crease angle of drawings without a published text, degrees.
 const DRAWING_DEGREES: f64 = 30.0;
 
 /// The angle between two faces' normals above which their edge is a crease.
@@ -164,7 +164,7 @@ pub struct CreaseAngle {
 }
 
 impl CreaseAngle {
-    /// An angle in degrees, 0 to 180.
+    /// Creates a crease angle from degrees, 0 to 180.
     ///
     /// # Errors
     ///
@@ -172,7 +172,7 @@ impl CreaseAngle {
     pub fn from_degrees(degrees: f64) -> Result<Self> {
         if (0.0..=180.0).contains(&degrees) {
             let cosine = degrees.to_radians().cos();
-            // No angle in f64 has exactly the listing's cosine, which must be possible to write down.
+            // No f64 angle has exactly the listing's cosine, but users must be able to write it.
             let listing = Self::default();
             let is_the_listings = (cosine - listing.cosine).abs() <= 4.0 * f64::EPSILON;
             return Ok(match degrees {
@@ -184,7 +184,7 @@ impl CreaseAngle {
         Err(Error::value("crease-angle", degrees, "the angle is between 0 and 180 degrees"))
     }
 
-    /// The shortest number of degrees that is read back as this angle, or the nearest one where none is.
+    /// Returns the shortest number of degrees that parses to this angle, or else the nearest number.
     fn written_degrees(self) -> f64 {
         let degrees = self.degrees();
         let is_it = |degrees: &f64| CreaseAngle::from_degrees(*degrees).is_ok_and(|found| found == self);
@@ -196,7 +196,7 @@ impl CreaseAngle {
         rounded.chain(near.flatten()).find(is_it).unwrap_or(degrees)
     }
 
-    /// The setting of whatever asks for creases.
+    /// Declares the setting of the crease angle.
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let help = "Smallest angle between two faces that makes their edge a crease, in degrees; style lines too";
         Setting::field("crease-angle", "DEGREES", help, field)
@@ -204,13 +204,13 @@ impl CreaseAngle {
             .said("66.4, a cosine of 0.4; ink and style lines: 30")
     }
 
-    /// The angle of drawings that no text published, 30 degrees: at 66.4 a hexagonal prism has no edges and a chamfer is none.
-    /// What is written as 30 degrees in a file's digits is a crease: the edges of a prism with twelve sides are of one kind.
+    /// Returns the angle of drawings without a published text, 30 degrees: at 66.4 a hexagonal prism and a chamfer have no
+    /// edges. 30 degrees in a file's digits still make a crease, so the edges of a twelve-sided prism are all of one kind.
     pub fn of_drawings() -> Self {
         Self { cosine: DRAWING_DEGREES.to_radians().cos() + CREASE_DIGITS }
     }
 
-    /// The angle in degrees.
+    /// Returns the angle in degrees.
     pub fn degrees(self) -> f64 {
         self.cosine.clamp(-1.0, 1.0).acos().to_degrees()
     }
@@ -242,13 +242,13 @@ impl Default for CreaseAngle {
 pub struct Classes {
     /// Each edge's classes.
     pub of_edges: Vec<ClassSet>,
-    /// The edges that have any, ascending.
+    /// The edges with any class, ascending.
     pub marked: Vec<u32>,
-    /// The crease angle they were found with.
+    /// The crease angle used.
     pub crease_angle: CreaseAngle,
 }
 
-/// How many edges are of each class.
+/// The number of edges of each class.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct ClassCounts {
     /// One face.
@@ -272,9 +272,9 @@ pub struct ClassCounts {
     pub texture: usize,
     /// Between different vertex normals.
     pub normal: usize,
-    /// Where faces pass through one another; not counted among edges.
+    /// Intersections of faces; not counted among edges.
     pub intersection: usize,
-    /// Faces through which a suggestive contour runs.
+    /// Faces crossed by a suggestive contour.
     pub suggestive: usize,
     /// Likewise for ridges.
     pub ridge: usize,
@@ -286,7 +286,7 @@ pub struct ClassCounts {
 }
 
 impl ClassCounts {
-    /// The count of one class.
+    /// Returns the count of one class.
     pub fn of(&mut self, class: Class) -> &mut usize {
         match class {
             Class::Boundary => &mut self.boundary,
@@ -308,10 +308,10 @@ impl ClassCounts {
 }
 
 impl Classes {
-    /// Finds the classes in `wanted`; the silhouette is not among them, it needs an eye.
+    /// Finds the classes in `wanted`, except the silhouette, which needs an eye.
     ///
-    /// An edge whose faces are wound against each other (errata) is judged with one of them turned round: its crease is the
-    /// angle of the surface, not that of the numbering. Faces without area have no creases.
+    /// An edge between faces wound against each other (errata) is judged with one face reversed: its crease angle is that of
+    /// the surface, whatever the winding. Faces without area have no creases.
     pub fn new(mesh: &Mesh, edges: &EdgeList, crease_angle: CreaseAngle, wanted: ClassSet) -> Self {
         Self::with_threads(mesh, edges, crease_angle, wanted, threads_for(mesh.triangles.len()))
     }
@@ -355,7 +355,7 @@ impl Classes {
         Self { of_edges, marked, crease_angle }
     }
 
-    /// How many edges are of each class; an edge of several counts in each.
+    /// Returns the number of edges of each class; an edge of several classes counts in each.
     pub fn counts(&self) -> ClassCounts {
         let mut counts = ClassCounts::default();
         for edge in &self.marked {
@@ -365,13 +365,13 @@ impl Classes {
     }
 }
 
-/// Unit normals of all faces; NaN for one without area, which makes every comparison with it fail.
+/// Computes the unit normals of all faces; NaN for a face without area, which makes every comparison with it fail.
 fn face_normals(mesh: &Mesh, threads: usize) -> Vec<[f64; 3]> {
     let normal = |triangle: &[u32; 3]| {
         let Some([a, b, c]) = mesh.corners(triangle) else { return DVec3::NAN };
         let product = (b - a).cross(c - a);
         let squared = product.length_squared();
-        // Plain arithmetic where it neither overflows nor underflows nor loses a needle; the careful way elsewhere.
+        // Plain arithmetic unless it overflows, underflows or loses a needle; the careful way otherwise.
         if (1e-200..1e200).contains(&squared) {
             product / squared.sqrt()
         } else {
@@ -381,24 +381,24 @@ fn face_normals(mesh: &Mesh, threads: usize) -> Vec<[f64; 3]> {
     filled(mesh.triangles.len(), threads, [0.0; 3], |face| normal(&mesh.triangles[face]).to_array())
 }
 
-/// What the classes of an edge are found from.
+/// The data that decides an edge's classes.
 struct Judge<'a> {
     mesh: &'a Mesh,
     edges: &'a EdgeList,
     normals: &'a [[f64; 3]],
     cosine: f64,
-    /// Of each face whether its front is outside, where creases are asked for that are convex, or concave.
+    /// For each face whether its front is outside, if convex or concave creases are wanted.
     fronts_outside: Option<Vec<bool>>,
     seams: Seams,
 }
 
-/// The classes of which an edge between two faces is one by their angle.
+/// The classes that depend on the angle between an edge's two faces.
 const CREASES: ClassSet = ClassSet::of(&[Class::Crease, Class::ConvexCrease, Class::ConcaveCrease]);
 
-/// Those of them that are told apart by the side the outside is on.
+/// The crease classes that depend on the side of the outside.
 const TURNS: ClassSet = ClassSet::of(&[Class::ConvexCrease, Class::ConcaveCrease]);
 
-/// Which seams to look for: those wanted that this mesh can have.
+/// The seams to find: the wanted ones that this mesh can have.
 struct Seams {
     material: bool,
     texture: bool,
@@ -442,8 +442,8 @@ impl Judge<'_> {
         }
     }
 
-    /// Whether a crease is convex or concave, where that is asked: convex where the second face's third corner is not outside of the
-    /// first face, which has this normal.
+    /// Returns whether a crease is convex or concave, if wanted. It is convex if the second face's third corner is not outside
+    /// the first face, whose normal is `normal`.
     fn turn_at(&self, edge: usize, normal: DVec3) -> ClassSet {
         let Some(fronts_outside) = &self.fronts_outside else { return ClassSet::default() };
         let ends = self.edges.positions[edge];
@@ -474,7 +474,7 @@ impl Judge<'_> {
         classes
     }
 
-    /// Whether the faces have different values at either of the edge's positions.
+    /// Whether the faces' values differ at either of the edge's positions.
     fn differs<T: PartialEq>(&self, edge: usize, faces: [usize; 2], corners: &[[u32; 3]], values: &[T]) -> bool {
         self.edges.positions[edge].iter().any(|position| {
             let index = faces.map(|face| {

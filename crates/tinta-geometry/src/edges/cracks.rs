@@ -1,13 +1,13 @@
-//! Cracks: open edges that run beside one another so closely that their model was probably meant to be closed there.
+//! Cracks: open edges so close to one another that the model was probably meant to be closed there.
 
 use super::{EdgeList, Incidence};
 use crate::mesh::{Mesh, weld};
 use crate::tolerances::CRACK;
 use glam::DVec3;
 
-/// How many open edges have another one with both ends no farther than [`CRACK`] of the model's size from theirs.
+/// Returns the number of open edges with another one whose ends are both within [`CRACK`] of the model's size of theirs.
 ///
-/// Each such edge beyond the first of a place counts, so that a crack of one edge's length is 1.
+/// Each such edge after the first of a place counts: a crack of one edge's length is 1.
 pub fn cracks(mesh: &Mesh, edges: &EdgeList) -> usize {
     let incidence = edges.incidence().iter();
     let open = edges.positions().iter().zip(incidence).filter(|(_, kind)| **kind == Incidence::Boundary);

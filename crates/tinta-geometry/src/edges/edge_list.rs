@@ -2,12 +2,12 @@
 
 /// Each edge of a mesh once, with its faces.
 ///
-/// Edges are numbered by their lower position, and those of one position by first appearance in the faces' order: the same
-/// mesh gives the same numbers whatever the number of threads.
+/// Edges are numbered by their lower position, then by first appearance in the faces' order. The number of threads does not
+/// affect the numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct EdgeList {
     pub(super) positions: Vec<[u32; 2]>,
-    /// The two faces of an inner edge, the lower number first; one face twice where there are not exactly two.
+    /// The two faces of an inner edge, the lower number first; one face twice for any other number of faces.
     pub(super) faces: Vec<[u32; 2]>,
     pub(super) incidence: Vec<Incidence>,
     /// The faces of each non-manifold edge, by its number, ascending.
@@ -15,15 +15,15 @@ pub struct EdgeList {
     pub(super) degenerate_faces: usize,
 }
 
-/// How an edge's faces lie to it.
+/// How an edge's faces are arranged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Incidence {
     /// One face.
     Boundary,
-    /// Two faces that run along it in opposite directions, as neighbours of one orientation do.
+    /// Two faces that run along it in opposite directions, as consistently oriented neighbours do.
     Inner,
-    /// Two faces that run along it in the same direction: one is turned inside out against the other.
+    /// Two faces that run along it in the same direction: one is reversed against the other.
     InnerReversed,
     /// Three faces or more.
     NonManifold,
@@ -35,7 +35,7 @@ impl EdgeList {
         self.positions.len()
     }
 
-    /// Whether there is no edge.
+    /// Whether the list is empty.
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }
@@ -45,12 +45,12 @@ impl EdgeList {
         &self.positions
     }
 
-    /// How each edge's faces lie to it.
+    /// How each edge's faces are arranged.
     pub fn incidence(&self) -> &[Incidence] {
         &self.incidence
     }
 
-    /// An edge's faces, ascending; empty for an edge there is not.
+    /// Returns an edge's faces, ascending; empty for an unknown edge.
     pub fn faces(&self, edge: u32) -> &[u32] {
         match self.incidence.get(edge as usize) {
             None => &[],
@@ -63,12 +63,12 @@ impl EdgeList {
         }
     }
 
-    /// Inner edges whose two faces are wound against each other: none on a surface of one orientation.
+    /// Returns the number of inner edges whose faces are wound against each other: 0 on a consistently oriented surface.
     pub fn reversed_edges(&self) -> usize {
         self.incidence.iter().filter(|incidence| **incidence == Incidence::InnerReversed).count()
     }
 
-    /// Faces without edges: they name a position twice, or one that does not exist.
+    /// Returns the number of faces without edges, which repeat a position or name one that does not exist.
     pub fn degenerate_faces(&self) -> usize {
         self.degenerate_faces
     }

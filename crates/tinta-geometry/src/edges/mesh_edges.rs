@@ -1,23 +1,23 @@
-//! A mesh's edges with what is kept between views: the list, its classes, the faces' planes.
+//! A mesh's edges with the data kept between views: the list, its classes, the faces' planes.
 
 use super::{Class, ClassSet, Classes, CreaseAngle, EdgeList, Eye, SilhouetteRule, Silhouettes, SmoothSurface};
 use crate::mesh::Mesh;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// The edges of a mesh, ready to be asked which to draw.
+/// The edges of a mesh, to select the ones to draw.
 #[derive(Debug)]
 pub struct MeshEdges {
     mesh: Arc<Mesh>,
     list: EdgeList,
     silhouettes: OnceLock<Silhouettes>,
-    /// For the settings last asked for.
+    /// For the latest settings.
     classes: Mutex<Option<(ClassSet, Arc<Classes>)>>,
-    /// For the angle last asked for.
+    /// For the latest angle.
     smooth: Mutex<Option<Arc<SmoothSurface>>>,
 }
 
 impl MeshEdges {
-    /// Builds the list; everything else is made when first asked for.
+    /// Builds the list; everything else is computed on first use.
     pub fn new(mesh: Arc<Mesh>) -> Self {
         let list = EdgeList::new(&mesh);
         Self { mesh, list, silhouettes: OnceLock::new(), classes: Mutex::new(None), smooth: Mutex::new(None) }
@@ -33,7 +33,7 @@ impl MeshEdges {
         &self.list
     }
 
-    /// A sentence where open edges run so closely beside one another that they were probably meant to be one.
+    /// Returns a sentence if open edges are so close to one another that they were probably meant to be one.
     pub fn remark(&self) -> Option<String> {
         let (pairs, share) = match super::cracks(&self.mesh, &self.list) {
             0 => return None,
@@ -47,7 +47,7 @@ impl MeshEdges {
         ))
     }
 
-    /// The static classes in `wanted`; those of the last setting asked for are kept.
+    /// Returns the static classes in `wanted`; keeps those of the latest settings.
     pub fn classes(&self, crease_angle: CreaseAngle, wanted: ClassSet) -> Arc<Classes> {
         let mut kept = self.classes.lock().unwrap_or_else(PoisonError::into_inner);
         match &*kept {
@@ -60,7 +60,7 @@ impl MeshEdges {
         }
     }
 
-    /// The smooth surface that the faces stand for, sharp at creases of this angle; the last one asked for is kept.
+    /// Returns the smooth surface that the faces approximate, sharp at creases of this angle; keeps the latest one.
     pub fn smooth(&self, crease_angle: CreaseAngle) -> Arc<SmoothSurface> {
         let mut kept = self.smooth.lock().unwrap_or_else(PoisonError::into_inner);
         match &*kept {
@@ -79,8 +79,8 @@ impl MeshEdges {
         silhouettes.find(&self.mesh, &self.list, eye, rule)
     }
 
-    /// The edges to draw and the class each belongs to: of those it has in `wanted`, the first in the order of
-    /// [`Class::ALL`]. Ascending within a class.
+    /// Returns the edges to draw, each with its first class in `wanted`, in the order of [`Class::ALL`]. Ascending within a
+    /// class.
     pub fn chosen(
         &self,
         wanted: ClassSet,
@@ -92,7 +92,7 @@ impl MeshEdges {
         self.chosen_with(wanted, crease_angle, &silhouette)
     }
 
-    /// As [`MeshEdges::chosen`], the silhouette edges being these, ascending.
+    /// Like [`MeshEdges::chosen`] with these silhouette edges, ascending.
     pub fn chosen_with(
         &self,
         wanted: ClassSet,

@@ -1,13 +1,13 @@
-//! Which side of a face the eye is on, exactly.
+//! Decides exactly which side of a face the eye sees.
 //!
-//! In perspective that is the sign of Shewchuk's orient3d, from the `robust` crate. In parallel projection it is the sign of
-//! the determinant of two sides of the face and the direction to the eye, which is computed here: first in f64 with a
-//! bound on its error, then, where that cannot tell, as an exact sum.
+//! In perspective the side is the sign of Shewchuk's orient3d, from the `robust` crate. In parallel projection it is the sign
+//! of the determinant of two sides of the face and the direction to the eye. That is computed here: first in f64 with an error
+//! bound, then, if undecided, as an exact sum.
 
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
-/// Where a mesh is seen from, in its own coordinates.
+/// A viewpoint, in the mesh's own coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Eye {
     /// Perspective: the eye's position.
@@ -19,7 +19,7 @@ pub enum Eye {
 /// The side of a face that an eye sees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// The side from which its corners are counter-clockwise.
+    /// Its corners are counter-clockwise from this side.
     Front,
     /// The other side.
     Back,
@@ -37,7 +37,7 @@ impl Side {
     }
 }
 
-/// The side of a face that the eye sees: the sign of its determinant in exact arithmetic.
+/// Returns the side of a face that the eye sees: the sign of its determinant in exact arithmetic.
 ///
 /// Exact for all f64 whose products of three neither overflow nor underflow: magnitudes between 1e-70 and 1e70, and 0.
 pub fn side_of_face(corners: [DVec3; 3], eye: Eye) -> Side {
@@ -78,7 +78,7 @@ struct ExactSum {
     count: usize,
 }
 
-/// Eighteen products of three numbers are seventy-two numbers, none of which can make more than one component.
+/// Eighteen products of three numbers make seventy-two numbers, and each adds at most one component.
 const MOST_COMPONENTS: usize = 72;
 
 impl ExactSum {

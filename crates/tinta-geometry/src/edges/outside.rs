@@ -1,8 +1,8 @@
-//! On which side of each face the outside is, whichever way the faces are wound.
+//! Finds the outside of each face, whatever its winding.
 //!
-//! In: a [`Mesh`] and its [`EdgeList`]. Out: for each face whether its front is outside. Faces that hang together and close a shell are
-//! turned to one orientation, and the sign of the volume says which; inside another shell it is a hollow's, whose outside is what it
-//! encloses. Open shells, and shells with an edge of three faces, keep the winding of the file.
+//! In: a [`Mesh`] and its [`EdgeList`]. Out: for each face whether its front is outside. The faces of each closed shell are
+//! turned to one orientation, and the sign of its volume tells the outside. A shell inside another one bounds a hollow: its
+//! outside is the enclosed space. Open shells, and shells with an edge of three faces, keep the file's winding.
 
 use super::{EdgeList, Incidence};
 use crate::disjoint_sets::DisjointSets;
@@ -11,14 +11,14 @@ use glam::DVec3;
 
 /// A closed shell.
 struct ClosedShell {
-    /// Its faces, turned round where the second says so.
+    /// Its faces, reversed where the second value says so.
     faces: Vec<(u32, bool)>,
     bounds: [DVec3; 2],
-    /// Six times what it encloses, negative where its faces, so turned, show their fronts inside.
+    /// Six times its volume, negative if its turned faces show their fronts inside.
     volume: f64,
 }
 
-/// Of each face whether its front is outside.
+/// Returns for each face whether its front is outside.
 pub(super) fn fronts_outside(mesh: &Mesh, edges: &EdgeList) -> Vec<bool> {
     let mut is_outside = vec![true; mesh.triangles.len()];
     let shells = closed_shells(mesh, edges);
@@ -33,10 +33,10 @@ pub(super) fn fronts_outside(mesh: &Mesh, edges: &EdgeList) -> Vec<bool> {
     is_outside
 }
 
-/// The shells that are closed and have one orientation when some of their faces are turned.
+/// Returns the closed shells that can be oriented by reversing some faces.
 fn closed_shells(mesh: &Mesh, edges: &EdgeList) -> Vec<ClosedShell> {
     let count = mesh.triangles.len();
-    // Each face twice, as it is and turned round: what hangs together has one orientation.
+    // Each face twice, unchanged and reversed: connected ones share one orientation.
     let as_it_is = |face: u32| face;
     let turned = |face: u32| face + count as u32;
     let mut groups = DisjointSets::new(count * 2);
@@ -68,7 +68,7 @@ fn closed_shells(mesh: &Mesh, edges: &EdgeList) -> Vec<ClosedShell> {
         if roots.into_iter().any(|root| is_open[root as usize]) {
             continue;
         }
-        // Of a shell and the same turned round one is enough: that of the lower number.
+        // Of a shell and its reverse one is enough: the one with the lower number.
         let is_turned = roots[1] < roots[0];
         let Some(corners) = mesh.corners(&mesh.triangles[face as usize]) else { continue };
         let [a, b, c] = corners.map(|corner| corner - centre);

@@ -1,14 +1,14 @@
-//! Creases that last: those of a surface, and not the single folds that its faces have by chance, as on scans.
+//! Persistent creases: those of the surface, without the single chance folds of its faces, as on scans.
 //!
-//! In: a [`Mesh`], its [`EdgeList`] and which edges are creases. Out: which of them last. A crease goes on in the one at its end that goes
-//! straightest, if that turns by less than 45 degrees. It lasts if it comes back to its beginning, if it is long, or if a flat face of
-//! several triangles ends at it, as all of a part's edges do.
+//! In: a [`Mesh`], its [`EdgeList`] and the creases. Out: the persistent ones. A crease continues in the straightest one at its
+//! end, if it turns by less than 45 degrees there. It is persistent if it is closed or long, or if a flat face of several
+//! triangles ends at it, as at all edges of a part.
 
 use super::EdgeList;
 use crate::mesh::{Mesh, triangle_normal};
 use glam::DVec3;
 
-/// How long a crease is at least that lasts, as a share of the diagonal of the model's box.
+/// Least length of a persistent crease, as a share of the diagonal of the model's box.
 const LEAST_LENGTH: f64 = 0.06;
 
 /// The cosine of the largest turn along one crease.
@@ -17,10 +17,10 @@ const STRAIGHT: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// The least cosine between triangles of one flat face: half a degree, as exported planes keep.
 const FLAT: f64 = 0.99996;
 
-/// More creases than these that meet in one position go on in nothing.
+/// Most creases at a position; more of them do not continue.
 const MOST_CREASES: usize = 16;
 
-/// Of each edge whether it is a crease that lasts.
+/// Returns for each edge whether it is a persistent crease.
 pub(crate) fn persistent_creases(mesh: &Mesh, edges: &EdgeList, is_crease: impl Fn(u32) -> bool) -> Vec<bool> {
     let is_flat = flat_faces(mesh, edges);
     let creases: Vec<u32> = (0..edges.len() as u32).filter(|edge| is_crease(*edge)).collect();
@@ -71,7 +71,7 @@ pub(crate) fn persistent_creases(mesh: &Mesh, edges: &EdgeList, is_crease: impl 
     lasts
 }
 
-/// Of each face whether another lies in its plane beside it.
+/// Returns for each face whether a neighbour lies in its plane.
 fn flat_faces(mesh: &Mesh, edges: &EdgeList) -> Vec<bool> {
     let normal = |face: u32| mesh.corners(&mesh.triangles[face as usize]).and_then(triangle_normal);
     let normals: Vec<DVec3> =

@@ -1,7 +1,7 @@
 //! The silhouette for an eye: inner edges between a face seen from the front and one that is not.
 //!
-//! The exact rule asks each face for its side once, in f32 with a bound on the error and, for the few faces that cannot be
-//! told so, exactly. The text's rule multiplies two products with one view vector (errata D3, D4).
+//! The exact rule decides each face's side once, in f32 with an error bound. Exact arithmetic decides the few uncertain faces.
+//! The text's rule multiplies two products with one view vector (errata D3, D4).
 
 use super::{EdgeList, Eye, Incidence, Side, side_of_face};
 use crate::mesh::{Mesh, triangle_normal};
@@ -10,23 +10,23 @@ use crate::threads::{filled, in_parallel, ranges, threads_for};
 use glam::{DVec3, Vec3, Vec4};
 
 crate::choices! {
-    /// How it is decided whether an edge is silhouette.
+    /// The rule that decides whether an edge is silhouette.
     #[derive(Default)]
     pub enum SilhouetteRule {
         /// The listing's: the product of both normals' components along the camera's axis is at most 1e-8, for every edge the
         /// same axis. In perspective that misses edges and invents others.
         #[default]
         Published = "paper",
-        /// One face's front is seen and the other's is not, by exact arithmetic.
+        /// The eye sees one face's front and the other's back, by exact arithmetic.
         Exact = "exact",
-        /// Where the curved surface that the faces stand for turns away: through the faces, and along edges only where they are sharp,
-        /// see [`crate::lines::smooth_silhouettes`]. Asked for edges alone it is [`SilhouetteRule::Exact`].
+        /// The contour of the curved surface that the faces approximate: it crosses faces, and follows edges only where they
+        /// are sharp, see [`crate::lines::smooth_silhouettes`]. For edges alone it equals [`SilhouetteRule::Exact`].
         Smooth = "smooth",
     }
 }
 
 impl SilhouetteRule {
-    /// The setting of a style.
+    /// Declares a style's setting.
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         Setting::field(
             "silhouette",
@@ -47,18 +47,18 @@ const PUBLISHED_BOUND: f32 = 0.000_000_01;
 /// and three sums, and the roundings of plane and eye before.
 const PLANE_ERROR: f32 = 8.0 * f32::EPSILON;
 
-/// A mesh's faces as planes, ready to be asked for silhouettes from many eyes.
+/// A mesh's faces as planes, to find silhouettes from many eyes.
 #[derive(Debug, Clone)]
 pub struct Silhouettes {
     frame: Frame,
-    /// Each face's unit normal and, in the fourth place, minus its plane's distance from the origin, NaN where f32 cannot be
-    /// trusted.
+    /// Each face's unit normal and, in the fourth place, minus its plane's distance from the origin, or NaN where f32 is too
+    /// imprecise.
     planes: Vec<[f32; 4]>,
     /// The edges whose faces are wound against each other, ascending.
     reversed: Vec<u32>,
 }
 
-/// The coordinates of the planes: the mesh's middle is the origin and its radius 1, so that f32 suffices.
+/// The coordinates of the planes, precise enough for f32: the mesh's middle is the origin and its radius 1.
 #[derive(Debug, Clone, Copy)]
 struct Frame {
     centre: DVec3,
@@ -106,7 +106,8 @@ impl Silhouettes {
         Self { frame, planes: filled(count, threads_for(count), [0.0; 4], plane), reversed }
     }
 
-    /// An eye for a rule: the listing's looks along one vector for every edge, for a point that from the mesh's middle.
+    /// Returns the eye for a rule. The listing's rule looks along one vector for every edge; for an eye at a point, that vector
+    /// starts at the mesh's middle.
     fn local_eye(&self, eye: Eye, rule: SilhouetteRule) -> LocalEye {
         let local = self.frame.eye(eye);
         match rule {
@@ -118,13 +119,13 @@ impl Silhouettes {
         }
     }
 
-    /// The silhouette edges, ascending, looking at every face and every edge on as many threads as that is worth.
-    /// `mesh` and `edges` are those this was made from.
+    /// Returns the silhouette edges, ascending. It tests every face and every edge on as many threads as are worth it. `mesh`
+    /// and `edges` are those this was made from.
     pub fn find(&self, mesh: &Mesh, edges: &EdgeList, eye: Eye, rule: SilhouetteRule) -> Vec<u32> {
         self.find_with_threads(mesh, edges, eye, rule, threads_for(self.planes.len()))
     }
 
-    /// As [`Silhouettes::find`] with a number of threads; the result is the same for all of them.
+    /// Like [`Silhouettes::find`] with a number of threads, which does not affect the result.
     pub fn find_with_threads(
         &self,
         mesh: &Mesh,
@@ -168,8 +169,8 @@ impl Silhouettes {
         found
     }
 
-    /// Adds those of the edges whose faces are wound against each other that are silhouette: by the exact rule when one face
-    /// is turned round; by the listing's, which knows no such edges, as they are.
+    /// Adds the silhouette edges among those whose faces are wound against each other. The exact rule reverses one face; the
+    /// listing's rule, which knows no such edges, tests them unchanged.
     fn add_reversed(&self, mesh: &Mesh, edges: &EdgeList, eye: Eye, rule: SilhouetteRule, found: &mut Vec<u32>) {
         let local = self.local_eye(eye, rule);
         let along_view = |face: u32| along_view(self.planes[face as usize], &local);
@@ -201,7 +202,7 @@ impl Silhouettes {
     }
 }
 
-/// Whether the eye is clearly on the front of a plane, or clearly not; `None` where f32 cannot tell.
+/// Whether the eye is certainly in front of a plane, or certainly not; `None` if f32 cannot decide.
 #[inline(always)]
 fn is_front([x, y, z, w]: [f32; 4], eye: &LocalEye) -> Option<bool> {
     let [eye_x, eye_y, eye_z, eye_w] = eye.homogeneous.to_array();
@@ -217,15 +218,15 @@ fn along_view([x, y, z, _]: [f32; 4], eye: &LocalEye) -> f32 {
     x * eye.homogeneous.x + y * eye.homogeneous.y + z * eye.homogeneous.z
 }
 
-/// The listing's test, in its own precision, of two normals' components along the view.
+/// The listing's test of two normals' components along the view, in its own precision.
 #[inline(always)]
 fn is_published_silhouette(first: f32, second: f32) -> bool {
     first * second <= PUBLISHED_BOUND
 }
 
-/// The numbers of a range for which something holds.
+/// Returns the numbers of a range for which `holds` is true.
 fn select(range: std::ops::Range<usize>, holds: impl Fn(usize) -> bool) -> Vec<u32> {
-    // Written without a branch: every number is put down, and the next one overwrites it unless it counts.
+    // Without a branch: every number is written, and the next one overwrites it unless it counts.
     const BLOCK: usize = 4096;
     let mut selected = Vec::new();
     let mut block = [0u32; BLOCK];
@@ -241,15 +242,15 @@ fn select(range: std::ops::Range<usize>, holds: impl Fn(usize) -> bool) -> Vec<u
     selected
 }
 
-/// A face's plane in the frame: its last number is NaN where its normal is too uncertain for f32's error bound, all of
-/// them where it has none.
+/// Returns a face's plane in the frame. Its last number is NaN if its normal is too uncertain for f32's error bound; all are
+/// NaN if it has none.
 fn plane(frame: &Frame, corners: [DVec3; 3]) -> Vec4 {
-    // Sides before anything is rounded: small faces far from the middle keep their normals.
+    // Sides come before any rounding: small faces far from the middle keep their normals.
     let (u, v) = ((corners[1] - corners[0]) / frame.radius, (corners[2] - corners[0]) / frame.radius);
     let product = u.cross(v);
     let length = product.length();
-    // The product's own error is a few f64 epsilons of |u||v|; a needle for which that is not far below f32's error, or
-    // which underflows, is left to exact arithmetic.
+    // The product's own error is a few f64 epsilons of |u||v|. Exact arithmetic handles needles for which that is not far below
+    // f32's error, and underflow.
     let is_certain = length > u.length() * v.length() * 1e-7 && length > f64::MIN_POSITIVE / f64::EPSILON;
     if is_certain {
         let normal = product / length;

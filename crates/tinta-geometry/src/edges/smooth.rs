@@ -1,10 +1,10 @@
-//! The smooth surface that a mesh's faces stand for, as far as contours ask: a normal for each corner, sharp edges apart.
+//! The smooth surface that a mesh's faces approximate, for contours: a normal for each corner, split at sharp edges.
 //!
-//! In: a [`Mesh`], its [`EdgeList`] and the crease angle. Out: [`SmoothSurface`]. Around a position all faces that hang together
-//! over edges that are not sharp share one unit normal in f64: a face weighs in with the sine of its angle there over the
-//! lengths of its sides there (Max 1999: exact on a sphere), where a side counts at least a tenth of its face's longest one, so that
-//! no needle decides for its neighbours. Sharp are creases, boundaries, edges of three faces or more, and edges whose faces are wound
-//! against each other. A file's own normals are not asked: they say how to shade.
+//! In: a [`Mesh`], its [`EdgeList`] and the crease angle. Out: [`SmoothSurface`]. Around a position, all faces connected over
+//! edges that are not sharp share one unit normal in f64. A face's weight is the sine of its angle there over the lengths of
+//! its sides there (Max 1999: exact on a sphere). A side counts at least a tenth of its face's longest one, which keeps a
+//! needle from deciding for its neighbours. Sharp edges are creases, boundaries, edges of three faces or more, and edges whose
+//! faces are wound against each other. A file's own normals are ignored: they describe shading.
 
 mod rims;
 
@@ -19,7 +19,7 @@ use glam::DVec3;
 pub struct SmoothSurface {
     /// The angle above which edges are sharp.
     pub crease_angle: CreaseAngle,
-    /// Unit normals; zero where faces around a position cancel each other out or have no area.
+    /// Unit normals; zero where faces around a position cancel out or have no area.
     pub normals: Vec<DVec3>,
     /// Each normal's position in the mesh.
     pub normal_positions: Vec<u32>,
@@ -29,28 +29,28 @@ pub struct SmoothSurface {
     pub sides: Vec<[u32; 3]>,
     /// For each edge whether the surface may bend or end there.
     pub is_sharp: Vec<bool>,
-    /// Of each face how its shell is closed.
+    /// For each face how its shell is closed.
     pub shells: Vec<Shell>,
-    /// Of each position the shell it belongs to, by a number; of several one.
+    /// For each position the number of its shell, or of one of its shells.
     pub position_shells: Vec<u32>,
 }
 
-/// What the faces that hang together are.
+/// The kind of a set of connected faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Shell {
-    /// They have an open rim, an edge of three faces, or are wound against each other somewhere.
+    /// They have an open rim or an edge of three faces, or some are wound against each other.
     Open,
-    /// They enclose something, their fronts outside.
+    /// They enclose a volume, their fronts outside.
     Outward,
-    /// They enclose something, their fronts inside.
+    /// They enclose a volume, their fronts inside.
     Inward,
 }
 
 /// Least length of a face's side as a share of its longest one, in the weights of normals.
 const LEAST_SIDE: f64 = 0.1;
 
-/// Volume of a closed shell, as a share of the volumes it is summed from, up to which it encloses nothing but rounding.
+/// Largest volume of a closed shell that is mere rounding, as a share of the volumes it is summed from.
 const NO_VOLUME: f64 = 1e-9;
 
 impl SmoothSurface {
@@ -82,7 +82,7 @@ fn sides(mesh: &Mesh, edges: &EdgeList) -> Vec<[u32; 3]> {
     sides
 }
 
-/// Which side of a face runs between two positions, in either direction.
+/// Returns the side of a face between two positions, in either direction.
 fn side_of(triangle: &[u32; 3], [a, b]: [u32; 2]) -> Option<usize> {
     (0..3).find(|side| {
         let ends = [triangle[*side], triangle[(side + 1) % 3]];
@@ -137,7 +137,7 @@ fn weighted_normals(corners: [DVec3; 3]) -> [DVec3; 3] {
     let [a, b, c] = corners;
     let lengths = [b - a, c - b, a - c].map(DVec3::length);
     let longest = lengths[0].max(lengths[1]).max(lengths[2]);
-    // Scaled first, so that neither tiny nor huge faces lose their normal to rounding alone.
+    // Scaled first, to keep tiny and huge faces from losing their normals to rounding.
     let normal = ((b - a) / longest).cross((c - a) / longest);
     let side = |index: usize| (lengths[index] / longest).max(LEAST_SIDE);
     let weight = |next: usize, previous: usize| 1.0 / (side(next) * side(previous) * longest).powi(2);

@@ -1,6 +1,7 @@
-//! From a [`Soup`] to a [`Mesh`]: the one place where all formats are treated alike.
+//! Builds a [`Mesh`] from a [`Soup`], in the same way for all formats.
 //!
-//! Bad faces are dropped and counted, vertices welded, polygons cut into triangles, missing normals computed, unused vertices left out.
+//! It drops and counts bad faces, welds vertices, cuts polygons into triangles, computes missing normals and leaves out unused
+//! vertices.
 
 use super::normals::Splitting;
 use super::pieces::Pieces;
@@ -13,14 +14,14 @@ use glam::{DVec3, Vec3};
 use std::borrow::Cow;
 
 impl Mesh {
-    /// A mesh of a program's own: triangles, counter-clockwise seen from outside, over positions in units of your choice.
+    /// Builds a mesh from a program's triangles, counter-clockwise seen from outside, over positions in any unit.
     ///
-    /// It goes the way of a file's: vertices are welded, triangles without area dropped and counted, normals computed.
+    /// The mesh is treated like a file's: vertices are welded, triangles without area dropped and counted, normals computed.
     ///
     /// # Errors
     ///
-    /// [`crate::Error::File`] when a triangle names a position that there is not, coordinates are too large, or nothing is
-    /// left to draw; [`crate::Error::Strict`] and [`crate::Error::Setting`] as [`load()`](super::load()) has them.
+    /// [`crate::Error::File`] if a triangle names an unknown position, coordinates are too large, or no triangle is left to
+    /// draw; [`crate::Error::Strict`] and [`crate::Error::Setting`] as in [`load()`](super::load()).
     pub fn of_triangles(
         name: &str,
         positions: Vec<DVec3>,
@@ -30,8 +31,8 @@ impl Mesh {
         Self::of_polygons(name, positions, triangles.as_flattened(), Vec::new(), options)
     }
 
-    /// The same of polygons, which are cut into triangles as a file's are: all their corners one after the other, and how many
-    /// each of them has, at least 3; where no sizes are given, all are triangles.
+    /// Builds a mesh from polygons, which are cut into triangles as a file's are. `corners` lists all their corners in order,
+    /// `sizes` each polygon's number of corners, at least 3; without sizes all are triangles.
     ///
     /// ```
     /// # fn main() -> tinta_geometry::Result<()> {
@@ -47,7 +48,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// As [`Mesh::of_triangles`], and [`crate::Error::File`] for sizes that are not those of the corners.
+    /// As for [`Mesh::of_triangles`], and [`crate::Error::File`] if the sizes do not match the corners.
     pub fn of_polygons(
         name: &str,
         positions: Vec<DVec3>,
@@ -73,12 +74,12 @@ impl Mesh {
 }
 
 impl Soup {
-    /// Makes the mesh. Fails if nothing is left to draw, or with `options.strict` if anything was wrong.
+    /// Makes the mesh. Fails if no triangle is left to draw, or with `options.strict` on any defect.
     pub(super) fn into_mesh(self, name: &str, options: &LoadOptions) -> Result<Mesh> {
         self.into_mesh_watched(name, options, &|_| {})
     }
 
-    /// The same, for whoever wants to know when only the normals are left to be made.
+    /// Makes the mesh and reports when only the normals remain.
     pub(super) fn into_mesh_watched(
         mut self,
         name: &str,
@@ -141,8 +142,8 @@ impl Soup {
         Ok(mesh)
     }
 
-    /// For each vertex the one it is welded to, by a tolerance relative to the used vertices' bounding-box diagonal; vertices
-    /// that nobody uses stay alone and do not count.
+    /// Returns for each vertex the one it is welded to, by a tolerance relative to the used vertices' bounding-box diagonal;
+    /// unused vertices stay alone and do not count.
     fn welded(&self, used: &[bool], tolerance: f64, name: &str) -> Result<Vec<u32>> {
         let alone = DVec3::NAN;
         let points: Cow<'_, [DVec3]> = match used.contains(&false) {
@@ -163,7 +164,7 @@ impl Soup {
         Ok(weld::weld(&points, tolerance * diagonal))
     }
 
-    /// Takes normals without a direction and texture coordinates that are not finite from the corners that have them.
+    /// Removes normals without a direction and texture coordinates that are not finite from their corners.
     fn drop_unusable(&mut self, defects: &mut Defects) {
         let has_direction = |normal: &Vec3| normal.is_finite() && *normal != Vec3::ZERO;
         if !self.normals.iter().all(has_direction) {
@@ -184,7 +185,7 @@ impl Soup {
         }
     }
 
-    /// Which vertices are finite and named by a polygon.
+    /// Returns which vertices are finite and used by a polygon.
     fn used(&self, finite: &[bool]) -> Vec<bool> {
         let mut used = vec![false; self.positions.len()];
         for corner in &self.corners {
@@ -213,14 +214,16 @@ fn compact(all: &[DVec3], triangles: &mut [[u32; 3]]) -> (Vec<DVec3>, Vec<u32>) 
     (positions, file_vertices)
 }
 
-/// From which share of the smoothing angle an edge carries a crease on that ends at it: chamfers of 30 degrees beside one of 45.
+/// Least share of the smoothing angle at which an edge continues a crease that ends at it: chamfers of 30 degrees beside one of
+/// 45.
 const NEARLY: f64 = 2.0 / 3.0;
 
-/// The least cosine between a face's own normal and what a file has for it, of few digits or of a polygon that is not flat: 5 degrees.
+/// Least cosine between a face's own normal and the file's normal for it, which may have few digits or belong to a polygon that
+/// is not flat: 5 degrees.
 const OWN: f64 = 0.996;
 
 impl Mesh {
-    /// Takes over the file's normals as far as asked for and usable, and computes the rest.
+    /// Takes the file's normals where wanted and usable, and computes the rest.
     fn take_normals(&mut self, file_normals: &[Vec3], face_normals: &[DVec3], options: &LoadOptions) {
         let angle = options.smooth_angle_degrees.to_radians();
         let all = Splitting { cos_smooth: angle.cos(), cos_beside: None };
@@ -256,7 +259,7 @@ impl Mesh {
 }
 
 impl Mesh {
-    /// Whether a file's normals are the faces' own, nearly everywhere: then it says nothing of what is smooth.
+    /// Whether nearly all of a file's normals are the faces' own: such a file does not tell smooth from sharp.
     fn repeats_faces(&self, file_normals: &[Vec3], face_normals: &[DVec3], options: &LoadOptions) -> bool {
         let corners =
             self.triangle_normals.iter().zip(face_normals).flat_map(|(corners, face)| corners.map(|it| (it, face)));
@@ -273,7 +276,7 @@ impl Mesh {
 }
 
 fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
-    // What else may be wrong is not why no face is left.
+    // Other defects are not the reason for an empty mesh.
     let of_faces = Defects {
         unused_vertices: 0,
         missing_materials: 0,

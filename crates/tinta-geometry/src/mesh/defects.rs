@@ -1,16 +1,16 @@
-//! What is wrong with a model file, counted.
+//! Counts of a model file's defects.
 //!
-//! Readers and `soup` fill the counts; the command line says them once, `--strict` makes them an error.
+//! Readers and `soup` fill the counts; the command line reports them once, and `--strict` makes them an error.
 
 use serde::Serialize;
 use std::fmt;
 
-/// Counts of what a reader found and left out or worked around; all zero for a clean file.
+/// Counts of defects that a reader left out or worked around; all zero for a clean file.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct Defects {
     /// Triangles without area (also faces of fewer than three corners), left out.
     pub degenerate_triangles: usize,
-    /// Polygons of more corners than are cut into triangles, left out: [`limits`](crate::limits).
+    /// Polygons with too many corners to triangulate, left out: [`limits`](crate::limits).
     pub long_polygons: usize,
     /// Triangles that repeat another with the same orientation, left out.
     pub duplicate_triangles: usize,
@@ -20,27 +20,27 @@ pub struct Defects {
     pub out_of_range_faces: usize,
     /// Vertices that no face uses, left out.
     pub unused_vertices: usize,
-    /// Corners whose normal the file does not hold, or that is zero or not finite; a computed one takes its place.
+    /// Corners whose normal is missing, zero or not finite; a computed one replaces it.
     pub unusable_normals: usize,
-    /// Corners whose texture coordinates the file does not hold, or that are not finite.
+    /// Corners whose texture coordinates are missing or not finite.
     pub unusable_texture_coordinates: usize,
-    /// Polygons that name a corner twice in a row, which counts once: harmless, so that `is_empty` passes over them.
+    /// Polygons that repeat a corner in a row, which then counts once; harmless, and ignored by `is_empty`.
     pub repeated_corners: usize,
-    /// Triangles that others cover in one plane, as in models made to be seen from both sides. Readers keep them, and
-    /// [`VisibleLines`](crate::VisibleLines) counts and leaves them out: harmless, too.
+    /// Triangles that coplanar triangles cover, as in models made to be seen from both sides. Readers keep them;
+    /// [`VisibleLines`](crate::VisibleLines) counts them and leaves them out. Harmless, too.
     pub covered_triangles: usize,
-    /// Material files or materials that are named but not there; those faces get the default colour.
+    /// Missing material files and materials; their faces get the default colour.
     pub missing_materials: usize,
 }
 
 impl Defects {
-    /// Whether the file is clean; what is harmless does not count.
+    /// Whether the file is clean; harmless defects do not count.
     pub fn is_empty(&self) -> bool {
         let Self { repeated_corners, covered_triangles, .. } = *self;
         *self == Self { repeated_corners, covered_triangles, ..Self::default() }
     }
 
-    /// What the defects do to the picture, and whether the reader must act.
+    /// Returns the defects' effect on the picture, and whether the reader must act.
     pub(crate) fn consequence(&self) -> &'static str {
         if self.long_polygons + self.non_finite_vertices + self.out_of_range_faces > 0 {
             "parts of the model are missing; export it again"

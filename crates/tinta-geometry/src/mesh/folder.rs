@@ -1,7 +1,8 @@
-//! A model's folder: where the files it names are looked for, and what it may not lead out of.
+//! A model's folder: finds the files that the model names, and keeps it from reading others.
 //!
-//! A model may name any file of its reader's disk: `..`, absolute, or by a link in its folder. None of them is followed
-//! unless `LoadOptions::allow_external`; whether a file lies inside is asked of its real path, links resolved.
+//! A model may name any file on the user's disk: by `..`, absolutely, or by a link in its folder. Without
+//! `LoadOptions::allow_external` such files are not read. A file's real path, with links resolved, decides whether it lies
+//! inside.
 
 use super::{EmbeddedPicture, Material};
 use crate::files::{self, Failure};
@@ -11,53 +12,53 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What lies beside a model.
+/// The files beside a model.
 #[derive(Debug)]
 pub(super) struct Folder<'a> {
     place: Place<'a>,
-    /// The names of what lies in it, read when first asked for.
+    /// The names of its entries, read on first use.
     names: OnceCell<Vec<String>>,
 }
 
 #[derive(Debug)]
 enum Place<'a> {
-    /// A folder of the disk, and what its files must lie in: its real path; `None` where they may lie anywhere.
+    /// A folder on disk, and the real path that its files must lie in; `None` allows any place.
     Disk { path: PathBuf, within: Option<PathBuf> },
-    /// Files out of memory. Of none, nobody looks for any.
+    /// Files in memory. If empty, missing files are ignored.
     Memory(&'a [(&'a str, &'a [u8])]),
 }
 
-/// What became of a file that a model names.
+/// The result of looking for a file that a model names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Lookup {
-    /// It lies here.
+    /// Found here.
     Here(PathBuf),
-    /// It is there but outside the folder.
+    /// It exists, but outside the folder.
     Outside,
-    /// There is no such file.
+    /// It does not exist.
     Nowhere,
 }
 
 impl<'a> Folder<'a> {
-    /// The folder of a model file.
+    /// Returns the folder of a model file.
     pub(super) fn of(model: &str, allow_external: bool) -> Self {
         let path = Path::new(model).parent().unwrap_or(Path::new("")).to_path_buf();
-        // A folder that is not there has no files either.
+        // A missing folder has no files either.
         let real = || listed(&path).canonicalize().unwrap_or_else(|_| path.clone());
         Self { place: Place::Disk { within: (!allow_external).then(real), path }, names: OnceCell::new() }
     }
 
-    /// These files, by their names. Of none, nothing is found and nothing missed.
+    /// Creates a folder of these files, by name. If empty, all files count as neither found nor missing.
     pub(super) fn of_files(files: &'a [(&'a str, &'a [u8])]) -> Self {
         Self { place: Place::Memory(files), names: OnceCell::new() }
     }
 
-    /// Whether there is anything to look in.
+    /// Whether the folder can hold files.
     pub(super) fn is_some(&self) -> bool {
         !matches!(self.place, Place::Memory([]))
     }
 
-    /// Where on the disk a file of this name would be.
+    /// Returns the path on disk for a file of this name.
     pub(super) fn place_of(&self, name: &str) -> Option<PathBuf> {
         match &self.place {
             Place::Disk { path, .. } => Some(path.join(name)),
@@ -65,7 +66,7 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// The file of this name, which may have folders before it.
+    /// Finds the file of this name, which may begin with folders.
     pub(super) fn find(&self, name: &Path) -> Lookup {
         match &self.place {
             Place::Disk { path, within } => {
@@ -83,7 +84,7 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// The file of this name as seen from a folder above the model's: games name pictures from where they are installed.
+    /// Finds the file of this name from a folder above the model's: games name pictures from their installation folder.
     pub(super) fn find_from_above(&self, name: &Path) -> Lookup {
         let Place::Disk { path, within } = &self.place else { return Lookup::Nowhere };
         let (Ok(real), true) = (listed(path).canonicalize(), name.is_relative()) else { return Lookup::Nowhere };
@@ -95,7 +96,7 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// The name of the folder that a file of the disk lies in.
+    /// Returns the name of the folder that a file on disk lies in.
     pub(super) fn name_of_parent(&self, file: &Path) -> Option<String> {
         let Place::Disk { .. } = self.place else { return None };
         let real = listed(file.parent()?).canonicalize().ok()?;
@@ -116,7 +117,7 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// Reads a material library: the file of this name, or out of memory the only one, whatever it is called.
+    /// Reads a material library: the file of this name, or in memory the only one, whatever its name.
     pub(super) fn read_library(&self, name: &str, limit: u64) -> Result<Cow<'a, [u8]>, Failure> {
         let is_library =
             |name: &str| Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mtl"));
@@ -129,7 +130,7 @@ impl<'a> Folder<'a> {
         self.read(name.as_ref(), limit)
     }
 
-    /// Makes what was found here a material's picture; it is read when a style needs it.
+    /// Makes the found file a material's picture, which a style reads when it needs it.
     pub(super) fn put_picture(&self, material: &mut Material, found: PathBuf) {
         match &self.place {
             Place::Disk { within, .. } => {
@@ -143,7 +144,7 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// The names of the files and folders in it, as far as they are text.
+    /// Returns the names of its files and folders that are text.
     pub(super) fn names(&self) -> &[String] {
         self.names.get_or_init(|| match &self.place {
             Place::Disk { path, .. } => {
@@ -155,14 +156,14 @@ impl<'a> Folder<'a> {
     }
 }
 
-/// The file of this name: as it is written, or in any case without the folders before it.
+/// Finds the file of this exact name, or else in any case and without leading folders.
 fn in_memory<'f, 'a>(files: &'f [(&'a str, &'a [u8])], name: &Path) -> Option<&'f (&'a str, &'a [u8])> {
     let base = name.file_name()?.to_str()?;
     let exact = files.iter().find(|(known, _)| Path::new(known) == name);
     exact.or_else(|| files.iter().find(|(known, _)| known.eq_ignore_ascii_case(base)))
 }
 
-/// A folder as the system wants it: an empty path is the current folder.
+/// Returns a folder's path for the system: an empty path becomes the current folder.
 fn listed(path: &Path) -> &Path {
     if path.as_os_str().is_empty() { Path::new(".") } else { path }
 }

@@ -1,4 +1,4 @@
-//! Which format a model file is in: by its content first, by its name second.
+//! Detects a model file's format, first by content, then by name.
 
 use super::{md2, obj, stl, three_ds};
 use std::path::Path;
@@ -17,7 +17,7 @@ pub(super) enum Format {
     Gltf,
 }
 
-/// What people call a format that is not read, by how the name ends.
+/// Returns the common name of an unsupported format, from the file name's ending.
 pub(super) fn unread(path: &str) -> Option<&'static str> {
     Some(match Path::new(path).extension()?.to_str()?.to_ascii_lowercase().as_str() {
         "step" | "stp" => "STEP",
@@ -51,7 +51,7 @@ pub(super) fn unread(path: &str) -> Option<&'static str> {
     })
 }
 
-/// Whether a file of this name is a model by how the name ends, of a format that is read or not.
+/// Whether the file name's ending is that of a model format, supported or not.
 pub fn is_model_name(name: &str) -> bool {
     Format::by_name(name).is_some() || unread(name).is_some()
 }
@@ -83,7 +83,7 @@ impl Format {
         }
     }
 
-    /// Whether a file begins in a way that other formats do not. Text of all kinds may have a line that could be OBJ's or STL's.
+    /// Whether the format's beginning is unique. Any text may have a line that looks like OBJ or STL.
     pub(super) fn is_unmistakable(self) -> bool {
         !matches!(self, Self::Obj | Self::Stl)
     }

@@ -1,13 +1,13 @@
-//! Which frame of an animated model is read: a number, between two frames also, or a name.
+//! The frame to read of an animated model: a number, possibly between two frames, or a name.
 
 use crate::error::{Error, ParseError, Result};
 use crate::settings::{Kind, Problem, Value};
 use std::{fmt, str::FromStr};
 
-/// A frame as the user names it.
+/// A frame, as the user writes it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ModelFrame {
-    /// Counted from 0; a fraction lies on the straight way from one frame to the next.
+    /// Counted from 0; a fraction interpolates linearly between two frames.
     Number(f64),
     /// By its name in the file, in any case.
     Name(String),
@@ -83,7 +83,7 @@ impl ModelFrame {
         Ok(Between { first, second: (first + 1).min(last), share: number.fract() })
     }
 
-    /// Refuses any frame but the first of a model that has no frames.
+    /// Rejects any frame except the first of a model without frames.
     pub(super) fn check_still(&self, path: &str) -> Result<()> {
         if *self == Self::default() {
             return Ok(());

@@ -1,8 +1,8 @@
-//! glTF 2.0, as JSON with its data beside it (`.gltf`) or all in one file (`.glb`): what its default scene shows, as it rests.
+//! glTF 2.0, as JSON with its data beside it (`.gltf`) or all in one file (`.glb`): the default scene at rest.
 //!
-//! The gltf-json crate gives the JSON its types. Data, accessors and nodes are followed here, through checked look-ups only: the gltf crate's
-//! readers trust every index and offset once its validation has passed, which does not look at buffers, and its importer
-//! opens whatever file a buffer names. What is read of a file and what is left out: docs/guide/formats.md.
+//! The gltf-json crate gives the JSON its types. Data, accessors and nodes are read here with checked look-ups only. The gltf
+//! crate's readers trust every index and offset after validation, which ignores buffers, and its importer opens any file that a
+//! buffer names. docs/guide/formats.md lists the supported and ignored parts.
 
 mod accessors;
 mod buffers;
@@ -27,11 +27,11 @@ use materials::Materials;
 use nodes::Nodes;
 use parts::Outline;
 
-/// Extensions that change nothing drawn here, or that are read.
+/// Extensions that are read, or that do not affect the drawing.
 const UNDERSTOOD: [&str; 4] =
     ["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual", "KHR_xmp_json_ld"];
 
-/// Reads a glTF or GLB file's bytes. `path` is for messages; its data and pictures are looked for in `folder`.
+/// Reads a glTF or GLB file's bytes. `path` appears in messages; `folder` holds its data and pictures.
 pub(super) fn read(
     bytes: &[u8],
     path: &str,
@@ -81,7 +81,7 @@ fn contents(
     Ok(soup)
 }
 
-/// Refuses what cannot be understood without an extension that is not read, and says how to do without it.
+/// Rejects a file that requires an unsupported extension, and advises how to avoid it.
 fn refuse_unknown_extensions(root: &Root) -> std::result::Result<(), String> {
     match root.extensions_required.iter().find(|name| !is_understood(name) && !is_of_materials(name)) {
         None => Ok(()),
@@ -102,16 +102,16 @@ fn refuse_unknown_extensions(root: &Root) -> std::result::Result<(), String> {
 }
 
 fn is_understood(extension: &str) -> bool {
-    // Materials' extensions add to the base colour what no style here draws.
+    // Material extensions add to the base colour in ways that no style here draws.
     UNDERSTOOD.contains(&extension) || extension.starts_with("KHR_materials_")
 }
 
-/// Whether an extension describes materials alone: without it meshes are what they are.
+/// Whether an extension affects materials alone, not meshes.
 fn is_of_materials(extension: &str) -> bool {
     ["KHR_techniques_webgl", "KHR_technique_webgl"].contains(&extension)
 }
 
-/// Refuses meshes that nodes repeat beyond what the file is worth, before anything is made of them.
+/// Rejects meshes that nodes repeat too often for the file's size, before building them.
 fn refuse_too_much(outlines: &[(Outline<'_>, Vec<usize>)], file_bytes: usize) -> std::result::Result<(), String> {
     let sum = |count: fn(&Outline<'_>) -> usize| -> usize {
         outlines
@@ -130,7 +130,7 @@ fn refuse_too_much(outlines: &[(Outline<'_>, Vec<usize>)], file_bytes: usize) ->
     Ok(())
 }
 
-/// What a file holds and is not drawn, to be said in one sentence.
+/// Counts of contents that are not drawn, for one remark.
 #[derive(Default)]
 struct Omissions {
     /// Primitives that are points or lines.
@@ -139,7 +139,7 @@ struct Omissions {
     cameras: usize,
     scenes: usize,
     see_through: usize,
-    /// Textures that only an extension knows a picture for.
+    /// Textures whose picture only an extension names.
     unread_pictures: usize,
     extensions: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! From a path to a [`Mesh`]: built-in or file, its format found by content first and by name second.
+//! Loads a [`Mesh`] from a path, built-in or file; the content determines the format first, the name second.
 
 use super::folder::Folder;
 use super::format::{self, Format};
@@ -18,18 +18,18 @@ use std::path::{Path, PathBuf};
 
 pub use super::options::{LoadOptions, LoadStage, Normals, UpAxis};
 
-/// What [`load`] read and what it noticed on the way, to be said once.
+/// The model that [`load`] read, with remarks to report once.
 #[derive(Debug)]
 pub struct Loaded {
     /// The model.
     pub mesh: Mesh,
-    /// The names of the file's frames in order, as `LoadOptions::model_frame` takes them; empty where it has none.
+    /// The names of the file's frames in order, as `LoadOptions::model_frame` takes them; empty if it has none.
     pub frames: Vec<String>,
-    /// The files that were read besides the model's own: its material libraries, its data. Pictures are read when a style needs them.
+    /// The files read besides the model's own: its material libraries, its data. A style reads pictures when it needs them.
     pub files: Vec<PathBuf>,
-    /// Sentences about the file, each naming it: a format other than the name says, defects, missing materials, skins.
+    /// Sentences about the file, each with its name: an unexpected format, defects, missing materials, skins.
     pub remarks: Vec<String>,
-    /// What was done, in order, and how long each took, milliseconds.
+    /// The stages in order, each with its time, milliseconds.
     pub stages: Vec<(LoadStage, f64)>,
 }
 
@@ -37,14 +37,14 @@ pub struct Loaded {
 ///
 /// # Errors
 ///
-/// [`Error::File`] when the file is missing, unreadable, empty, damaged, of no known format or holds nothing to draw;
-/// [`Error::Strict`] when it has defects and `options.strict`; [`Error::Setting`] when an option is nonsense or not for
-/// this model; [`Error::File`] when `options.skin` is no file.
+/// [`Error::File`] if the file is missing, unreadable, empty, damaged, of an unknown format or without anything to draw, or if
+/// `options.skin` is no file; [`Error::Strict`] if it has defects and `options.strict` is set; [`Error::Setting`] if an option
+/// is invalid or does not suit this model.
 pub fn load(path: &str, options: &LoadOptions) -> Result<Loaded> {
     load_watched(path, options, &|_| {})
 }
 
-/// As [`load`], for whoever shows how far it is: `watch` is told of each stage when it begins.
+/// Like [`load`], and calls `watch` at the start of each stage, for progress displays.
 ///
 /// # Errors
 ///
@@ -64,20 +64,20 @@ pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)
             })?;
         let mut remarks = Vec::new();
         let soup = parsed(&bytes, path, options, &mut remarks, watch)?;
-        // They are a fifth of what a mesh in the making takes.
+        // The bytes take a fifth of the memory of a mesh under construction.
         drop(bytes);
         made(soup, path, options, remarks, watch)
     })
 }
 
-/// Refuses a file whose bytes, and as many again for what is read of them, are more than is free: no format takes less.
+/// Rejects a file if twice its bytes exceed the free memory: every format needs at least that.
 fn check_free(path: &str, free: Option<u64>) -> Result<()> {
     let bytes = Path::new(path).metadata().map_or(0, |file| if file.is_file() { file.len() } else { 0 });
-    // What is too large in any case has a sentence of its own, which names the limit.
+    // A file above the limit gets a separate message, which names the limit.
     if bytes > MODEL_BYTES { Ok(()) } else { memory::check(path, bytes.saturating_mul(2), free) }
 }
 
-/// What `work` reads, with how long each stage took that it began.
+/// Runs `work` and records the time of each stage it begins.
 fn timed(watch: &dyn Fn(LoadStage), work: impl FnOnce(&dyn Fn(LoadStage)) -> Result<Loaded>) -> Result<Loaded> {
     let begun = RefCell::new(Vec::new());
     let mut loaded = work(&|stage| {
@@ -92,8 +92,8 @@ fn timed(watch: &dyn Fn(LoadStage), work: impl FnOnce(&dyn Fn(LoadStage)) -> Res
     Ok(loaded)
 }
 
-/// Reads bytes as if they were those of the model file `path`: other files that they name are looked for beside that. So what
-/// comes from elsewhere, as through a pipe, is read as a file is.
+/// Reads bytes as the content of the model file `path`, and looks for the files they name beside it. A model from a pipe is
+/// read like a file this way.
 ///
 /// # Errors
 ///
@@ -107,7 +107,7 @@ pub fn read_as(bytes: &[u8], path: &str, options: &LoadOptions) -> Result<Loaded
     })
 }
 
-/// What is read of a file's bytes; other files that they name are looked for beside `path`.
+/// Parses a file's bytes, and looks for the files they name beside `path`.
 fn parsed(
     bytes: &[u8],
     path: &str,
@@ -119,7 +119,7 @@ fn parsed(
     soup(bytes, path, options, &Folder::of(path, options.allow_external), remarks)
 }
 
-/// Refuses what lies on a network, where nothing is read.
+/// Rejects network addresses, which tinta does not read.
 ///
 /// # Errors
 ///
@@ -137,11 +137,11 @@ pub fn refuse_address(path: &str) -> Result<()> {
     }
 }
 
-/// Reads a model out of memory: an OBJ, PLY, STL, MD2, 3DS or glTF file's bytes. The files that it names, materials, data and
-/// pictures, are looked for in `beside`, names with bytes; a name fits in any case and without its folders, and a single `.mtl`
-/// file whatever it is called. With none, pictures are left out without a remark, and no other file is read.
+/// Reads a model from memory: an OBJ, PLY, STL, MD2, 3DS or glTF file's bytes. `beside` holds the files that it names,
+/// materials, data and pictures, as names with bytes. A name matches in any case and without its folders, and a single `.mtl`
+/// file matches any name. If `beside` is empty, pictures are left out without a remark, and no other file is read.
 ///
-/// `name` is for messages, and its extension tells the format where the bytes do not.
+/// `name` appears in messages, and its extension gives the format if the bytes do not.
 ///
 /// # Errors
 ///
@@ -152,13 +152,13 @@ pub fn read_bytes(bytes: &[u8], name: &str, beside: &[(&str, &[u8])], options: &
         let mut remarks = Vec::new();
         watch(LoadStage::Parsing);
         let mut soup = soup(bytes, name, options, &Folder::of_files(beside), &mut remarks)?;
-        // Of what was not found here nothing is known of any disk.
+        // A missing file must not refer to a disk.
         soup.materials.iter_mut().for_each(|material| material.texture = None);
         made(soup, name, options, remarks, watch)
     })
 }
 
-/// The mesh of what was read.
+/// Makes the mesh from the file's contents.
 fn made(
     mut soup: Soup,
     path: &str,
@@ -182,7 +182,7 @@ fn made(
             "{path}: the model may lie on its side, because its only flat end is at its lowest {up}; if it does, add --up-axis {up}"
         ));
     }
-    // Missing materials have had a remark of their own from the reader, which knows their names.
+    // The reader, which knows their names, has already reported missing materials.
     let others = Defects { missing_materials: 0, ..mesh.defects.clone() };
     if others != Defects::default() {
         remarks.push(format!("{path}: {others}; {}", others.consequence()));
@@ -190,7 +190,7 @@ fn made(
     Ok(Loaded { mesh, frames, files, remarks, stages: Vec::new() })
 }
 
-/// Stood up from z, which is up in files of this format by custom, unless an axis is given.
+/// Turns the model from z up, this format's custom, unless an axis is given.
 fn from_z_up(mut soup: Soup, options: &LoadOptions) -> Soup {
     if options.up_axis == UpAxis::Auto {
         soup.positions.iter_mut().for_each(|position| *position = UpAxis::Z.to_y_up(*position));
@@ -198,12 +198,12 @@ fn from_z_up(mut soup: Soup, options: &LoadOptions) -> Soup {
     soup
 }
 
-/// What to do with a file of a format that is not read.
+/// Advises on a file of an unsupported format.
 fn not_read(format: &str) -> String {
     format!("{format} is not read; export it as STL, OBJ or glTF from the program that made it")
 }
 
-/// With the pictures that its materials name, unless another is given for all.
+/// Adds the pictures that its materials name, unless one picture is given for all.
 fn with_pictures(
     mut soup: Soup,
     options: &LoadOptions,

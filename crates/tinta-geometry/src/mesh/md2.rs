@@ -93,7 +93,7 @@ impl Header {
     }
 }
 
-/// Reads an MD2 file's bytes. `path` is for messages; its skin is looked for in `folder`.
+/// Reads an MD2 file's bytes. `path` is for messages; `folder` holds its skin.
 pub(super) fn read(
     bytes: &[u8],
     path: &str,
@@ -178,7 +178,7 @@ fn positions<'a>(frames: impl Iterator<Item = &'a [u8]> + Clone, between: Betwee
     first.into_iter().zip(of(between.second)).map(|(from, to)| from.lerp(to, between.share)).collect()
 }
 
-/// A frame's vertices: bytes, scaled and moved by what the frame begins with.
+/// A frame's vertices: bytes, scaled and moved by the numbers at the frame's start.
 fn vertices(frame: &[u8], count: usize) -> Option<Vec<DVec3>> {
     let mut bytes = Bytes(frame);
     let [scale, translation] =

@@ -1,13 +1,13 @@
-//! Normals for the corners a file gives none for: smooth inside a group of faces, split along creases.
+//! Computes normals for corners without one in the file: smooth inside a group of faces, split along creases.
 //!
-//! Beside it the simpler rule of C. Dachsbacher's article ([`one_a_position`]).
+//! Also holds the simpler rule of C. Dachsbacher's article ([`one_a_position`]).
 //!
-//! In: welded triangles and a smoothing angle. Out: one unit normal per group of faces around a vertex, and each
-//! corner's index. A group is what can be reached around the vertex over shared edges whose faces differ by no more
-//! than the angle. Faces weigh in with the sine of their angle at the vertex over the lengths of the sides there (Max 1999:
-//! exact on a sphere), which needs no arc cosine and, on a square, does not depend on how it is cut. Where only creases that last
-//! are to be split (`persistent_creases.rs`), all other vertices are smooth throughout, flat faces weigh in with their areas, and where a surface
-//! is curved normals come nearer to their neighbours' (`calm.rs`).
+//! In: welded triangles and a smoothing angle. Out: one unit normal per group of faces around a vertex, and each corner's
+//! index. A group contains the faces connected around the vertex over shared edges whose faces differ by at most the angle. A
+//! face's weight is the sine of its angle at the vertex over the lengths of its sides there (Max 1999: exact on a sphere). This
+//! needs no arc cosine and, on a square, does not depend on the diagonal. If only persistent creases are split
+//! (`persistent_creases.rs`), all other vertices are smooth, flat faces are weighted by area, and normals of curved surfaces
+//! move closer to their neighbours' (`calm.rs`).
 
 mod calm;
 mod curved;
@@ -26,13 +26,13 @@ pub(super) use incidence::Incidence;
 use incidence::angle_at;
 use persistent_creases::PersistentCreases;
 
-/// Where normals are split.
+/// The angles at which normals are split.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Splitting {
-    /// The cosine of the largest angle between neighbouring faces that still share a normal; above 1 none do.
+    /// Cosine of the largest angle between neighbouring faces that share a normal; above 1 none do.
     pub cos_smooth: f64,
-    /// The same beside a crease that ends at a vertex, where only creases that last are split: what is nearly a crease there carries it
-    /// on. `None` where all creases are split.
+    /// The same beside a persistent crease that ends at a vertex, where a near-crease continues it. `None` if all creases are
+    /// split.
     pub cos_beside: Option<f64>,
 }
 
@@ -57,7 +57,7 @@ pub(super) fn fill_missing(
     let is_smooth = |vertex: usize| lasting.as_ref().is_some_and(|lasting| !lasting.vertices[vertex]);
     let weighted = |corner: u32| match &lasting {
         None => weighted_normal(positions, triangles, corner),
-        // By the angle too: a face counts the same into how many triangles it is cut.
+        // Also weighted by the angle: a face then counts the same however it is cut into triangles.
         Some(lasting) => {
             let face = corner as usize / 3;
             face_normals[face] * (lasting.areas[face] * angle_at(positions, triangles, corner))
@@ -77,8 +77,8 @@ pub(super) fn fill_missing(
                 continue;
             }
             let face_normal = |corner: &u32| face_normals[*corner as usize / 3];
-            // Most fans are smooth throughout; then any two faces are within the angle and no edge needs to be looked at.
-            // Fans that only touch in the vertex are joined too when they agree so well; that does no harm.
+            // Most fans are smooth throughout: any two faces are within the angle, and no edge needs a test. Fans that only
+            // touch in the vertex are joined too when they agree so well; that does no harm.
             let mean = corners.iter().map(face_normal).sum::<DVec3>().normalize_or_zero();
             let is_smooth = is_smooth(vertex);
             if is_smooth || corners.iter().all(|corner| face_normal(corner).dot(mean) >= cos_half) {
@@ -92,7 +92,7 @@ pub(super) fn fill_missing(
                     continue;
                 }
                 match is_smooth {
-                    // A face that is turned over has a side of its own, or it would be drawn from within.
+                    // A face that is turned over forms a separate group; otherwise it would be drawn from inside.
                     true => fan.group(triangles, face_normals, corners, 0.0),
                     false => fan.join_all(corners.len()),
                 }
@@ -123,10 +123,10 @@ pub(super) fn fill_missing(
     }
 }
 
-/// The rule of *Beethoven aus Bits und Bytes*: one normal a position, the sum of its triangles' unit normals, made a unit
-/// again. Every triangle counts alike, and nothing is split at creases.
+/// Computes normals by the rule of *Beethoven aus Bits und Bytes*: each position gets the normalised sum of its triangles' unit
+/// normals. Every triangle has the same weight, and creases are not split.
 ///
-/// Where a position's normals cancel each other out, the article divides by 0; here the first of its triangles gives the normal.
+/// If a position's normals cancel out, the article divides by 0; here its first triangle gives the normal.
 pub(super) fn one_a_position(position_count: usize, triangles: &[[u32; 3]], face_normals: &[DVec3]) -> Vec<Vec3> {
     let mut sums = vec![DVec3::ZERO; position_count];
     for (triangle, normal) in triangles.iter().zip(face_normals) {
@@ -146,7 +146,7 @@ pub(super) fn one_a_position(position_count: usize, triangles: &[[u32; 3]], face
 /// The normals of some vertices' corners.
 struct CornerNormals {
     normals: Vec<Vec3>,
-    /// For each corner in the incidence's order its normal here, or [`NONE`] where it has one already.
+    /// For each corner, in the incidence's order, its normal here, or [`NONE`] if it already has one.
     indices: Vec<u32>,
 }
 
@@ -163,7 +163,7 @@ fn smooth(sum: DVec3) -> Option<DVec3> {
     (sum / sum.abs().max_element()).try_normalize()
 }
 
-/// The faces around one vertex; kept between vertices for its memory.
+/// The faces around one vertex; kept between vertices to reuse its memory.
 #[derive(Default)]
 struct Fan {
     /// (far end of an edge at the vertex, face in the fan), two a face.
@@ -176,7 +176,7 @@ struct Fan {
 }
 
 impl Fan {
-    /// All faces are one group.
+    /// Makes all faces one group.
     fn join_all(&mut self, count: usize) {
         self.parents.clear();
         self.parents.resize(count, 0);
@@ -203,7 +203,7 @@ impl Fan {
         }
     }
 
-    /// Each group's sum of normals.
+    /// Sums each group's normals.
     fn sum(&mut self, corners: &[u32], weighted: impl Fn(u32) -> DVec3) {
         self.sums.clear();
         self.sums.resize(corners.len(), DVec3::ZERO);
@@ -213,7 +213,8 @@ impl Fan {
         }
     }
 
-    /// Whether a face beside a crease is farther from its group's normal than half the angle: then the crease would fade.
+    /// Whether a face beside a crease deviates from its group's normal by more than half the angle, which would blur the
+    /// crease.
     fn strays(
         &mut self,
         face_normals: &[DVec3],
@@ -236,7 +237,7 @@ impl Fan {
 
     fn root(&mut self, mut face: u32) -> u32 {
         while self.parents[face as usize] != face {
-            // Halves the way for the next who asks, so that long chains stay cheap.
+            // Path halving keeps long chains cheap.
             self.parents[face as usize] = self.parents[self.parents[face as usize] as usize];
             face = self.parents[face as usize];
         }
@@ -260,7 +261,7 @@ impl Fan {
                 continue;
             }
             let root = self.root(face as u32) as usize;
-            // Faces that cancel each other out leave no direction: then the face's own normal is the best there is.
+            // If faces cancel out, the face's own normal is the best choice.
             let smooth = smooth(self.sums[root]);
             if smooth.is_none() || self.indices[root] == NONE {
                 found.normals.push(smooth.unwrap_or(face_normals[corner as usize / 3]).as_vec3());

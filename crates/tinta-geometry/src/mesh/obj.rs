@@ -1,9 +1,9 @@
 //! Wavefront OBJ, with MTL colours and textures.
 //!
-//! The file is cut between lines into pieces, which are read at the same time on all cores: first what each piece declares
-//! is counted, so that each then knows its faces' indices. tobj reads sound files as the tests' second opinion: for everybody's
-//! files it takes three times as long on one core, stops at the first index out of range, knows no line numbers and
-//! invents normals for corners that have none.
+//! The file is cut between lines into pieces, which all cores read in parallel. A first pass counts each piece's declarations,
+//! which gives each piece its faces' indices. tobj is only the tests' second opinion on sound files: it takes three times as
+//! long on one core, stops at the first index out of range, knows no line numbers and invents normals for corners that have
+//! none.
 
 #[cfg(test)]
 mod agreement;
@@ -19,7 +19,7 @@ use crate::error::{Error, Result};
 use crate::threads::{cores, in_chunks};
 use chunk::{Chunk, Counts, Naming};
 
-/// How much of a file is read in one go. Much less than a core's share, as another core opens the GL context meanwhile.
+/// Size of a piece. Much less than a core's share, because another core opens the GL context meanwhile.
 const PIECE_BYTES: usize = 1 << 20;
 
 /// Whether the beginning of a file reads like OBJ: text with a line of one of its statements.
@@ -47,7 +47,7 @@ pub(super) fn read(bytes: &[u8], path: &str, folder: &Folder<'_>, remarks: &mut 
     Ok(soup)
 }
 
-/// The same, of pieces of about `length` bytes; what comes out does not depend on it.
+/// Reads pieces of about `length` bytes; the result does not depend on the length.
 fn read_in_pieces(
     bytes: &[u8],
     length: usize,
@@ -57,7 +57,7 @@ fn read_in_pieces(
 ) -> Result<Soup> {
     let pieces = lines::pieces(bytes, length);
     let counted = in_chunks(pieces.len(), 1, cores(), |piece| {
-        // What is not UTF-8 can only be in names.
+        // Only names may contain invalid UTF-8.
         let text = String::from_utf8_lossy(pieces[piece.start]);
         let counts = Counts::of(&text);
         (text, counts)
@@ -107,7 +107,7 @@ fn free_form_in_words([curves, surfaces]: [usize; 2]) -> Option<String> {
     (!all.is_empty()).then(|| all.join(" and "))
 }
 
-/// All pieces as one, and the materials named with how many faces come before each.
+/// Joins all pieces, and returns the named materials with the number of faces before each.
 fn joined(pieces: Vec<Chunk>) -> (Soup, Vec<(usize, Naming)>) {
     let mut soup = Soup::default();
     let mut namings = Vec::new();
@@ -141,7 +141,7 @@ fn joined(pieces: Vec<Chunk>) -> (Soup, Vec<(usize, Naming)>) {
     (soup, namings)
 }
 
-/// Colours as shares of full light: of 1, or of 255 where any channel is above 1. What has none is white.
+/// Converts colours to shares of full light: of 1, or of 255 if any channel is above 1. Vertices without a colour are white.
 fn make_shares(colors: &mut [[f32; 3]]) {
     let full = if colors.as_flattened().iter().any(|channel| *channel > 1.0) { 255.0 } else { 1.0 };
     for channel in colors.as_flattened_mut() {

@@ -1,4 +1,4 @@
-//! How a model is read: the options, and the stages of reading.
+//! The options and stages of reading a model.
 
 use super::ModelFrame;
 use crate::error::{Error, Result};
@@ -9,28 +9,28 @@ use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// How a model is read.
+/// Options for reading a model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadOptions {
-    /// Vertices nearer than this share of the bounding-box diagonal become one. Default 1e-7, one unit in the last
-    /// place of an f32 file; 0 welds equal ones only; more closes cracks, too much eats small parts.
+    /// Welding distance, as a share of the bounding-box diagonal: nearer vertices become one. Default 1e-7, one unit in the
+    /// last place of an f32 file; 0 welds only equal vertices; more closes cracks, too much removes small parts.
     pub weld: f64,
-    /// Where normals come from. Default: the file, computed where it has none.
+    /// Source of the normals. Default: the file, or computed where it has none.
     pub normals: Normals,
-    /// Neighbouring faces that differ by more than this angle do not share a computed normal. Default 60 degrees;
-    /// more rounds edges off, less makes facets.
+    /// Largest angle between neighbouring faces that share a computed normal. Default 60 degrees; more rounds edges off, less
+    /// makes facets.
     pub smooth_angle_degrees: f64,
     /// The axis that points up in the file. Default: its format's, z for STL, MD2 and 3DS, y for the others.
     pub up_axis: UpAxis,
     /// Whether a defect is an error. Default: no, it is counted.
     pub strict: bool,
-    /// The frame of an animated model (MD2). Default 0, the first; a fraction lies between two.
+    /// The frame of an animated model (MD2). Default 0, the first; a fraction interpolates between two frames.
     pub model_frame: ModelFrame,
-    /// A picture for all of the model's surfaces. Default: those the file names, found beside it; for MD2 also one that
-    /// has the model's own name.
+    /// A picture for all of the model's surfaces. Default: the pictures that the file names, found beside it; for MD2 also one
+    /// with the model's own name.
     pub skin: Option<PathBuf>,
-    /// Whether files that the model names, materials, data and pictures, may lie outside its folder. Default: no, they are not
-    /// followed, whether named by `..`, absolutely or through links, and that is said.
+    /// Whether the model may name files outside its folder: materials, data and pictures. Default: no. Such files, named by
+    /// `..`, absolutely or through links, are skipped with a remark.
     pub allow_external: bool,
 }
 
@@ -58,7 +58,7 @@ impl HasSettings for LoadOptions {
 }
 
 impl LoadOptions {
-    /// The settings, also for a table of something that is read.
+    /// The settings, which also suit a table that holds a `LoadOptions`.
     pub fn settings() -> Vec<Setting<Self>> {
         let settings = vec![
             Setting::field(
@@ -125,7 +125,7 @@ impl LoadOptions {
     }
 }
 
-/// Each setting under its name; of a path whose bytes are no text what can be kept.
+/// Writes each setting under its name; a path that is not text is written lossily.
 impl Serialize for LoadOptions {
     fn serialize<S: Serializer>(&self, to: S) -> std::result::Result<S::Ok, S::Error> {
         Self::table().record(self).serialize(to)
@@ -133,32 +133,32 @@ impl Serialize for LoadOptions {
 }
 
 crate::choices! {
-    /// Where a mesh's normals come from.
+    /// The source of a mesh's normals.
     #[derive(Hash)]
     pub enum Normals {
         /// From the file; computed smooth where the file has none.
         File = "file",
         /// Computed: smooth up to the smoothing angle.
         Smooth = "smooth",
-        /// From the file; where it has none smooth, and split only along creases that reach through a share of the model: the single sharp
-        /// edges of scans and of models of few triangles are smoothed. Where a surface has a scan's noise, that is evened out.
+        /// From the file. Where it has none, smooth, and split only along creases that extend over a share of the model: single
+        /// sharp edges of scans and of models with few triangles are smoothed, and so is a scan's noise.
         Lasting = "lasting",
-        /// Computed: each face its own.
+        /// Computed: one normal per face.
         Flat = "flat",
-        /// Computed by the listing of C. Dachsbacher's article: one normal a vertex, to which each triangle there adds its unit
-        /// normal; nothing is split at creases.
+        /// Computed by the listing of C. Dachsbacher's article: each position's normal is the normalised sum of its triangles'
+        /// unit normals, without splits at creases.
         Dachsbacher = "dachsbacher",
     }
 }
 
 crate::choices! {
-    /// The model's axis that shall point up.
+    /// The model's up axis.
     pub enum UpAxis {
-        /// As the file's format has it: z up in STL and 3DS (where -y is the front) and in MD2 (where x is), y in the others.
+        /// The format's up axis: z in STL and 3DS (with -y as the front) and in MD2 (with x as the front), y in the others.
         Auto = "auto",
         /// +x is up.
         X = "x",
-        /// +y is up, as here.
+        /// +y is up, as in a [`Mesh`](super::Mesh).
         Y = "y",
         /// +z is up; -y is then the front.
         Z = "z",
@@ -172,8 +172,8 @@ crate::choices! {
 }
 
 impl UpAxis {
-    /// Rotates a vector so that this axis becomes +y; exact, components only change places and signs. For `Auto` the
-    /// vector stays: it was turned as its format has it.
+    /// Rotates a vector to turn this axis into +y. Exact: components only change places and signs. For `Auto` the vector stays
+    /// unchanged, because the reader has already turned it.
     pub fn to_y_up(self, v: DVec3) -> DVec3 {
         match self {
             Self::X => DVec3::new(-v.y, v.x, v.z),
@@ -186,22 +186,22 @@ impl UpAxis {
     }
 }
 
-/// What is being done while a model is read, in this order.
+/// The stages of reading a model, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LoadStage {
-    /// Its bytes come from the disk.
+    /// Reads the bytes from the disk.
     Reading,
-    /// They are understood.
+    /// Parses the bytes.
     Parsing,
-    /// Vertices become one, polygons triangles, faces that are none are dropped.
+    /// Welds vertices, cuts polygons into triangles and drops invalid faces.
     Joining,
-    /// Normals are made, or those of the file taken over.
+    /// Computes normals, or takes them from the file.
     Normals,
 }
 
 impl LoadStage {
-    /// What it does, in words.
+    /// Describes the stage in words.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Reading => "reading the file",
@@ -212,7 +212,7 @@ impl LoadStage {
     }
 }
 
-/// Refuses options that are nonsense.
+/// Rejects invalid options.
 pub(super) fn check(options: &LoadOptions) -> Result<()> {
     if !(0.0..=LARGEST_WELD).contains(&options.weld) {
         return Err(Error::value(
@@ -231,7 +231,7 @@ pub(super) fn check(options: &LoadOptions) -> Result<()> {
     options.skin.as_deref().map_or(Ok(()), check_skin)
 }
 
-/// Refuses a skin that is not there.
+/// Rejects a missing skin.
 fn check_skin(skin: &Path) -> Result<()> {
     if skin.is_file() {
         return Ok(());

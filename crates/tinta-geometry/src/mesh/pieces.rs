@@ -1,4 +1,4 @@
-//! A soup's polygons as triangles with area, each once, with what belongs to their corners.
+//! Cuts a soup's polygons into triangles with area, each once, with their corners' attributes.
 //!
 //! In: polygons and the vertices' welding. Out: triangles over welded but not yet renumbered positions.
 
@@ -8,7 +8,7 @@ use crate::threads::{in_parallel, threads_for};
 use earcut::Earcut;
 use glam::DVec3;
 
-/// Triangles in the polygons' order; lists as long as `triangles`, or empty where the soup has nothing for them.
+/// Triangles in the polygons' order; each list is as long as `triangles`, or empty if the soup has no such data.
 #[derive(Default)]
 pub(super) struct Pieces {
     pub triangles: Vec<[u32; 3]>,
@@ -28,7 +28,7 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
-    /// All triangles with area of the polygons whose vertices are finite.
+    /// Returns all triangles with area of the polygons with finite vertices.
     pub(super) fn of(soup: &Soup, finite: &[bool], welded: &[u32]) -> Self {
         let starts = starts(soup);
         let count = soup.polygon_count();
@@ -70,7 +70,7 @@ impl Pieces {
                     pieces.too_long += 1;
                     continue;
                 }
-                // A polygon whose area earcut cannot find loses triangles there: they are as good as degenerate.
+                // If earcut finds no area, the lost triangles count as degenerate.
                 pieces.degenerate += (corners.len() - 2).saturating_sub(cut.len());
                 cut.iter().for_each(|triangle| {
                     pieces.push(soup, welded, triangle.map(|index| corners[index as usize]), material);
@@ -128,7 +128,7 @@ impl Pieces {
 
     /// Drops triangles that repeat an earlier one with the same orientation; the opposite side is another triangle.
     ///
-    /// Of `vertices` vertices in all.
+    /// `vertices` is the total number of vertices.
     pub(super) fn drop_duplicates(&mut self, vertices: usize) {
         let mut repeated = repeated(&self.triangles, vertices);
         if repeated.is_empty() {
@@ -146,7 +146,7 @@ impl Pieces {
     }
 }
 
-/// A triangle turned so that its lowest vertex comes first.
+/// Rotates a triangle to put its lowest vertex first.
 fn turned([a, b, c]: [u32; 3]) -> [u32; 3] {
     if a < b && a < c {
         [a, b, c]
@@ -157,11 +157,11 @@ fn turned([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-/// The numbers of all triangles that repeat an earlier one, in no order.
+/// Returns the numbers of all triangles that repeat an earlier one, in any order.
 ///
-/// Triangles are put in order by their lowest vertex alone, by counting, as few have the same; those few are sorted.
+/// Triangles are ordered by their lowest vertex alone, by counting; the few that share it are sorted.
 fn repeated(triangles: &[[u32; 3]], vertices: usize) -> Vec<u32> {
-    // Where those of each vertex begin, once they are put there; before that, where they end.
+    // For each vertex where its triangles end; once they are ordered, where they begin.
     let mut ends = vec![0u32; vertices + 1];
     let lowest = |[a, b, c]: &[u32; 3]| *a.min(b).min(c) as usize;
     triangles.iter().for_each(|triangle| ends[lowest(triangle)] += 1);

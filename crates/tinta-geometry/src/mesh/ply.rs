@@ -1,6 +1,6 @@
 //! PLY, text and binary: vertices with normals, colours and texture coordinates, polygon faces, triangle strips.
 //!
-//! `header.rs` reads the header, `payload.rs` what follows it, `paint.rs` what faces have besides their corners.
+//! `header.rs` reads the header, `payload.rs` the elements, `paint.rs` the faces' colours and texture coordinates.
 
 mod colors;
 mod header;
@@ -18,7 +18,7 @@ use header::{Element, Header};
 use paint::Paint;
 use payload::{Damage, Payload, Value};
 
-/// Reads a PLY file's bytes. `path` is for messages; `remarks` gets a sentence for what is passed over.
+/// Reads a PLY file's bytes. `path` appears in messages; `remarks` gets a sentence for each ignored part.
 pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
     if !bytes.starts_with(b"ply") {
         return Err(Error::model(
@@ -74,7 +74,7 @@ fn many(count: usize, name: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { several })
 }
 
-/// Refuses what would otherwise be misread or never end.
+/// Rejects headers that would be misread or never end.
 fn check_header(header: &Header) -> std::result::Result<(), &'static str> {
     // An element without properties takes no bytes, so any number of them fits into any file.
     if header.elements.iter().any(|element| element.properties.is_empty() && element.count > 0) {
@@ -94,14 +94,14 @@ fn check_header(header: &Header) -> std::result::Result<(), &'static str> {
     Ok(())
 }
 
-/// What is read of a file.
+/// A file's contents.
 struct Contents {
     soup: Soup,
-    /// How many vertices the header promises: faces may come before them.
+    /// Number of vertices in the header: faces may come before them.
     vertices: u32,
     has_normals: bool,
     has_texture: bool,
-    /// What a colour's full strength is in the file; `None` where vertices have no colours.
+    /// Value of a full-strength colour channel in the file; `None` if vertices have no colours.
     full_color: Option<f64>,
     paint: Paint,
 }
@@ -194,7 +194,7 @@ impl Contents {
                     Value::List { at_most } => {
                         soup.corners.truncate(start);
                         is_in_range = true;
-                        // Doubled as ever, but never beyond what the bytes left can hold.
+                        // Doubled as usual, but never beyond the capacity of the remaining bytes.
                         if soup.corners.capacity() - soup.corners.len() < at_most.min(LIST) {
                             soup.corners.reserve_exact(at_most.min(soup.corners.len() + LIST));
                         }
@@ -239,7 +239,7 @@ impl Contents {
                     return;
                 };
                 let Some([a, b, c]) = strip.triangle(index) else { return };
-                // A corner twice only leads the strip to its next place.
+                // A repeated corner only moves the strip to its next place.
                 if is_full || a == b || b == c || c == a {
                     return;
                 }
@@ -252,7 +252,7 @@ impl Contents {
                     Corner { position: index, normal: with(*has_normals, index), texture: with(*has_texture, index) }
                 }));
                 soup.polygon_sizes.push(3);
-                // A byte may be a triangle: what is too much for a mesh is refused with what was read up to here.
+                // A byte may be a triangle: a mesh too large is rejected by the faces read so far.
                 let count = soup.polygon_sizes.len();
                 is_full = count.is_multiple_of(1 << 16)
                     && is_too_much(file_bytes, soup.positions.len(), soup.corners.len(), count);
@@ -262,7 +262,7 @@ impl Contents {
     }
 }
 
-/// A strip on its way into triangles: each corner makes one with the two before it, by turns this way round and the other.
+/// Turns a strip into triangles: each corner makes one with the two before it, in alternating direction.
 #[derive(Default)]
 struct Strip {
     before: [Option<i64>; 2],
@@ -270,7 +270,7 @@ struct Strip {
 }
 
 impl Strip {
-    /// The triangle that ends with the next corner, if one does; a negative index ends the strip, and another begins.
+    /// Returns the triangle that ends with the next corner, if any; a negative index ends the strip and begins another.
     fn triangle(&mut self, index: i64) -> Option<[i64; 3]> {
         if index < 0 {
             *self = Self::default();

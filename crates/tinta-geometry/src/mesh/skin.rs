@@ -86,7 +86,7 @@ fn beside(folder: &Folder<'_>, base: &str) -> Lookup {
     };
     let mut candidates: Vec<(usize, &String)> =
         folder.names().iter().filter_map(|name| Some((rank(name)?, name))).collect();
-    // The order of a folder's entries is nobody's promise: rank, then name decide.
+    // A folder's entries have no fixed order: rank, then name decide.
     candidates.sort_unstable();
     let mut best = Lookup::Nowhere;
     for (_, name) in candidates {
@@ -127,7 +127,7 @@ pub(super) fn find_all(soup: &mut Soup, folder: &Folder<'_>, path: &str, remarks
     remark(path, lost, "pictures are missing or were not read", remarks);
 }
 
-/// Why a file that is there is not read.
+/// Why an existing file is not read.
 pub(super) fn outside(what: &str, name: &str) -> String {
     format!("the {what} {} is outside its folder and was not read; --allow-external reads it", shown(name))
 }

@@ -7,8 +7,8 @@ use crate::memory;
 use glam::{DVec3, Vec2, Vec3};
 use std::path::PathBuf;
 
-/// A file's contents, unchecked but for two things: every index is [`NONE`] or within its array, and every polygon has at
-/// least three corners.
+/// A file's contents. Only two things are checked: every index is [`NONE`] or within its array, and every polygon has at least
+/// three corners.
 #[derive(Debug, Default)]
 pub(super) struct Soup {
     /// All vertices in the file's order and units.
@@ -23,26 +23,26 @@ pub(super) struct Soup {
     pub corners: Vec<Corner>,
     /// How many corners each polygon has; empty when all are triangles.
     pub polygon_sizes: Vec<u32>,
-    /// Each polygon's material or [`NONE`]; empty when there are none.
+    /// Each polygon's material or [`NONE`]; empty without materials.
     pub polygon_materials: Vec<u32>,
     /// The materials.
     pub materials: Vec<Material>,
-    /// The names of the file's frames, of which this is one or lies between two; empty where the format has none.
+    /// The names of the file's frames; the soup is one of them or between two. Empty if the format has none.
     pub frames: Vec<String>,
-    /// What the reader already found.
+    /// Defects found by the reader.
     pub defects: Defects,
     /// Points and lines of the file, which are not drawn.
     pub points_and_lines: usize,
-    /// The axis that is up if the one taken is not, in formats that do not say which is.
+    /// The alternative up axis, for formats that do not name one.
     pub other_up: Option<UpAxis>,
-    /// The files that were read besides the model's own: its material libraries, its data.
+    /// The files read besides the model's own: its material libraries, its data.
     pub files: Vec<PathBuf>,
-    /// Bytes of those that hold vertices and faces.
+    /// Bytes of those files that hold vertices and faces.
     pub bytes_beside: usize,
 }
 
-/// A normal of a file, of any length, as one whose length f32 can square: scaled by a power of two, so that nothing is
-/// rounded. What has no direction stays so.
+/// Scales a file's normal by a power of two, without rounding, to a length that f32 can square. A normal without a direction
+/// stays so.
 pub(super) fn direction(file: DVec3) -> Vec3 {
     let largest = file.abs().max_element();
     let is_sound = (1e-12..1e12).contains(&largest);
@@ -50,7 +50,7 @@ pub(super) fn direction(file: DVec3) -> Vec3 {
         return file.as_vec3();
     }
     let power = largest.log2().floor();
-    // In two halves, since the whole may be beyond what f64 holds.
+    // In two halves, because the whole may exceed f64.
     let half = (-power / 2.0).floor();
     (file * half.exp2() * (-power - half).exp2()).as_vec3()
 }
@@ -73,9 +73,9 @@ impl Corner {
     }
 }
 
-/// Whether a mesh of so many vertices, corners and triangles takes more memory than files of `file_bytes` may.
+/// Whether a mesh with this many vertices, corners and triangles exceeds the memory allowed for files of `file_bytes`.
 pub(super) fn is_too_much(file_bytes: usize, vertices: usize, corners: usize, triangles: usize) -> bool {
-    /// What a vertex, a corner and a triangle take at the moment when a mesh takes most, bytes.
+    /// Bytes per vertex, corner and triangle at the peak of building a mesh.
     const BYTES: [usize; 3] = [80, 12, 90];
     let most = file_bytes.saturating_mul(MEMORY_FACTOR).saturating_add(MEMORY_SLACK_BYTES);
     sum(vertices, corners, triangles, BYTES) > most || triangles > TRIANGLES
@@ -88,28 +88,28 @@ fn sum(vertices: usize, corners: usize, triangles: usize, bytes: [usize; 3]) -> 
     of_each.fold(0, usize::saturating_add)
 }
 
-/// Refuses the mesh of a soup of so many vertices, corners and triangles where less memory is free.
+/// Rejects a soup with this many vertices, corners and triangles if its mesh exceeds the free memory.
 fn check_free(vertices: usize, corners: usize, triangles: usize, free: Option<u64>, name: &str) -> Result<()> {
-    /// What a vertex, a corner and a triangle take at that moment beside what is there by then, bytes: a little less than was counted.
+    /// Further bytes per vertex, corner and triangle at that peak, beside those already allocated: a little less than measured.
     const BYTES: [usize; 3] = [10, 0, 60];
     memory::check(name, sum(vertices, corners, triangles, BYTES) as u64, free)
 }
 
 impl Soup {
-    /// How many polygons there are.
+    /// Returns the number of polygons.
     pub(super) fn polygon_count(&self) -> usize {
         if self.polygon_sizes.is_empty() { self.corners.len() / 3 } else { self.polygon_sizes.len() }
     }
 
-    /// Writes down that all polygons so far are triangles, where that was left out; others may follow then.
+    /// Writes the omitted sizes of the polygons so far, all triangles, for others to follow.
     pub(super) fn write_sizes(&mut self) {
         if self.polygon_sizes.is_empty() {
             self.polygon_sizes = vec![3; self.corners.len() / 3];
         }
     }
 
-    /// Refuses what would take more memory as a mesh than a file of `file_bytes` may: no exporter writes so few bytes for so
-    /// many vertices and faces, but two bytes can name a polygon's corner.
+    /// Rejects a mesh that would exceed the memory allowed for a file of `file_bytes`. Exporters write more bytes per vertex
+    /// and face, but two bytes can name a polygon's corner.
     pub(super) fn check_memory(&self, file_bytes: usize, name: &str) -> Result<()> {
         let triangles = self.corners.len().saturating_sub(2 * self.polygon_count());
         let file_bytes = file_bytes.saturating_add(self.bytes_beside);

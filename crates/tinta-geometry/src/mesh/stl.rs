@@ -1,8 +1,8 @@
 //! STL, text and binary.
 //!
 //! The file's facet normals are not used: the corners' order says the same and is what edges are found by. Of a text only the
-//! vertices and where facets end count, so that what programs write around them does no harm: capitals, blanks before
-//! `solid`, `end loop` for `endloop`, a name or none.
+//! vertices and the ends of facets count, whatever programs write around them: capitals, blanks before `solid`, `end loop` for
+//! `endloop`, a name or none.
 
 use super::soup::{Corner, Soup};
 use super::text;
@@ -174,7 +174,7 @@ mod tests {
         assert!(!soup.positions[3].is_finite());
     }
 
-    /// A text's positions and what is remarked about it.
+    /// A text's positions and the remarks about it.
     fn of_text(text: &str) -> std::result::Result<(usize, usize), String> {
         let mut remarks = Vec::new();
         let soup = read(text.as_bytes(), "t.stl", &mut remarks).map_err(|error| error.to_string())?;

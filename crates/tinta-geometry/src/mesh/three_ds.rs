@@ -73,7 +73,7 @@ fn chunks<'a>(mut bytes: Bytes<'a>) -> impl Iterator<Item = std::result::Result<
     })
 }
 
-/// What is read of a file before faces know their materials.
+/// A file's contents before faces know their materials.
 #[derive(Default)]
 struct Contents {
     soup: Soup,
@@ -87,7 +87,7 @@ struct Contents {
     material_names: Vec<String>,
 }
 
-/// Reads a 3DS file's bytes. `path` is for messages; its textures are looked for in `folder`.
+/// Reads a 3DS file's bytes. `path` is for messages; `folder` holds its textures.
 pub(super) fn read(
     bytes: &[u8],
     path: &str,

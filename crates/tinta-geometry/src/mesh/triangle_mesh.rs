@@ -6,13 +6,13 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Stands in index arrays for "this corner has none".
+/// Means "this corner has none" in index arrays.
 pub const NONE: u32 = u32::MAX;
 
 /// A triangle mesh with shared positions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
-    /// How the user named it: a path or `builtin:…`.
+    /// The user's name for the model: a path or `builtin:…`.
     pub name: String,
     /// Welded positions in world space, file units, f64; each is used by at least one triangle.
     pub positions: Vec<DVec3>,
@@ -34,18 +34,19 @@ pub struct Mesh {
     pub materials: Vec<Material>,
     /// Each triangle's material or [`NONE`]; empty or as long as `triangles`.
     pub triangle_materials: Vec<u32>,
-    /// What was wrong with the file.
+    /// The file's defects.
     pub defects: Defects,
 }
 
-/// What a file says about a surface; the styles of the three texts use colour and texture only.
+/// A surface's material; the styles of the three texts use colour and texture only.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Material {
     /// Its name in the file.
     pub name: String,
     /// Diffuse colour, red, green, blue in [0, 1] (MTL `Kd`, glTF's base colour as sRGB); `None` where the file gives none.
     pub color: Option<[f32; 3]>,
-    /// The colour texture's file (MTL `map_Kd`, an MD2 model's skin, glTF's base colour) where it was found; not opened until a style needs it.
+    /// The colour texture's file (MTL `map_Kd`, an MD2 model's skin, glTF's base colour), if found; opened only when a style
+    /// needs it.
     pub texture: Option<PathBuf>,
     /// The folder, by its real path, that the texture must still lie in when it is opened; `None`: anywhere.
     #[serde(skip)]
@@ -53,23 +54,23 @@ pub struct Material {
     /// The colour texture where the model's own file holds it (glTF); then `texture` is `None`.
     #[serde(skip)]
     pub embedded: Option<Arc<EmbeddedPicture>>,
-    /// What the colour texture is multiplied with, red, green, blue in [0, 1]: glTF's base colour, MTL's `Kd`; `None` for white.
+    /// Factor of the colour texture, red, green, blue in [0, 1]: glTF's base colour, MTL's `Kd`; `None` for white.
     #[serde(skip)]
     pub texture_color: Option<[f32; 3]>,
-    /// What the texture's alpha means.
+    /// The meaning of the texture's alpha.
     #[serde(skip)]
     pub texture_alpha: TextureAlpha,
 }
 
-/// What the alpha of a material's texture means. Nothing is drawn transparent: what would show through is white, as paper.
+/// The meaning of a texture's alpha. Surfaces are never drawn transparent: anything behind them shows as white, like paper.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub enum TextureAlpha {
-    /// Nothing: colours count as they are.
+    /// Ignored: colours keep their values.
     #[default]
     Ignored,
-    /// Texels of less alpha, of 255, are not there; others count as they are.
+    /// Texels below this alpha, of 255, are left out; others keep their colours.
     Cutoff(u8),
-    /// Colours are mixed by it.
+    /// Blends colours.
     Blended,
 }
 
@@ -80,7 +81,7 @@ impl Material {
     }
 }
 
-/// A picture file inside a model file; not decoded until a style needs it.
+/// A picture file inside a model file, decoded only when a style needs it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct EmbeddedPicture {
     /// The model and which of its pictures, for messages.
@@ -108,7 +109,7 @@ impl Mesh {
         }
     }
 
-    /// Bytes of main memory the mesh takes, materials' names aside.
+    /// Returns the mesh's main memory, bytes, without materials' names.
     pub fn memory_bytes(&self) -> usize {
         bytes_of(&self.positions)
             + bytes_of(&self.file_vertices)
@@ -121,21 +122,21 @@ impl Mesh {
             + bytes_of(&self.triangle_materials)
     }
 
-    /// A triangle's corners; `None` where one does not exist.
+    /// Returns a triangle's corners; `None` if one does not exist.
     pub(crate) fn corners(&self, triangle: &[u32; 3]) -> Option<[DVec3; 3]> {
         let corner = |position: u32| self.positions.get(position as usize).copied();
         Some([corner(triangle[0])?, corner(triangle[1])?, corner(triangle[2])?])
     }
 
-    /// Smallest and largest corner of the axis-aligned bounding box, world space, file units.
+    /// Returns the smallest and largest corner of the axis-aligned bounding box, world space, file units.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         bounds(&self.positions)
     }
 }
 
-/// The unit normal of a triangle, counter-clockwise seen from its tip; `None` if it has no area.
+/// Returns the unit normal of a triangle, counter-clockwise seen from its tip; `None` if it has no area.
 ///
-/// Scaled before and after the product, so that neither tiny nor huge nor needle-thin triangles lose it to rounding alone.
+/// The sides are scaled before and after the product, to save tiny, huge and needle-thin triangles from rounding.
 pub(crate) fn triangle_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let (first, second) = (b - a, c - a);
     let scale = first.abs().max(second.abs()).max_element();
@@ -143,12 +144,12 @@ pub(crate) fn triangle_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     (product / product.abs().max_element()).try_normalize()
 }
 
-/// Bytes set aside for a list.
+/// Returns a list's allocated bytes.
 pub(super) fn bytes_of<T>(list: &Vec<T>) -> usize {
     list.capacity() * size_of::<T>()
 }
 
-/// Smallest and largest corner of some points' bounding box; infinities, inverted, for no points.
+/// Returns the smallest and largest corner of the points' bounding box; inverted infinities for no points.
 pub fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
     points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| (low.min(*point), high.max(*point)))
 }

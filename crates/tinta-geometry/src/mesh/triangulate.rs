@@ -49,7 +49,7 @@ pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut
     true
 }
 
-/// The corners moved to the first one and scaled to a size of 1 to 2, so that products of lengths stay ordinary numbers. The
+/// The corners moved to the first one and scaled to a size of 1 to 2, which keeps products of lengths ordinary numbers. The
 /// scale is a power of two: no division rounds, and corners in line stay so.
 fn of_size_one(corners: &[DVec3]) -> Vec<DVec3> {
     let size = corners.iter().map(|corner| (corner - corners[0]).abs().max_element()).fold(0.0, f64::max);
@@ -82,7 +82,7 @@ fn project(corners: &[DVec3], normal: DVec3) -> impl Iterator<Item = DVec2> {
     corners.iter().map(move |corner| DVec2::new(corner.dot(across), corner.dot(along)))
 }
 
-/// The triangle turned so that it winds like its polygon: earcut does not promise an order.
+/// Turns the triangle to wind like its polygon: earcut does not promise an order.
 fn oriented(triangle: [u32; 3], corners: &[DVec3], normal: DVec3) -> [u32; 3] {
     let [a, b, c] = triangle.map(|index| corners[index as usize]);
     if (b - a).cross(c - a).dot(normal) < 0.0 { [triangle[0], triangle[2], triangle[1]] } else { triangle }

@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 /// An end of a model: an axis, and whether it is the highest place on it.
 type End = (usize, bool);
 
-/// Where a model's bottom is as it is read.
+/// A model's bottom, as read.
 const BOTTOM: End = (1, false);
 
 /// Whether this model, y up as it was read, stands firmly once the file's axis `up` is up, on no other of its ends, and is no slab then.

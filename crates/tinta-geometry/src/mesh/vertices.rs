@@ -65,7 +65,7 @@ impl VertexArrays {
             + bytes_of(&self.parts)
     }
 
-    /// Renumbers the vertices so that drawing walks through them from first to last.
+    /// Renumbers the vertices in the order of drawing.
     fn number_by_first_use(&mut self) {
         let mut number = vec![NONE; self.vertices.len()];
         let mut order = Vec::with_capacity(self.vertices.len());
@@ -112,7 +112,7 @@ impl CornerVertices {
             let [x, y, z] = ((point - centre) / unit).as_vec3().to_array();
             corners.clear();
             corners.extend(incidence.corners(position).iter().map(|corner| (keys.of(*corner as usize), *corner)));
-            // Where all of them are one vertex, as on smooth surfaces, there is nothing to sort.
+            // A single vertex, as on smooth surfaces, needs no sorting.
             if corners.windows(2).any(|pair| pair[0].0 != pair[1].0) {
                 corners.sort_unstable();
             }
@@ -168,9 +168,9 @@ impl<'a> CornerKeys<'a> {
     }
 }
 
-/// The triangles sorted by material and then along a space-filling curve, so that neighbours are drawn together and share
-/// their vertices while they are still at hand: a scan in its file's order costs a quarter more (GL picks among equal
-/// depths the triangle drawn first, so only the order of coincident triangles can show).
+/// Sorts the triangles by material and then along a space-filling curve: neighbours are drawn together and share cached
+/// vertices. A scan in its file's order costs a quarter more (GL picks among equal depths the triangle drawn first, so only the
+/// order of coincident triangles can show).
 fn drawing_order(mesh: &Mesh) -> Vec<u32> {
     let (low, high) = mesh.bounds();
     let scale = 1023.0 / (high - low).max_element();

@@ -1,28 +1,27 @@
-//! Vertices that lie on the same spot become one, so that faces share edges (errata D5).
+//! Welds vertices at the same place, for faces to share edges (errata D5).
 //!
-//! In: points and a distance. Out: for each point the first point (in the given order) it is welded to.
-//! A sweep along one skew direction; where a model lies across it, on purpose or not, a hash grid, which needs 27 look-ups a
-//! point.
+//! In: points and a distance. Out: for each point the first point (in the given order) it is welded to. Points are swept along
+//! one skew direction. If a model lies across that direction, a hash grid replaces the sweep, at 27 look-ups a point.
 
 use crate::threads::{sort_by, threads_for};
 use crate::tolerances::SWEEP_ROUNDING;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// A direction no regular grid is aligned with, so that a flat or gridded model does not put all points in one window.
+/// A direction not aligned with any regular grid, which keeps a flat or gridded model's points from sharing one window.
 const SWEEP_DIRECTION: DVec3 = DVec3::new(0.577_215_664_9, 0.314_159_265_3, 0.753_664_137_1);
 
-/// Pairs a point that are compared one by one; more is the work of a grid, which takes longer for ordinary models.
+/// Most pairs per point compared in the sweep; with more, the grid is used, which is slower for ordinary models.
 const PAIRS_A_POINT: usize = 64;
 
 /// Narrowest cell of the grid, as a share of the points' extent: its coordinates are whole numbers that f64 holds.
 const SMALLEST_CELL: f64 = 1e-15;
 
-/// For each point the index of its representative: itself, or an earlier-swept point within `distance` of it.
+/// Returns for each point the index of its representative: itself, or an earlier-swept point within `distance` of it.
 ///
 /// `distance` is in the points' units; 0 welds only equal points. Non-finite points stay alone.
 pub(crate) fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
-    // Equal points would be welded to the same, so that one of them is enough.
+    // Equal points have the same representative, so one of them is enough.
     let mut representative = earlier_equals(points);
     let mut sweep: Vec<(f64, u32)> = points
         .iter()
@@ -30,7 +29,7 @@ pub(crate) fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
         .filter(|(index, point)| representative[*index] as usize == *index && point.is_finite())
         .map(|(index, point)| (point.dot(SWEEP_DIRECTION), index as u32))
         .collect();
-    // Ties go by index, so that the result does not depend on the sort.
+    // Ties go by index, which makes the result independent of the sort.
     let threads = threads_for(sweep.len());
     sort_by(&mut sweep, threads, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let largest = sweep.first().map_or(0.0, |first| first.0.abs()).max(sweep.last().map_or(0.0, |last| last.0.abs()));
@@ -41,18 +40,18 @@ pub(crate) fn weld(points: &[DVec3], distance: f64) -> Vec<u32> {
         weld_by_sweep(points, &sweep, reach, distance, &mut representative);
     }
     for index in 0..representative.len() {
-        // That of the equal point, which comes before it; else its own.
+        // The representative of the earlier equal point, or else its own.
         representative[index] = representative[representative[index] as usize];
     }
     lowest_first(&mut representative);
     representative
 }
 
-/// For each point an earlier one that is equal to it, if one was found, which then has none itself; else it. Looked for among
-/// the latest only, as triangles that share a corner mostly follow one another; it makes no difference to what is welded.
+/// Returns for each point an earlier equal point that has none itself, or else the point. Only the latest points are compared,
+/// because triangles that share a corner mostly follow one another; the welding does not depend on it.
 fn earlier_equals(points: &[DVec3]) -> Vec<u32> {
     const SLOTS: usize = 1 << 16;
-    // Of the latest point that came to each slot the rest of its hash, and its number.
+    // For each slot, the rest of its latest point's hash, and the point's number.
     let mut slots = vec![(0u32, u32::MAX); SLOTS];
     let mut equal = Vec::with_capacity(points.len());
     for (number, point) in (0u32..).zip(points) {
@@ -62,7 +61,7 @@ fn earlier_equals(points: &[DVec3]) -> Vec<u32> {
             (hash.rotate_left(29) ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)
         });
         let (slot, rest) = (&mut slots[(mixed >> 48) as usize % SLOTS], (mixed >> 16) as u32);
-        // What is no number is equal to nothing.
+        // A NaN equals no point.
         if slot.0 == rest && slot.1 != u32::MAX && points[slot.1 as usize] == *point {
             equal.push(slot.1);
         } else {
@@ -73,7 +72,7 @@ fn earlier_equals(points: &[DVec3]) -> Vec<u32> {
     equal
 }
 
-/// How many pairs of points are no farther apart than `reach` along the sweep.
+/// Returns the number of pairs of points at most `reach` apart along the sweep.
 fn pairs_within(sweep: &[(f64, u32)], reach: f64) -> usize {
     let (mut window_start, mut pairs) = (0, 0usize);
     for (current, (along, _)) in sweep.iter().enumerate() {
@@ -103,11 +102,11 @@ fn weld_by_sweep(points: &[DVec3], sweep: &[(f64, u32)], reach: f64, distance: f
     }
 }
 
-/// The same result where many points lie side by side across the sweep: those kept so far, by the cell of a grid they lie in.
+/// Gives the same result with a hash grid, for many points side by side across the sweep.
 fn weld_by_cells(points: &[DVec3], sweep: &[(f64, u32)], distance: f64, representative: &mut [u32]) {
     let low = sweep.iter().fold(DVec3::INFINITY, |low, (_, index)| low.min(points[*index as usize]));
-    // Twice as wide as need be, so that rounding never puts neighbours two cells apart. Without a distance only equal points
-    // are welded, which lie in one cell of any grid.
+    // Twice the necessary width: rounding never puts neighbours two cells apart. Without a distance only equal points are
+    // welded, which lie in one cell of any grid.
     let high = sweep.iter().fold(low, |high, (_, index)| high.max(points[*index as usize]));
     let width = (2.0 * distance).max((high - low).max_element() * SMALLEST_CELL);
     let cell = |point: DVec3| ((point - low) / width).to_array().map(|coordinate| coordinate as i64);
@@ -125,7 +124,7 @@ fn weld_by_cells(points: &[DVec3], sweep: &[(f64, u32)], distance: f64, represen
     }
 }
 
-/// Renames every group after its lowest member, so that the first vertex of the file gives the position.
+/// Renames every group after its lowest member: the first vertex of the file gives the position.
 fn lowest_first(representative: &mut [u32]) {
     let mut lowest: Vec<u32> = (0..representative.len() as u32).collect();
     for (index, &group) in representative.iter().enumerate() {
@@ -156,8 +155,8 @@ mod tests {
 
     #[test]
     fn points_of_which_most_are_repeated_are_welded_as_if_each_were_swept() {
-        // Three times each, in clusters, zeros of both signs and what is not finite among them; then the same so far apart in the
-        // list that equal ones are not found at once.
+        // Three times each, in clusters, with zeros of both signs and numbers that are not finite; then the same so far apart
+        // in the list that equal ones are not found at once.
         let number = |i: i32, by: i32, of: i32| f64::from(i * by % of) * if i % 2 == 0 { -1e-3 } else { 1e-3 };
         let some = (0..300).map(|i| DVec3::new(number(i, 31, 97), number(i, 17, 5), number(i, 7, 83)));
         let mut points: Vec<DVec3> = some.flat_map(|point| [point, -(-point + 0.0), point]).collect();
@@ -186,7 +185,7 @@ mod tests {
 
     #[test]
     fn sweep_and_grid_weld_the_same_points() {
-        // Three dozen clusters of points that are a little apart, so that who is welded to whom depends on the order.
+        // Three dozen clusters of points that are a little apart: the order decides which are welded.
         let points: Vec<DVec3> = (0..600)
             .map(|i| {
                 let at = DVec3::new(f64::from(i % 7), f64::from(i % 5), 0.0);

@@ -1,10 +1,10 @@
 //! Normals of a smooth surface where it ends, at its open rims.
 //!
-//! Around such a position there are faces on one side only, so that their mean is the normal of a place inside the surface, off by as much as the
-//! surface bends within half an edge: an error of first order, where it is of second elsewhere. Here the normals of inner positions within
-//! two rings are fitted by a linear function of the place in the tangent plane, and that is asked at the position itself. Where there are too few of
-//! them, as on a cylinder of one row of faces, the mean stays. Creases keep their means: of models as they are found many begin and end in the middle of what is
-//! smooth, and there contours broke more often with fitted normals than without.
+//! A position on a rim has faces on one side only. Their mean is the normal of a point inside the surface, with an error of
+//! first order: as much as the surface bends within half an edge. Elsewhere the error is of second order. Here a linear
+//! function on the tangent plane is fitted to the normals of inner positions within two rings, and evaluated at the rim
+//! position. If too few exist, as on a cylinder of one row of faces, the mean stays. Creases keep their means: in real models
+//! many creases begin and end in the middle of a smooth surface, and fitted normals broke more contours there.
 
 use super::super::{EdgeList, Incidence};
 use crate::mesh::{Mesh, NONE};
@@ -15,16 +15,16 @@ use std::collections::HashMap;
 /// Fewest inner positions of a fit, one more than the numbers it finds for each coordinate.
 const FEWEST: usize = 4;
 
-/// Most faces around a position that are looked at: at a hub of very many the mean stays, and nobody looks across it.
+/// Most faces searched around a position: with more, as at a hub, the mean stays.
 const MOST_FACES: usize = 64;
 
-/// Least determinant of a fit whose unknowns have been scaled: below it the positions lie along a line.
+/// Least determinant of a fit with scaled unknowns: below it the positions lie along a line.
 const LEAST_DETERMINANT: f64 = 1e-4;
 
-/// Cosine between a mean and what is found instead: beyond it the faces do not lie on one smooth surface.
+/// Least cosine between a mean and the fitted normal: below it the faces do not lie on one smooth surface.
 const LEAST_AGREEMENT: f64 = 0.9;
 
-/// The normals at open rims by their numbers, as far as they are others than those given.
+/// Returns the changed normals at open rims, by their numbers.
 pub(super) fn normals(
     mesh: &Mesh,
     edges: &EdgeList,
@@ -84,7 +84,8 @@ pub(super) fn normals(
     found.collect()
 }
 
-/// The normal where inner positions, by their way from there, have these normals; `None` where the mean of the faces is as good.
+/// Fits the normal at a position to inner positions, relative to it, with their normals; `None` if the mean of the faces is as
+/// good.
 fn fitted(samples: &[(DVec3, DVec3)], mean: DVec3) -> Option<DVec3> {
     let (across, up) = mean.try_normalize()?.any_orthonormal_pair();
     let is_flat = samples.iter().all(|(_, normal)| normal.distance(mean) <= FLAT);

@@ -193,7 +193,7 @@ fn by_the_articles_rule_there_is_one_normal_a_vertex_whatever_the_file_says() {
     assert_eq!((mesh.positions.len(), mesh.normals.len()), (5, 5));
     assert_eq!(mesh.triangle_normals, mesh.triangles);
     assert_eq!((mesh.defects.degenerate_triangles, mesh.normals[1]), (1, Vec3::Z));
-    // The square is cut from the first corner, so that two of its triangles meet the wall's there, and one at the other.
+    // The square is cut from the first corner: two of its triangles meet the wall's there, and one at the other.
     assert!(mesh.normals[0].distance(Vec3::new(1.0, 0.0, 2.0).normalize()) < 1e-6, "{}", mesh.normals[0]);
     assert!(mesh.normals[3].distance(Vec3::new(1.0, 0.0, 1.0).normalize()) < 1e-6, "{}", mesh.normals[3]);
 }

@@ -175,7 +175,7 @@ impl<'a> Accessors<'a> {
         Ok(())
     }
 
-    /// `count` records of `size` bytes in a buffer view, from a place on.
+    /// `count` records of `size` bytes in a buffer view, from an offset.
     fn records(
         &self,
         index: Index<Accessor>,

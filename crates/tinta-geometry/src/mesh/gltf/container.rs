@@ -1,4 +1,4 @@
-//! A glTF file's two shapes, JSON by itself or GLB, and the JSON with the gltf-json crate's types.
+//! A glTF file's two shapes, plain JSON or GLB, and the JSON with the gltf-json crate's types.
 //!
 //! GLB is taken apart here: the crate's own function (1.4) takes 12 from the header's length without asking whether it is more,
 //! and refuses chunks that the standard says to pass over.
@@ -113,7 +113,7 @@ fn old(version: &str) -> String {
     format!("it is glTF {}, and only glTF 2 is read; {remedy}", shown(version))
 }
 
-/// All that is asked of a file that is not understood.
+/// The only parts read of an unsupported file.
 #[derive(Deserialize)]
 struct Versioned {
     asset: Option<AssetVersion>,

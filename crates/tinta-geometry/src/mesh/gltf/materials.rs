@@ -13,12 +13,12 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Which of a primitive's texture coordinates a material reads, and what it does to them.
+/// The texture coordinates of a primitive that a material reads, and their change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Coordinates {
     /// The number after `TEXCOORD_`.
     pub set: u32,
-    /// What they are multiplied with before the offset is added, both in the file's sense, v downwards.
+    /// Their factor, applied before the offset, both in the file's sense, v downwards.
     matrix: Mat2,
     offset: Vec2,
     /// Whether it changes them.

@@ -4,7 +4,7 @@ use crate::limits::NODE_LEVELS;
 use glam::{DMat4, DQuat, DVec3};
 use gltf_json::{Index, Node, Root, Scene};
 
-/// What the scene shows.
+/// The scene's contents.
 pub(super) struct Nodes {
     /// For each node of the file where it lies: scene from node.
     pub scene_from_node: Vec<DMat4>,
@@ -56,7 +56,7 @@ fn parents(root: &Root) -> Result<Vec<Option<usize>>, String> {
     Ok(parents)
 }
 
-/// The nodes of the default scene, or of the first; of all where there is no scene.
+/// The nodes of the default scene, or of the first; of all nodes if the file has no scene.
 fn shown(root: &Root) -> Result<Vec<usize>, String> {
     let mut waiting: Vec<usize> = match root.scene.unwrap_or(Index::new(0)) {
         _ if root.scenes.is_empty() => return Ok((0..root.nodes.len()).collect()),

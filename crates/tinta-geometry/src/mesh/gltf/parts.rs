@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-/// What a mesh holds, before any of it is read.
+/// A mesh's contents, before reading.
 pub(super) struct Outline<'a> {
     mesh: &'a Mesh,
     sets: Vec<Set<'a>>,
@@ -69,7 +69,7 @@ impl<'a> Outline<'a> {
                 material.and_then(|material| coordinates.get(material)).copied().unwrap_or(Coordinates::DEFAULT);
             let targets: Vec<_> =
                 primitive.targets.iter().flatten().map(|target| (target.positions, target.normals)).collect();
-            // Materials that change texture coordinates have vertices of their own.
+            // Materials that change texture coordinates have separate vertices.
             let key = (&primitive.attributes, targets, read_by.set, material.filter(|_| read_by.is_changed));
             let set = match known.get(&key) {
                 Some(set) => *set,
@@ -190,7 +190,7 @@ pub(super) fn put(
 
 /// The triangles that indices stand for, counter-clockwise.
 fn triangles(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
-    // Strips repeat indices to go on elsewhere.
+    // Strips repeat indices to continue elsewhere.
     let is_triangle = |[a, b, c]: &[u32; 3]| a != b && b != c && a != c;
     match (mode, indices) {
         (Mode::TriangleStrip, _) => {

@@ -5,7 +5,7 @@ use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
-/// Base64 as it is found, with padding or without.
+/// Base64, with padding or without.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &STANDARD,
     GeneralPurposeConfig::new()
@@ -22,7 +22,7 @@ pub(super) enum Uri {
     File(String),
 }
 
-/// Takes an address apart; nothing is fetched from anywhere.
+/// Takes an address apart; network addresses are not read.
 pub(super) fn parse(uri: &str) -> Result<Uri, String> {
     if let Some(data) = uri.strip_prefix("data:") {
         let (kind, data) = data.split_once(',').ok_or("an address in it begins with data: but holds no data")?;
@@ -44,7 +44,7 @@ pub(super) fn parse(uri: &str) -> Result<Uri, String> {
     }
 }
 
-/// A text with its `%20` put back; what is not two digits behind a percent sign stays.
+/// A text with its `%20` put back; a percent sign without two digits stays.
 fn unescaped(text: &str) -> Vec<u8> {
     let mut rest = text.as_bytes();
     let mut bytes = Vec::with_capacity(rest.len());

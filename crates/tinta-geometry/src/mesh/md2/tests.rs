@@ -3,7 +3,7 @@
 use super::*;
 use crate::mesh::{ModelFrame, NONE};
 
-/// A frame as it stands in the file.
+/// A frame, in the file's form.
 struct Frame {
     name: &'static str,
     scale: [f32; 3],

@@ -1,7 +1,9 @@
-//! Vertices' normals brought half-way to the mean of their neighbours', so that borders of tones follow the shape rather than its facets.
+//! Vertices' normals brought half-way to the mean of their neighbours': borders of tones then follow the shape rather than its
+//! facets.
 //!
-//! Only vertices within a curved surface take part (`curved.rs`), away from creases that last and open rims: flat faces, cylinders and cones of machine parts
-//! keep theirs exactly. One round reaches as far as one edge, so that relief wider than a facet stays. Neighbours count less the more they differ.
+//! Only vertices within a curved surface take part (`curved.rs`), away from creases that last and open rims: flat faces,
+//! cylinders and cones of machine parts keep theirs exactly. One round reaches as far as one edge, which keeps relief wider
+//! than a facet. Neighbours count less the more they differ.
 
 use super::incidence::Incidence;
 use super::persistent_creases::PersistentCreases;

@@ -1,9 +1,10 @@
-//! Which facets stand for a surface that bends both ways, as those of a figure do, and which are meant as they are, as those of machine parts.
+//! Finds the facets that approximate a surface with double curvature, as a figure's do, rather than a machine part's flat
+//! faces.
 //!
-//! In: a surface's triangles and edges. Out: the answer for each triangle, the same throughout a patch: all that hangs together over edges
-//! below the smoothing angle. A surface bends both ways at a vertex where the angles around it do not add up to a full turn (its Gaussian
-//! curvature); around a vertex of a plane, a cylinder or a cone they do. A patch is curved where the larger part of its area lies at such
-//! vertices, in facets from which the surface that they stand for bulges by less than the outline of `print` is wide.
+//! In: a surface's triangles and edges. Out: the answer for each triangle, the same throughout a patch: all faces connected
+//! over edges below the smoothing angle. A surface has double curvature at a vertex if the angles around it do not add up to a
+//! full turn (its Gaussian curvature); on a plane, a cylinder or a cone they do. A patch is curved if most of its area lies at
+//! such vertices, in facets with a bulge below the width of `print`'s outline.
 
 use super::denoise_normals::Faces;
 use super::incidence::{Incidence, angle_at};
@@ -11,8 +12,8 @@ use crate::disjoint_sets::DisjointSets;
 use crate::threads::{filled, threads_for};
 use std::f64::consts::TAU;
 
-/// The least curvature that bends both ways, as a share of the square of all that the edges around a vertex turn: on a sphere it is about
-/// 0.1, on a cylinder what the digits of a file leave.
+/// Least double curvature, as a share of the square of all turns of the edges around a vertex: on a sphere the share is about
+/// 0.1, on a cylinder only the rounding of a file's digits.
 const BENDS: f64 = 0.01;
 
 /// The most that a surface bulges from a facet, in shares of the diagonal of the model's box.
@@ -27,7 +28,7 @@ pub(super) struct Edge {
     pub faces: [u32; 2],
 }
 
-/// Of each triangle whether it is within a curved patch; `edges` are those of two triangles, each once.
+/// Returns for each triangle whether it lies in a curved patch; `edges` are those of two triangles, each once.
 pub(super) fn curved<'a, I: Iterator<Item = &'a Edge>>(
     faces: &Faces<'_>,
     edges: impl Fn() -> I,

@@ -1,9 +1,9 @@
-//! Faces' normals without the bumps of a scan: each is made the mean of its neighbours' that differ little from it, again and again (a
+//! Removes a scan's noise from faces' normals: each becomes the mean of its similar neighbours' normals, repeatedly (a
 //! bilateral filter: Y. Zheng, H. Fu, O. K.-C. Au, C.-L. Tai, *Bilateral normal filtering for mesh denoising*, 2011).
 //!
-//! Noise is measured first (`noise.rs`). Where there is none, normals stay as they are, and so do those of large faces: of machine
-//! parts and of models of few triangles. Elsewhere normals are mixed that differ by less than a few times the noise: relief stays.
-//! What is mixed are patches of faces (`patches.rs`), so that a finer mesh takes hardly more time.
+//! Noise is measured first (`noise.rs`). Normals stay unchanged where the surface is free of noise, and on large faces, as of
+//! machine parts and models of few triangles. Elsewhere the filter mixes normals that differ by less than a few times the
+//! noise, which keeps relief. It mixes patches of faces (`patches.rs`), so a finer mesh takes hardly more time.
 
 use super::noise::{Place, noise};
 use super::patches::{Neighbours, Patches};
@@ -11,19 +11,19 @@ use crate::threads::{cores, filled, threads_for};
 use glam::{DVec3, Vec3A};
 use std::f64::consts::PI;
 
-/// How far normals are evened out, in shares of the diagonal of the model's box: the standard deviation of what a normal is mixed from.
+/// Reach of the filter, in shares of the diagonal of the model's box: the standard deviation of the places mixed into a normal.
 const REACH: f64 = 0.012;
 
 /// The area of a patch, in squares of that reach.
 const PATCH: f64 = 1.0 / 16.0;
 
-/// The area of a region whose noise is measured, in squares of that reach: in a print as wide as three lines, too narrow for relief.
+/// The area of a region whose noise is measured, in squares of that reach: in a print three lines wide, too narrow for relief.
 const REGION: f64 = 0.6;
 
-/// How far a face's normal is mixed from patches, in squares of that reach: their borders are not seen then.
+/// The reach of mixing patches into a face's normal, in squares of that reach; it hides the patches' borders.
 const BLENDED: f64 = 0.5;
 
-/// Noise that is none, radians: what a degree moves a border of tones by is not seen.
+/// Noise to ignore, radians: a degree moves a tone's border invisibly.
 const CALM: f64 = 0.0175;
 
 /// Relief differs by more than this many times the noise.
@@ -117,7 +117,7 @@ struct Limit {
 }
 
 impl Limit {
-    /// Where there is no noise.
+    /// For a surface without noise.
     const NONE: Self = Self { cosine: 1.0, scale: 0.0 };
 
     /// Of normals within an angle of that cosine; 1 and more are hardly any.
@@ -130,13 +130,13 @@ impl Limit {
         self.scale > 0.0
     }
 
-    /// The weight of a normal by its cosine with the one: 1 for the same, 0 from the limit on.
+    /// Returns a normal's weight by its cosine with the filtered one: 1 for equal normals, 0 beyond the limit.
     fn weight(self, cosine: f32) -> f32 {
         ((cosine - self.cosine) * self.scale).max(0.0)
     }
 }
 
-/// Small faces in patches. A flat face is in one patch, whole, and a large one is a patch of its own.
+/// Gathers small faces into patches. A flat face lies whole in one patch, and a large one forms its own patch.
 fn patches(faces: &Faces<'_>, unit: f64, cos_smooth: f64) -> Patches {
     let is_small = |face: u32| faces.flat_area(face) < unit;
     let begins = |face: u32| faces.flat_area(face);
@@ -156,10 +156,10 @@ fn patches(faces: &Faces<'_>, unit: f64, cos_smooth: f64) -> Patches {
 fn mix(patches: &Patches, limits: &[Limit], places: &mut [Place], unit: f64) {
     let noisy: Vec<u32> = (0..limits.len() as u32).filter(|patch| limits[*patch as usize].is_noisy()).collect();
     let mean = noisy.iter().map(|patch| patches.areas[*patch as usize]).sum::<f64>() / noisy.len() as f64;
-    // Neighbours' centres are about 0.9 of the root of their area apart; a quarter of that, squared, is what a round adds to the
+    // Neighbours' centres are about 0.9 of the root of their area apart; each round adds a quarter of that, squared, to the
     // variance in each direction.
     let rounds = (unit / (0.2 * mean)).min(MOST_ROUNDS).round() as usize;
-    // A large face is all round a small one, but not farther than what is evened out.
+    // A large face surrounds a small one, but not beyond the filter's reach.
     let weights: Vec<f32> = patches.areas.iter().map(|area| (area / unit).min(1.0) as f32).collect();
     let threads = if noisy.len() * rounds < WORTH_A_THREAD { 1 } else { cores() };
     let mut current: Vec<Vec3A> = places.iter().map(|place| place.normal.as_vec3a()).collect();

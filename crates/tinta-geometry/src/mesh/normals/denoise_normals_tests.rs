@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 const COS_34: f64 = 0.829;
 
-/// What is evened out of a model, with what it is made of.
+/// A model's denoised normals, with its parts.
 struct Model {
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
@@ -168,7 +168,7 @@ fn what_is_cut_finely_for_its_detail_is_no_scan() {
     let height = |x: f64, y: f64| if x < 0.1 && y < 0.1 { 0.0008 * random(x, y) } else { 0.0 };
     let place = |x: f64, y: f64| {
         let (x, y) = (crowded(x), crowded(y));
-        // Round, so that not all of the rest is one flat face.
+        // Round, to keep the rest from being one flat face.
         DVec3::new(x, height(x, y) - 0.2 * (x * x + y * y), y)
     };
     let sheet = Model::of_cells(200, place);

@@ -1,8 +1,9 @@
-//! How noisy a surface is, place by place: what of its normals no smooth surface explains, within regions too small to draw in.
+//! Measures a surface's local noise: the part of its normals that no smooth surface explains, within regions too small to draw
+//! in.
 //!
-//! In: small patches of a surface. Out: the noise around each, an angle. Normals in a region are fitted by a linear function of the
-//! place, as curvature makes them; the rest is noise. (So J. Immerkær, *Fast noise variance estimation*, 1996, for pictures.) The
-//! lower quartile of a region and those beside it decides, as edges lie in some of them only.
+//! In: small patches of a surface. Out: the noise around each, an angle. The normals in a region are fitted by a linear
+//! function of place, as curvature makes them; the residual is noise. (J. Immerkær, *Fast noise variance estimation*, 1996,
+//! does so for pictures.) The lower quartile of a region and its neighbours decides, because only some of them contain edges.
 
 use super::patches::Patches;
 use crate::threads::{filled, threads_for};
@@ -11,11 +12,11 @@ use glam::{DMat3, DVec3};
 /// Fewest patches of a region whose noise is measured: three are used up by the fit.
 const FEWEST: usize = 6;
 
-/// The least share of the area that must be cut finely enough to be measured. A scanner cuts everything finely, a person what has
-/// detail: then the detail is no noise.
+/// Least share of the area cut finely enough to be measured. A scanner cuts everything finely; a person cuts only details
+/// finely, which are no noise.
 const LEAST_MEASURED: f64 = 0.5;
 
-/// What is measured of a patch.
+/// A patch's measurements.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub centre: DVec3,
@@ -59,7 +60,7 @@ pub(super) fn noise(
     regions.of.iter().map(|region| around[*region as usize]).collect()
 }
 
-/// The root of the mean square by which normals differ from the linear function of their places that fits best; `None` for too few.
+/// Returns the root mean square difference between normals and their best linear fit by place; `None` for too few.
 fn noise_of(members: impl Iterator<Item = Place> + Clone) -> Option<f64> {
     let count = members.clone().count();
     if count < FEWEST {

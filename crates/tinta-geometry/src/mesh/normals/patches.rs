@@ -1,6 +1,6 @@
-//! Faces gathered into patches: connected sets of about one area, so that a mesh is looked at in one scale however finely it is cut.
+//! Gathers faces into patches: connected sets of about one area, for a scale that does not depend on the mesh's fineness.
 //!
-//! In: which faces (or patches) lie beside which, their areas, and which two may share a patch. Out: each one's patch.
+//! In: the neighbours among faces (or patches), their areas, and the pairs that may share a patch. Out: each one's patch.
 
 /// Which faces, or patches of them, lie beside which.
 pub(super) struct Neighbours {
@@ -114,7 +114,7 @@ impl Patches {
         Self { of, areas, neighbours }
     }
 
-    /// What each patch is made of.
+    /// Each patch's members.
     pub(super) fn members(&self) -> Members {
         let mut starts = vec![0u32; self.areas.len() + 1];
         self.of.iter().for_each(|patch| starts[*patch as usize + 1] += 1);
@@ -128,14 +128,14 @@ impl Patches {
     }
 }
 
-/// What patches are made of.
+/// The members of the patches.
 pub(super) struct Members {
     starts: Vec<u32>,
     list: Vec<u32>,
 }
 
 impl Members {
-    /// What one patch is made of: at least one.
+    /// One patch's members, at least one.
     pub(super) fn of(&self, patch: usize) -> &[u32] {
         &self.list[self.starts[patch] as usize..self.starts[patch + 1] as usize]
     }

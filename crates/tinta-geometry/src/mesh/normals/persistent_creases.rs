@@ -1,5 +1,5 @@
-//! Creases that last: chains of edges at which faces differ by more than the smoothing angle and that go on for a while. On scans
-//! and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks.
+//! Creases that last: chains of edges at which faces differ by more than the smoothing angle and that continue for some length.
+//! On scans and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks.
 //!
 //! In: welded triangles and the angle's cosine. Out: the vertices where normals may be split, the faces' normals without a scan's
 //! noise (`denoise_normals.rs`), and for each triangle the area of the flat face it is part of. By it a face counts more than the chamfer beside

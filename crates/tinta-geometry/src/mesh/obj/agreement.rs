@@ -1,4 +1,4 @@
-//! Tests that tobj, by itself, reads sound files alike, and that any file is read alike whatever pieces it is cut into.
+//! Tests that tobj reads sound files alike, and that the pieces a file is cut into do not affect the result.
 
 use super::super::NONE;
 use super::super::folder::Folder;
@@ -59,7 +59,7 @@ fn tobjs(bytes: &[u8], folder: &Folder<'_>) -> Vec<Face> {
     models.into_iter().flat_map(|model| of_mesh(model.mesh)).collect()
 }
 
-/// Compared as text, in which a number that is none equals itself.
+/// Compared as text, in which a NaN equals itself.
 fn assert_same(bytes: &[u8], length: usize, folder: &Folder<'_>) {
     let [ours, tobjs] = [ours(bytes, length, folder), tobjs(bytes, folder)].map(|faces| format!("{faces:?}"));
     assert!(ours == tobjs, "{:.900}\n{ours:.900}\n{tobjs:.900}", String::from_utf8_lossy(bytes));

@@ -1,7 +1,7 @@
-//! One piece of an OBJ file: what its statements declare, and a sentence where one cannot be read.
+//! One piece of an OBJ file: its statements' declarations, or a sentence for an unreadable line.
 //!
-//! Pieces are read at the same time, so that each is told how many vertices the ones before it declare: that is what
-//! negative indices count from and what others must stay below.
+//! Pieces are read in parallel. Each gets the number of vertices declared before it: negative indices count from there, and the
+//! others must stay below.
 
 use super::super::NONE;
 use super::super::soup::{Corner, direction};
@@ -10,7 +10,7 @@ use super::quick;
 use glam::{DVec3, Vec2, Vec3};
 use std::ops::{Add, AddAssign};
 
-/// How much there is before a place in a file.
+/// The counts of declarations before a place in a file.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Counts {
     pub lines: u64,
@@ -20,12 +20,12 @@ pub(super) struct Counts {
 }
 
 impl Counts {
-    /// What a text holds.
+    /// Counts a text's declarations.
     pub(super) fn of(text: &str) -> Self {
         let mut counts = Self::default();
         let mut lines = Lines::new(text);
         for line in lines.by_ref() {
-            // What most lines begin with says it without looking for the word's end.
+            // The beginning of most lines is enough, without the word's end.
             match line.as_bytes() {
                 [b'f', ..] => {}
                 [b'v', b' ', ..] => counts.positions += 1,
@@ -65,7 +65,7 @@ impl AddAssign for Counts {
 /// A statement about materials.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Naming {
-    /// The faces from here on have this material.
+    /// The following faces have this material.
     Use(String),
     /// Materials are described in this file.
     Library(String),
@@ -74,33 +74,33 @@ pub(super) enum Naming {
 /// A line that cannot be read.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Problem {
-    /// In the file, from 1.
+    /// Its number in the file, from 1.
     pub line: u64,
-    /// What it is not.
+    /// The expected content.
     pub what: &'static str,
 }
 
-/// What a piece holds, in its order.
+/// A piece's contents, in order.
 #[derive(Debug, Default)]
 pub(super) struct Chunk {
     pub positions: Vec<DVec3>,
     pub normals: Vec<Vec3>,
     pub texture_coordinates: Vec<Vec2>,
-    /// The numbers behind positions that are colours: empty, or of the first so many positions; [`NO_COLOR`] where one has none.
+    /// The colours after positions: empty, or those of the first positions; [`NO_COLOR`] for a position without one.
     pub colors: Vec<[f32; 3]>,
     /// The corners of all sound faces, by the file's own numbers from 0.
     pub corners: Vec<Corner>,
-    /// How many faces those are.
+    /// The number of those faces.
     pub polygons: usize,
-    /// How many corners each of them has; empty while all have three.
+    /// Each face's number of corners; empty while all have three.
     pub polygon_sizes: Vec<u32>,
-    /// The materials named, and how many of the piece's faces come before.
+    /// The materials named, each with the number of the piece's faces before it.
     pub namings: Vec<(usize, Naming)>,
     /// Faces of fewer than three corners, left out.
     pub degenerate_faces: usize,
     /// Faces with a vertex out of range, left out.
     pub out_of_range_faces: usize,
-    /// Corners whose normal and whose texture coordinate are out of range; they are kept without.
+    /// Corners whose normal and whose texture coordinate are out of range; they are kept without it.
     pub lost: [usize; 2],
     /// Free-form curves and surfaces, left out.
     pub free_form: [usize; 2],
@@ -109,7 +109,7 @@ pub(super) struct Chunk {
 }
 
 impl Chunk {
-    /// Reads a piece's text; `before` and `here` are what the file holds before it and in it.
+    /// Reads a piece's text; `before` and `here` count the file's declarations before it and in it.
     pub(super) fn read(text: &str, before: Counts, here: Counts) -> Result<Self, Problem> {
         let mut piece = Self {
             positions: Vec::with_capacity(here.positions as usize),
@@ -148,7 +148,7 @@ impl Chunk {
                 let normal = numbers(&plain(rest)).ok_or("a normal is not three numbers")?;
                 self.normals.push(direction(DVec3::from_array(normal)));
             }
-            // The second is what the format of 1992 called the same.
+            // The second is the name in the format of 1992.
             "f" | "fo" => self.take_face(&plain(rest), before)?,
             "p" | "l" => self.points_and_lines += 1,
             "curv" | "cdc" => self.free_form[0] += 1,
@@ -165,7 +165,7 @@ impl Chunk {
         Ok(())
     }
 
-    /// Takes a line that is written as most are; whether it was one.
+    /// Reads a line of the common form; returns whether it was one.
     fn take_quickly(&mut self, line: &[u8], before: Counts) -> bool {
         match line {
             [b'v', b' ', rest @ ..] => {
@@ -187,7 +187,7 @@ impl Chunk {
         true
     }
 
-    /// How many positions, texture coordinates and normals there are up to here.
+    /// Returns the number of positions, texture coordinates and normals so far.
     fn so_far(&self, before: Counts) -> [u32; 3] {
         [
             before.positions + self.positions.len() as u32,
@@ -196,7 +196,7 @@ impl Chunk {
         ]
     }
 
-    /// Counts a face whose corners are noted.
+    /// Counts a face whose corners are recorded.
     fn end_face(&mut self, count: usize) {
         if count != 3 || !self.polygon_sizes.is_empty() {
             self.polygon_sizes.resize(self.polygons, 3);
@@ -205,7 +205,7 @@ impl Chunk {
         self.polygons += 1;
     }
 
-    /// Notes a face's corners, or counts it where it has too few or one out of range.
+    /// Records a face's corners, or counts it as faulty if it has too few or one out of range.
     fn take_face(&mut self, text: &str, before: Counts) -> Result<(), &'static str> {
         let [positions, textures, normals] = self.so_far(before);
         let start = self.corners.len();
@@ -242,7 +242,8 @@ impl Chunk {
 /// A vertex without a colour.
 pub(super) const NO_COLOR: [f32; 3] = [f32::NAN; 3];
 
-/// Three numbers, and where a fourth is the last one, the weight they are divided by. Where there are more, the next three are a colour.
+/// Reads three numbers, and divides them by a fourth, the weight, if it is the last. If more follow, the next three are a
+/// colour.
 fn position(text: &str) -> Result<(DVec3, Option<[f32; 3]>), &'static str> {
     const NO_VERTEX: &str = "a vertex is not three numbers";
     let mut words = text.split_ascii_whitespace();

@@ -3,7 +3,7 @@
 use super::super::NONE;
 use std::borrow::Cow;
 
-/// The lines of a text; a line that ends in a backslash goes on in the next one.
+/// The lines of a text; a line that ends in a backslash continues on the next one.
 pub(super) struct Lines<'a> {
     rest: &'a str,
     /// How many lines of the text were handed out, those that continue others counted too.
@@ -50,7 +50,7 @@ impl<'a> Iterator for Lines<'a> {
     }
 }
 
-/// A line that goes on in the next one, without its backslash.
+/// A line that continues on the next one, without its backslash.
 fn continued(line: &str) -> Option<&str> {
     // Nearly every line ends in a digit; only behind other than ASCII a backslash may hide.
     if line.as_bytes().trim_ascii_end().last().is_some_and(|last| last.is_ascii() && *last != b'\\') {

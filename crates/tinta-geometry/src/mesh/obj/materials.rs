@@ -1,4 +1,4 @@
-//! MTL: the material files that an OBJ file names, and which faces have which material.
+//! MTL: the material files that an OBJ file names, and its faces' materials.
 
 use super::chunk::Naming;
 use crate::error::{Error, Result};
@@ -12,8 +12,8 @@ use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
-/// The text of a material library with its files, or a sentence why there is none; a name that is no file is taken for several
-/// names with blanks between them. Empty where there is nothing to look in.
+/// Returns the text of a material library with its files, or a sentence on its absence. A name that is no file is split at
+/// blanks into several names. Empty if the folder holds no files.
 pub(super) fn library<'a>(
     folder: &Folder<'a>,
     name: &str,
@@ -54,7 +54,7 @@ pub(super) fn put_on(
     remarks: &mut Vec<String>,
 ) -> Result<()> {
     let mut found: Vec<Described> = Vec::new();
-    // A name's material is the one that was read last, but only for faces that come after it.
+    // A name refers to the material read last, but only for later faces.
     let mut numbers: HashMap<String, usize> = HashMap::new();
     let (mut libraries, mut used) = (HashSet::new(), HashSet::new());
     let mut missing = Vec::new();
@@ -75,7 +75,7 @@ pub(super) fn put_on(
                 soup.files.extend(files);
                 let more = described(&text, MATERIALS - found.len())
                     .ok_or_else(|| Error::model(path, format!("it has more than {MATERIALS} materials; merge some")))?;
-                // Where a name comes more than once the last counts.
+                // The last material of a name counts.
                 let names = more.iter().map(|one| one.material.name.clone());
                 numbers.extend(names.zip(found.len()..));
                 found.extend(more);
@@ -91,7 +91,7 @@ pub(super) fn put_on(
         soup.polygon_materials.resize(soup.polygon_count(), current);
     }
     let unknown = used.iter().filter(|name| !numbers.contains_key(**name)).count();
-    // A missing file's materials are missing with it: counted once, said once.
+    // A missing file's materials are missing, too: they are counted and reported once.
     soup.defects.missing_materials = unknown.max(missing.len());
     if unknown > 0 && missing.is_empty() {
         let (are, their) = if unknown == 1 { ("is", "its") } else { ("are", "their") };
@@ -105,18 +105,18 @@ pub(super) fn put_on(
     Ok(())
 }
 
-/// A material, and what it does to texture coordinates.
+/// A material and its change to texture coordinates.
 pub(super) struct Described {
     pub material: Material,
-    /// Texture coordinates are multiplied with the first and moved by the second (`-s` and `-o` of `map_Kd`).
+    /// Texture coordinates are multiplied by the first and moved by the second (`-s` and `-o` of `map_Kd`).
     placing: [Vec2; 2],
 }
 
-/// As the coordinates are.
+/// Unchanged coordinates.
 const AS_IT_IS: [Vec2; 2] = [Vec2::ONE, Vec2::ZERO];
 
-/// The materials of a library's text, of which `newmtl`, `Kd` and `map_Kd` are read where they are complete; `None` where there
-/// are more than `most`.
+/// Returns the materials of a library's text, with complete `newmtl`, `Kd` and `map_Kd` statements; `None` for more than
+/// `most`.
 pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
     let mut all: Vec<Described> = Vec::new();
     let text = text::decoded(text);
@@ -145,13 +145,13 @@ pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
         }
     }
     for Described { material, .. } in &mut all {
-        // Nothing would be seen of a picture times black, which exporters write where they mean none.
+        // A factor of black would hide the picture; exporters write it to mean no colour.
         material.texture_color = material.color.filter(|color| *color != [0.0; 3]);
     }
     Some(all)
 }
 
-/// Gives the corners of materials that scale or move their picture texture coordinates of their own.
+/// Gives separate texture coordinates to corners whose material scales or moves its picture.
 fn move_coordinates(soup: &mut Soup, materials: &[Described]) {
     if materials.iter().all(|one| one.placing == AS_IT_IS) {
         return;

@@ -14,7 +14,7 @@ pub(super) fn vertex(line: &[u8]) -> Option<DVec3> {
 }
 
 /// Adds a face's corners, whose numbers count from the file's first and are below `most` of positions, texture coordinates and
-/// normals; returns how many there are. `None` for anything else; what was added then is the caller's to take away.
+/// normals; returns how many there are. `None` for anything else; the caller then removes the additions.
 pub(super) fn face(line: &[u8], most: [u32; 3], corners: &mut Vec<Corner>) -> Option<usize> {
     let mut rest = blanks(line);
     let before = corners.len();
@@ -72,8 +72,8 @@ const POWERS: [f64; 23] = [
     1e21, 1e22,
 ];
 
-/// A decimal without an exponent whose digits and power of ten f64 both holds, so that one division rounds it as it should be
-/// (Clinger 1990); any other is read by the standard library.
+/// A decimal without an exponent whose digits and power of ten f64 both holds: one division then rounds it correctly (Clinger
+/// 1990); any other is read by the standard library.
 fn decimal(bytes: &[u8]) -> Option<(f64, &[u8])> {
     /// Digits that any whole number below 2^53 may have.
     const DIGITS: usize = 15;

@@ -3,7 +3,7 @@
 use super::header::{Element, PropertyType, ScalarType};
 use glam::DVec3;
 
-/// What stands for a channel's full strength: in whole numbers the largest of its type, else 1; `None` without all three channels.
+/// The value of a channel's full strength: in whole numbers the largest of its type, else 1; `None` without all three channels.
 pub(super) fn full_color(element: &Element) -> Option<f64> {
     let types = |names: [&str; 3]| -> Option<Vec<PropertyType>> {
         let of = |name| element.properties.iter().find(|own| own.name == name).map(|own| own.data_type);

@@ -77,7 +77,7 @@ impl Header {
     ///
     /// # Errors
     ///
-    /// The line at fault, 1-based, and what is wrong with it.
+    /// The faulty line, 1-based, and its problem.
     pub(super) fn read(file: &[u8]) -> Result<Self, (u64, &'static str)> {
         let (mut encoding, mut elements) = (None, Vec::<Element>::new());
         let (mut bytes, mut lines) = (0, 0);

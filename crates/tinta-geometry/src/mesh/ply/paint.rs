@@ -1,5 +1,4 @@
-//! What a PLY file's faces have besides their corners: texture coordinates and the number of a picture, as MeshLab writes
-//! them, or a colour.
+//! The attributes of a PLY file's faces: texture coordinates and the number of a picture, as MeshLab writes them, or a colour.
 
 use super::colors::{full_color, share};
 use super::header::Header;
@@ -16,7 +15,7 @@ use std::path::PathBuf;
 pub(super) struct Paint {
     /// The names of the file's pictures.
     pictures: Vec<String>,
-    /// What a colour's full strength is; `None` where faces have none, or something else is drawn in their place.
+    /// A colour's full strength; `None` where faces have none, or something else is drawn in their place.
     full_color: Option<f64>,
     /// The colour of each face.
     colors: Vec<[f32; 3]>,

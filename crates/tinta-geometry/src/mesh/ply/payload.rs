@@ -31,7 +31,7 @@ pub(super) enum Value {
 pub(super) struct Payload<'a> {
     rest: Bytes<'a>,
     encoding: Encoding,
-    /// What is left of the line that was begun, where there are lines.
+    /// The rest of the current line, in a text file.
     line: &'a [u8],
     /// The lines read so far, those of the header among them.
     lines: u64,

@@ -1,6 +1,6 @@
 //! A tree of a polygon's corners that finds those in a triangle: boxes in boxes, split at the middle of the longer side.
 //!
-//! The tree stays as it is while the polygon gets smaller; what changes is which corners count.
+//! The tree stays unchanged while the polygon shrinks; only the set of counted corners changes.
 
 use super::simple_polygon::turn;
 use glam::DVec2;
@@ -36,7 +36,7 @@ struct Node {
 }
 
 impl<'a> Blockers<'a> {
-    /// Of corners of which none counts yet.
+    /// Builds a tree of corners, none of them counted yet.
     pub(super) fn new(points: &'a [DVec2]) -> Self {
         let leaves = (points.len() / LEAF_CORNERS).next_power_of_two();
         let mut order: Vec<u32> = (0..points.len() as u32).collect();

@@ -1,17 +1,17 @@
-//! Ears cut off a polygon of many corners one after another, each found in little time.
+//! Cuts ears off a polygon of many corners one after another, and finds each quickly.
 //!
-//! A corner whose triangle holds no other corner is an ear. Cutting one off makes an ear of no corner but its two neighbours,
-//! so that each corner is looked at a few times (Eberly, "Triangulation by Ear Clipping"); what lies in its triangle is asked
-//! of a tree. earcut, which looks at all corners after each ear, needs minutes for some of 32,768 corners. What is left of the
-//! polygon and what turns left is decided by exact predicates, so that a polygon whose sides do not cross always has an ear.
+//! A corner whose triangle holds no other corner is an ear. Cutting it off can make ears only of its two neighbours, so each
+//! corner is tested a few times (Eberly, "Triangulation by Ear Clipping"). A tree finds the corners inside a triangle. earcut
+//! tests all corners after each ear, which takes minutes for some polygons of 32,768 corners. Exact predicates decide which
+//! corners remain and turn left, so a polygon whose sides do not cross always has an ear.
 
 use super::blockers::Blockers;
 use super::simple_polygon::turn;
 use glam::DVec2;
 use std::collections::VecDeque;
 
-/// Splits a polygon whose sides do not cross and that goes round to the left into triangles of corner numbers: as many as it
-/// has corners but two, fewer where it has no area.
+/// Splits a counter-clockwise polygon whose sides do not cross into triangles of corner numbers: two fewer than it has corners,
+/// or even fewer if it has no area.
 pub(super) fn cut_ears(points: &[DVec2], out: &mut Vec<[u32; 3]>) {
     let mut ring = Ring::new(points);
     let mut waiting: VecDeque<u32> = ring.corners().into();
@@ -47,20 +47,20 @@ pub(super) fn cut_ears(points: &[DVec2], out: &mut Vec<[u32; 3]>) {
     }
 }
 
-/// What is left of a polygon.
+/// The remaining polygon.
 struct Ring<'a> {
     points: &'a [DVec2],
-    /// Each corner's neighbours, before it and after it; one that is gone is its own.
+    /// Each corner's neighbours, before it and after it; a removed corner is its own neighbour.
     neighbours: Vec<[u32; 2]>,
-    /// A corner that is there.
+    /// A remaining corner.
     start: u32,
     count: usize,
-    /// Those that do not turn left: where a triangle holds any corner, it holds one of them.
+    /// The corners that do not turn left: a triangle that holds any corner holds one of them.
     blockers: Blockers<'a>,
 }
 
 impl<'a> Ring<'a> {
-    /// All corners but those of no use: repeated ones and the tips of spikes without area.
+    /// Keeps all corners except useless ones: repeated corners and the tips of spikes without area.
     fn new(points: &'a [DVec2]) -> Self {
         let count = points.len() as u32;
         let neighbours = (0..count).map(|i| [(i + count - 1) % count, (i + 1) % count]).collect();
@@ -98,13 +98,13 @@ impl<'a> Ring<'a> {
         self.turn(corner) > 0.0 && !self.blockers.any_in(self.places(corner), touching_blocks)
     }
 
-    /// Takes a corner away and what is of no use then; `changed` gets the corners that turn otherwise now.
+    /// Removes a corner and any that become useless; `changed` gets the corners whose turn changes.
     fn remove(&mut self, corner: u32, changed: &mut Vec<u32>) {
         changed.extend(self.unlink(corner));
         self.settle(changed);
     }
 
-    /// Takes a corner away at which the polygon goes straight on; says whether it was one.
+    /// Removes a corner at which the polygon goes straight; returns whether it did.
     fn drop_straight(&mut self, corner: u32) -> bool {
         let is_straight = self.count > 3 && self.has(corner) && self.turn(corner) == 0.0;
         if is_straight {
@@ -113,8 +113,8 @@ impl<'a> Ring<'a> {
         is_straight
     }
 
-    /// Notes which way these corners turn, and takes away those at which the polygon goes back the way it came, one after
-    /// another: a spike without area would look like an ear at its bends. The list gets the neighbours of those taken away.
+    /// Records these corners' turns, and removes one after another those at which the polygon turns back on itself: a spike
+    /// without area would look like an ear at its bends. The list gets the neighbours of the removed corners.
     fn settle(&mut self, corners: &mut Vec<u32>) {
         let mut next = 0;
         while let Some(corner) = corners.get(next).copied() {
@@ -131,7 +131,7 @@ impl<'a> Ring<'a> {
         }
     }
 
-    /// Takes a corner away, and gives its neighbours.
+    /// Removes a corner and returns its neighbours.
     fn unlink(&mut self, corner: u32) -> [u32; 2] {
         let [before, after] = self.neighbours[corner as usize];
         self.neighbours[before as usize][1] = after;

@@ -1,8 +1,8 @@
 //! Whether a polygon's sides cross each other: earcut takes the square of the corners' number or more where they do.
 //!
-//! A line sweeps over the plane and keeps the sides that it meets in their order, in which only neighbours can cross first
-//! (Shamos and Hoey, "Geometric Intersection Problems", 1976). It stops at the first crossing. The order is decided by exact
-//! predicates, so that sides may touch and lie on one another. Time grows with n log n, whatever the polygon.
+//! A line sweeps over the plane and keeps the sides it meets in order; the first crossing is between neighbours (Shamos and
+//! Hoey, "Geometric Intersection Problems", 1976). It stops at the first crossing. Exact predicates decide the order, so sides
+//! may touch and overlap. Time grows with n log n, whatever the polygon.
 
 use glam::DVec2;
 use robust::{Coord, orient2d};
@@ -41,7 +41,7 @@ pub(super) fn is_simple(points: &[DVec2]) -> bool {
     true
 }
 
-/// What the line meets. Where sides end others begin after them: until then only those are kept that can still cross.
+/// The line's events. Where sides end others begin after them: until then only those are kept that can still cross.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Event {
     End,
@@ -83,7 +83,7 @@ impl Ord for Side {
             0.0 => self.turn(other.right),
             turn => turn,
         };
-        // Sides on one another have any order, as long as it is always the same.
+        // Overlapping sides may have any consistent order.
         0.0.partial_cmp(&turn).unwrap_or(Ordering::Equal).then(self.number.cmp(&other.number))
     }
 }
@@ -108,7 +108,7 @@ pub(super) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     orient2d(a, b, c)
 }
 
-/// In which order the line comes to points: from left to right, and as if it leant a little, from below.
+/// The order in which the line reaches points: from left to right, and as if it leant a little, from below.
 fn by_place(one: DVec2, other: DVec2) -> Ordering {
     // 0 and -0 are the same place.
     (one.x + 0.0).total_cmp(&(other.x + 0.0)).then((one.y + 0.0).total_cmp(&(other.y + 0.0)))
