@@ -106,6 +106,9 @@ impl VisibleLines {
         }
         not_published(settings.silhouette)?;
         settings.forms.check()?;
+        if settings.reference {
+            return visible::reference::visible_lines(scene, settings, progress);
+        }
         let has_forms = !settings.classes.and(ClassSet::FORMS).is_empty();
         let with_hidden;
         let settings = if settings.counts_changes && !settings.finds_hidden {

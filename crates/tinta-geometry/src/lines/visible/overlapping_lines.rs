@@ -37,6 +37,11 @@ impl OverlappingLines {
         Self { asked: None, found: OnceCell::new() }
     }
 
+    /// These lines.
+    pub(in crate::lines) fn these(lines: Vec<usize>) -> Self {
+        Self { asked: None, found: OnceCell::from(Overlaps::Few(lines)) }
+    }
+
     fn found(&self, lines: &LineIndex) -> &Overlaps {
         self.found.get_or_init(|| match &self.asked {
             Some((index, image, inside)) => lines.lying_on(*index, image, *inside),
