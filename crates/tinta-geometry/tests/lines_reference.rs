@@ -1,6 +1,6 @@
 //! The fast search for visible lines against the reference that tests each piece against all faces and lines.
 
-#[allow(dead_code, reason = "others read all of it")]
+#[expect(dead_code, reason = "others read all of it")]
 #[path = "../../../tests/support/growth.rs"]
 mod growth;
 

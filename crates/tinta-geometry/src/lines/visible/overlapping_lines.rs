@@ -150,7 +150,7 @@ impl LineIndex<'_> {
     }
 
     /// The distance below which two lines touch, file units.
-    fn contact(&self, first: usize, second: usize) -> f64 {
+    pub(in crate::lines) fn contact(&self, first: usize, second: usize) -> f64 {
         let [first, second] = [first, second].map(|index| &self.features[index]);
         let length = |feature: &Feature| feature.ends[0].distance(feature.ends[1]);
         CONTACT * length(first).min(length(second)) + first.weld.min(second.weld) + 4.0 * self.space.noise

@@ -164,6 +164,23 @@ impl LineIndex<'_> {
         Some(is_nearest && self.faces.leave_open(self.space, &probe, |_, hides| self.all_faces().any(hides)))
     }
 
+    /// The wanted lines that lie on one at a place and are as near to the eye or nearer, each with how much nearer it is in depth.
+    pub(in crate::lines) fn nearer_lines(&self, index: usize, image: &Image, place: f64) -> Vec<(usize, f64)> {
+        let (px, depth) = (image.at(place), self.space.depth_of_key(image.key(place)));
+        let nearer = |other: usize| {
+            let (other_image, _) = self.wanted(other).filter(|_| other != index)?;
+            let touch_px = image.touch_px(self.space).max(other_image.touch_px(self.space));
+            let range = image.overlap(&other_image, touch_px)?;
+            let key = other_image.key(other_image.place_of(px).clamp(0.0, 1.0));
+            let in_front = depth - self.space.depth_of_key(key);
+            let touches = in_front.abs() <= self.contact(index, other);
+            let stands_for_both = (self.features[other].class, other) < (self.features[index].class, index);
+            ((range[0]..=range[1]).contains(&place) && if touches { stands_for_both } else { in_front > 0.0 })
+                .then_some((other, if touches { 0.0 } else { in_front }))
+        };
+        (0..self.features.len()).filter_map(nearer).collect()
+    }
+
     /// The wanted lines that lie on one somewhere in the picture.
     pub(in crate::lines) fn all_lying_on(&self, index: usize, image: &Image) -> OverlappingLines {
         let lies_on_it = |other: &usize| {
