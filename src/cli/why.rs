@@ -91,7 +91,7 @@ const MOST_OF_PIECE: usize = 2;
 
 fn in_words(why: &Why) -> String {
     let Why { asked_px, line, nearest_px, distance_px, is_visible, hidden_by, pieces } = why;
-    let mut text = format!("The nearest line is {}.\n", of_line(line));
+    let mut text = format!("The nearest line: {}.\n", of_line(line));
     let state = if *is_visible { "visible" } else { "hidden" };
     let _ = writeln!(text, "It is {state} at {}, {distance_px:.2} px from {}.", pixel(*nearest_px), pixel(*asked_px));
     let along = match (pieces.first(), pieces.last()) {
