@@ -33,6 +33,7 @@ mod standard_output;
 mod textures;
 #[cfg(feature = "window")]
 mod view;
+mod why;
 
 pub use command::{Call, Command, Program, Task, Verdict, given};
 pub use messages::{json_text, make_folder, plain, print, print_json, say};
@@ -48,6 +49,7 @@ const COMMANDS: &[Command] = &[
     looks::COMMAND,
     again::COMMAND,
     edges::COMMAND,
+    why::COMMAND,
     textures::COMMAND,
     batch::COMMAND,
     info::COMMAND,

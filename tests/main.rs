@@ -86,5 +86,6 @@ mod textures;
 mod tiles;
 mod turntable;
 mod twin;
+mod why;
 #[cfg(feature = "window")]
 mod window;

@@ -43,6 +43,7 @@ mod smooth_tests;
 mod stiff_tests;
 mod visible;
 mod visible_lines;
+mod why;
 mod write;
 
 pub use drawing::chain::{LinePath, chain};
@@ -62,6 +63,7 @@ pub use smooth::silhouettes::{SmoothSilhouette, smooth_silhouettes};
 pub use smooth::visibility_events::{Inconsistency, InconsistencyKind, VisibilityChanges};
 pub use visible::cast::{Hit, first_hits};
 pub use visible_lines::{LineTimes, VisibleLines};
+pub use why::{Hider, Why, WhyLine, WhyPiece};
 #[cfg(feature = "pdf")]
 pub use write::pdf::{pdf, pdf_of_paths};
 pub use write::raster::{Raster, raster, raster_of_paths};
@@ -86,6 +88,19 @@ use visible::space::Space;
 /// Number of intersections above which the cells that hide some are made smaller.
 const MANY_INTERSECTIONS: usize = 10_000;
 
+/// Refuses settings without lines, and scenes that are too large.
+fn check(scene: &Scene, settings: &LineSettings) -> Result<()> {
+    if settings.classes.is_empty() {
+        return Err(Error::setting("classes", "name at least one class of lines"));
+    }
+    let all_positions: usize = scene.objects.iter().map(|object| object.mesh.positions.len()).sum();
+    if scene.triangle_count().max(all_positions) > u32::MAX as usize / 4 {
+        return Err(Error::setting("copies", "the scene has too many faces to find its lines; ask for fewer"));
+    }
+    not_published(settings.silhouette)?;
+    settings.forms.check()
+}
+
 impl VisibleLines {
     /// Finds the visible and hidden lines of a scene.
     ///
@@ -104,15 +119,10 @@ impl VisibleLines {
     /// Those of [`VisibleLines::of`], [`Error::Cancelled`] after [`Progress::cancel`], [`Error::OutOfTime`] after
     /// [`Progress::within`], and the same after [`Progress::within_or_part`] while no line is decided.
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
-        if settings.classes.is_empty() {
-            return Err(Error::setting("classes", "name at least one class of lines"));
+        check(scene, settings)?;
+        if settings.reference {
+            return visible::reference::visible_lines(scene, settings, progress);
         }
-        let all_positions: usize = scene.objects.iter().map(|object| object.mesh.positions.len()).sum();
-        if scene.triangle_count().max(all_positions) > u32::MAX as usize / 4 {
-            return Err(Error::setting("copies", "the scene has too many faces to find its lines; ask for fewer"));
-        }
-        not_published(settings.silhouette)?;
-        settings.forms.check()?;
         let has_forms = !settings.classes.and(ClassSet::FORMS).is_empty();
         let with_hidden;
         let settings = if settings.counts_changes && !settings.finds_hidden {

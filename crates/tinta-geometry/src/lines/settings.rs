@@ -33,6 +33,9 @@ pub struct LineSettings {
     /// Whether to count where silhouettes begin and end to be visible, and why, for
     /// [`VisibleLines::changes`](super::VisibleLines::changes). Default false. If true, hidden parts are found too.
     pub counts_changes: bool,
+    /// Whether each piece is decided by all faces and lines, without the search's hierarchies and shortcuts: a reference for tests, which
+    /// takes minutes where the search takes a second. Default no. Refused with smooth silhouettes.
+    pub reference: bool,
 }
 
 impl Default for LineSettings {
@@ -53,6 +56,7 @@ impl Default for LineSettings {
             finds_outline: false,
             forms: FormSettings::default(),
             counts_changes: false,
+            reference: false,
         }
     }
 }

@@ -19,5 +19,6 @@ pub(super) mod overlapping_lines;
 pub(super) mod planes;
 pub(super) mod pyramid;
 pub(super) mod ranges;
+pub(super) mod reference;
 pub(super) mod space;
 pub(super) mod visibility;

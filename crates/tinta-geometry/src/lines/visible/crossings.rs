@@ -112,7 +112,7 @@ impl LineIndex<'_> {
 
 impl Own {
     /// Whether two edges share an end, where both end anyway.
-    fn meets(self, other: Self) -> bool {
+    pub(in crate::lines) fn meets(self, other: Self) -> bool {
         match (self, other) {
             (Self::Edge([a, b]), Self::Edge(other)) => other.contains(&a) || other.contains(&b),
             _ => false,

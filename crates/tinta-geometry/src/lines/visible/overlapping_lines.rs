@@ -32,6 +32,11 @@ impl OverlappingLines {
         Self { line: (index, *image, inside), found: OnceCell::new() }
     }
 
+    /// These lines.
+    pub(in crate::lines) fn these(lines: Vec<usize>) -> Self {
+        Self { asked: None, found: OnceCell::from(Overlaps::Few(lines)) }
+    }
+
     fn found(&self, lines: &LineIndex) -> &Overlaps {
         let (index, image, inside) = &self.line;
         self.found.get_or_init(|| lines.lying_on(*index, image, *inside))
@@ -138,7 +143,7 @@ impl LineIndex<'_> {
     }
 
     /// The distance below which two lines touch, file units.
-    fn contact(&self, first: usize, second: usize) -> f64 {
+    pub(in crate::lines) fn contact(&self, first: usize, second: usize) -> f64 {
         let [first, second] = [first, second].map(|index| &self.features[index]);
         let length = |feature: &Feature| feature.ends[0].distance(feature.ends[1]);
         CONTACT * length(first).min(length(second)) + first.weld.min(second.weld) + 4.0 * self.space.noise

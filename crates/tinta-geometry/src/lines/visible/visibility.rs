@@ -52,8 +52,7 @@ impl LineIndex<'_> {
 
     /// Adds the pieces of a line; `None`, and nothing, where the time is over before all are decided.
     fn add_segments(&self, index: usize, progress: &Progress, segments: &mut Vec<LineSegment>) -> Option<()> {
-        let feature = &self.features[index];
-        let (Some(class), Some(image)) = (feature.class, self.images[index]) else { return Some(()) };
+        let (Some(_), Some(image)) = (self.features[index].class, self.images[index]) else { return Some(()) };
         let Some(inside) = image.inside(self.space.size, 0.0) else { return Some(()) };
         if image.length() * (inside[1] - inside[0]) <= self.shortest_px {
             return Some(());
@@ -108,27 +107,30 @@ impl LineIndex<'_> {
             }
         }
         pieces.retain(|piece| piece.is_visible || self.finds_hidden);
-        let mut add = |piece: Interval| {
-            segments.push(LineSegment {
-                class,
-                is_visible: piece.is_visible,
-                is_outline: piece.background != [false; 2],
-                background: piece.background,
-                is_covered: false,
-                ends_px: [image.at(piece.from), image.at(piece.to)],
-                ends_world: image.ends_world(self.space, [piece.from, piece.to]),
-                edge: feature.edge,
-                angle_degrees: feature.angle_degrees,
-                object: feature.object,
-            });
-        };
-        for piece in pieces {
-            match self.finds_outline && piece.is_visible {
-                true => self.with_outline(index, &image, piece).into_iter().for_each(&mut add),
-                false => add(piece),
-            }
-        }
+        segments.extend(pieces.into_iter().flat_map(|piece| self.segments_of(index, piece)));
         Some(())
+    }
+
+    /// A piece of a wanted line as segments: one, or several where the outline begins and ends.
+    pub(in crate::lines) fn segments_of(&self, index: usize, piece: Interval) -> Vec<LineSegment> {
+        let feature = &self.features[index];
+        let (Some(class), Some(image)) = (feature.class, self.images[index]) else { return Vec::new() };
+        let segment = |piece: Interval| LineSegment {
+            class,
+            is_visible: piece.is_visible,
+            is_outline: piece.background != [false; 2],
+            background: piece.background,
+            is_covered: false,
+            ends_px: [image.at(piece.from), image.at(piece.to)],
+            ends_world: image.ends_world(self.space, [piece.from, piece.to]),
+            edge: feature.edge,
+            angle_degrees: feature.angle_degrees,
+            object: feature.object,
+        };
+        match self.finds_outline && piece.is_visible {
+            true => self.with_outline(index, &image, piece).into_iter().map(segment).collect(),
+            false => vec![segment(piece)],
+        }
     }
 
     /// Whether a line is seen at a place; `None` where it lies in space on another line that stands for both. Where faces hide it

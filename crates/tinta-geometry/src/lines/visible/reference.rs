@@ -1,0 +1,203 @@
+//! The visible lines by the rules alone: no hierarchy, pyramid, cache or shortcut decides anything here. The fast search must find
+//! the same; this is where to read what it computes, and what it is tested against.
+//!
+//! Every wanted line is decided on its own, in three steps:
+//!
+//! 1. *Cuts*. What is seen of a line can change only where the image of an edge at which a surface ends crosses it, where it passes
+//!    through a face, and where the image of another line that lies on it begins, ends, or is as near. It is cut at all these places.
+//! 2. *Faces*. In the middle of a piece each face of the scene is tested ([`Faces::hides`](crate::lines::visible::faces::Faces::hides)):
+//!    the piece is hidden where faces hide both of its sides.
+//! 3. *Lines*. Of the lines that lie on a piece the nearest is seen. Of lines that coincide in space one stands for all.
+//!
+//! The geometric rules themselves are those of the fast search. So are the intersections of faces, and the outline of what is seen.
+
+use crate::clock::{Instant, milliseconds_since};
+use crate::edges::{Class, ClassCounts, ClassSet};
+use crate::error::{Error, Result};
+use crate::lines::input::feature::Feature;
+use crate::lines::input::features;
+use crate::lines::input::object_edges::{self, Edges, ObjectEdges};
+use crate::lines::progress::Progress;
+use crate::lines::segment::LineSegment;
+use crate::lines::settings::LineSettings;
+use crate::lines::smooth::forms;
+use crate::lines::visible::doubled;
+use crate::lines::visible::faces::{Faces, Own};
+use crate::lines::visible::image::Image;
+use crate::lines::visible::intersections::intersections;
+use crate::lines::visible::interval::Interval;
+use crate::lines::visible::line_index::LineIndex;
+use crate::lines::visible::overlapping_lines::OverlappingLines;
+use crate::lines::visible::space::Space;
+use crate::lines::visible_lines::{LineTimes, VisibleLines};
+use crate::scene::Scene;
+
+/// The lines of a scene, not yet decided.
+pub(in crate::lines) struct Undecided<'a> {
+    pub lines: &'a LineIndex<'a>,
+    pub parts: &'a [ObjectEdges<'a>],
+    edges: ClassCounts,
+}
+
+/// Finds the lines of a scene.
+pub(in crate::lines) fn visible_lines(
+    scene: &Scene,
+    settings: &LineSettings,
+    progress: &Progress,
+) -> Result<VisibleLines> {
+    let clock = Instant::now();
+    with_lines(scene, settings, progress, |Undecided { lines, parts, edges }| {
+        let mut segments: Vec<LineSegment> = Vec::new();
+        for index in 0..lines.features.len() {
+            progress.go_on()?;
+            let wanted = lines.pieces(index).into_iter().filter(|piece| piece.is_visible || settings.finds_hidden);
+            segments.extend(wanted.flat_map(|piece| lines.segments_of(index, piece)));
+        }
+        Ok(VisibleLines {
+            size: scene.size,
+            segments: doubled::marked(segments, lines.space, progress)?,
+            edges,
+            covered_triangles: parts.iter().map(ObjectEdges::covered).sum(),
+            changes: None,
+            undecided: 0,
+            has_specks: false,
+            times: LineTimes { visibility_ms: milliseconds_since(clock), ..LineTimes::default() },
+        })
+    })
+}
+
+/// Calls `decide` with all lines of a scene, hidden ones too.
+///
+/// # Errors
+///
+/// [`Error::Setting`] for smooth silhouettes, whose visibility follows other rules.
+pub(in crate::lines) fn with_lines<T>(
+    scene: &Scene,
+    settings: &LineSettings,
+    progress: &Progress,
+    decide: impl FnOnce(Undecided<'_>) -> Result<T>,
+) -> Result<T> {
+    if settings.has_smooth_contours() || settings.counts_changes {
+        return Err(Error::setting("silhouette", "smooth silhouettes follow other rules; ask for exact ones"));
+    }
+    let settings = &LineSettings { finds_hidden: true, ..settings.clone() };
+    let space = Space::of(scene);
+    let parts = object_edges::object_edges(scene);
+    let meshes: Vec<_> = parts.iter().map(|part| (part.object, part.shape().clone())).collect();
+    let faces = Faces::new(&space, &meshes);
+    let (mut all, mut edges) = features::edge_features(scene, &space, &faces, &parts, None, settings);
+    let crossing_faces = intersections(&space, &faces, &parts, (None, None), progress);
+    if settings.classes.contains(Class::Intersection) {
+        edges.intersection = crossing_faces.lines.len();
+        all.extend(features::intersection_features(&faces, &parts, &crossing_faces.lines));
+    }
+    if !settings.classes.and(ClassSet::FORMS).is_empty() {
+        parts.iter().filter(|part| matches!(part.edges, Edges::OfScene(_))).for_each(|part| {
+            forms::curvatures(scene, part, settings);
+        });
+        all.extend(forms::form_features(scene, &space, &faces, &parts, settings, &mut edges));
+    }
+    all.extend(features::near_plane_features(&space, &faces));
+    let piercings = &crossing_faces.piercings;
+    let lines = LineIndex::new(&space, &faces, &all, piercings, (None, None), settings, progress)?;
+    progress.go_on()?;
+    decide(Undecided { lines: &lines, parts: &parts, edges })
+}
+
+impl LineIndex<'_> {
+    /// The image of a wanted line and from where to where it is inside the picture; `None` where nothing of it is drawn.
+    pub(in crate::lines) fn wanted(&self, index: usize) -> Option<(Image, [f64; 2])> {
+        self.features[index].class?;
+        let image = self.images[index]?;
+        let inside = image.inside(self.space.size, 0.0)?;
+        (image.length() * (inside[1] - inside[0]) > self.shortest_px).then_some((image, inside))
+    }
+
+    /// The pieces of a wanted line, each visible or hidden as a whole. What another line in the same place stands for is none.
+    pub(in crate::lines) fn pieces(&self, index: usize) -> Vec<Interval> {
+        let Some((image, inside)) = self.wanted(index) else { return Vec::new() };
+        let overlapping = self.all_lying_on(index, &image);
+        let mut pieces: Vec<Interval> = Vec::new();
+        for place in self.places(&image, inside, self.all_cuts(index, &image)).windows(2) {
+            let [from, to] = [place[0], place[1]];
+            let middle = (from + to) * 0.5;
+            let Some(is_visible) = self.is_visible(index, &image, &overlapping, middle) else { continue };
+            match pieces.last_mut() {
+                Some(last) if last.is_visible == is_visible && last.to == from => last.to = to,
+                _ => pieces.push(Interval { from, to, is_visible, background: [false; 2] }),
+            }
+        }
+        pieces
+    }
+
+    /// Step 1: all places where what is seen of a line may change, in no order. One too many does no harm.
+    fn all_cuts(&self, index: usize, image: &Image) -> Vec<f64> {
+        let feature = &self.features[index];
+        let mut cuts = Vec::new();
+        for (other, other_image) in self.others(index) {
+            let touch_px = image.touch_px(self.space).max(other_image.touch_px(self.space));
+            let occludes = other.occludes && !feature.own.meets(other.own);
+            self.add_crossings(image, other_image, touch_px, occludes, &mut cuts);
+        }
+        match feature.own {
+            // An edge passes through a face where the intersections say so: what only touches a face is not cut.
+            Own::Edge(_) => self.add_piercings(index, image, &mut cuts),
+            Own::Faces(own) => {
+                let passed = self.all_faces().filter(|face| !own.contains(face));
+                let points = passed.filter_map(|face| self.piercing(feature.ends, face));
+                cuts.extend(points.map(|point| image.place_of(self.space.project(point).0)));
+            }
+        }
+        cuts
+    }
+
+    /// Steps 2 and 3: whether a line is seen at a place; `None` where another line in the same place stands for both.
+    pub(in crate::lines) fn is_visible(
+        &self,
+        index: usize,
+        image: &Image,
+        overlapping: &OverlappingLines,
+        place: f64,
+    ) -> Option<bool> {
+        let probe = self.probe(index, image, place);
+        let is_nearest = self.is_nearest(index, image, overlapping, probe.px, -probe.view.z)?;
+        Some(is_nearest && self.faces.leave_open(self.space, &probe, |_, hides| self.all_faces().any(hides)))
+    }
+
+    /// The wanted lines that lie on one at a place and are as near to the eye or nearer, each with how much nearer it is in depth.
+    pub(in crate::lines) fn nearer_lines(&self, index: usize, image: &Image, place: f64) -> Vec<(usize, f64)> {
+        let (px, depth) = (image.at(place), self.space.depth_of_key(image.key(place)));
+        let nearer = |other: usize| {
+            let (other_image, _) = self.wanted(other).filter(|_| other != index)?;
+            let touch_px = image.touch_px(self.space).max(other_image.touch_px(self.space));
+            let range = image.overlap(&other_image, touch_px)?;
+            let key = other_image.key(other_image.place_of(px).clamp(0.0, 1.0));
+            let in_front = depth - self.space.depth_of_key(key);
+            let touches = in_front.abs() <= self.contact(index, other);
+            let stands_for_both = (self.features[other].class, other) < (self.features[index].class, index);
+            ((range[0]..=range[1]).contains(&place) && if touches { stands_for_both } else { in_front > 0.0 })
+                .then_some((other, if touches { 0.0 } else { in_front }))
+        };
+        (0..self.features.len()).filter_map(nearer).collect()
+    }
+
+    /// The wanted lines that lie on one somewhere in the picture.
+    pub(in crate::lines) fn all_lying_on(&self, index: usize, image: &Image) -> OverlappingLines {
+        let lies_on_it = |other: &usize| {
+            let Some(other_image) = self.images[*other].filter(|_| *other != index) else { return false };
+            let touch_px = image.touch_px(self.space).max(other_image.touch_px(self.space));
+            self.features[*other].class.is_some() && image.overlap(&other_image, touch_px).is_some()
+        };
+        OverlappingLines::these((0..self.features.len()).filter(lies_on_it).collect())
+    }
+
+    fn others(&self, index: usize) -> impl Iterator<Item = (&Feature, &Image)> {
+        let all = self.features.iter().zip(&self.images).enumerate();
+        all.filter(move |(other, _)| *other != index).filter_map(|(_, (other, image))| Some((other, image.as_ref()?)))
+    }
+
+    /// Every face that is in the picture.
+    pub(in crate::lines) fn all_faces(&self) -> std::ops::Range<u32> {
+        0..self.faces.triangles.len() as u32
+    }
+}

@@ -1,0 +1,108 @@
+//! The fast search for visible lines against the reference that tests each piece against all faces and lines.
+
+#[expect(dead_code, reason = "others read all of it")]
+#[path = "../../../tests/support/growth.rs"]
+mod growth;
+
+use growth::{FAMILIES, Seen, Shape};
+use std::sync::Arc;
+use tinta_geometry::edges::SilhouetteRule;
+use tinta_geometry::lines::LineSegment;
+use tinta_geometry::{CameraSettings, LineSettings, LoadOptions, Mesh, Scene, SceneSettings, Size, VisibleLines, load};
+
+/// How far an end may be off by the order of additions, pixels.
+const SAME_PX: f64 = 1e-6;
+
+fn camera(view: &str, parallel: bool) -> CameraSettings {
+    CameraSettings { view: view.parse().unwrap(), parallel, ..CameraSettings::default() }
+}
+
+fn scene(meshes: Vec<Mesh>, camera: CameraSettings) -> Scene {
+    let settings = SceneSettings { camera, size: Size { width: 512, height: 512 }, ..SceneSettings::default() };
+    Scene::new(meshes.into_iter().map(Arc::new).collect::<Vec<_>>(), &settings).unwrap()
+}
+
+fn mesh(Shape { positions, triangles }: Shape) -> Mesh {
+    let file_vertices = (0..positions.len() as u32).collect();
+    Mesh { positions, file_vertices, triangles, normals: Vec::new(), triangle_normals: Vec::new(), ..Mesh::triangle() }
+}
+
+/// The pieces of one list that have no equal in another.
+fn without_equal<'a>(segments: &[&'a LineSegment], others: &[&LineSegment]) -> Vec<&'a LineSegment> {
+    let is_equal = |a: &LineSegment, b: &LineSegment| {
+        let are_near = |end: usize| a.ends_px[end].distance(b.ends_px[end]) <= SAME_PX;
+        (a.class, a.object, a.edge) == (b.class, b.object, b.edge) && are_near(0) && are_near(1)
+    };
+    segments.iter().filter(|segment| !others.iter().any(|other| is_equal(segment, other))).copied().collect()
+}
+
+/// What differs between the visible pieces of both.
+fn differences(name: &str, scene: &Scene, finds_hidden: bool) -> Vec<String> {
+    let of = |reference| {
+        let settings = LineSettings { finds_hidden, reference, ..LineSettings::default() };
+        VisibleLines::of(scene, &settings).unwrap().segments
+    };
+    let (fast, reference) = (of(false), of(true));
+    let visible = [&fast, &reference].map(|all| all.iter().filter(|segment| segment.is_visible).collect::<Vec<_>>());
+    let [fast, reference] = &visible;
+    assert!(!reference.is_empty(), "{name}");
+    let mut found = Vec::new();
+    for (whose, segments, others) in [("search", fast, reference), ("reference", reference, fast)] {
+        for LineSegment { class, edge, ends_px: [a, b], .. } in without_equal(segments, others) {
+            found.push(format!(
+                "{name}, hidden {finds_hidden}, only {whose}: {class:?} {edge:?} {a:?} {b:?} long {}",
+                a.distance(*b)
+            ));
+        }
+    }
+    found
+}
+
+#[test]
+fn the_search_shows_of_every_family_what_the_reference_shows() {
+    let mut failures = Vec::new();
+    for family in &FAMILIES {
+        let camera = match family.seen {
+            Seen::Aslant => camera("30,20", false),
+            Seen::Along => camera("0,0", true),
+        };
+        for count in [60, 100] {
+            let scene = scene(vec![mesh((family.make)(count))], camera.clone());
+            for finds_hidden in [true, false] {
+                failures.extend(differences(&format!("{} of {count}", family.name), &scene, finds_hidden));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn the_search_shows_of_models_what_the_reference_shows() {
+    let mut failures = Vec::new();
+    for name in ["open-box", "gear"] {
+        let path = format!("{}/../../models/{name}.obj", env!("CARGO_MANIFEST_DIR"));
+        let mesh = load(&path, &LoadOptions::default()).unwrap().mesh;
+        for (view, parallel) in [("30,20", false), ("30,20", true), ("0,0", true)] {
+            let scene = scene(vec![mesh.clone()], camera(view, parallel));
+            for finds_hidden in [true, false] {
+                failures.extend(differences(name, &scene, finds_hidden));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn the_reference_refuses_smooth_silhouettes_and_finds_outlines() {
+    let mesh =
+        load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/open-box.obj"), &LoadOptions::default()).unwrap().mesh;
+    let scene = scene(vec![mesh], camera("30,20", false));
+    let settings = LineSettings { reference: true, finds_outline: true, ..LineSettings::default() };
+    let [found, fast] = [true, false].map(|reference| {
+        let lines = VisibleLines::of(&scene, &LineSettings { reference, ..settings.clone() }).unwrap();
+        lines.segments.into_iter().filter(|segment| segment.is_outline).count()
+    });
+    assert_eq!(found, fast);
+    let smooth = LineSettings { silhouette: SilhouetteRule::Smooth, ..settings };
+    assert!(VisibleLines::of(&scene, &smooth).unwrap_err().to_string().contains("ask for exact ones"));
+}

@@ -1,0 +1,69 @@
+//! `tinta why` as a user meets it.
+
+use crate::cli::{Folder, refused_in_one_line, tinta};
+use serde_json::Value;
+
+/// A plate, faces 0 and 1, and a cube before its lower edge.
+const PLATE_AND_CUBE: &[u8] = b"v -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\n\
+    v -1 -4 1\nv 1 -4 1\nv 1 -1 1\nv -1 -1 1\nv -1 -4 3\nv 1 -4 3\nv 1 -1 3\nv -1 -1 3\n\
+    f 1 2 3 4\nf 5 8 7 6\nf 9 10 11 12\nf 5 6 10 9\nf 7 8 12 11\nf 6 7 11 10\nf 5 9 12 8\n";
+
+const FRONT: [&str; 5] = ["--view", "0,0", "--parallel", "--size", "512"];
+
+/// The middle, as the command takes it, of a piece of the plate's rim.
+fn middle(folder: &Folder, model: &str, is_visible: bool) -> String {
+    let json = folder.path("lines.json");
+    assert!(tinta(&[&["render", model, "-o", &json], &FRONT[..]].concat()).status.success());
+    let lines: Value = serde_json::from_str(&std::fs::read_to_string(json).unwrap()).unwrap();
+    let is_it = |line: &&Value| line["class"] == "boundary" && line["visible"] == is_visible;
+    let line = lines["segments"].as_array().unwrap().iter().find(is_it).unwrap_or_else(|| panic!("{lines}"));
+    let at = |end: &str, axis: usize| line[end][axis].as_f64().unwrap();
+    let [x, y] = [0, 1].map(|axis| (at("a", axis) + at("b", axis)) * 0.5);
+    format!("{x},{y}")
+}
+
+#[test]
+fn a_hidden_line_names_the_faces_in_front_of_it_and_a_visible_one_none() {
+    let folder = Folder::new();
+    let model = folder.file("plate.obj", PLATE_AND_CUBE);
+    let why = |place: &str, json: &[&str]| {
+        let output = tinta(&[&["why", &model, place], &FRONT[..], json].concat());
+        assert!(output.status.success(), "{output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let place = middle(&folder, &model, false);
+    let hidden: Value = serde_json::from_str(&why(&place, &["--json"])).unwrap();
+    assert_eq!((&hidden["line"]["class"], &hidden["is_visible"]), (&"boundary".into(), &false.into()), "{hidden}");
+    assert_eq!(hidden["line"]["edge"], serde_json::json!([0, 1]));
+    let by = hidden["hidden_by"].as_array().unwrap();
+    // The cube's front, then its back.
+    for (hider, in_front) in by.iter().zip([3.0, 1.0]) {
+        assert_eq!((&hider["kind"], &hider["left"], &hider["right"]), (&"face".into(), &true.into(), &true.into()));
+        assert!(hider["face"].as_u64().unwrap() >= 2, "{hider}");
+        assert!((hider["in_front"].as_f64().unwrap() - in_front).abs() < 1e-9, "{hider}");
+    }
+    let pieces = hidden["pieces"].as_array().unwrap();
+    let states: Vec<&Value> = pieces.iter().map(|piece| &piece["is_visible"]).collect();
+    assert_eq!(states, [true, false, true]);
+    let text = why(&place, &[]);
+    assert!(text.contains("It is hidden at") && text.contains("on both sides") && text.contains("face "), "{text}");
+
+    let place = middle(&folder, &model, true);
+    let text = why(&place, &["--style", "lines"]);
+    assert!(text.contains("It is visible at"), "{text}");
+    let visible: Value = serde_json::from_str(&why(&place, &["--json"])).unwrap();
+    assert_eq!((&visible["is_visible"], &visible["hidden_by"]), (&true.into(), &serde_json::json!([])));
+}
+
+#[test]
+fn what_cannot_be_explained_is_refused_in_one_sentence() {
+    let box_ = "builtin:open-box";
+    refused_in_one_line(&["why", box_, "9000,5"], &["9000,5: this is outside of the picture; choose x from 0 to"]);
+    refused_in_one_line(&["why", box_, "-1,5"], &["-1,5: this is outside of the picture"]);
+    refused_in_one_line(&["why", box_, "middle"], &["'middle'", "such as 240,310"]);
+    refused_in_one_line(&["why", box_, "1,2,3"], &["two numbers"]);
+    refused_in_one_line(&["why", box_], &["X,Y"]);
+    refused_in_one_line(&["why", box_, "5,5", "--classes", "non-manifold"], &["no line of these classes"]);
+    refused_in_one_line(&["why", box_, "5,5", "--style", "ink"], &["--style ink: only lines are explained so far"]);
+    refused_in_one_line(&["why", box_, "5,5", "--silhouette", "smooth"], &["ask for exact ones"]);
+}
