@@ -31,7 +31,7 @@ pub(in crate::lines) struct LineIndex<'a> {
     pub(in crate::lines) piercings: HashMap<[u32; 2], Vec<DVec3>>,
     /// The rims, where surfaces end: they may cross any line.
     pub(in crate::lines) rims: LineTree,
-    /// What hides others; `None` where the faces as they are do.
+    /// The faces that may hide lines, in parts; `None` where the faces' own tree serves.
     occluders: Option<Occluders>,
     /// The nearest face at each sample; `None` where few faces overlap in the picture.
     pub(in crate::lines) nearest_faces: Option<&'a NearestFaces>,
@@ -205,7 +205,7 @@ fn high_valence(features: &[Feature]) -> HashMap<u32, u32> {
     counts
 }
 
-/// Returns the high-valence vertex in which an edge ends, if any; of two, the one with more rims.
+/// Returns the high-valence vertex at an end of an edge, if any; of two, the one with more rims.
 fn vertex_of(high_valence: &HashMap<u32, u32>, own: Own) -> u32 {
     let Own::Edge(ends) = own else { return NO_GROUP };
     let known = ends.into_iter().filter_map(|end| Some((*high_valence.get(&end)?, end)));
