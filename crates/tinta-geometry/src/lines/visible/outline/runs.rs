@@ -1,4 +1,4 @@
-//! Keeps the outline readable: turns narrow slits and short runs into inner line or outline.
+//! Keeps the outline readable: lines at narrow slits become inner lines, and short runs take the class of their neighbours.
 //!
 //! In: pieces of lines and the width of the outline. Out: the same pieces, cut where their class changes. Two rules apply:
 //!
