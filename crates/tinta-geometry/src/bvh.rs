@@ -1,6 +1,6 @@
 //! A bounding volume hierarchy: finds the boxes that overlap a given one. Only this module uses the BVH crate.
 //!
-//! Boxes are f32, rounded outwards: they only say what may overlap, f64 decides.
+//! Boxes are f32, rounded outwards: they only find candidates, f64 decides.
 
 use crate::threads::{cores, in_chunks};
 use glam::{DVec3, Vec3A};
@@ -17,7 +17,7 @@ use std::cell::Cell;
 pub(crate) struct Box3(Aabb);
 
 impl Box3 {
-    /// The smallest box around points, rounded outwards.
+    /// Returns the smallest box around points, rounded outwards.
     pub(crate) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
         let (low, high) = points
             .into_iter()
@@ -25,7 +25,7 @@ impl Box3 {
         Self::new(low, high)
     }
 
-    /// The box between two corners, rounded outwards.
+    /// Returns the box between two corners, rounded outwards.
     pub(crate) fn new(low: DVec3, high: DVec3) -> Self {
         let down = |x: f64| clamped(x).next_down();
         let up = |x: f64| clamped(x).next_up();
@@ -51,7 +51,7 @@ impl Boundable for Box3 {
     }
 }
 
-/// Far enough for anything, and its squares are finite.
+/// Limits a coordinate to a range wide enough for any search, whose squares are finite.
 fn clamped(x: f64) -> f32 {
     const FARTHEST: f64 = 1e15;
     x.clamp(-FARTHEST, FARTHEST) as f32
@@ -64,7 +64,7 @@ pub(crate) struct BoxTree {
     boxes: Vec<Box3>,
     /// Each node's high-valence vertex, if all things below it have the same one, else [`NO_GROUP`]; empty without such vertices.
     high_valence: Vec<u32>,
-    /// Likewise the plane in which all things below it lie.
+    /// Each node's plane, if all things below it lie in the same one; likewise.
     planes: Vec<u32>,
 }
 
@@ -73,7 +73,7 @@ pub(crate) trait Walk {
     /// Whether anything in a box matters.
     fn enters(&self, around: &Box3) -> bool;
 
-    /// Looks at a thing; true ends the walk.
+    /// Visits a thing; true ends the walk.
     fn visit(&mut self, place: u32) -> bool;
 }
 
@@ -88,8 +88,8 @@ pub(crate) struct Line3 {
 }
 
 impl Line3 {
-    /// The line meets boxes within `margin` of it in the first two directions. In the third it meets those that begin before it, or
-    /// at most `slack` behind it.
+    /// Creates a line. It meets boxes within `margin` of it in the first two directions. In the third it meets those that begin
+    /// before it, or at most `slack` behind it.
     pub(crate) fn new([from, to]: [DVec3; 2], margin: f64, slack: f64) -> Self {
         let wide = DVec3::new(margin, margin, 0.0);
         let (low, high) = (from.min(to) - wide, from.max(to) + wide);
@@ -102,7 +102,7 @@ impl Line3 {
         self.around.overlaps(around)
     }
 
-    /// From where to where the line is in a box or behind it (Liang and Barsky 1984).
+    /// Returns the range of the line that is in a box or behind it (Liang and Barsky 1984).
     pub(crate) fn range(&self, around: &Box3) -> Option<[f64; 2]> {
         let [low, high] = around.corners();
         let (low, high) = (low - self.from, high - self.from);
@@ -129,7 +129,7 @@ impl Line3 {
     }
 }
 
-/// Below which nodes of a hierarchy there is something wanted: by default below all.
+/// The nodes of a hierarchy with wanted things below them: all nodes by default.
 #[derive(Default)]
 pub(crate) struct NodeSelection(Vec<u32>);
 
@@ -139,10 +139,10 @@ impl NodeSelection {
     }
 }
 
-/// Of things that belong to no group.
+/// The group of things that belong to none.
 pub(crate) const NO_GROUP: u32 = u32::MAX;
 
-/// Groups whose things are not looked for; [`NO_GROUP`] leaves out nothing.
+/// Groups whose things a search leaves out; [`NO_GROUP`] leaves out nothing.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Exclusion {
     pub planes: [u32; 2],
@@ -156,7 +156,7 @@ impl Default for Exclusion {
 }
 
 impl Exclusion {
-    /// Of things in planes.
+    /// Excludes things in planes.
     pub(crate) fn planes(planes: [u32; 2]) -> Self {
         Self { planes, ..Self::default() }
     }
@@ -165,17 +165,17 @@ impl Exclusion {
 /// Most things in a leaf.
 pub(crate) const LARGEST_LEAF: u32 = 8;
 
-/// What a step down the hierarchy costs, in tests of a thing: more makes larger leaves.
+/// The cost of a step down the hierarchy, in tests of a thing: a higher cost makes larger leaves.
 const STEP_COST: f32 = 3.0;
 
 impl BoxTree {
-    /// Builds the hierarchy over boxes in time n log n, and returns it with the boxes' numbers in its own order: it speaks of
-    /// things by their places in that order, so that whoever keeps them in it has neighbours together.
+    /// Builds the hierarchy over boxes in time n log n. Returns it with the boxes' numbers in its own order. The hierarchy refers
+    /// to things by their places in that order: callers that store things in it keep neighbours together.
     pub(crate) fn new(boxes: &[Box3]) -> (Self, Vec<u32>) {
         Self::new_unless(boxes, || false)
     }
 
-    /// The same, or a hierarchy of nothing where it is over before.
+    /// Builds the hierarchy as [`BoxTree::new`] does, or an empty one once `is_over` returns true.
     pub(crate) fn new_unless(boxes: &[Box3], is_over: impl Fn() -> bool + Sync) -> (Self, Vec<u32>) {
         let batches = batches(boxes, &is_over);
         let mut batches = in_chunks(batches.len(), 1, cores(), |range| match is_over() {
@@ -197,31 +197,31 @@ impl BoxTree {
         &self.boxes
     }
 
-    /// Tells which high-valence vertex the thing at each place is around: [`BoxTree::pairs`] then leaves out pairs around one such
-    /// vertex, and takes no time over them.
+    /// Sets the high-valence vertex of the thing at each place. [`BoxTree::pairs`] then leaves out pairs around one such vertex,
+    /// and takes no time over them.
     pub(crate) fn set_high_valence(&mut self, vertex_of: &[u32]) {
         self.high_valence = self.of_nodes(vertex_of);
     }
 
-    /// Says of the thing at each place in which plane it lies: [`BoxTree::pairs`] then leaves out pairs of one plane, and
-    /// [`BoxTree::any_but`] things of given planes.
+    /// Sets the plane of the thing at each place. [`BoxTree::pairs`] then leaves out pairs in one plane, and [`BoxTree::any_but`]
+    /// things in given planes.
     pub(crate) fn set_planes(&mut self, plane_of: &[u32]) {
         self.planes = self.of_nodes(plane_of);
     }
 
-    /// Below which nodes there is something wanted, of the thing at each place.
+    /// Selects the nodes with wanted things below them. `is_wanted` has a value for each place.
     pub(crate) fn wanted(&self, is_wanted: &[bool]) -> NodeSelection {
         const UNWANTED: u32 = 0;
         let groups: Vec<u32> = is_wanted.iter().map(|is| if *is { NO_GROUP } else { UNWANTED }).collect();
         NodeSelection(self.of_nodes(&groups))
     }
 
-    /// Of each node the group that all things below it are of, or [`NO_GROUP`].
+    /// Returns each node's group, if all things below it are in that group, else [`NO_GROUP`].
     fn of_nodes(&self, group_of: &[u32]) -> Vec<u32> {
         let nodes = &self.nodes.nodes;
         let mut groups = vec![NO_GROUP; nodes.len()];
         let common = |first: u32, second: u32| if first == second { first } else { NO_GROUP };
-        // Each node after its children: they are found before it, and gone through backwards.
+        // Parents come before their children here. The next loop goes backwards and meets each node after its children.
         let mut order: Vec<u32> = if nodes.is_empty() { Vec::new() } else { vec![0] };
         let mut next = 0;
         while let Some(&index) = order.get(next) {
@@ -249,7 +249,7 @@ impl BoxTree {
         self.any_but(query, Exclusion::default(), visit)
     }
 
-    /// As [`BoxTree::any`] without some groups, as far as whole leaves are of them.
+    /// Searches as [`BoxTree::any`] does, but leaves out whole leaves of excluded groups.
     pub(crate) fn any_but(&self, query: &Box3, excluded: Exclusion, mut visit: impl FnMut(u32) -> bool) -> bool {
         let is_none = |groups: &[u32], node: u32, excluded: [u32; 2]| {
             let group = group(groups, node);
@@ -314,9 +314,10 @@ impl BoxTree {
         self.pairs_below(&[[0, 0]], &NodeSelection::default(), &mut visit)
     }
 
-    /// Pairs of nodes below which all pairs of things lie whose boxes overlap, so many of them that they can be looked at apart.
+    /// Returns pairs of nodes that together hold all pairs of things with overlapping boxes: enough of them to share among
+    /// threads.
     pub(crate) fn node_pairs(&self, wanted: &NodeSelection) -> Vec<[u32; 2]> {
-        /// Pairs of nodes at least, where there are enough.
+        /// Fewest pairs of nodes, where the hierarchy has enough.
         const ENOUGH: usize = 1024;
         let mut pairs = vec![[0, 0]];
         while !self.nodes.nodes.is_empty() && pairs.len() < ENOUGH {
@@ -332,7 +333,8 @@ impl BoxTree {
         pairs
     }
 
-    /// The pairs of nodes just below two nodes; the two themselves where both are leaves, and nothing where no pair below is looked for.
+    /// Pushes the pairs of nodes just below two nodes: the two themselves where both are leaves, none where no wanted pair lies
+    /// below.
     fn halves(&self, [first, second]: [u32; 2], wanted: &NodeSelection, mut push: impl FnMut([u32; 2])) {
         let [a, b] = [first, second].map(|node| &self.nodes.nodes[node as usize]);
         let are_of_one =
@@ -358,9 +360,9 @@ impl BoxTree {
         }
     }
 
-    /// Calls `visit` with each pair of things whose boxes overlap, below one of some pairs of nodes, the lower place first, until it
-    /// returns true; returns whether it did. Pairs around one high-valence vertex, or in one plane, are left out as far as whole
-    /// nodes are, and what lies below nodes of which nothing is wanted.
+    /// Calls `visit` with each pair of things that overlap below the given pairs of nodes, the lower place first, until it
+    /// returns true. Returns whether it did. Leaves out whole nodes around one high-valence vertex or in one plane, and nodes
+    /// without wanted things.
     pub(crate) fn pairs_below(
         &self,
         node_pairs: &[[u32; 2]],
@@ -399,7 +401,7 @@ impl BoxTree {
         is_found
     }
 
-    /// Calls `visit` with each leaf that overlaps and lies below no node to leave out, until it returns true.
+    /// Calls `visit` with each leaf that overlaps and lies below no excluded node, until it returns true.
     fn any_leaf(&self, query: &Box3, is_other: impl Fn(u32) -> bool, mut visit: impl FnMut(&Bvh2Node) -> bool) -> bool {
         let nodes = &self.nodes.nodes;
         if nodes.is_empty() || !nodes[0].aabb().intersect_aabb(&query.0) {
@@ -432,7 +434,7 @@ impl BoxTree {
     }
 }
 
-/// Numbers of nodes, the first of them without memory of their own.
+/// A stack of node numbers. The first ones need no allocation.
 struct Stack {
     few: [u32; 64],
     count: usize,
@@ -468,34 +470,34 @@ thread_local! {
     static STEPS: Cell<u64> = const { Cell::new(0) };
 }
 
-/// Counts what else is looked at as boxes are.
+/// Adds other tests to the count of tested boxes.
 pub(crate) fn add_steps(count: u64) {
     STEPS.set(STEPS.get().wrapping_add(count));
 }
 
-/// How many boxes this thread has looked at, in all hierarchies.
+/// Returns the count of boxes that this thread has tested, in all hierarchies.
 pub(crate) fn steps() -> u64 {
     STEPS.get()
 }
 
-/// What work on this thread returns, with the boxes it has looked at.
+/// Runs work on this thread. Returns its result and the count of boxes that it tested.
 pub(crate) fn counting_steps<T>(work: impl FnOnce() -> T) -> (T, u64) {
     let before = steps();
     let result = work();
     (result, steps().wrapping_sub(before))
 }
 
-/// A node's group; none where there are no groups.
+/// Returns a node's group; [`NO_GROUP`] without groups.
 fn group(groups: &[u32], node: u32) -> u32 {
     groups.get(node as usize).copied().unwrap_or(NO_GROUP)
 }
 
-/// Most things whose hierarchy is built at once. Building joins those that are nearest to one another; of a row in which each is
-/// nearest to the one before, as a railing seen from its end, only two find each other in a pass over all.
+/// Most things whose hierarchy is built at once. The builder joins things that are nearest to one another. In a row where each is
+/// nearest to the one before, such as a railing seen from its end, each pass over all joins only two.
 const BUILT_AT_ONCE: usize = 8192;
 
-/// The things' numbers in batches of which none has more than [`BUILT_AT_ONCE`], neighbours together: halved in the middle of the
-/// longest side of where they lie.
+/// Splits the things' numbers into batches of at most [`BUILT_AT_ONCE`], neighbours together: halves them in the middle of their
+/// longest extent.
 fn batches(boxes: &[Box3], is_over: impl Fn() -> bool) -> Vec<Vec<u32>> {
     let middle = |number: &u32| boxes[*number as usize].0.center();
     let mut open: Vec<Vec<u32>> = vec![(0..boxes.len() as u32).collect()];
@@ -518,12 +520,12 @@ fn batches(boxes: &[Box3], is_over: impl Fn() -> bool) -> Vec<Vec<u32>> {
     done
 }
 
-/// The hierarchy of some of the things.
+/// Builds the hierarchy of some of the things.
 fn built(boxes: &[Box3], numbers: &[u32]) -> Bvh2 {
     let own: Vec<Box3> = numbers.iter().map(|number| boxes[*number as usize]).collect();
     let mut nodes = hierarchy(&own);
     collapse(&mut nodes, LARGEST_LEAF, STEP_COST);
-    // Up to here they were counted within the group.
+    // Until here, indices count within the batch.
     nodes.primitive_indices.iter_mut().for_each(|place| *place = numbers[*place as usize]);
     nodes
 }
@@ -533,7 +535,7 @@ fn hierarchy(boxes: &[Box3]) -> Bvh2 {
     PlocBuilder::with_capacity(boxes.len()).build(PlocSearchDistance::Minimum, boxes, numbers, SortPrecision::U64, 0)
 }
 
-/// Hierarchies as one: a hierarchy of their roots, each of whose leaves is one of them.
+/// Joins hierarchies: builds a hierarchy of their roots and puts one of them in place of each leaf.
 fn joined(batches: &[Bvh2]) -> Bvh2 {
     let roots: Vec<Box3> = batches.iter().map(|batch| Box3(*batch.nodes[0].aabb())).collect();
     let mut whole = hierarchy(&roots);
@@ -543,7 +545,7 @@ fn joined(batches: &[Bvh2]) -> Bvh2 {
             continue;
         }
         let batch = &batches[batch_of[whole.nodes[top].first_index as usize] as usize];
-        // All but the batch's root are put behind what there is.
+        // The batch's root replaces the leaf; its other nodes go to the end.
         let (first_node, first_thing) = (whole.nodes.len() as u32 - 1, whole.primitive_indices.len() as u32);
         let mut moved = batch.nodes.iter().map(|node| Bvh2Node {
             first_index: node.first_index + if node.is_leaf() { first_thing } else { first_node },

@@ -1,32 +1,32 @@
-//! Lines that lie on one another in the picture by the dozen, as the edges of equal parts do when one looks along their row: which
-//! of them is the nearest where.
+//! Bundles: dozens of lines that overlap in the picture, such as the edges of equal parts in a row seen along the row. Tells
+//! which of them is nearest at each place.
 //!
-//! In: the images of the wanted lines. Out: for a line the few others that are nearest along it. They only say whom to ask first: whether one
-//! hides the line for sure is for whoever asks, so that nothing depends on how bundles are made.
+//! In: the images of the wanted lines. Out: for each line, the few others that are nearest along it. The caller tests those first
+//! and decides whether one hides the line for sure. No result depends on how bundles are made.
 //!
-//! Lines make a bundle that have one direction and one distance from the picture's middle, as far as lines that touch may differ. Along a bundle the
-//! nearest is found at all places between the lines' ends by a tree of lines (Li Chao), in m log² m.
+//! The lines of a bundle share one direction and one distance from the picture's middle, within the tolerance for lines that
+//! touch. A tree of lines (Li Chao) finds the nearest line of a bundle at all places between the lines' ends, in m log² m.
 
 use crate::lines::visible::image::Image;
 use glam::DVec2;
 use std::f64::consts::PI;
 
-/// From how many lines on they are a bundle: fewer are compared with one another.
+/// Fewest lines in a bundle. Fewer lines are compared with one another.
 const FEWEST: usize = 12;
 
-/// By how much the directions of lines in a bundle may differ: far more than rounding turns them.
+/// The largest difference between directions in a bundle: far more than rounding turns lines.
 const TURN: f64 = 1e-6;
 
-/// An angle that hardly any line has: there directions begin.
+/// An angle that hardly any line has: the order of directions begins there.
 const FIRST_DIRECTION: f64 = 0.1234;
 
-/// What stands for no line and no bundle.
+/// Marks the absence of a line or a bundle.
 const NONE: u32 = u32::MAX;
 
 /// All bundles.
 #[derive(Debug, Default)]
 pub(in crate::lines) struct Bundles {
-    /// Of each line its bundle; empty where there are none.
+    /// Each line's bundle; empty without bundles.
     of_lines: Vec<u32>,
     bundles: Vec<Bundle>,
 }
@@ -35,11 +35,11 @@ pub(in crate::lines) struct Bundles {
 struct Bundle {
     /// Of length 1.
     along: DVec2,
-    /// From which distance along it on which line is the nearest; ascending.
+    /// The nearest line from each distance along the bundle; ascending.
     nearest: Vec<(f64, u32)>,
 }
 
-/// A line in a bundle: from where to where along it, its keys there, its number.
+/// A line in a bundle: its range along the bundle, its keys at both ends, its number.
 #[derive(Debug, Clone, Copy)]
 struct Member {
     range: [f64; 2],
@@ -63,7 +63,7 @@ impl Member {
 }
 
 impl Bundles {
-    /// Those of lines, as far as they are wanted: `images` by their numbers; lines nearer to one another than `touch_px` lie on one another.
+    /// Finds the bundles of the wanted lines. `images` has an image for each line's number. Lines nearer than `touch_px` overlap.
     pub(in crate::lines) fn new(
         images: &[Option<Image>],
         is_wanted: impl Fn(usize) -> bool,
@@ -102,7 +102,7 @@ impl Bundles {
         all
     }
 
-    /// The lines that are nearest somewhere along one, which may be among them; of a line in no bundle none.
+    /// Returns the lines that are nearest somewhere along one, perhaps itself among them; nothing for a line in no bundle.
     pub(in crate::lines) fn nearest_along(&self, line: usize, image: &Image) -> impl Iterator<Item = usize> {
         let bundle = self.of_lines.get(line).and_then(|bundle| self.bundles.get(*bundle as usize));
         let pieces = bundle.map_or(&[][..], |bundle| {
@@ -115,7 +115,7 @@ impl Bundles {
     }
 }
 
-/// Runs of ascending values that differ by no more than so much from the run's first.
+/// Returns runs of ascending values that differ from the run's first by at most `most`.
 fn runs(ascending: &[(f64, u32)], most: f64) -> impl Iterator<Item = &[(f64, u32)]> {
     let mut rest = ascending;
     std::iter::from_fn(move || {
@@ -126,7 +126,7 @@ fn runs(ascending: &[(f64, u32)], most: f64) -> impl Iterator<Item = &[(f64, u32
     })
 }
 
-/// From where on which of some lines is the nearest.
+/// Returns the places at which another line becomes the nearest, each with that line.
 fn nearest(members: &[Member], touch_px: f64) -> Vec<(f64, u32)> {
     let mut ends: Vec<f64> = members.iter().flat_map(|member| member.range).collect();
     ends.sort_unstable_by(f64::total_cmp);
@@ -152,8 +152,8 @@ fn nearest(members: &[Member], touch_px: f64) -> Vec<(f64, u32)> {
     nearest
 }
 
-/// The nearest of lines at each of some places: a binary tree over the places, in which each node knows a line that covers all of its own. Of the
-/// lines known on the way to a place one is the nearest there.
+/// The nearest line at each of some places: a binary tree over the places. Each node holds a line that covers all the node's
+/// places. The nearest line at a place is one of those on the path to the place.
 struct Tree<'a> {
     members: &'a [Member],
     middles: &'a [f64],
@@ -161,13 +161,13 @@ struct Tree<'a> {
 }
 
 impl Tree<'_> {
-    /// Whether a line is nearer than another, or there is no other, at a place; those behind the last are there for even numbers.
+    /// Whether a line is nearer than another at a place, or the other is missing. Places past the last make their number even.
     fn is_nearer(&self, line: u32, other: u32, place: usize) -> bool {
         let at = self.middles[place.min(self.middles.len() - 1)];
         other == NONE || self.members[line as usize].key(at) < self.members[other as usize].key(at)
     }
 
-    /// Puts in a line that covers some places, in a node that has some.
+    /// Inserts a line that covers some places, at or below a node that holds some of them.
     fn insert(&mut self, node: usize, of_node: std::ops::Range<usize>, covered: std::ops::Range<usize>, line: u32) {
         let (first, end) = (of_node.start.max(covered.start), of_node.end.min(covered.end));
         if first >= end {
@@ -183,7 +183,7 @@ impl Tree<'_> {
         if self.is_nearer(line, self.nodes[node], middle) {
             std::mem::swap(&mut line, &mut self.nodes[node]);
         }
-        // The other one may be nearer on one side of the middle only.
+        // The other line may be nearer on one side of the middle only.
         if line == NONE || of_node.len() == 1 {
             return;
         }
@@ -194,7 +194,7 @@ impl Tree<'_> {
         }
     }
 
-    /// The number of the line that is nearest at a place.
+    /// Returns the number of the line that is nearest at a place.
     fn nearest(&self, place: usize) -> u32 {
         let mut node = self.nodes.len() / 2 + place;
         let mut best = NONE;
@@ -236,7 +236,7 @@ mod tests {
                 .collect();
             let bundles = Bundles::new(&images, |_| true, DVec2::splat(256.0), 1e-4);
             assert_eq!(bundles.bundles.len(), 1);
-            // Between two neighbouring ends of any lines, in the middle: where the nearest is found.
+            // In the middle between neighbouring ends of any lines, where the tree finds the nearest.
             let along = DVec2::new(0.6, 0.8);
             let mut ends: Vec<f64> =
                 images.iter().flatten().flat_map(|it| [along.dot(it.a), along.dot(it.b)]).collect();

@@ -1,4 +1,4 @@
-//! What a ray through each pixel's middle meets first: a picture of the scene without GL.
+//! The first face that a ray through each pixel's middle hits: a picture of the scene without GL.
 
 use crate::bvh::Box3;
 use crate::lines::visible::faces::Faces;
@@ -7,7 +7,7 @@ use crate::scene::Scene;
 use crate::threads::{cores, in_chunks};
 use glam::{DVec2, DVec3};
 
-/// What a ray meets.
+/// A ray's first hit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
     /// The object in the scene.
@@ -20,8 +20,8 @@ pub struct Hit {
     pub depth: f64,
 }
 
-/// The first hit of the ray through each pixel's middle, row by row from the top; `None` where there is nothing between the
-/// near and the far plane. In f64; of faces in the same place the one with the lower number.
+/// Returns the first hit of the ray through each pixel's middle, row by row from the top; `None` where no face lies between the
+/// near and the far plane. Computes in f64. Of faces in the same place, the one with the lower number counts.
 pub fn first_hits(scene: &Scene) -> Vec<Option<Hit>> {
     let space = Space::of(scene);
     let parts: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
@@ -45,7 +45,7 @@ pub fn first_hits(scene: &Scene) -> Vec<Option<Hit>> {
     rows.concat()
 }
 
-/// What the ray through a place in the picture meets first; `starts` are the objects' first faces among all.
+/// Returns the first hit of the ray through a place in the picture. `starts` are the objects' first faces among all.
 pub(in crate::lines) fn first_hit(space: &Space, faces: &Faces, starts: &[u32], px: DVec2) -> Option<Hit> {
     let column = Box3::new(px.extend(f64::NEG_INFINITY), px.extend(f64::INFINITY));
     let ray = space.ray(px);
@@ -66,7 +66,7 @@ pub(in crate::lines) fn first_hit(space: &Space, faces: &Faces, starts: &[u32], 
     })
 }
 
-/// Where a ray, given by two of its points, meets a face: the depth and the corners' weights.
+/// Returns the depth at which a ray, given by two of its points, meets a face, with the corners' weights.
 pub(in crate::lines) fn meet(space: &Space, corners: [DVec3; 3], [from, to]: [DVec3; 2]) -> Option<(f64, [f64; 3])> {
     let turns = [1, 2, 0].map(|first| space.turn(corners[first], corners[(first + 1) % 3], to).0);
     let is_inside = turns.iter().all(|turn| *turn >= 0.0) || turns.iter().all(|turn| *turn <= 0.0);

@@ -2,7 +2,7 @@
 //!
 //! The walk keeps the parts of the line that no face hides yet, and enters only boxes that one of these parts reaches. Each face
 //! in them answers with two ranges ([`Faces::hidden_ranges`](crate::lines::visible::faces::Faces)): where it hides the line by
-//! more than any tolerance, and where it may hide it. The walk ends when nothing is left. Only the parts that a face may hide
+//! more than any tolerance, and where it may hide it. The walk ends with the last such part. Only the parts that a face may hide
 //! need a ray and the exact rules.
 
 use crate::bvh::{Box3, Exclusion, Line3, Walk};
@@ -29,12 +29,13 @@ impl Cover {
         hold(&self.hidden, place)
     }
 
-    /// Whether no face hides a place, for sure. Unknown in rests too short to be open: the walk may end before it meets their faces.
+    /// Whether no face hides a place, for sure. Unknown in rests too short to be open: the walk may end before it meets their
+    /// faces.
     pub(in crate::lines) fn leaves_open(&self, place: f64) -> bool {
         hold(&self.open, place) && !hold(&self.maybe, place)
     }
 
-    /// Hides another part. Parts of the rest that are no longer than `least` are no longer open.
+    /// Hides another part. Remaining parts no longer than `least` are no longer open.
     fn hide(&mut self, part: [f64; 2], least: f64) {
         self.hidden.push(part);
         let is_outside = |gap: &[f64; 2]| part[1] <= gap[0] || part[0] >= gap[1];
@@ -50,7 +51,7 @@ impl Cover {
         self.open = std::mem::take(&mut self.open).into_iter().flat_map(rest_of).flatten().collect();
     }
 
-    /// Ascending ranges, for lookup.
+    /// Sorts the ranges for lookup.
     fn sorted(self) -> Self {
         Self { hidden: united(self.hidden), maybe: united(self.maybe), open: self.open }
     }
@@ -96,12 +97,12 @@ impl Walk for CoverWalk<'_> {
 }
 
 impl LineIndex<'_> {
-    /// The cover of a line whose faces nobody asked: anything may hide it. Some parts are known to be hidden.
+    /// Returns the cover of a line before any test: any face may hide it. Some parts are known to be hidden.
     pub(in crate::lines) fn unknown_cover(&self, inside: [f64; 2], hidden: &[[f64; 2]]) -> Cover {
         Cover { hidden: hidden.to_vec(), maybe: vec![inside], open: gaps(inside, hidden) }
     }
 
-    /// The cover of a line between two places, some parts of which are known to be hidden.
+    /// Returns the cover of a line between two places. Some parts are known to be hidden.
     pub(in crate::lines) fn cover(
         &self,
         index: usize,
@@ -139,7 +140,7 @@ impl LineIndex<'_> {
         cover.sorted()
     }
 
-    /// The line that boxes are tested against: what begins at most `slack` behind it counts, or everything at any depth.
+    /// Returns the line for tests against boxes: those that begin at most `slack` behind it count, or all at any depth.
     pub(in crate::lines) fn line(&self, image: &Image, search_depth: SearchDepth, slack: f64) -> Line3 {
         /// Behind everything.
         const FARTHEST: f64 = 1e300;
@@ -153,7 +154,7 @@ impl LineIndex<'_> {
             let image = nearest_faces.image(self.space, self.faces, face);
             return self.faces.hidden_ranges(self.space, face, &image, probe);
         }
-        // Most faces lie beside the line, and this is sooner known than what else their images tell.
+        // Most faces lie beside the line. This test is the cheapest.
         let points = self.faces.corners(face).map(|corner| self.space.project(corner).0);
         if self.faces.cut_by_near.is_empty() && probe.is_beside(self.space, points) {
             return [None; 2];

@@ -1,9 +1,9 @@
-//! Which hidden lines a drawing leaves out, because another line lies on them in the picture and is drawn in their place.
+//! The hidden lines that a drawing leaves out, because it draws another line that overlaps them in their place.
 //!
-//! In: pieces of lines. Out: the same pieces, hidden ones cut where such a line begins or ends, and marked. A visible line is drawn in
-//! place of every hidden one under it; of hidden ones the one of the first class, and of one class the first. Lines lie on one another
-//! up to [`JOINED_PX`], which a file of three decimals barely tells apart. Trees of both kinds find the candidates; a line that is
-//! covered as a whole asks no further.
+//! In: pieces of lines. Out: the same pieces, hidden ones cut where such a line begins or ends, and marked. A visible line
+//! replaces every hidden one under it. Of hidden lines, the one of the first class stays, and within one class the first. Lines
+//! overlap up to [`JOINED_PX`], which a file of three decimals barely resolves. Trees of visible and of hidden lines find the
+//! candidates. The search for a line ends when it is covered as a whole.
 
 use crate::error::{Error, Result};
 use crate::lines::LineSegment;
@@ -14,13 +14,14 @@ use crate::lines::visible::space::Space;
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::JOINED_PX;
 
-/// Hidden lines that a thread looks at at once.
+/// Hidden lines that a thread tests at once.
 const CHUNK: usize = 512;
 
-/// Pixels: the box of a longer part that is aslant holds much else. Shorter parts find long lines that nearly coincide once for each part.
+/// Pixels. The box of a longer diagonal part overlaps too much. Shorter parts find long lines that nearly coincide once for each
+/// part.
 const LONGEST_PART: f64 = 128.0;
 
-/// Cuts and marks hidden pieces. Where a part of the lines is enough and the time is over, all stay as they are.
+/// Cuts and marks hidden pieces. Returns all pieces unchanged if time runs out and the settings accept a part of the lines.
 ///
 /// # Errors
 ///
@@ -63,7 +64,7 @@ pub(in crate::lines) fn marked(
     Ok(all.flat_map(|((segment, image), covered)| cut(space, segment, image, &covered)).collect())
 }
 
-/// A piece as it lies in the picture.
+/// The image of a piece.
 fn image_of(space: &Space, segment: &LineSegment) -> Image {
     let [a, b] = segment.ends_px;
     let keys = segment.ends_world.map(|end| space.project(space.view(end)).1);
@@ -78,7 +79,7 @@ struct DrawnLines<'a> {
 }
 
 impl DrawnLines<'_> {
-    /// From where to where lines lie on a hidden one that are drawn in its place, ascending.
+    /// Returns the ranges of a hidden line under lines that are drawn in its place, ascending.
     fn covered(&self, number: usize) -> Vec<[f64; 2]> {
         let image = &self.images[number];
         let tolerance = JOINED_PX / image.length();
@@ -101,7 +102,7 @@ impl DrawnLines<'_> {
         covered
     }
 
-    /// Whether a line is drawn in place of a hidden one on which it lies.
+    /// Whether a line is drawn in place of a hidden one that it overlaps.
     fn comes_before(&self, other: usize, hidden: usize) -> bool {
         let rank = |number: usize| (!self.segments[number].is_visible, self.segments[number].class, number);
         let [other, hidden] = [other, hidden].map(rank);
@@ -109,7 +110,8 @@ impl DrawnLines<'_> {
     }
 }
 
-/// Ascending ranges and one more, as one where they are no farther apart than so much, and up to the line's ends where these are near.
+/// Adds a range to ascending ones. Joins ranges no farther apart than `tolerance`, and extends to the line's ends where these are
+/// near.
 fn joined(ranges: Vec<[f64; 2]>, [from, to]: [f64; 2], tolerance: f64) -> Vec<[f64; 2]> {
     let from = if from <= tolerance { 0.0 } else { from };
     let to = if to >= 1.0 - tolerance { 1.0 } else { to };
@@ -127,7 +129,7 @@ fn joined(ranges: Vec<[f64; 2]>, [from, to]: [f64; 2], tolerance: f64) -> Vec<[f
     joined
 }
 
-/// A piece in parts that are covered as a whole or not at all, along it.
+/// Cuts a piece into parts that are covered as a whole or not at all, along it.
 fn cut(space: &Space, segment: &LineSegment, image: &Image, covered: &[[f64; 2]]) -> Vec<LineSegment> {
     let part = |range: [f64; 2], is_covered: bool| {
         let (px, world) = (range.map(|place| image.at(place)), image.ends_world(space, range));

@@ -1,4 +1,4 @@
-//! Faces as they lie in the picture: how far inside of each side a pixel is, by one product each.
+//! Images of faces in the picture: how far inside of each side a pixel is, by one product each.
 
 use crate::lines::visible::faces::Faces;
 use crate::lines::visible::space::Space;
@@ -8,19 +8,19 @@ use glam::DVec2;
 /// A face's image.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::lines) struct FaceImage {
-    /// Of each side the unit vector inwards, and where that is 0: side `k` goes from corner `k` to the next.
+    /// Each side's unit vector inwards, and its product with points on the side. Side `k` goes from corner `k` to the next.
     inwards: [DVec2; 3],
     starts_px: [f64; 3],
-    /// The sides' lengths. One without length has no direction.
+    /// The sides' lengths. A side without length has no direction.
     pub lengths_px: [f64; 3],
-    /// By how much rounding may be off.
+    /// The largest rounding error of a distance.
     pub rounding_px: f64,
 }
 
 /// Most faces whose images are kept.
 const MOST: usize = 200_000;
 
-/// Faces a thread looks at at once.
+/// Faces that a thread projects at once.
 const MADE_AT_ONCE: usize = 4096;
 
 impl FaceImage {
@@ -38,8 +38,8 @@ impl FaceImage {
         Self { inwards, starts_px, lengths_px, rounding_px: reach * Self::ROUNDING }
     }
 
-    /// Of all faces by their places, or of none where these are too many to keep. Those that reach through the near plane have
-    /// no image that means anything.
+    /// Returns the images of all faces by their places, or none where these are too many to keep. The images of faces that reach
+    /// through the near plane are meaningless.
     pub(in crate::lines) fn of_all(space: &Space, faces: &Faces) -> Vec<Self> {
         if faces.triangles.len() > MOST {
             return Vec::new();
@@ -50,7 +50,7 @@ impl FaceImage {
         in_chunks(faces.triangles.len(), MADE_AT_ONCE, cores(), of).concat()
     }
 
-    /// Of each side the unit vector inwards, and what its product with a pixel on the side is.
+    /// Each side's unit vector inwards, and its product with a pixel on the side.
     pub(in crate::lines) fn sides(&self) -> impl Iterator<Item = (DVec2, f64)> {
         self.inwards.into_iter().zip(self.starts_px)
     }

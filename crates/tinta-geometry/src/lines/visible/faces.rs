@@ -1,4 +1,4 @@
-//! All faces of a scene in the eye's space, and which of them hide a point.
+//! All faces of a scene in the eye's space, and the test for faces that hide a point.
 
 use crate::bvh::{Box3, BoxTree, NO_GROUP};
 use crate::lines::visible::planes;
@@ -12,33 +12,33 @@ use std::sync::Arc;
 
 /// Faces and positions of all objects.
 ///
-/// A face is spoken of by its place in the hierarchy's order, in which neighbours lie together; faces outside the picture or
-/// the planes have none.
+/// Functions identify a face by its place in the hierarchy's order, where neighbours lie together. Faces outside the picture or
+/// the planes have no place.
 pub(in crate::lines) struct Faces {
     /// In the eye's space, object by object.
     pub positions: Vec<DVec3>,
     /// Three positions each.
     pub triangles: Vec<[u32; 3]>,
-    /// Each one's number in the scene, counted through all objects.
+    /// Each face's number in the scene, counted through all objects.
     pub numbers: Vec<u32>,
-    /// Places of those that reach through the near plane, ascending.
+    /// Places of faces that reach through the near plane, ascending.
     pub cut_by_near: Vec<u32>,
-    /// Numbers of those that are seen edge-on, or may be, ascending.
+    /// Numbers of faces that are seen edge-on, or may be, ascending.
     pub edge_on: Vec<u32>,
-    /// Of these, those whose direction is no matter of rounding.
+    /// Those of `edge_on` whose direction does not depend on rounding.
     pub edge_on_for_sure: Vec<u32>,
-    /// By their boxes of pixels and keys.
+    /// The hierarchy of their boxes of pixels and keys.
     pub tree: BoxTree,
-    /// For each place the position that it shares with very many faces, or [`NO_GROUP`]; empty where there is none. The boxes
-    /// of all these overlap, so that the tree leaves their pairs to whoever knows better.
+    /// For each place the position that it shares with very many faces, or [`NO_GROUP`]; empty without such positions. The boxes
+    /// of these faces all overlap: the tree leaves out their pairs, and callers find the pairs that matter.
     pub high_valence: Vec<u32>,
-    /// For each number the plane that it shares with many faces, or [`NO_GROUP`]; empty where there is none.
+    /// For each number the plane that it shares with many faces, or [`NO_GROUP`]; empty without such planes.
     pub planes: Vec<u32>,
     /// Each object's first position and the distance below which its positions count as one, file units.
     welds: Vec<(u32, f64)>,
 }
 
-/// A point of a line of which it is asked whether it is hidden.
+/// A point of a line, to test whether faces hide it.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::lines) struct Probe {
     /// In the eye's space.
@@ -51,19 +51,19 @@ pub(in crate::lines) struct Probe {
     pub line_length: f64,
     /// The distance below which positions of the line's object count as one, file units.
     pub weld: f64,
-    /// The line's ends among the positions, or the two faces it is the intersection of.
+    /// The line's ends among the positions, or the two faces whose intersection it is.
     pub own: Own,
-    /// The positions in which the line ends, see [`Own::corners`].
+    /// The positions at the line's ends, see [`Own::corners`].
     pub own_ends: [u32; 2],
 }
 
-/// Stands for a position where a line ends in none.
+/// Marks an end of a line that is no position.
 pub(in crate::lines) const NO_POSITION: u32 = u32::MAX;
 
-/// Stands for a face where a line belongs to none.
+/// Marks the absence of a face.
 pub(in crate::lines) const NO_FACE: u32 = u32::MAX;
 
-/// What a line belongs to.
+/// The edge or the faces that a line belongs to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::lines) enum Own {
     /// The edge between two positions.
@@ -73,7 +73,8 @@ pub(in crate::lines) enum Own {
 }
 
 impl Own {
-    /// The positions in which the line ends, as far as it ends in some: an intersection of faces with a common corner begins in that.
+    /// Returns the positions at the line's ends, or [`NO_POSITION`]. An intersection of faces with a common corner begins in
+    /// that corner.
     pub(in crate::lines) fn corners(self, faces: &Faces) -> [u32; 2] {
         match self {
             Self::Edge(ends) => ends,
@@ -86,11 +87,11 @@ impl Own {
     }
 }
 
-/// Faces around one position from which on they are compared by their outer sides only: below, comparing all costs less.
+/// Faces around one position above which only their outer sides are compared. With fewer faces, comparing all costs less.
 const HIGH_VALENCE: u32 = 256;
 
 impl Faces {
-    /// Puts the objects' faces together; the meshes may be repaired ones.
+    /// Collects the objects' faces; the meshes may be repaired ones.
     pub(in crate::lines) fn new(space: &Space, parts: &[(&Object, Arc<Mesh>)]) -> Self {
         let mut positions = Vec::with_capacity(parts.iter().map(|(_, mesh)| mesh.positions.len()).sum());
         let mut welds = Vec::with_capacity(parts.len());
@@ -102,7 +103,7 @@ impl Faces {
         }
         let projected = filled(positions.len(), threads_for_items(positions.len()), (DVec2::ZERO, 0.0), |index| {
             let view: DVec3 = positions[index];
-            // What is not in front of the near plane is cut off there first.
+            // Parts that are not in front of the near plane are cut off there first.
             if -view.z >= space.near { space.project(view) } else { (DVec2::NAN, f64::NAN) }
         });
         let mut sorted = SortedFaces::default();
@@ -164,7 +165,7 @@ impl Faces {
         faces
     }
 
-    /// The plane that the face with this number shares with many, or [`NO_GROUP`].
+    /// Returns the plane that the face with this number shares with many, or [`NO_GROUP`].
     pub(in crate::lines) fn plane(&self, number: u32) -> u32 {
         self.planes.get(number as usize).copied().unwrap_or(NO_GROUP)
     }
@@ -174,7 +175,7 @@ impl Faces {
         self.welds.iter().map(|(_, weld)| *weld).fold(f64::INFINITY, f64::min)
     }
 
-    /// The distance below which positions of the object with this one count as one, file units.
+    /// The distance below which positions count as one in the object that has this position, file units.
     pub(in crate::lines) fn weld(&self, position: u32) -> f64 {
         self.welds[self.welds.partition_point(|(first, _)| *first <= position) - 1].1
     }
@@ -191,8 +192,8 @@ impl Faces {
         [self.positions[a as usize], self.positions[b as usize], self.positions[c as usize]]
     }
 
-    /// Whether a line is seen at a point: on one side of it at least, no face hides what is beside it at its own depth.
-    /// `any` calls what it is given with each face in a box until that returns true.
+    /// Whether a line is visible at a point: on at least one side of it, no face hides the surroundings at the line's own depth.
+    /// `any` calls its second argument with each face in a box until that returns true.
     pub(in crate::lines) fn leave_open(
         &self,
         space: &Space,
@@ -210,9 +211,10 @@ impl Faces {
         })
     }
 
-    /// On which sides of a line at a point a face is between it and the eye: the point lies clearly behind the face's plane,
-    /// its image, moved to that side by as little as one likes, in the face's, and where the ray passes the face is not nearer
-    /// than the near plane. The image lies on the face's rim if it is within `tie` file units of it: then the side decides.
+    /// Returns on which sides of a line at a point a face lies between it and the eye. Three conditions hold there. The point
+    /// lies clearly behind the face's plane. Its image, moved to that side by an arbitrarily small distance, lies in the face's
+    /// image. The ray meets the face no nearer than the near plane. An image within `tie` file units of the face's rim lies on
+    /// the rim: then the side decides.
     pub(in crate::lines) fn hides(&self, space: &Space, face: u32, probe: &Probe, tie: f64) -> [bool; 2] {
         const NEITHER: [bool; 2] = [false; 2];
         let numbers = self.triangles[face as usize];
@@ -228,7 +230,7 @@ impl Faces {
         let normal = ab.cross(ac);
         let longest = ab.length_squared().max(ac.length_squared()).max(bc.length_squared()).sqrt();
         let touching = CONTACT * longest.min(probe.line_length) + self.weld(numbers[0]).min(probe.weld);
-        // From a corner that both have they part: there touching is a matter of the angle.
+        // The line and the face may part from a common corner: there the angle decides whether they touch.
         let corner = (0..3).find(|corner| is_own[*corner]).map(|corner| [a, b, c][corner]);
         let share = corner.map_or(1.0, |corner| (probe.view.distance(corner) / probe.line_length).min(1.0));
         let contact = (touching * share + 4.0 * space.noise) * normal.length();
@@ -237,7 +239,7 @@ impl Faces {
             true => -normal.dot(a),
             false => normal.z,
         };
-        // Behind the plane, and farther from it than what counts as touching.
+        // Behind the plane, and farther from it than touching allows.
         if above.abs() <= contact || (above > 0.0) == (towards_eye > 0.0) || towards_eye == 0.0 {
             return NEITHER;
         }
@@ -264,7 +266,7 @@ impl Faces {
         if is_inside != NEITHER && is_beyond_near() { is_inside } else { NEITHER }
     }
 
-    /// The depth at which the ray from the eye to a point passes a plane through a point with a normal.
+    /// Returns the depth at which the ray from the eye to a point passes a plane, given by a point and a normal.
     pub(in crate::lines) fn hit_depth(&self, space: &Space, [point, normal]: [DVec3; 2], probe: &Probe) -> f64 {
         let to_eye = space.to_eye(probe.view);
         let share = normal.dot(point - probe.view) / normal.dot(to_eye);
@@ -272,13 +274,13 @@ impl Faces {
     }
 }
 
-/// Faces looked at by a thread at once.
+/// Faces that a thread sorts at once.
 const CHUNK: usize = 8192;
 
-/// Faces sorted by what matters of them.
+/// Faces sorted by how the eye sees them: in the picture, cut by the near plane, edge-on.
 #[derive(Default, Clone)]
 struct SortedFaces {
-    /// Those inside the picture and between the planes, with their numbers.
+    /// The boxes of faces inside the picture and between the planes, with the faces' numbers.
     boxes: Vec<Box3>,
     numbers: Vec<u32>,
     cut_by_near: Vec<u32>,
@@ -299,7 +301,7 @@ impl SortedFaces {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
         let to_eye = space.to_eye(a);
-        // No squares of products, which scenes of 1e58 do not hold.
+        // Squares of products overflow in scenes of 1e58.
         let height = normal.dot(to_eye).abs();
         let (length, distance) = (normal.length(), to_eye.length());
         let square = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared());
@@ -342,8 +344,8 @@ impl SortedFaces {
     }
 }
 
-/// For each face the position of it that is the corner of most faces, if these are more than [`HIGH_VALENCE`]; nothing if there is no
-/// such position. Faces that the near plane cuts have no image of their own sides and are left out.
+/// Returns for each face its position with the most faces, if these are more than [`HIGH_VALENCE`]; an empty list without such
+/// positions. Leaves out faces that the near plane cuts, because the images of their sides are incomplete.
 fn high_valence(triangles: &[[u32; 3]], positions: usize, cut_by_near: &[u32]) -> Vec<u32> {
     let mut counts = vec![0u32; positions];
     triangles.as_flattened().iter().for_each(|position| counts[*position as usize] += 1);
@@ -359,7 +361,7 @@ fn high_valence(triangles: &[[u32; 3]], positions: usize, cut_by_near: &[u32]) -
     high_valence
 }
 
-/// Where the line between two points passes the near plane, if it does.
+/// Returns the point where the line between two points passes the near plane, if it does.
 pub(in crate::lines) fn near_crossing(space: &Space, a: DVec3, b: DVec3) -> Option<DVec3> {
     let (above, below) = (-a.z - space.near, -b.z - space.near);
     if (above >= 0.0) == (below >= 0.0) {

@@ -1,4 +1,4 @@
-//! Lines as they lie in the picture, and trees of them.
+//! Images of lines in the picture, and trees of them.
 
 use crate::bvh::{Box3, BoxTree, Exclusion, Line3, NO_GROUP, Walk};
 use crate::lines::progress::Progress;
@@ -13,12 +13,12 @@ pub(in crate::lines) struct Image {
     pub a: DVec2,
     pub b: DVec2,
     pub keys: [f64; 2],
-    /// How far it may be off by the rounding of the world's own numbers, pixels.
+    /// How far the rounding of the world's own numbers may move it, pixels.
     pub noise_px: f64,
 }
 
 impl Image {
-    /// The image of what of a line is between the planes.
+    /// Returns the image of a line's part between the planes.
     pub(in crate::lines) fn of(space: &Space, ends: [DVec3; 2]) -> Option<Self> {
         let depths = ends.map(|end| -end.z);
         let mut range = [0.0f64, 1.0f64];
@@ -37,7 +37,7 @@ impl Image {
         if range[0] >= range[1] {
             return None;
         }
-        // The ends themselves as they are, so that lines that meet there meet in the picture.
+        // The ends themselves stay unchanged: lines that meet there meet in the picture.
         let point = |share: f64| match share {
             0.0 => ends[0],
             1.0 => ends[1],
@@ -57,12 +57,12 @@ impl Image {
         TOUCH * space.size.max_element() + self.noise_px
     }
 
-    /// From where to where on this line another lies on it, if it does: everywhere between it is nearer than `touch_px`.
+    /// Returns the range of this line that another line overlaps, if any: everywhere in it the other is nearer than `touch_px`.
     pub(in crate::lines) fn overlap(&self, other: &Self, touch_px: f64) -> Option<[f64; 2]> {
         let (first, last) = (self.place_of(other.a), self.place_of(other.b));
         let range = [first.min(last).max(0.0), first.max(last).min(1.0)];
         let length = (range[1] - range[0]) * self.length();
-        // Also of lines that only meet at their ends.
+        // Covers lines that only meet at their ends.
         if length <= touch_px || length.is_nan() {
             return None;
         }
@@ -73,20 +73,20 @@ impl Image {
         (is_on_it(range[0]) && is_on_it(range[1])).then_some(range)
     }
 
-    /// Where both have the same key on this line, if there is one such place: where two lines that lie on one another in the
-    /// picture change places in depth.
+    /// Returns the place on this line where both have the same key, if any. Two overlapping lines change their order in depth
+    /// there.
     pub(in crate::lines) fn same_key(&self, other: &Self) -> Option<f64> {
         let difference = |place: f64| self.key(place) - other.key(other.place_of(self.at(place)));
         let (start, end) = (difference(0.0), difference(1.0));
         ((start < 0.0) != (end < 0.0)).then(|| start / (start - end))
     }
 
-    /// The directions that a line may have which touches this one at two places, from where to where, as the third coordinate of
-    /// boxes; and the same once more half a turn away where they reach over an end. Of two lines one has what the other has then.
+    /// Returns the range of directions of lines that touch this one at two places, as the third coordinate of boxes. A range that
+    /// reaches over an end comes a second time, half a turn away: then of two lines, one has the other's direction.
     pub(in crate::lines) fn directions(&self, touch_px: f64) -> impl Iterator<Item = [f64; 2]> + use<> {
-        /// Far more than rounding turns a line by.
+        /// Far more than rounding turns a line.
         const LEAST: f64 = 1e-6;
-        /// Pixels that a radian counts: lines apart by their directions are then apart in the hierarchy, too.
+        /// Pixels per radian: lines of different directions then lie apart in the hierarchy, too.
         const PX: f64 = 1024.0;
         let along = self.b - self.a;
         let direction = along.y.atan2(along.x).rem_euclid(PI);
@@ -106,7 +106,7 @@ impl Image {
         }
     }
 
-    /// What lies at two places, in the world.
+    /// The points at two places, in the world.
     pub(in crate::lines) fn ends_world(&self, space: &Space, places: [f64; 2]) -> [DVec3; 2] {
         places.map(|place| space.world(space.point(self.at(place), self.key(place))))
     }
@@ -122,7 +122,7 @@ impl Image {
         if square > 0.0 { (px - self.a).dot(along) / square } else { 0.0 }
     }
 
-    /// From where to where a line is inside the picture with a margin around it (Liang and Barsky 1984).
+    /// Returns the range of a line inside the picture with a margin around it (Liang and Barsky 1984).
     pub(in crate::lines) fn inside(&self, size: DVec2, margin: f64) -> Option<[f64; 2]> {
         let along = self.b - self.a;
         let mut range = [0.0f64, 1.0f64];
@@ -140,7 +140,7 @@ impl Image {
         (range[0] <= range[1]).then_some(range)
     }
 
-    /// A range of places in parts no longer than so many pixels.
+    /// Cuts a range of places into parts no longer than `longest_px`.
     pub(in crate::lines) fn parts(
         &self,
         [from, to]: [f64; 2],
@@ -170,19 +170,19 @@ pub(in crate::lines) struct LineParts {
     high_valence: Vec<u32>,
 }
 
-/// The same, to be asked what overlaps.
+/// Parts of lines in a tree, for searches.
 pub(in crate::lines) struct LineTree {
     tree: BoxTree,
     numbers: Vec<u32>,
 }
 
 impl LineParts {
-    /// How many there are.
+    /// The count of parts.
     pub(in crate::lines) fn len(&self) -> usize {
         self.boxes.len()
     }
 
-    /// Adds those of another.
+    /// Adds another's parts.
     pub(in crate::lines) fn append(&mut self, other: Self) {
         self.boxes.extend(other.boxes);
         self.numbers.extend(other.numbers);
@@ -203,7 +203,7 @@ impl LineParts {
         self.high_valence.push(vertex);
     }
 
-    /// Their tree; one of nothing where the work is over before.
+    /// Builds their tree; an empty one if the time runs out.
     pub(in crate::lines) fn tree(self, progress: &Progress) -> LineTree {
         let (mut tree, order) = BoxTree::new_unless(&self.boxes, || progress.is_over());
         if order.len() < self.boxes.len() {
@@ -224,13 +224,13 @@ impl LineParts {
 }
 
 impl LineTree {
-    /// Calls `visit` with each line a part of which overlaps, perhaps several times, until it returns true.
+    /// Calls `visit` with each line that has a part in `query`, perhaps several times, until it returns true.
     pub(in crate::lines) fn any(&self, query: &Box3, mut visit: impl FnMut(usize) -> bool) -> bool {
         self.tree.any(query, |place| visit(self.numbers[place as usize] as usize))
     }
 
-    /// Calls `visit` with each line that may cross a part of another, perhaps several times, until it returns true; returns whether it
-    /// did. Leaves out whole leaves of excluded groups.
+    /// Calls `visit` with each line that may cross a part of another, perhaps several times, until it returns true; returns
+    /// whether it did. Leaves out whole nodes of excluded groups.
     pub(in crate::lines) fn any_along(
         &self,
         line: Line3,

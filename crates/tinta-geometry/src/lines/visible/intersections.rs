@@ -1,9 +1,9 @@
-//! Where faces pass through one another.
+//! The lines where faces pass through one another.
 //!
 //! Two faces do if each reaches across the other's plane and their parts of the line common to both planes overlap. A corner
-//! nearer to a plane than the contact distance lies in it. A face with an edge in the other's plane only touches the other face;
-//! there the *surfaces* decide: they intersect if their half-planes around that edge alternate. No rule depends on how a
-//! face is wound.
+//! nearer to a plane than the contact distance lies in it. A face with an edge in the other's plane only touches the other face.
+//! There the *surfaces* decide: they intersect if their half-planes around that edge alternate. No rule depends on a face's
+//! winding.
 
 use crate::bvh::{Box3, LARGEST_LEAF, NO_GROUP, NodeSelection, counting_steps, steps};
 use crate::lines::input::object_edges::ObjectEdges;
@@ -27,7 +27,7 @@ pub(in crate::lines) struct Intersection {
     pub ends: [DVec3; 2],
 }
 
-/// A place where an edge passes through a face.
+/// A point where an edge passes through a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::lines) struct Piercing {
     /// The edge's positions, the lower number first.
@@ -36,13 +36,13 @@ pub(in crate::lines) struct Piercing {
     pub point: DVec3,
 }
 
-/// What faces that pass through one another have in common.
+/// The common lines and points of faces that pass through one another.
 #[derive(Default)]
 pub(in crate::lines) struct Intersections {
     /// By their faces' numbers.
     pub lines: Vec<Intersection>,
     pub piercings: Vec<Piercing>,
-    /// Boxes looked at.
+    /// Count of tested boxes.
     pub compared: u64,
 }
 
@@ -52,8 +52,8 @@ fn is_hidden(space: &Space, pyramid: &Pyramid, ends: [DVec3; 2]) -> bool {
 }
 
 impl Intersections {
-    /// Leaves out lines that a pyramid hides. Edges are still cut where they pass through faces: at a shallow angle a cut may lie a
-    /// little behind another face, and without it what is seen before it would be one piece with what is not.
+    /// Leaves out lines that a pyramid hides. Piercings stay: at a shallow angle a cut may lie a little behind another face, and
+    /// without it a visible part would form one piece with a hidden one.
     pub(in crate::lines) fn leave_out_hidden(&mut self, space: &Space, pyramid: &Pyramid) {
         let is_open = |line: &Intersection| !is_hidden(space, pyramid, line.ends);
         let are_open =
@@ -63,8 +63,8 @@ impl Intersections {
     }
 }
 
-/// All intersections of a scene's faces and where edges pierce faces; of what a pyramid hides none. Not all where the work is to
-/// end before it is done.
+/// Finds all intersections of a scene's faces that a pyramid does not hide, and the points where edges pierce faces. The list is
+/// incomplete if the time runs out.
 pub(in crate::lines) fn intersections(
     space: &Space,
     faces: &Faces,
@@ -124,17 +124,17 @@ pub(in crate::lines) fn intersections(
     }
 }
 
-/// What is asked about faces that meet.
+/// The input of a search for faces that meet.
 struct Meeting<'a> {
     space: &'a Space,
     faces: &'a Faces,
     nearest_faces: Option<&'a NearestFaces>,
 }
 
-/// What is kept of what was found.
+/// The results that a search keeps.
 #[derive(Default)]
 struct Findings {
-    /// Those that the nearest faces do not hide.
+    /// Lines that the nearest faces do not hide.
     lines: Vec<FaceCrossing>,
     piercings: Vec<Piercing>,
 }
@@ -158,9 +158,9 @@ impl Findings {
     }
 }
 
-/// Of lines in the same place the first, which stands for all: spokes that end in one axis have one line there, not one for each two.
+/// Keeps the first of lines in the same place. Spokes that end in one axis have one line there, not one for each two.
 fn without_repeated(space: &Space, faces: &Faces, mut lines: Vec<Intersection>) -> Vec<Intersection> {
-    /// Of what counts as touching.
+    /// The resolution of places, as a share of the contact distance.
     const SAME: f64 = 0.01;
     let mut places: HashSet<[[i64; 3]; 2]> = HashSet::new();
     lines.retain(|line| {
@@ -172,8 +172,8 @@ fn without_repeated(space: &Space, faces: &Faces, mut lines: Vec<Intersection>) 
     lines
 }
 
-/// Intersections of faces around one high-valence vertex that may be seen: they begin at that vertex and end where the side opposite
-/// to it passes through a face. With the number of boxes compared.
+/// Returns the intersections of faces around one high-valence vertex that may be visible, with the number of boxes compared. They
+/// begin at that vertex and end where the side opposite to it passes through a face.
 fn around_high_valence(
     meeting: &Meeting,
     is_seen: impl Fn(u32) -> bool + Sync,
@@ -190,7 +190,7 @@ fn around_high_valence(
         let vertex = faces.high_valence[place as usize];
         vertex != NO_GROUP && !shared_edges.contains(&vertex) && is_seen(place)
     };
-    // Around the side opposite to the high-valence vertex, of those that are asked.
+    // The box around the side opposite to the high-valence vertex, for faces in the search.
     let side_box = |place: usize| {
         is_asked(place as u32).then(|| {
             let vertex = faces.high_valence[place];
@@ -200,7 +200,7 @@ fn around_high_valence(
                 px.extend(key)
             });
             let (low, high) = crate::mesh::bounds(&images.collect::<Vec<_>>());
-            // What counts as touching is a hundred-thousandth of a side.
+            // The contact distance is a hundred-thousandth of a side.
             let margin = (high - low).max_element() * (8.0 * CONTACT);
             Box3::new(low - margin, high + margin)
         })
@@ -233,7 +233,7 @@ fn around_high_valence(
     })
 }
 
-/// High-valence vertices whose faces all have a second corner in common: an edge, and nothing else.
+/// Returns the high-valence vertices whose faces all share a second corner: these faces have only that edge in common.
 fn shared_edges(faces: &Faces) -> HashSet<u32> {
     let mut common: HashMap<u32, Vec<u32>> = HashMap::new();
     for (vertex, corners) in faces.high_valence.iter().zip(&faces.triangles).filter(|(vertex, _)| **vertex != NO_GROUP)
@@ -243,7 +243,7 @@ fn shared_edges(faces: &Faces) -> HashSet<u32> {
     common.into_iter().filter(|(_, corners)| corners.len() > 1).map(|(vertex, _)| vertex).collect()
 }
 
-/// What two faces have in common.
+/// The common part of two faces.
 #[derive(Debug, Clone, Copy)]
 struct FaceCrossing {
     /// The one with the lower number first.
@@ -252,11 +252,11 @@ struct FaceCrossing {
     /// Whether it is long enough, and between faces high enough, to be a line: needles are cut but draw none.
     is_line: bool,
     piercings: [Option<Piercing>; 2],
-    /// Each face's edge that lies in the other's plane, if one does.
+    /// Each face's edge that lies in the other's plane, if any.
     touching: [Option<[u32; 2]>; 2],
 }
 
-/// How edges were split at T-junctions.
+/// The splits of edges at T-junctions.
 struct SplitEdges<'a> {
     parts: &'a [ObjectEdges<'a>],
     /// Each part's first position.
@@ -279,8 +279,8 @@ impl<'a> SplitEdges<'a> {
         [edge[0]].into_iter().chain(on_edge.map(|position| position + start)).chain([edge[1]]).collect()
     }
 
-    /// The places where edges pass through faces, for the piece of the edge that has it, and for its neighbours: it may be where they
-    /// meet. What lies beyond a piece's end does not cut it.
+    /// Assigns each piercing of an edge to the piece that holds it, and to that piece's neighbours, because they may meet there.
+    /// A point beyond a piece's end does not cut the piece.
     fn piercings(&self, faces: &Faces, found: Vec<Piercing>) -> Vec<Piercing> {
         if !self.parts.iter().any(ObjectEdges::has_split_edges) {
             return found;
@@ -308,7 +308,7 @@ fn piece_at(faces: &Faces, way: &[u32], point: DVec3) -> usize {
     way[1..way.len() - 1].partition_point(|at| (faces.positions[*at as usize] - point).dot(along) <= 0.0)
 }
 
-/// The faces at each edge that lies in another face's plane: how the surface goes on there, T-junctions split.
+/// The faces at each edge that lies in another face's plane: how the surface continues there, with T-junctions split.
 struct HalfPlanes {
     /// The positions along each edge at which it was split, with its own.
     ways: HashMap<[u32; 2], Vec<u32>>,
@@ -345,8 +345,8 @@ impl HalfPlanes {
         &self.thirds[&[way[number].min(way[number + 1]), way[number].max(way[number + 1])]]
     }
 
-    /// Whether the two surfaces pass through one another along a line: going round it, half-planes of one and of the other follow
-    /// one another twice. Half-planes of both that lie on one another count for neither.
+    /// Whether two surfaces pass through one another along a line: around it, half-planes of one and of the other follow one
+    /// another twice. Half-planes of both that coincide count for neither.
     fn pass_through(&self, space: &Space, faces: &Faces, found: &FaceCrossing) -> bool {
         if found.touching == [None; 2] {
             return true;
@@ -406,11 +406,11 @@ struct FacePlane {
     /// The longest side.
     longest: f64,
     weld: f64,
-    /// What counts as touching at most, whatever the other face, times the normal's length.
+    /// The largest contact distance with any other face, times the normal's length.
     loose: f64,
 }
 
-/// Two faces of which each reaches across the other's plane or has an edge in it.
+/// Two faces that each reach across the other's plane or have an edge in it.
 struct Pair<'a> {
     faces: &'a Faces,
     places: [u32; 2],
@@ -420,13 +420,13 @@ struct Pair<'a> {
     direction: DVec3,
     /// The place in each face of the one corner they share.
     shared: Option<[usize; 2]>,
-    /// Length below which nothing is a line.
+    /// The length of the shortest line.
     shortest: f64,
     /// Each face's edge that lies in the other's plane.
     touching: [Option<[u32; 2]>; 2],
 }
 
-/// Where a side of one face passes the other's plane.
+/// A point where a side of one face passes the other's plane.
 #[derive(Clone, Copy)]
 struct Crossing {
     /// Along the common line.
@@ -446,7 +446,7 @@ impl FacePlane {
         Self { place, numbers, corners, normal, normal_length, longest, weld, loose }
     }
 
-    /// What this face and another have in common, if each has corners on both sides of the other's plane.
+    /// Returns the common part of this face and another, if each has corners on both sides of the other's plane.
     fn meet(&self, space: &Space, faces: &Faces, other: u32) -> Option<FaceCrossing> {
         let numbers = faces.triangles[other as usize];
         let mut shared = None;
@@ -457,7 +457,7 @@ impl FacePlane {
                 shared_count += 1;
             }
         }
-        // Neighbours along an edge have that in common and nothing else, unless they lie on one another.
+        // Neighbours along an edge have only the edge in common, unless they lie on one another.
         if shared_count > 1 {
             return None;
         }
@@ -469,7 +469,7 @@ impl FacePlane {
         }
         let other = Self::new(space, faces, other);
         let contact = self.contact(space, &other);
-        // A face no higher than what counts as touching is a line and has no plane, but may still pass through a face.
+        // A face no higher than the contact distance is a line and has no plane, but may still pass through a face.
         let is_needle = |face_plane: &Self| face_plane.normal_length <= contact * face_plane.longest;
         match (is_needle(self), is_needle(&other)) {
             (true, true) => return None,
@@ -480,7 +480,7 @@ impl FacePlane {
         let second = Sides::of(raw, own, contact * self.normal_length)?;
         let raw = other.raw_distances(self.corners);
         let first = Sides::of(raw, shared.map(|[i, _]| i), contact * other.normal_length)?;
-        // Where each only touches the other's plane they have a line in common if both edges lie on one another.
+        // Where each only touches the other's plane, they have a line in common if both edges lie on one another.
         if let (Some(edge), Some(other_edge)) = (first.edge, second.edge)
             && !lie_on_one_line(edge.map(|i| self.corners[i]), other_edge.map(|i| other.corners[i]), contact)
         {
@@ -506,7 +506,7 @@ impl FacePlane {
         .common()
     }
 
-    /// Where the sides of this face, too thin to have a plane, pass through another.
+    /// Returns the points where the sides of this face, too thin to have a plane, pass through another.
     fn needle_through(&self, faces: &Faces, other: &Self, contact: f64) -> Option<FaceCrossing> {
         let distances = Sides::of(other.raw_distances(self.corners), None, contact * other.normal_length)?.distances;
         let (places, kept) = match faces.in_order(self.place, other.place) {
@@ -532,14 +532,14 @@ impl FacePlane {
         Some(FaceCrossing { faces: places, ends: [point; 2], is_line: false, piercings, touching: [None; 2] })
     }
 
-    /// Whether a point of the plane lies in the face, or so near its rim that a cut too many is all that comes of it.
+    /// Whether a point of the plane lies in the face, or so near its rim that the error is at most a needless cut.
     fn contains(&self, point: DVec3) -> bool {
         let [a, b, c] = self.corners;
         let least = -CONTACT * self.normal_length * self.normal_length;
         [(a, b), (b, c), (c, a)].iter().all(|(from, to)| (*to - *from).cross(point - *from).dot(self.normal) >= least)
     }
 
-    /// Distance below which this face and another touch, file units.
+    /// The distance below which this face and another touch, file units.
     fn contact(&self, space: &Space, other: &Self) -> f64 {
         CONTACT * self.longest.min(other.longest) + self.weld.min(other.weld) + 4.0 * space.noise
     }
@@ -551,16 +551,17 @@ impl FacePlane {
     }
 }
 
-/// How a face that reaches another's plane lies to it.
+/// The position of a face relative to a plane that it reaches.
 struct Sides {
-    /// 0 for corners that touch the plane, below it where all others lie on one side.
+    /// 0 for corners that touch the plane. Negative where all others lie on one side.
     distances: [f64; 3],
     /// The two corners that touch it, where the third lies clearly on one side: the face ends or bends there.
     edge: Option<[usize; 2]>,
 }
 
 impl Sides {
-    /// Of a face with corners on both sides of a plane, or with an edge in it. Where two faces share a corner, that lies in both planes.
+    /// Returns the position of a face with corners on both sides of a plane, or with an edge in it. A corner that two faces share
+    /// lies in both planes.
     fn of(mut distances: [f64; 3], shared: Option<usize>, touching: f64) -> Option<Self> {
         let (mut below, mut above) = (false, false);
         for (index, distance) in distances.iter_mut().enumerate() {
@@ -587,7 +588,7 @@ fn lie_on_one_line([a, b]: [DVec3; 2], other: [DVec3; 2], distance: f64) -> bool
 }
 
 impl Pair<'_> {
-    /// The line both have in common, if their parts of it overlap.
+    /// Returns the line that both have in common, if their parts of it overlap.
     fn common(&self) -> Option<FaceCrossing> {
         let mut overlap = true;
         let (low, high) = match self.shared {
@@ -628,17 +629,17 @@ impl Pair<'_> {
         })
     }
 
-    /// Where a face's rim passes the other's plane: the lower place along the common line first.
+    /// Returns the points where a face's rim passes the other's plane, the lower place along the common line first.
     fn both_crossings(&self, face: usize) -> Option<(Crossing, Crossing)> {
         let mut crossings = (0..3).filter_map(|corner| self.crossing(face, corner, (corner + 1) % 3));
         let (first, second) = (crossings.next()?, crossings.next()?);
         Some(if first.along <= second.along { (first, second) } else { (second, first) })
     }
 
-    /// Where the side between two corners of a face passes the other's plane, if it does.
+    /// Returns the point where the side between two corners of a face passes the other's plane, if it does.
     fn crossing(&self, face: usize, from: usize, to: usize) -> Option<Crossing> {
         let numbers = self.faces.triangles[self.places[face] as usize];
-        // Of two faces that share the side both get the same point, bit for bit.
+        // Two faces that share the side both get the same point, bit for bit.
         let (from, to) = if numbers[from] < numbers[to] { (from, to) } else { (to, from) };
         let (start, end) = (self.distances[face][from], self.distances[face][to]);
         if (start < 0.0) == (end < 0.0) {

@@ -1,4 +1,4 @@
-//! All lines with their images, and the trees in which whatever hides or crosses one is found.
+//! All lines with their images, and the trees that find every face that hides a line and every line that crosses it.
 
 use crate::bvh::{Box3, Exclusion, NO_GROUP, Walk};
 use crate::error::Result;
@@ -20,41 +20,41 @@ use glam::DVec3;
 use std::cell::LazyCell;
 use std::collections::HashMap;
 
-/// All lines with their images, ready to be decided one by one.
+/// All lines with their images, ready for a decision on each.
 pub(in crate::lines) struct LineIndex<'a> {
     pub(in crate::lines) space: &'a Space,
     pub(in crate::lines) faces: &'a Faces,
     pub(in crate::lines) features: &'a [Feature],
-    /// Of what of each line is between the near and the far plane.
+    /// The image of each line's part between the near and the far plane.
     pub(in crate::lines) images: Vec<Option<Image>>,
-    /// Where edges pass through faces.
+    /// The points where edges pass through faces.
     pub(in crate::lines) piercings: HashMap<[u32; 2], Vec<DVec3>>,
-    /// Where surfaces end: what any line may be crossed by.
+    /// The rims, where surfaces end: they may cross any line.
     pub(in crate::lines) rims: LineTree,
-    /// What hides others; `None` where the faces as they are do.
+    /// The faces that may hide lines, in parts; `None` where the faces' own tree serves.
     occluders: Option<Occluders>,
-    /// Which faces are nearest; `None` where little lies in front of one another.
+    /// The nearest face at each sample; `None` where few faces overlap in the picture.
     pub(in crate::lines) nearest_faces: Option<&'a NearestFaces>,
-    /// The wanted lines, with the direction of their images for a third coordinate: what a line may lie on.
+    /// The wanted lines, with the direction of their images as the third coordinate: the candidates for overlapping lines.
     pub(in crate::lines) overlapping: LineTree,
-    /// Many lines that lie on one another.
+    /// Bundles of many overlapping lines.
     pub(in crate::lines) bundles: Bundles,
     pub(in crate::lines) shortest_px: f64,
     pub(in crate::lines) finds_outline: bool,
     pub(in crate::lines) finds_hidden: bool,
 }
 
-/// Parts of the picture's larger side in which long lines are asked for what crosses them, so that a diagonal one does not
-/// ask for everything in its box.
+/// Parts along the picture's larger side. Long lines search for crossings part by part, because the box of a diagonal line
+/// overlaps too much.
 pub(in crate::lines) const PARTS_OF_PICTURE: f64 = 16.0;
 
-/// What a part of a line takes while its tree is built, at the most, bytes: box, nodes, numbers, and what building them needs.
+/// Most bytes that a part of a line takes while its tree is built: box, nodes, numbers, and the builder's memory.
 const BYTES_A_PART: usize = 320;
 
 /// Lines whose parts a thread finds at once.
 const MADE_AT_ONCE: usize = 4096;
 
-/// Parts' lines between two looks at the time.
+/// Lines whose parts are found between two checks of the time.
 const LINES_A_GLANCE: usize = 64;
 
 impl<'a> LineIndex<'a> {
@@ -72,7 +72,7 @@ impl<'a> LineIndex<'a> {
         let side = space.size.max_element();
         let high_valence = high_valence(features);
         let occluders = Occluders::new(space, faces, pyramid, nearest_faces.is_some());
-        // Where much lies behind one another a box is asked for by many.
+        // Where many faces overlap, many lines search the same box.
         let rim_px = side / PARTS_OF_PICTURE / if nearest_faces.is_some() { 4.0 } else { 1.0 };
         let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
             let (mut rims, mut overlapping) = (LineParts::default(), LineParts::default());
@@ -88,7 +88,7 @@ impl<'a> LineIndex<'a> {
                 let ends = |part: [f64; 2]| part.map(|place| (image.at(place), image.key(place)));
                 for part in image.parts(range, side / PARTS_OF_PICTURE) {
                     let is_hidden = LazyCell::new(|| pyramid.is_some_and(|pyramid| pyramid.hides_line(ends(part))));
-                    // What is hidden for sure changes nothing where anything is seen; but for the outline at any depth.
+                    // A rim that is hidden for sure changes no visible line. The outline needs rims at any depth.
                     let is_rim = feature.occludes && (finds_outline || !*is_hidden);
                     let is_beside = feature.class.is_some() && (finds_hidden || !*is_hidden);
                     for part in image.parts(part, rim_px).filter(|_| is_rim) {
@@ -134,7 +134,7 @@ impl<'a> LineIndex<'a> {
         })
     }
 
-    /// Where a part of a line begins, is cut and ends. A piece shorter than the shortest line belongs to its neighbour.
+    /// Returns the places where a part of a line begins, is cut and ends. A piece below the shortest length joins its neighbour.
     pub(in crate::lines) fn places(&self, image: &Image, [from, to]: [f64; 2], mut cuts: Vec<f64>) -> Vec<f64> {
         cuts.sort_unstable_by(f64::total_cmp);
         let shortest = self.shortest_px / image.length();
@@ -145,8 +145,8 @@ impl<'a> LineIndex<'a> {
         places
     }
 
-    /// Calls `visit` with each face that may hide something and whose box overlaps, perhaps several times, until it returns true;
-    /// without those in these planes, as far as whole groups are.
+    /// Calls `visit` with each face that may hide something and whose box overlaps, perhaps several times, until it returns true.
+    /// Leaves out faces in these planes where whole leaves lie in them.
     pub(in crate::lines) fn any_occluder(
         &self,
         query: &Box3,
@@ -163,8 +163,7 @@ impl<'a> LineIndex<'a> {
         }
     }
 
-    /// Shows a walk the faces that may hide something, perhaps several times, without those in excluded groups, as far as whole groups
-    /// are.
+    /// Shows a walk the faces that may hide something, perhaps several times. Leaves out whole nodes of excluded groups.
     pub(in crate::lines) fn walk_occluders(&self, excluded: Exclusion, walk: &mut impl Walk) {
         match &self.occluders {
             Some(occluders) => occluders.walk(excluded, walk),
@@ -172,7 +171,7 @@ impl<'a> LineIndex<'a> {
         }
     }
 
-    /// A place of a line as the faces are asked about it.
+    /// Returns the probe that tests faces at a place of a line.
     pub(in crate::lines) fn probe(&self, index: usize, image: &Image, place: f64) -> Probe {
         let (px, key) = (image.at(place), image.key(place));
         let feature = &self.features[index];
@@ -191,10 +190,10 @@ impl<'a> LineIndex<'a> {
     }
 }
 
-/// Rims that end in one position from which on they are told apart from others: below, comparing all costs less.
+/// Rims in one position above which they form a group: with fewer, comparing all costs less.
 const HIGH_VALENCE: u32 = 64;
 
-/// How many rims end in each position, as far as these are more than [`HIGH_VALENCE`].
+/// Counts the rims that end in each position; keeps counts above [`HIGH_VALENCE`].
 fn high_valence(features: &[Feature]) -> HashMap<u32, u32> {
     let mut counts: HashMap<u32, u32> = HashMap::new();
     for feature in features.iter().filter(|feature| feature.occludes) {
@@ -206,7 +205,7 @@ fn high_valence(features: &[Feature]) -> HashMap<u32, u32> {
     counts
 }
 
-/// The high-valence vertex in which an edge ends, if it does in one; of two that with more rims.
+/// Returns the high-valence vertex at an end of an edge, if any; of two, the one with more rims.
 fn vertex_of(high_valence: &HashMap<u32, u32>, own: Own) -> u32 {
     let Own::Edge(ends) = own else { return NO_GROUP };
     let known = ends.into_iter().filter_map(|end| Some((*high_valence.get(&end)?, end)));

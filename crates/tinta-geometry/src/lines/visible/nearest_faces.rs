@@ -1,8 +1,8 @@
-//! Which face is the nearest at samples of the picture, for scenes in which much lies in front of one another.
+//! The nearest face at samples of the picture, for scenes with many overlapping faces.
 //!
-//! Of all that hides a place the nearest face is the likeliest to hide what is around it, too, and a depth buffer of numbers finds it
-//! at once, where a hierarchy of boxes gives one after the other. It decides nothing: whether the face hides something is asked by the
-//! rule that is sure.
+//! Of all faces that hide a place, the nearest is the likeliest to hide its surroundings, too. A depth buffer of face numbers
+//! finds it at once, while a hierarchy of boxes returns candidates one by one. The buffer decides nothing: the sure rule tests
+//! whether the face hides a line.
 
 use crate::bvh::NO_GROUP;
 use crate::lines::progress::Progress;
@@ -17,7 +17,7 @@ use crate::threads::{cores, in_chunks};
 use glam::DVec2;
 use std::borrow::Cow;
 
-/// How often the boxes of all faces cover the picture from which on the nearest is known at samples.
+/// How often the boxes of all faces must cover the picture before the samples are made.
 const LAYERS: f64 = 24.0;
 
 /// Samples along the picture's larger side.
@@ -26,24 +26,24 @@ const SAMPLES: f64 = 512.0;
 /// Rows of samples that a thread fills at once.
 const ROWS_AT_ONCE: usize = 32;
 
-/// Faces between two looks at the time.
+/// Faces between two checks of the time.
 const FACES_A_GLANCE: u32 = 1024;
 
 /// The nearest faces, and the images of all.
 pub(in crate::lines) struct NearestFaces {
-    /// By their places; of none where these are too many to keep.
+    /// By the faces' places; empty where the faces are too many to keep.
     images: Vec<FaceImage>,
     sample_px: f64,
     columns: usize,
-    /// Row by row; [`NO_GROUP`] where there is none.
+    /// Row by row; [`NO_GROUP`] marks an empty sample.
     nearest: Vec<u32>,
 }
 
 impl NearestFaces {
-    /// Faces that are asked about a line.
+    /// Faces that are tested against a line.
     const ASKED: usize = 4;
 
-    /// `None` where little lies in front of one another; of some faces where the time is over before.
+    /// Finds the nearest faces; `None` where few faces overlap. Some faces are missing if time runs out.
     pub(in crate::lines) fn new(space: &Space, faces: &Faces, progress: &Progress) -> Option<Self> {
         if layers(space, faces.tree.boxes().iter()) < LAYERS {
             return None;
@@ -56,7 +56,7 @@ impl NearestFaces {
         Some(Self { nearest: bands.concat(), ..nearest_faces })
     }
 
-    /// Some rows of samples.
+    /// Returns some rows of samples.
     fn band(&self, space: &Space, faces: &Faces, rows: std::ops::Range<usize>, progress: &Progress) -> Vec<u32> {
         let mut nearest = vec![(f64::INFINITY, NO_GROUP); rows.len() * self.columns];
         let [top_px, bottom_px] = [rows.start, rows.end].map(|row| row as f64 * self.sample_px);
@@ -90,7 +90,7 @@ impl NearestFaces {
         nearest.into_iter().map(|(_, face)| face).collect()
     }
 
-    /// A face's image.
+    /// Returns a face's image.
     pub(in crate::lines) fn image(&self, space: &Space, faces: &Faces, face: u32) -> Cow<'_, FaceImage> {
         match self.images.get(face as usize) {
             Some(image) => Cow::Borrowed(image),
@@ -98,15 +98,15 @@ impl NearestFaces {
         }
     }
 
-    /// The nearest face at a pixel, about.
+    /// Returns the nearest face at about a pixel.
     fn at(&self, px: DVec2) -> Option<u32> {
         let [column, row] = (px / self.sample_px).max(DVec2::ZERO).to_array().map(|at| at as usize);
         let face = *self.nearest.get(row * self.columns + column.min(self.columns - 1))?;
         (face != NO_GROUP).then_some(face)
     }
 
-    /// What of a part of a line the nearest faces hide for sure, ascending: asked in the middle of the longest gap that is left, as long as
-    /// that finds something. `stretch` makes of a part what faces are asked about.
+    /// Returns the ranges of a part of a line that the nearest faces hide for sure, ascending. Tests the longest open gap, at its
+    /// middle and its ends, at most `most` times. `probe` turns a gap into the probe for faces.
     fn hidden(
         &self,
         space: &Space,
@@ -157,7 +157,7 @@ impl NearestFaces {
 }
 
 impl FaceImage {
-    /// From where to where a level line is inside.
+    /// Returns the range of a horizontal line inside the image.
     fn inside_at(&self, y: f64) -> Option<[f64; 2]> {
         let mut range = [f64::NEG_INFINITY, f64::INFINITY];
         for (inwards, start) in self.sides() {
@@ -175,7 +175,7 @@ impl FaceImage {
 }
 
 impl Faces {
-    /// The key of a face's plane at the picture's corner, and how it grows.
+    /// Returns the key of a face's plane at the picture's corner, and its gradient.
     fn key_plane(&self, space: &Space, face: u32) -> (f64, DVec2) {
         let [(a, key), (b, key_b), (c, key_c)] = self.corners(face).map(|corner| space.project(corner));
         let (u, v) = (b - a, c - a);

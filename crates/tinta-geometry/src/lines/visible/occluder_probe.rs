@@ -1,6 +1,6 @@
-//! What single faces hide of a part of a line for sure, and what they may hide.
+//! The parts of a line that single faces hide for sure, and those that they may hide.
 //!
-//! Both are decided by plain linear equations; all that is not sure is left to the exact rules, which would say the same.
+//! Plain linear equations decide both. The exact rules decide the rest; where the equations are sure, the exact rules agree.
 
 use crate::lines::visible::face_image::FaceImage;
 use crate::lines::visible::faces::{Faces, NO_POSITION, Own};
@@ -10,16 +10,16 @@ use crate::lines::visible::space::Space;
 use crate::tolerances::{CONTACT, NEAR_CORNER, TIP};
 use glam::{DVec2, DVec3};
 
-/// What a search looks for.
+/// The depths at which a search finds faces.
 #[derive(Clone, Copy, PartialEq)]
 pub(in crate::lines) enum SearchDepth {
-    /// What is nearer to the eye.
+    /// Faces nearer to the eye.
     Nearer,
-    /// What is there at any depth.
+    /// Faces at any depth.
     Any,
 }
 
-/// A line of which it is asked what hides it.
+/// A line, to find the faces that hide it.
 #[derive(Clone, Copy)]
 pub(in crate::lines) struct ProbedLine {
     pub own: Own,
@@ -29,32 +29,33 @@ pub(in crate::lines) struct ProbedLine {
     pub weld: f64,
 }
 
-/// A part of such a line.
+/// A part of a line, to find the faces that hide it.
 pub(in crate::lines) struct OccluderProbe {
     part: [f64; 2],
     pub px: [DVec2; 2],
     /// In the eye's space.
     view: [DVec3; 2],
     own: Own,
-    /// The positions in which the line ends, as far as it ends in some.
+    /// The positions at the line's ends, where it ends in positions.
     own_ends: [u32; 2],
-    /// The positions in which the part begins and ends, as far as it ends in some.
+    /// The positions at the part's ends, where it ends in positions.
     corners: [u32; 2],
-    /// So near to such a corner what faces around it hide is hidden up to there, shares of the line.
+    /// The distance from such a corner within which a hidden range of a face around the corner reaches it, shares of the line.
     near_corner: f64,
-    /// So near to where the part begins and ends what any face hides is hidden up to there, shares of the line.
+    /// The distance from the part's ends within which any hidden range reaches them, shares of the line.
     tips: [f64; 2],
     line_length: f64,
     weld: f64,
     touch_px: f64,
-    /// What rounding may move a point by, pixels.
+    /// How far rounding may move a point, pixels.
     noise_px: f64,
     is_nearer_sought: bool,
 }
 
 impl Own {
-    /// So near to its end what a face hides of a line is hidden up to there, a share of its length. An intersection ends where an edge passes
-    /// through a face, often in a plane in which others lie, too, and behind none of these for sure.
+    /// Returns the distance from the line's end within which a hidden range reaches the end, a share of the length. An
+    /// intersection ends where an edge passes through a face, often in a plane that holds other faces, too. None of these hides
+    /// the end for sure.
     pub(in crate::lines) fn tip(self, space: &Space, length_px: f64) -> f64 {
         match self {
             Self::Edge(_) => 0.0,
@@ -64,7 +65,7 @@ impl Own {
 }
 
 impl OccluderProbe {
-    /// The part between two places of the line's image.
+    /// Creates the probe for the part between two places of the line's image.
     pub(in crate::lines) fn new(
         space: &Space,
         faces: &Faces,
@@ -100,23 +101,23 @@ impl OccluderProbe {
         u8::from(is_own(numbers[0])) + u8::from(is_own(numbers[1])) + u8::from(is_own(numbers[2])) == 2
     }
 
-    /// Whether the part lies beyond one side of a face's image by more than any rule forgives, as
-    /// [`Faces::hidden_ranges`] would find at more cost.
+    /// Whether the part lies beyond one side of a face's image by more than any tolerance. [`Faces::hidden_ranges`] would find
+    /// the same at more cost.
     pub(in crate::lines) fn is_beside(&self, space: &Space, points: [DVec2; 3]) -> bool {
         let sign = (points[1] - points[0]).perp_dot(points[2] - points[0]).signum();
         let reach = points.iter().map(|px| px.abs().max_element()).fold(space.size.max_element(), f64::max);
         let forgiven_px = 2.0 * self.touch_px + reach * FaceImage::ROUNDING;
         (0..3).any(|side| {
             let (from, along) = (points[side], points[(side + 1) % 3] - points[side]);
-            // No smaller than the length, and no root.
+            // At least the length, without a root.
             let length = along.abs().element_sum();
             let is_side = along.abs().max_element() > 2.0 * self.touch_px;
             is_side && self.px.iter().all(|px| sign * along.perp_dot(*px - from) < -forgiven_px * length)
         })
     }
 
-    /// A range that a face hides, up to where the line ends in one of its corners, for there both touch, and nothing comes between; and up
-    /// to any end that is very near.
+    /// Extends a range that a face hides to an end that is very near, or to a near end in one of the face's corners: the line and
+    /// the face touch there, and no third face comes between.
     pub(in crate::lines) fn up_to_ends(&self, mut range: [f64; 2], corners: [u32; 3]) -> [f64; 2] {
         for (end, place) in range.iter_mut().enumerate() {
             let left = (*place - self.part[end]).abs();
@@ -138,7 +139,7 @@ impl Faces {
     ) -> [Option<[f64; 2]>; 2] {
         const NOTHING: [Option<[f64; 2]>; 2] = [None; 2];
         let is_cut = !self.cut_by_near.is_empty() && self.cut_by_near.binary_search(&face).is_ok();
-        // How far inside of each side both ends are; most faces in the box of a part lie beside it.
+        // How far inside of each side both ends are. Most faces in the box of a part lie beside it.
         let [from, to] = probe.px;
         let of_side = |side: usize| [image.inside(side, from), image.inside(side, to)];
         let inside = [of_side(0), of_side(1), of_side(2)];
@@ -162,11 +163,11 @@ impl Faces {
         let [mut sure, mut may] = [Some(probe.part); 2];
         for side in 0..3 {
             if !is_side(side) {
-                // No direction to speak of.
+                // Too short for a direction.
                 sure = None;
                 continue;
             }
-            // A side that begins where the line ends runs beside it as near as one likes.
+            // A side that begins at the line's end runs beside the line at any small distance.
             let is_beside = probe.is_nearer_sought && (is_own[side] || is_own[(side + 1) % 3]);
             let margin = if is_beside { 8.0 * probe.noise_px } else { 2.0 * probe.touch_px } + image.rounding_px;
             let [start, end] = inside[side];
@@ -183,7 +184,7 @@ impl Faces {
         let normal = (b - a).cross(c - a);
         let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
         let touching = CONTACT * longest.min(probe.line_length) + self.weld(numbers[0]).min(probe.weld);
-        // As in the exact rule, the less the nearer to a corner that both have.
+        // As in the exact rule, contact shrinks towards a corner that both have.
         let corner = (0..3).find(|corner| is_own[*corner]).map(|corner| [a, b, c][corner]);
         let contacts = probe.view.map(|view| {
             let share = corner.map_or(1.0, |corner| (view.distance(corner) / probe.line_length).min(1.0));
@@ -191,7 +192,7 @@ impl Faces {
         });
         let away = -normal.dot(space.to_eye(a)).signum();
         let behind = probe.view.map(|view| normal.dot(view - a) * away);
-        // Places along the line as places along its image.
+        // Converts places along the line to places along its image.
         let depths = probe.view.map(|view| if space.is_perspective() { -view.z } else { 1.0 });
         let place = |share: f64| {
             if share == 1.0 {

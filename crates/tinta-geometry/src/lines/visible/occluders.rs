@@ -1,11 +1,11 @@
-//! What hides others in scenes in which much lies in front of one another: the faces in small parts.
+//! The faces that may hide lines, in small parts, for scenes with many overlapping faces.
 //!
-//! The box of a large face seen aslant, or of a long thin one, holds much that the face does not: whoever asks what is in front of
-//! a point would look at most of the scene. So faces are halved across their longest sides until their parts are short, and parts
-//! that the [pyramid](crate::lines::visible::pyramid) hides are left out, for what they hide is hidden anyway.
+//! The box of a large diagonal face, or of a long thin one, is mostly empty: a search in front of a point would test most of the
+//! scene. So faces are halved across their longest sides until their parts are short. Parts that the
+//! [pyramid](crate::lines::visible::pyramid) hides are left out, because it hides everything behind them, too.
 //!
-//! And what hides others where many faces are seen edge-on: all but those. They have no image that could hide anything, and the lines in
-//! them lie on one another, where the nearest is asked for.
+//! Where many faces are seen edge-on, the hierarchy leaves those out. They have no image that could hide a line, and the lines in
+//! them overlap, where the search for the nearest line finds them.
 
 use crate::bvh::{Box3, BoxTree, Exclusion, Walk};
 use crate::lines::visible::faces::Faces;
@@ -20,19 +20,19 @@ pub(in crate::lines) struct Occluders {
     places: Vec<u32>,
 }
 
-/// Share of the picture's larger side that a part may be long.
+/// The longest part, as a share of the picture's larger side.
 const LONGEST: f64 = 1.0 / 24.0;
 
-/// Most halvings of a face, and most parts in all, about.
+/// Most halvings of a face, and about the most parts in all.
 const HALVINGS: u32 = 8;
 const MOST_PARTS: usize = 600_000;
 
-/// So many faces seen edge-on, and such a share of all, are worth a hierarchy of the others.
+/// Fewest faces seen edge-on, and their least share of all faces (one in so many), that justify a hierarchy of the others.
 const MANY_EDGE_ON: usize = 64;
 const SHARE_EDGE_ON: usize = 8;
 
 impl Occluders {
-    /// The faces that are not edge-on, in parts where much lies in front of one another; `None` where that spares nothing.
+    /// Collects the faces that are not edge-on, in parts where many faces overlap; `None` where that saves no time.
     pub(in crate::lines) fn new(
         space: &Space,
         faces: &Faces,
@@ -101,12 +101,12 @@ impl Occluders {
         Some(Self { tree, places })
     }
 
-    /// As [`BoxTree::walk`] of the faces' tree; a face may come several times.
+    /// Walks as [`BoxTree::walk`] does in the faces' tree; a face may come several times.
     pub(in crate::lines) fn walk(&self, excluded: Exclusion, walk: &mut impl Walk) {
         self.tree.walk(excluded, &mut OfParts { places: &self.places, walk });
     }
 
-    /// As [`BoxTree::any_but`] of the faces' tree; a face may come several times.
+    /// Searches as [`BoxTree::any_but`] does in the faces' tree; a face may come several times.
     pub(in crate::lines) fn any_but(
         &self,
         query: &Box3,
@@ -117,7 +117,7 @@ impl Occluders {
     }
 }
 
-/// A walk over faces that is shown their parts.
+/// Adapts a walk over faces to their parts.
 struct OfParts<'a, W> {
     places: &'a [u32],
     walk: &'a mut W,

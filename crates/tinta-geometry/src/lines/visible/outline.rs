@@ -1,9 +1,9 @@
-//! Which visible lines are outline: nothing but background lies beside them in the picture.
+//! The visible lines of the outline: only background lies beside them in the picture.
 //!
-//! OverlappingLines is [`BESIDE`] away, on either side: a parallel of the line is laid there, cut wherever the image of a place at which a surface
-//! ends or turns away crosses it, however far away that is, and each part is decided in its middle by all faces there, whatever
-//! their depth. So lines that lie on one another, up to a small share of that distance, are outline together, whichever of them is the nearest;
-//! a face seen nearly edge-on is no surface between a line and the background; and a slit narrower than that is none.
+//! Beside means [`BESIDE`] away, on either side. A parallel of the line at that distance is cut wherever the image of a surface's
+//! end or turn crosses it, at any depth. All faces at the middle of each part, at any depth, decide the part. This has three
+//! effects. Lines that overlap, up to a small share of that distance, are outline together, whichever of them is the nearest. A
+//! face seen nearly edge-on is no surface between a line and the background. A slit narrower than that distance is no background.
 
 mod runs;
 
@@ -20,11 +20,11 @@ use crate::lines::visible::space::Space;
 use crate::tolerances::BESIDE;
 use glam::DVec2;
 
-/// How long a part is at least that is outline or not, in distances of background that makes it so: at an acute corner the parallel of a
-/// line reaches over the other's, for no more than that from eleven degrees on.
+/// Shortest part that is outline or not, in units of [`LineIndex::beside_px`]. At an acute corner of at least eleven degrees, the
+/// parallel of a line reaches over that of the other by no more than this.
 const SHORTEST_PART: f64 = 5.0;
 
-/// Adds a part to the longer one of those beside it.
+/// Adds a part to the longer one of its neighbours.
 fn absorb(parts: &mut Vec<Interval>, part: usize) {
     let Interval { from, to, .. } = parts.remove(part);
     let length = |part: Option<&Interval>| part.map_or(0.0, Interval::length);
@@ -50,7 +50,7 @@ impl Interval {
 }
 
 impl LineIndex<'_> {
-    /// The parts of a visible piece, told apart by where there is background beside them.
+    /// Cuts a visible piece where background begins or ends beside it.
     pub(in crate::lines) fn with_outline(&self, index: usize, image: &Image, piece: Interval) -> Vec<Interval> {
         let aside = (image.b - image.a).perp().normalize() * self.beside_px();
         let background = [aside, -aside].map(|aside| self.background(index, image, [piece.from, piece.to], aside));
@@ -76,7 +76,7 @@ impl LineIndex<'_> {
         BESIDE * self.space.size.max_element()
     }
 
-    /// From where to where between two places of a line there is background at a distance from it; ascending.
+    /// Returns the ranges between two places of a line that have background at a distance beside them; ascending.
     fn background(&self, index: usize, line: &Image, range: [f64; 2], aside: DVec2) -> Vec<[f64; 2]> {
         let image = &Image { a: line.a + aside, b: line.b + aside, ..*line };
         let touch_px = image.touch_px(self.space);
@@ -107,7 +107,7 @@ impl LineIndex<'_> {
 }
 
 impl Image {
-    /// Where another line's image crosses or touches this one, or lies on it and ends, in places of this one.
+    /// Returns the places on this line where another's image crosses or touches it, or overlaps it and ends.
     pub(in crate::lines) fn meetings(&self, other: &Self, touch_px: f64) -> impl Iterator<Item = f64> + use<> {
         let along = self.b - self.a;
         let length = along.length();
@@ -120,7 +120,7 @@ impl Image {
 }
 
 impl Faces {
-    /// Whether something is drawn around a point, at any depth, whichever way the point moves aside by as little as one likes. A side of a
+    /// Whether faces at any depth cover the surroundings of a point, to both sides at an arbitrarily small distance. A side of a
     /// face within `touch_px` of the point counts as going through it. Faces seen edge-on cover nothing.
     pub(in crate::lines) fn is_covered(&self, space: &Space, probe: &Probe, touch_px: f64) -> bool {
         let column =

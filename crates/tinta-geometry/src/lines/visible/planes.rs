@@ -1,21 +1,21 @@
-//! Faces of one plane as groups: what lies in a plane hides nothing in it and passes through nothing in it, however much of it
-//! there is, and nobody needs to look at each pair.
+//! Groups of faces in one plane. Faces in one plane neither hide nor pass through one another, however many they are: searches
+//! skip such pairs as a group.
 
 use crate::bvh::{Box3, NO_GROUP};
 use crate::threads::{filled, threads_for_items};
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// Faces of one plane from which on they are a group.
+/// Fewest faces of one plane that form a group.
 const LEAST: u32 = 16;
 
-/// For each number of a face its plane, or [`NO_GROUP`] where few others lie in it; nothing if there is no such plane.
+/// Returns for each number of a face its plane, or [`NO_GROUP`] where few others lie in it; an empty list without such a plane.
 ///
-/// In: for each place a face's box, corners and number; the pixels below which faces are left out; the smallest distance below
-/// which positions count as one, file units; and how many numbers there are.
+/// In: for each place a face's box, corners and number; the size in pixels below which faces are left out; the smallest distance
+/// below which positions count as one, file units; and the count of numbers.
 ///
-/// Two faces of a group are nearer to one another's plane than `--weld`, so that they touch by the rule for contact. Small faces
-/// are left out: time is lost over large ones.
+/// Two faces of a group are nearer to one another's plane than `--weld`: they touch by the rule for contact. Small faces are left
+/// out, because large ones cost the time.
 pub(in crate::lines) fn planes(
     boxes: &[Box3],
     corners: impl Fn(u32) -> [DVec3; 3] + Sync,
@@ -47,7 +47,7 @@ pub(in crate::lines) fn planes(
         Some([normal.x * radius, normal.y * radius, normal.z * radius, normal.dot(a - centre)].map(steps))
     };
     let keys = filled(large.len(), threads_for_items(large.len()), None, |index| plane(large[index]));
-    // Mostly there is no such plane, which shows sooner where few keys have one remainder.
+    // Most scenes have no such plane. This shows early where few keys share a remainder.
     let remainders = keys.len().next_power_of_two();
     let remainder = |key: &[i64; 4]| mix(key) as usize & (remainders - 1);
     let mut of_remainder = vec![0u32; remainders];
@@ -67,7 +67,7 @@ pub(in crate::lines) fn planes(
     planes
 }
 
-/// A number that differs for most keys that do.
+/// Returns a number that differs for most different keys.
 fn mix(key: &[i64; 4]) -> u64 {
     const ODD: u64 = 0x9e37_79b9_7f4a_7c15;
     let mixed = key.iter().fold(0, |mixed: u64, part| (mixed ^ *part as u64).wrapping_mul(ODD).rotate_left(29));

@@ -1,10 +1,9 @@
-//! What single faces hide of the picture for sure: a hierarchical depth buffer (Greene, Kass and Miller 1993) in f64.
+//! The parts of the picture that single faces hide for sure: a hierarchical depth buffer (Greene, Kass and Miller 1993) in f64.
 //!
-//! The picture is cut into cells, four of which make one of the next level. Each cell has a key beyond which everything in it is
-//! hidden: that of the nearest face that covers all of it, where it is farthest away, and as much more as what touches a face
-//! may be behind it. Faces come nearest first, and go down only to cells that they may still hide something of; so of many faces
-//! behind one another most are done in a few steps. It decides nothing that is not clear: what it does not hide is looked at by
-//! the exact rules.
+//! The picture consists of cells; four cells make one of the next level. Each cell has a key beyond which everything in it is
+//! hidden: the farthest key of the nearest face that covers the whole cell, plus the distance within which a point still touches
+//! the face. The nearest faces come first, and each face descends only to cells where it may still hide something. So where many
+//! faces overlap, most need few steps. The buffer decides only clear cases and leaves the rest to the exact rules.
 
 use crate::bvh::Box3;
 use crate::lines::visible::faces::Faces;
@@ -13,18 +12,18 @@ use crate::threads::{cores, filled, in_chunks, threads_for_items};
 use crate::tolerances::{CONTACT, TOUCH};
 use glam::DVec2;
 
-/// Cells along the picture's larger side, as powers of 2: where many lines are left, finer ones leave fewer.
+/// Cells along the picture's larger side, as powers of 2. Where many lines are left, finer cells leave fewer.
 const COARSE: usize = 8;
 const FINE: usize = 10;
 
-/// So few faces that cover the picture so seldom hide so little that the cells cost more than they spare.
+/// With fewer faces that cover the picture fewer times, the cells cost more time than they save.
 const FEW: usize = 10_000;
 const FEW_LAYERS: f64 = 4.0;
 
-/// Faces that a thread looks at at once.
+/// Faces that a thread projects at once.
 const PROJECTED_AT_ONCE: usize = 4096;
 
-/// How often boxes of pixels and keys cover the picture.
+/// Returns how often boxes of pixels and keys cover the picture.
 pub(in crate::lines) fn layers<'a>(space: &Space, boxes: impl Iterator<Item = &'a Box3>) -> f64 {
     let area = |around: &Box3| {
         let [low, high] = around.corners();
@@ -34,21 +33,21 @@ pub(in crate::lines) fn layers<'a>(space: &Space, boxes: impl Iterator<Item = &'
     boxes.map(area).sum::<f64>() / space.size.element_product()
 }
 
-/// The cells of the picture, each with the key beyond which all is hidden.
+/// The cells of the picture, each with the key beyond which everything is hidden.
 pub(in crate::lines) struct Pyramid {
-    /// Level by level, from the finest to the one cell around all, row by row.
+    /// Level by level, from the finest to the one cell around everything, row by row.
     levels: Vec<Vec<f64>>,
     cell_px: f64,
     size: DVec2,
 }
 
-/// A face as it lies in the picture.
+/// A face's image.
 struct ProjectedFace {
     low: DVec2,
     high: DVec2,
-    /// Of each side the direction inwards and where it is 0, pixels.
+    /// Each side's direction inwards, and its product with points on the side, pixels.
     sides: [(DVec2, f64); 3],
-    /// The key at the picture's corner and how it grows.
+    /// The key at the picture's corner and its gradient.
     key: f64,
     growth: DVec2,
     nearest_key: f64,
@@ -60,7 +59,7 @@ struct ProjectedFace {
 }
 
 impl ProjectedFace {
-    /// `None` of what cannot hide anything for sure.
+    /// Projects a face; `None` if it cannot hide anything for sure.
     fn new(space: &Space, faces: &Faces, place: u32) -> Option<Self> {
         if faces.cut_by_near.binary_search(&place).is_ok() {
             return None;
@@ -101,8 +100,8 @@ impl ProjectedFace {
         (growth.is_finite() && beyond.is_finite() && reach.is_finite()).then_some(projected)
     }
 
-    /// Whether it is large enough to cover a cell; of what reaches out of the picture a part of a cell is enough. No triangle holds a square of
-    /// more than half its area.
+    /// Whether the face is large enough to cover a cell. No triangle holds a square of more than half its area. A face that
+    /// reaches out of the picture needs to cover only part of a cell.
     fn may_cover(&self, cell_px: f64, size: DVec2) -> bool {
         let reaches_out = self.low.cmplt(DVec2::ZERO).any() || self.high.cmpgt(size).any();
         reaches_out || self.area_px >= 2.0 * cell_px * cell_px
@@ -129,19 +128,19 @@ impl ProjectedFace {
 }
 
 impl Pyramid {
-    /// What the faces hide; `None` if none covers a cell.
+    /// Builds the pyramid of all faces; `None` if it would hide too little.
     pub(in crate::lines) fn new(space: &Space, faces: &Faces) -> Option<Self> {
         Self::of_cells(space, faces, COARSE)
     }
 
-    /// What they hide of smaller cells.
+    /// Builds the pyramid with smaller cells.
     pub(in crate::lines) fn fine(space: &Space, faces: &Faces) -> Option<Self> {
         Self::of_cells(space, faces, FINE)
     }
 
     fn of_cells(space: &Space, faces: &Faces, top: usize) -> Option<Self> {
         let cell_px = space.size.max_element() / f64::from(1u32 << top);
-        // Whether any cell lies in a box, as far as that is in the picture.
+        // Whether any cell lies in a box, as far as the box is in the picture.
         let is_large = |around: &Box3| {
             let [low, high] = around.corners().map(|corner| corner.truncate().clamp(DVec2::ZERO, space.size));
             let last = DVec2::select(high.cmpge(space.size), (high / cell_px).ceil(), (high / cell_px).floor());
@@ -191,7 +190,7 @@ impl Pyramid {
         }
     }
 
-    /// The middle of a cell and half its size, as far as it is in the picture.
+    /// The middle of a cell and half its size, clipped to the picture.
     fn rectangle(&self, level: usize, column: usize, row: usize) -> (DVec2, DVec2) {
         let cell = self.cell_px * (1u32 << level) as f64;
         let low = DVec2::new(column as f64, row as f64) * cell;
@@ -203,7 +202,7 @@ impl Pyramid {
         (row << (self.top() - level)) + column
     }
 
-    /// Lets a face hide what it covers: of the smallest cell that it lies in as a whole, and so of those around that.
+    /// Adds a face to the smallest cell that contains all of it, and updates the larger cells around that one.
     fn add_where_it_lies(&mut self, projected: &ProjectedFace) {
         let corner = |px: DVec2| {
             let [column, row] = (px.clamp(DVec2::ZERO, self.size) / self.cell_px).to_array();
@@ -236,7 +235,7 @@ impl Pyramid {
         }
     }
 
-    /// Lets a face hide what it covers of a cell; returns the cell's key.
+    /// Adds a face to a cell and the cells below it; returns the cell's key.
     fn add(&mut self, projected: &ProjectedFace, level: usize, column: usize, row: usize, above: f64) -> f64 {
         let (middle, half) = self.rectangle(level, column, row);
         // A cell beside the picture.
@@ -266,7 +265,7 @@ impl Pyramid {
         key
     }
 
-    /// Gives every cell what hides the larger ones around it.
+    /// Gives each cell the key of the larger cells around it where that is smaller.
     fn settle(&mut self) {
         let top = self.top();
         for level in (0..top).rev() {
@@ -279,7 +278,7 @@ impl Pyramid {
         }
     }
 
-    /// The largest key beyond which all between two pixels is hidden.
+    /// The largest key beyond which everything between two pixels is hidden.
     fn key_between(&self, low: DVec2, high: DVec2) -> f64 {
         let low = low.clamp(DVec2::ZERO, self.size);
         let high = high.clamp(DVec2::ZERO, self.size);
@@ -298,7 +297,7 @@ impl Pyramid {
         key
     }
 
-    /// Whether all between two pixels that has at least this key is hidden.
+    /// Whether everything between two pixels with at least this key is hidden.
     pub(in crate::lines) fn hides(&self, low: DVec2, high: DVec2, nearest_key: f64) -> bool {
         nearest_key > self.key_between(low, high)
     }
@@ -324,7 +323,7 @@ impl Pyramid {
         true
     }
 
-    /// For each face whether anything of it may be seen.
+    /// Returns for each face whether any part of it may be visible.
     pub(in crate::lines) fn seen(&self, space: &Space, faces: &Faces) -> Vec<bool> {
         let boxes = faces.tree.boxes();
         filled(boxes.len(), threads_for_items(boxes.len()), false, |place| {

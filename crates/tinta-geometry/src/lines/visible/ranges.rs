@@ -1,12 +1,12 @@
-//! Ranges along a line, each from one share of it to another.
+//! Ranges along a line, each between two shares of its length.
 
-/// Whether any of ascending ranges apart from one another holds a place.
+/// Whether a place lies in one of ascending, disjoint ranges.
 pub(in crate::lines) fn hold(ranges: &[[f64; 2]], place: f64) -> bool {
     let next = ranges.partition_point(|range| range[1] <= place);
     ranges.get(next).is_some_and(|range| range[0] <= place)
 }
 
-/// Ranges in any order as ascending ones apart from one another.
+/// Returns ranges, given in any order, as ascending, disjoint ones.
 pub(in crate::lines) fn united(mut ranges: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     ranges.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
     let mut united: Vec<[f64; 2]> = Vec::with_capacity(ranges.len());
@@ -19,7 +19,7 @@ pub(in crate::lines) fn united(mut ranges: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     united
 }
 
-/// What ascending ranges, and others before, leave of a part.
+/// Returns the gaps that ranges leave in a part. The ranges that meet the part must ascend.
 pub(in crate::lines) fn gaps(part: [f64; 2], ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut gaps = Vec::new();
     let mut from = part[0];
@@ -35,7 +35,7 @@ pub(in crate::lines) fn gaps(part: [f64; 2], ranges: &[[f64; 2]]) -> Vec<[f64; 2
     gaps
 }
 
-/// The part of a range in which what is linear along it, and has these values at its ends, is not negative.
+/// Returns the part of a range where a linear function is not negative, from the function's values at the range's ends.
 pub(in crate::lines) fn above_zero([from, to]: [f64; 2], [start, end]: [f64; 2]) -> Option<[f64; 2]> {
     match (start >= 0.0, end >= 0.0) {
         (true, true) => Some([from, to]),
@@ -45,7 +45,8 @@ pub(in crate::lines) fn above_zero([from, to]: [f64; 2], [start, end]: [f64; 2])
     }
 }
 
-/// What a range has in common with that part of a whole in which what is linear along it is not negative.
+/// Returns the overlap of a range with the part of `whole` where a linear function, given by its values at the ends, is not
+/// negative.
 pub(in crate::lines) fn clipped(range: Option<[f64; 2]>, whole: [f64; 2], at_ends: [f64; 2]) -> Option<[f64; 2]> {
     common(range?, above_zero(whole, at_ends)?)
 }

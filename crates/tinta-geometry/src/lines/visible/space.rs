@@ -1,9 +1,9 @@
-//! From world space to the eye's space and the picture, in f64.
+//! Conversion from world space to the eye's space and the picture, in f64.
 //!
-//! The eye's space has its origin at the eye and looks along -z, in file units: what is far from the world's origin loses
-//! nothing after that. In the picture a point has pixels and a *key*, which is linear along straight lines of the picture
-//! and grows with the distance from the eye: the inverse of the depth in perspective, negative, the depth itself in
-//! parallel projection. Straight lines and flat triangles stay so in these three coordinates.
+//! The eye's space has its origin at the eye and looks along -z, in file units. Points far from the world's origin lose no more
+//! precision there. In the picture a point has pixels and a *key*. The key is linear along straight lines of the picture and
+//! grows with the distance from the eye. In perspective it is the inverse of the depth, negative; in parallel projection, the
+//! depth itself. Straight lines and flat triangles stay straight and flat in these three coordinates.
 
 use crate::camera::Projection;
 use crate::scene::Scene;
@@ -11,7 +11,7 @@ use crate::tolerances::{COORDINATE_NOISE, EDGE_ON, TIE};
 use glam::{DMat3, DVec2, DVec3};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
-/// Where a scene is seen from and how it becomes a picture.
+/// The eye's place and direction, and the projection into the picture.
 #[derive(Debug, Clone)]
 pub(in crate::lines) struct Space {
     rotation: DMat3,
@@ -22,7 +22,7 @@ pub(in crate::lines) struct Space {
     /// Depths of the planes between which lines are drawn, file units.
     pub near: f64,
     pub far: f64,
-    /// How far a coordinate may be off by the rounding of the world's own numbers, file units.
+    /// How far rounding of the world's own numbers may move a coordinate, file units.
     pub noise: f64,
     /// Sine of the angle to the view below which a face is edge-on: far from the origin rounding turns the view, too.
     pub edge_on: f64,
@@ -30,7 +30,7 @@ pub(in crate::lines) struct Space {
 
 #[derive(Debug, Clone, Copy)]
 enum Lens {
-    /// Pixels a unit at depth 1; what the inverse of a depth is multiplied by to become a key.
+    /// Pixels per unit at depth 1; the factor from the inverse of a depth to a key.
     Perspective {
         focal_px: f64,
         key_scale: f64,
@@ -82,7 +82,7 @@ impl Space {
         self.rotation * world
     }
 
-    /// The direction in which the image of a point moves with it, of any length.
+    /// The direction of a point's image as the point moves in a direction, of any length.
     pub(in crate::lines) fn image_direction(&self, view: DVec3, direction: DVec3) -> DVec2 {
         let flipped = DVec2::new(direction.x, -direction.y);
         match self.lens {
@@ -121,8 +121,8 @@ impl Space {
         }
     }
 
-    /// How much larger than a plane's a key must be, at one pixel, for the point to be so far from the plane: at depths no smaller
-    /// than `nearest`. The plane goes through a point and has a unit normal.
+    /// Returns how far a key at one pixel must exceed a plane's key for the point to lie this distance behind the plane. The
+    /// plane goes through a point and has a unit normal; its depths are no smaller than `nearest`.
     pub(in crate::lines) fn key_beyond(&self, [point, normal]: [DVec3; 2], nearest: f64, distance: f64) -> f64 {
         match self.lens {
             Lens::Perspective { key_scale, .. } => distance * key_scale.abs() / (nearest * normal.dot(point).abs()),

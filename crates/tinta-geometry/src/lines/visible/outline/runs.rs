@@ -1,15 +1,14 @@
-//! What of the outline is drawn as outline: what can be read as one.
+//! Keeps the outline readable: lines at narrow slits become inner lines, and short runs take the class of their neighbours.
 //!
-//! In: pieces of lines and how wide the outline is drawn. Out: the same pieces, cut where they change. Two things make the picture's
-//! outline what a reader takes for it:
+//! In: pieces of lines and the width of the outline. Out: the same pieces, cut where their class changes. Two rules apply:
 //!
-//! - *Slits.* Background between two lines of the outline that are nearer than [`SLIT`] widths would be filled by their ink: there both
-//!   are inner lines. Along the outline what is shorter than [`SHORT_RUN`] widths, slit or not, is as what it borders on.
-//! - *Short runs.* Shorter than that, a run of inner line between two of outline becomes outline, and one of outline between two of inner
-//!   line becomes inner line; the shortest first.
+//! - *Slits.* The ink of two outline lines nearer than [`SLIT`] widths would fill the background between them: both become inner
+//!   lines there. Along the outline, a part shorter than [`SHORT_RUN`] widths, slit or not, takes the class of its neighbours.
+//! - *Short runs.* A run of inner line shorter than [`SHORT_RUN`] widths between two runs of outline becomes outline. A short run
+//!   of outline between two runs of inner line becomes inner line. The shortest run changes first.
 //!
-//! Runs are told along chains, pieces that go on in one another whatever their classes and objects: where pieces meet, two of the outline
-//! before others, and of the rest those that go straightest.
+//! Runs follow chains: pieces that continue one another, whatever their classes and objects. Where pieces meet, two of the
+//! outline are paired first, then the pair that continues straightest.
 
 use crate::lines::LineSegment;
 use crate::lines::progress::Progress;
@@ -19,16 +18,16 @@ use crate::tolerances::JOINED_PX;
 use glam::DVec2;
 use std::collections::HashMap;
 
-/// Widths of the outline between two lines of it, from middle to middle: a third of what lies between is free then.
+/// Distance between the middles of two outline lines, in widths: a third of that distance is free.
 const SLIT: f64 = 1.5;
 
-/// Widths of the outline that a run of it, or a gap in it, is long at least.
+/// Shortest run of the outline, or gap in it, in widths of the outline.
 const SHORT_RUN: f64 = 4.0;
 
-/// Pixels: the box of a longer part that is aslant holds much else.
+/// Pixels. The box of a longer diagonal part overlaps too much.
 const LONGEST_PART: f64 = 8.0;
 
-/// Visible pieces as they are drawn where the outline is so wide, pixels; hidden ones stay as they are.
+/// Returns the pieces as drawn with an outline of this width, pixels. Hidden pieces stay unchanged.
 pub(in crate::lines) fn readable(segments: &[LineSegment], width_px: f64, progress: &Progress) -> Vec<LineSegment> {
     let (mut pieces, mut is_outline) = cut_at_slits(segments, SLIT * width_px, progress);
     let least_px = SHORT_RUN * width_px;
@@ -43,7 +42,7 @@ pub(in crate::lines) fn readable(segments: &[LineSegment], width_px: f64, progre
     pieces
 }
 
-/// The pieces cut where a slit begins or ends beside them, and of each whether it is outline and borders on none.
+/// Cuts pieces where a slit beside them begins or ends. Returns them and, for each, whether it is outline and borders on no slit.
 fn cut_at_slits(segments: &[LineSegment], slit_px: f64, progress: &Progress) -> (Vec<LineSegment>, Vec<bool>) {
     let image = |segment: &LineSegment| {
         let [a, b] = segment.ends_px;
@@ -76,11 +75,11 @@ fn cut_at_slits(segments: &[LineSegment], slit_px: f64, progress: &Progress) -> 
             }
             wide.extend(gaps([0.0, 1.0], &united(narrow)));
         }
-        // Between two lines on the other side nothing is left free.
+        // A very short gap between two successive lines on the other side is no free side.
         wide.retain(|range| (range[1] - range[0]) * image.length() > 4.0 * JOINED_PX || *range == [0.0, 1.0]);
         let wide = united(wide);
         let part = |range: [f64; 2]| {
-            // On the line, in perspective not quite at the place: the eye is not known here.
+            // On the line; in perspective only near the place, because the eye is unknown here.
             let world = |place: f64| segment.ends_world[0].lerp(segment.ends_world[1], place);
             let ends_px = range.map(|place| image.at(place));
             LineSegment { ends_px, ends_world: range.map(world), ..segment.clone() }
@@ -94,12 +93,12 @@ fn cut_at_slits(segments: &[LineSegment], slit_px: f64, progress: &Progress) -> 
     (pieces, is_outline)
 }
 
-/// From where to where another line lies before one on its right (0) or left (1), nearer than so much.
+/// Returns the range of a line that another line faces on its right (0) or left (1), nearer than a distance.
 fn before(image: &Image, side: usize, other: &LineSegment, distance_px: f64) -> Option<[f64; 2]> {
     let along = (image.b - image.a) / image.length();
     let aside = if side == 0 { along.perp() } else { -along.perp() };
     let [first, second] = other.ends_px.map(|end| DVec2::new(along.dot(end - image.a), aside.dot(end - image.a)));
-    // What of it lies in the strip beside the line.
+    // The part of the other line in the strip beside this line.
     let mut range = [0.0f64, 1.0f64];
     for (start, end) in [(first.y - JOINED_PX, second.y - JOINED_PX), (distance_px - first.y, distance_px - second.y)] {
         if start < 0.0 && end < 0.0 {
@@ -116,16 +115,16 @@ fn before(image: &Image, side: usize, other: &LineSegment, distance_px: f64) -> 
     ((places[1] - places[0]) * image.length() > JOINED_PX && range[0] < range[1]).then_some(places)
 }
 
-/// Pieces in the order in which they go on in one another.
+/// Pieces in order: each continues the one before.
 struct Chain {
     pieces: Vec<usize>,
     is_closed: bool,
 }
 
-/// More ends than these that meet in one place go on in nothing.
+/// Most ends in one place that are paired. Where more meet, none continues.
 const MOST_ENDS: usize = 16;
 
-/// The chains of some pieces. Ends are numbered: piece `k` has ends `2k` and `2k + 1`.
+/// Returns the chains of the selected pieces. Piece `k` has ends `2k` and `2k + 1`.
 fn chains(pieces: &[LineSegment], is_meant: fn(&LineSegment) -> bool) -> Vec<Chain> {
     let partners = partners(pieces, is_meant);
     let mut is_known = vec![false; pieces.len()];
@@ -155,7 +154,7 @@ fn chains(pieces: &[LineSegment], is_meant: fn(&LineSegment) -> bool) -> Vec<Cha
     chains
 }
 
-/// The end in which each end goes on.
+/// Returns for each end the end that continues it.
 fn partners(pieces: &[LineSegment], is_meant: fn(&LineSegment) -> bool) -> Vec<Option<usize>> {
     let position = |end: usize| pieces[end / 2].ends_px[end % 2];
     let mut partners = vec![None; pieces.len() * 2];
@@ -182,7 +181,7 @@ fn partners(pieces: &[LineSegment], is_meant: fn(&LineSegment) -> bool) -> Vec<O
     partners
 }
 
-/// The ends that lie in one place, nearer than [`JOINED_PX`]: a rim goes on in another edge at the same place.
+/// Groups ends that lie in one place, nearer than [`JOINED_PX`]: a rim may continue as another edge at the same place.
 fn meetings(ends: impl Iterator<Item = usize>, position: impl Fn(usize) -> DVec2) -> Vec<Vec<usize>> {
     let cell = |px: DVec2| (px / JOINED_PX).floor().as_i64vec2().to_array();
     let mut places: Vec<(DVec2, Vec<usize>)> = Vec::new();
@@ -203,14 +202,14 @@ fn meetings(ends: impl Iterator<Item = usize>, position: impl Fn(usize) -> DVec2
     places.into_iter().map(|(_, ends)| ends).collect()
 }
 
-/// A part of a chain that is outline or not.
+/// A part of a chain, all outline or all inner line.
 struct Run {
     pieces: Vec<usize>,
     length: f64,
     is_outline: bool,
 }
 
-/// Lets runs that are too short be what those beside them are, if there are so many beside them.
+/// Gives each run that is too short the class of its neighbours, if it has at least `least_beside` of them.
 fn settle(pieces: &[LineSegment], of_pieces: &mut [bool], chain: &Chain, least_px: f64, least_beside: usize) {
     let mut runs: Vec<Run> = Vec::new();
     for &number in &chain.pieces {
@@ -240,7 +239,7 @@ fn settle(pieces: &[LineSegment], of_pieces: &mut [bool], chain: &Chain, least_p
         let may_change = |index: &usize| runs[*index].length < least_px && beside(*index) >= least_beside;
         let shortest = (0..count).filter(may_change);
         let Some(index) = shortest.min_by(|a, b| runs[*a].length.total_cmp(&runs[*b].length)) else { break };
-        // It and what is beside it become one, in a ring around its end, too.
+        // The run and its neighbours become one; in a ring, across its end, too.
         if chain.is_closed {
             runs.rotate_left((index + count - 1) % count);
         }
