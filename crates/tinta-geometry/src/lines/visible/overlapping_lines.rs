@@ -32,9 +32,9 @@ impl OverlappingLines {
         Self { line: (index, *image, inside), found: OnceCell::new() }
     }
 
-    /// These lines.
-    pub(in crate::lines) fn these(lines: Vec<usize>) -> Self {
-        Self { asked: None, found: OnceCell::from(Overlaps::Few(lines)) }
+    /// The same, already found.
+    pub(in crate::lines) fn known(self, lines: Vec<usize>) -> Self {
+        Self { found: OnceCell::from(Overlaps::Few(lines)), ..self }
     }
 
     fn found(&self, lines: &LineIndex) -> &Overlaps {

@@ -188,7 +188,8 @@ impl LineIndex<'_> {
             let touch_px = image.touch_px(self.space).max(other_image.touch_px(self.space));
             self.features[*other].class.is_some() && image.overlap(&other_image, touch_px).is_some()
         };
-        OverlappingLines::these((0..self.features.len()).filter(lies_on_it).collect())
+        let lying_on = (0..self.features.len()).filter(lies_on_it).collect();
+        OverlappingLines::new(index, image, [0.0, 1.0]).known(lying_on)
     }
 
     fn others(&self, index: usize) -> impl Iterator<Item = (&Feature, &Image)> {
