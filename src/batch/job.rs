@@ -59,11 +59,11 @@ pub struct Job {
 }
 
 impl Job {
-    /// Reads a line.
+    /// Parses a line.
     ///
     /// # Errors
     ///
-    /// Parses a line. The error is a sentence without the file's name.
+    /// A sentence without the file's name.
     pub fn parse(line: &[u8]) -> Result<Self, String> {
         let keys = keys(line)?;
         let json = sorted(&keys);
@@ -73,7 +73,7 @@ impl Job {
     }
 }
 
-/// A line without its name: enough to check it.
+/// A line without its number and digest: enough to check it.
 pub(super) struct Asked {
     pub id: String,
     pub command: JobCommand,
