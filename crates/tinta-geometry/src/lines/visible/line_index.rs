@@ -134,6 +134,14 @@ impl<'a> LineIndex<'a> {
         })
     }
 
+    /// The image of a wanted line and from where to where it is inside the picture; `None` where nothing of it is drawn.
+    pub(in crate::lines) fn wanted(&self, index: usize) -> Option<(Image, [f64; 2])> {
+        self.features[index].class?;
+        let image = self.images[index]?;
+        let inside = image.inside(self.space.size, 0.0)?;
+        (image.length() * (inside[1] - inside[0]) > self.shortest_px).then_some((image, inside))
+    }
+
     /// Returns the places where a part of a line begins, is cut and ends. A piece below the shortest length joins its neighbour.
     pub(in crate::lines) fn places(&self, image: &Image, [from, to]: [f64; 2], mut cuts: Vec<f64>) -> Vec<f64> {
         cuts.sort_unstable_by(f64::total_cmp);

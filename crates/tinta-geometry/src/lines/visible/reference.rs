@@ -105,14 +105,6 @@ pub(in crate::lines) fn with_lines<T>(
 }
 
 impl LineIndex<'_> {
-    /// The image of a wanted line and from where to where it is inside the picture; `None` where nothing of it is drawn.
-    pub(in crate::lines) fn wanted(&self, index: usize) -> Option<(Image, [f64; 2])> {
-        self.features[index].class?;
-        let image = self.images[index]?;
-        let inside = image.inside(self.space.size, 0.0)?;
-        (image.length() * (inside[1] - inside[0]) > self.shortest_px).then_some((image, inside))
-    }
-
     /// The pieces of a wanted line, each visible or hidden as a whole. What another line in the same place stands for is none.
     pub(in crate::lines) fn pieces(&self, index: usize) -> Vec<Interval> {
         let Some((image, inside)) = self.wanted(index) else { return Vec::new() };

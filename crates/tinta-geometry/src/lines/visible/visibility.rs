@@ -18,7 +18,7 @@ use std::cell::LazyCell;
 /// Pieces of one line between two looks at the time.
 const PIECES_A_GLANCE: usize = 64;
 
-/// Cuts of a line above which all faces before the line are looked at in one walk. Up to that, a ray for each piece costs less.
+/// Cuts of an open part of a line above which one walk covers the line. Up to that, a ray for each piece costs less.
 const MOST: usize = 24;
 
 impl LineIndex<'_> {
@@ -52,11 +52,7 @@ impl LineIndex<'_> {
 
     /// Adds the pieces of a line; `None`, and nothing, where the time is over before all are decided.
     fn add_segments(&self, index: usize, progress: &Progress, segments: &mut Vec<LineSegment>) -> Option<()> {
-        let (Some(_), Some(image)) = (self.features[index].class, self.images[index]) else { return Some(()) };
-        let Some(inside) = image.inside(self.space.size, 0.0) else { return Some(()) };
-        if image.length() * (inside[1] - inside[0]) <= self.shortest_px {
-            return Some(());
-        }
+        let Some((image, inside)) = self.wanted(index) else { return Some(()) };
         let behind = self.behind_nearest(index, &image, inside);
         let overlapping = OverlappingLines::new(index, &image, inside);
         let mut cuts = Vec::new();
