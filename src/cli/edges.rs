@@ -133,6 +133,8 @@ fn in_words(record: &EdgeRecord) -> String {
             Class::Normal => "between different vertex normals",
             Class::Intersection => "where faces pass through one another",
             Class::Suggestive | Class::Ridge | Class::Valley | Class::ApparentRidge => "faces with such a line",
+            Class::Curve => "segments of the model's own curves",
+            Class::Point => "the model's own points",
         };
         text.push_str(&format!("  {name:<14}{:>10}  {what}\n", counts.of(class)));
     }

@@ -12,7 +12,8 @@
 //! - where the edge passes through a face (Appel 1967);
 //! - where another edge's image overlaps its own: at that edge's ends, and where both are equally near.
 //!
-//! The edge is cut at all these places, and one ray decides each segment.
+//! The edge is cut at all these places, and one ray decides each segment. The curves and points of a model
+//! ([`Curves`](crate::mesh::Curves)) are decided likewise: only faces hide them, and they hide nothing.
 //!
 //! ```
 //! # fn main() -> tinta_geometry::Result<()> {
@@ -76,7 +77,7 @@ use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::threads::both;
 use input::object_edges::{Edges, ObjectEdges};
-use settings::not_published;
+use settings::{check_on_surface, not_published};
 use smooth::contour_visibility::ContourLines;
 use smooth::contours::Contours;
 use visible::faces::Faces;
@@ -98,6 +99,7 @@ fn check(scene: &Scene, settings: &LineSettings) -> Result<()> {
         return Err(Error::setting("copies", "the scene has too many faces to find its lines; ask for fewer"));
     }
     not_published(settings.silhouette)?;
+    check_on_surface(settings.on_surface)?;
     settings.forms.check()
 }
 
@@ -191,6 +193,7 @@ impl VisibleLines {
         if has_forms {
             lines.extend(smooth::forms::form_features(scene, &space, &faces, &parts, settings, &mut edges));
         }
+        lines.extend(input::features::free_features(&space, &parts, settings, &mut edges)?);
         lines.extend(input::features::near_plane_features(&space, &faces));
         let found = LineIndex::new(
             &space,

@@ -16,6 +16,7 @@
 //! ```
 
 mod build;
+mod curves;
 pub mod defects;
 mod folder;
 mod format;
@@ -41,6 +42,7 @@ mod triangulate;
 mod vertices;
 mod weld;
 
+pub use curves::Curves;
 pub use defects::Defects;
 pub use format::is_model_name;
 pub use frame::ModelFrame;

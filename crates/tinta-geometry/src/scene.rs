@@ -430,7 +430,7 @@ impl Object {
     }
 
     fn box_corners(&self) -> [DVec3; 8] {
-        let (low, high) = self.mesh.bounds();
+        let (low, high) = self.mesh.extent();
         std::array::from_fn(|i| {
             let pick = |bit: usize, low: f64, high: f64| if i >> bit & 1 == 1 { high } else { low };
             self.offset + DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
@@ -448,9 +448,9 @@ fn check_size(size: Size) -> Result<()> {
 /// The camera of these settings, fitted to the objects.
 fn fitted_camera(objects: &[Object], centre: DVec3, radius: f64, settings: &SceneSettings) -> Result<Camera> {
     let aspect = settings.size.aspect();
-    let point_count: usize = objects.iter().map(|object| object.mesh.positions.len()).sum();
+    let point_count: usize = objects.iter().map(|object| object.mesh.all_positions().count()).sum();
     if point_count <= FITTED_POINTS {
-        let points = objects.iter().flat_map(|o| o.mesh.positions.iter().map(|point| *point + o.offset));
+        let points = objects.iter().flat_map(|o| o.mesh.all_positions().map(|point| point + o.offset));
         return settings.camera.fit(centre, radius, aspect, points);
     }
     let corners: Vec<DVec3> = objects.iter().flat_map(Object::box_corners).collect();
@@ -459,7 +459,7 @@ fn fitted_camera(objects: &[Object], centre: DVec3, radius: f64, settings: &Scen
 
 /// The models repeated in rows along x; further rows follow along -z.
 fn on_grid(meshes: &[Arc<Mesh>], copies: u32) -> Vec<Object> {
-    let all: Vec<DVec3> = meshes.iter().map(|mesh| mesh.bounds()).flat_map(|(low, high)| [low, high]).collect();
+    let all: Vec<DVec3> = meshes.iter().map(|mesh| mesh.extent()).flat_map(|(low, high)| [low, high]).collect();
     let (low, high) = bounds(&all);
     // A gap in every direction, because models that are flat along an axis would otherwise overlap.
     let step = (high - low) + (high - low).max_element() * COPY_GAP;

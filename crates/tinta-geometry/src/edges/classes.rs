@@ -45,6 +45,10 @@ crate::choices! {
         Valley = "valley",
         /// An apparent ridge: the surface's view-dependent curvature is largest there (Judd et al. 2007).
         ApparentRidge = "apparent-ridge",
+        /// No edge of a surface: a curve that the model holds as such, or that a program gives.
+        Curve = "curve",
+        /// Likewise a single point, drawn as a dot.
+        Point = "point",
     }
 }
 
@@ -64,10 +68,13 @@ impl ClassSet {
     pub const ALL: Self = Self(u16::MAX >> (u16::BITS as usize - Class::ALL.len()));
 
     /// Every class that a mesh's edges can be of.
-    pub const EDGES: Self = Self(Self::ALL.0 & !(1 << Class::Intersection as u8) & !Self::FORMS.0);
+    pub const EDGES: Self = Self(Self::ALL.0 & !(1 << Class::Intersection as u8) & !Self::FORMS.0 & !Self::FREE.0);
 
     /// The classes of form lines, which cross faces where the surface's curvature requires it.
     pub const FORMS: Self = Self::of(&[Class::Suggestive, Class::Ridge, Class::Valley, Class::ApparentRidge]);
+
+    /// The classes that belong to no surface: the model's own curves and points. They hide nothing.
+    pub const FREE: Self = Self::of(&[Class::Curve, Class::Point]);
 
     /// Returns the set of these classes.
     pub const fn of(classes: &[Class]) -> Self {
@@ -128,8 +135,8 @@ impl ClassSet {
             "CLASSES",
             Kind::Several(names.collect()),
             "Edges to draw: boundary, non-manifold, silhouette, crease (or convex-crease, concave-crease), material, texture, \
-             normal, in style lines also intersection and the form lines suggestive, ridge, valley, apparent-ridge; separated \
-             by commas, or all",
+             normal, in style lines also intersection, the form lines suggestive, ridge, valley, apparent-ridge, and the \
+             model's own curve and point; separated by commas, or all",
             move |of: &T| field(&mut of.clone()).classes().map(Class::name).collect::<Vec<_>>().join(","),
             move |of: &mut T, text: &str| {
                 let named = || -> std::result::Result<Vec<Class>, ParseError> {
@@ -142,7 +149,7 @@ impl ClassSet {
                 Ok(())
             },
         )
-        .said("boundary,silhouette,crease; style lines: also non-manifold, material and intersection")
+        .said("boundary,silhouette,crease; style lines: also non-manifold, material, intersection, curve and point")
         .printed("D, Inking: boundary, crease and silhouette are what the listing asks for")
     }
 }
@@ -283,6 +290,10 @@ pub struct ClassCounts {
     /// Likewise for apparent ridges.
     #[serde(rename = "apparent-ridge")]
     pub apparent_ridge: usize,
+    /// Segments of curves; not counted among edges.
+    pub curve: usize,
+    /// Single points; likewise.
+    pub point: usize,
 }
 
 impl ClassCounts {
@@ -303,6 +314,8 @@ impl ClassCounts {
             Class::Ridge => &mut self.ridge,
             Class::Valley => &mut self.valley,
             Class::ApparentRidge => &mut self.apparent_ridge,
+            Class::Curve => &mut self.curve,
+            Class::Point => &mut self.point,
         }
     }
 }

@@ -99,7 +99,8 @@ impl StrokeIds {
         self.frame += 1;
         let spacing = (SPACING * scene.radius).max(slide * 0.25);
         let curve = |segment: &LineSegment| {
-            let of_edge = segment.edge.and_then(|edge| self.curves.get(&(segment.object, edge)));
+            let edge = segment.edge.filter(|_| !ClassSet::FREE.contains(segment.class));
+            let of_edge = edge.and_then(|edge| self.curves.get(&(segment.object, edge)));
             of_edge.copied().unwrap_or_else(|| curve_of_class(segment.class))
         };
         let mut paths = chain_curves(&lines.segments, curve);

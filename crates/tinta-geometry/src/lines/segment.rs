@@ -22,12 +22,12 @@ pub struct LineSegment {
     /// [`VisibleLines::undecided`](super::VisibleLines::undecided).
     pub is_covered: bool,
     /// Its ends in the picture: pixels from the upper left corner, y down. Segments that meet at a vertex have
-    /// bit-identical ends there.
+    /// bit-identical ends there. Both ends of a point are the same.
     pub ends_px: [DVec2; 2],
     /// Its ends in world coordinates.
     pub ends_world: [DVec3; 2],
-    /// The mesh edge it lies on, as two 0-based vertex numbers of the file. `None` for intersections, form lines and
-    /// smooth contours, which run through faces.
+    /// The mesh edge or the segment of a curve that it lies on, as two 0-based vertex numbers of the file; for a point
+    /// the same number twice. `None` for intersections, form lines and smooth contours, which run through faces.
     pub edge: Option<[u32; 2]>,
     /// The angle between the normals of its two faces, degrees; `None` for an edge without exactly two faces of
     /// non-zero area.

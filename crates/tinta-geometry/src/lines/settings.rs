@@ -21,6 +21,11 @@ pub struct LineSettings {
     /// The rule for silhouettes. `Exact`, the default, finds those of the faces. `Smooth` finds those of the curved
     /// surface that the faces approximate. `Published` is refused because it has no exact lines.
     pub silhouette: SilhouetteRule,
+    /// How far a curve or a point may lie behind a face and still count as on it, which does not hide it. A share of
+    /// the scene's radius, 0 to 0.1; in perspective it is exact at the depth of the scene's centre and proportional
+    /// to the depth. Default 1e-4: the rounding of coordinates with five digits. A larger value also lifts curves
+    /// that cut below a coarse surface, and shows those behind a wall as thin.
+    pub on_surface: f64,
     /// Whether hidden parts are found too. Default true. If false,
     /// [`VisibleLines::segments`](super::VisibleLines::segments) holds visible parts only, and hidden ones take no
     /// time.
@@ -48,10 +53,13 @@ impl Default for LineSettings {
                 Class::Crease,
                 Class::Material,
                 Class::Intersection,
+                Class::Curve,
+                Class::Point,
             ]),
             crease_angle: CreaseAngle::of_drawings(),
             lasting_creases: false,
             silhouette: SilhouetteRule::Exact,
+            on_surface: 1e-4,
             finds_hidden: true,
             finds_outline: false,
             forms: FormSettings::default(),
@@ -70,9 +78,12 @@ impl HasSettings for LineSettings {
 }
 
 impl LineSettings {
-    /// The defaults, with the creases of Dachsbacher's listing: the reference for the ink of all styles.
+    /// The defaults, with the creases of Dachsbacher's listing and without curves and points, which only exact lines
+    /// draw: the reference for the ink of all styles.
     pub fn as_published() -> Self {
-        Self { crease_angle: CreaseAngle::default(), ..Self::default() }
+        let base = Self::default();
+        let classes = base.classes.without(&[Class::Curve, Class::Point]);
+        Self { crease_angle: CreaseAngle::default(), classes, ..base }
     }
 
     pub(super) fn has_smooth_contours(&self) -> bool {
@@ -93,9 +104,28 @@ impl LineSettings {
             SilhouetteRule::setting(|lines: &mut Self| &mut lines.silhouette)
                 .refusing(|lines| not_published(lines.silhouette))
                 .offering(&["exact", "smooth"]),
+            Setting::field(
+                "on-surface",
+                "SHARE",
+                "Distance behind a face, as a share of the scene's radius, up to which a curve or a point still lies on \
+                 it and is seen; more lifts curves out of coarse surfaces",
+                |lines: &mut Self| &mut lines.on_surface,
+            )
+            .range(*ON_SURFACE.start(), *ON_SURFACE.end(), 5),
         ];
         let forms = within(FormSettings::settings(), |lines: &mut Self| Some(&mut lines.forms));
         edges.into_iter().chain(forms).collect()
+    }
+}
+
+/// Smallest and largest [`LineSettings::on_surface`]. With more, curves behind a model would lie on it.
+const ON_SURFACE: std::ops::RangeInclusive<f64> = 0.0..=0.1;
+
+/// Refuses an impossible [`LineSettings::on_surface`].
+pub(super) fn check_on_surface(share: f64) -> Result<()> {
+    match ON_SURFACE.contains(&share) {
+        true => Ok(()),
+        false => Err(Error::value("on-surface", share, "it is a share of the scene's radius, from 0 to 0.1")),
     }
 }
 

@@ -6,7 +6,7 @@
 use super::normals::Splitting;
 use super::pieces::Pieces;
 use super::soup::{Corner, Soup};
-use super::{Defects, LoadOptions, LoadStage, Mesh, NONE, Normals, normals, options, weld};
+use super::{Curves, Defects, LoadOptions, LoadStage, Mesh, NONE, Normals, normals, options, weld};
 use crate::error::{Error, Result};
 use crate::limits::{CONCAVE_CORNERS, CROSSING_CORNERS};
 use crate::tolerances::LARGEST_COORDINATE;
@@ -102,12 +102,16 @@ impl Soup {
         defects.long_polygons += pieces.too_long;
         defects.repeated_corners += pieces.repeated_corners;
         defects.duplicate_triangles += pieces.duplicate;
-        if pieces.triangles.is_empty() {
+        let curves = Curves::of(&self, &finite);
+        check_coordinates(&curves.positions, name)?;
+        if pieces.triangles.is_empty() && curves.is_empty() {
             return Err(nothing_to_draw(name, &self, &defects));
         }
         // A large model's corners are most of its soup.
         self.corners = Vec::new();
-        defects.unused_vertices += finite.iter().zip(&used).filter(|(finite, used)| **finite && !**used).count();
+        let mut unused: Vec<bool> = finite.iter().zip(&used).map(|(finite, used)| *finite && !*used).collect();
+        curves.file_vertices.iter().for_each(|vertex| unused[*vertex as usize] = false);
+        defects.unused_vertices += unused.into_iter().filter(|unused| *unused).count();
 
         let (positions, file_vertices) = compact(&self.positions, &mut pieces.triangles);
         let color = |vertex: &u32| self.colors.get(*vertex as usize).copied();
@@ -123,6 +127,7 @@ impl Soup {
             triangle_texture_coordinates: pieces.texture_coordinates,
             materials: std::mem::take(&mut self.materials),
             triangle_materials: pieces.materials,
+            curves,
             defects,
         };
         if mesh.triangle_texture_coordinates.as_flattened().iter().all(|index| *index == NONE) {
@@ -153,13 +158,7 @@ impl Soup {
                 points.map(|(point, used)| if *used { *point } else { alone }).collect()
             }
         };
-        let (low, high) = points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| {
-            if point.is_nan() { (low, high) } else { (low.min(*point), high.max(*point)) }
-        });
-        if low.abs().max(high.abs()).max_element() > LARGEST_COORDINATE && low.cmple(high).all() {
-            let problem = format!("its coordinates reach beyond {LARGEST_COORDINATE:e}; scale it down");
-            return Err(Error::model(name, problem));
-        }
+        let (low, high) = check_coordinates(&points, name)?;
         let diagonal = if low.cmple(high).all() { (high - low).length() } else { 0.0 };
         Ok(weld::weld(&points, tolerance * diagonal))
     }
@@ -193,6 +192,18 @@ impl Soup {
         }
         used
     }
+}
+
+/// Returns the bounding box of the points that are numbers; rejects coordinates too large.
+fn check_coordinates(points: &[DVec3], name: &str) -> Result<(DVec3, DVec3)> {
+    let (low, high) = points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| {
+        if point.is_nan() { (low, high) } else { (low.min(*point), high.max(*point)) }
+    });
+    if low.abs().max(high.abs()).max_element() > LARGEST_COORDINATE && low.cmple(high).all() {
+        let problem = format!("its coordinates reach beyond {LARGEST_COORDINATE:e}; scale it down");
+        return Err(Error::model(name, problem));
+    }
+    Ok((low, high))
 }
 
 /// Renumbers the triangles to the positions they use, in the file's order; returns those and their file vertices.
@@ -284,10 +295,6 @@ fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
         unusable_texture_coordinates: 0,
         ..defects.clone()
     };
-    let others = match soup.points_and_lines {
-        0 => "",
-        _ => " but points or lines, which are not drawn",
-    };
     let problem = if !of_faces.is_empty() {
         let wanted = if defects.long_polygons > 0 {
             format!(
@@ -298,15 +305,12 @@ fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
         } else {
             "faces whose vertices it holds, all of them finite".to_owned()
         };
-        format!("nothing is left to draw ({of_faces}){others}; export it again with {wanted}")
-    } else if soup.positions.is_empty() && others.is_empty() {
-        "it holds no vertices and no faces; is it the right file?".to_owned()
+        format!("nothing is left to draw ({of_faces}); export it again with {wanted}")
     } else if soup.positions.is_empty() {
-        format!("it holds no faces{others}; export it with its faces")
+        "it holds no vertices and no faces; is it the right file?".to_owned()
     } else {
         let vertices = if soup.positions.len() == 1 { "vertex" } else { "vertices" };
-        let joined = if others.is_empty() { "but" } else { "and" };
-        format!("it holds {} {vertices} {joined} no faces{others}; export it with its faces", soup.positions.len())
+        format!("it holds {} {vertices} but no faces; export it with its faces", soup.positions.len())
     };
     Error::model(name, problem)
 }

@@ -16,7 +16,7 @@ pub struct Defects {
     pub duplicate_triangles: usize,
     /// Vertices with a coordinate that is NaN or infinite; the faces that use them are left out.
     pub non_finite_vertices: usize,
-    /// Faces that name a vertex the file does not hold, left out.
+    /// Faces, lines and points that name a vertex the file does not hold, left out.
     pub out_of_range_faces: usize,
     /// Vertices that no face uses, left out.
     pub unused_vertices: usize,

@@ -71,10 +71,8 @@ fn contents(
         });
     }
     refuse_too_much(&outlines, bytes.len() + buffers.bytes_beside)?;
-    let mut left_out = Omissions { unread_pictures, ..Omissions::of(&root) };
+    let left_out = Omissions { unread_pictures, ..Omissions::of(&root) };
     for (outline, places) in &outlines {
-        left_out.primitives += outline.others;
-        soup.points_and_lines += outline.others;
         parts::put(&mut soup, outline, places, &accessors, &nodes)?;
     }
     remarks.extend(left_out.sentence(path));
@@ -133,8 +131,6 @@ fn refuse_too_much(outlines: &[(Outline<'_>, Vec<usize>)], file_bytes: usize) ->
 /// Counts of contents that are not drawn, for one remark.
 #[derive(Default)]
 struct Omissions {
-    /// Primitives that are points or lines.
-    primitives: usize,
     animations: usize,
     cameras: usize,
     scenes: usize,
@@ -164,7 +160,6 @@ impl Omissions {
             count => Some(format!("{count} {many}")),
         };
         let mut parts: Vec<String> = [
-            counted(self.primitives, "primitive of points or lines", "primitives of points or lines"),
             counted(self.see_through, "material's transparency", "materials' transparency"),
             counted(
                 self.unread_pictures,

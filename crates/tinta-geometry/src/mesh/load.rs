@@ -177,7 +177,9 @@ fn made(
     let files = std::mem::take(&mut soup.files);
     let other_up = soup.other_up.filter(|_| options.up_axis == UpAxis::Auto);
     let mesh = soup.into_mesh_watched(path, options, watch)?;
-    if let Some(up) = other_up.filter(|up| up_axis_guess::seems_to_lie(&mesh, *up)) {
+    if let Some(up) =
+        other_up.filter(|_| !mesh.triangles.is_empty()).filter(|up| up_axis_guess::seems_to_lie(&mesh, *up))
+    {
         remarks.push(format!(
             "{path}: the model may lie on its side, because its only flat end is at its lowest {up}; if it does, add --up-axis {up}"
         ));

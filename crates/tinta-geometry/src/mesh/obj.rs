@@ -36,11 +36,6 @@ pub(super) fn looks_like(head: &[u8]) -> bool {
 pub(super) fn read(bytes: &[u8], path: &str, folder: &Folder<'_>, remarks: &mut Vec<String>) -> Result<Soup> {
     let bytes = &*text::with_newlines(bytes);
     let soup = read_in_pieces(bytes, PIECE_BYTES, path, folder, remarks)?;
-    if soup.points_and_lines > 0 && !soup.corners.is_empty() {
-        let count = soup.points_and_lines;
-        let statements = if count == 1 { "statement" } else { "statements" };
-        remarks.push(format!("{path}: not drawn: {count} {statements} of points or lines"));
-    }
     if ends_in_a_face(bytes) {
         remarks.push(format!("{path}: its last line is a face without three corners; the file may be cut off"));
     }
@@ -135,7 +130,8 @@ fn joined(pieces: Vec<Chunk>) -> (Soup, Vec<(usize, Naming)>) {
         soup.defects.out_of_range_faces += piece.out_of_range_faces;
         soup.defects.unusable_normals += piece.lost[0];
         soup.defects.unusable_texture_coordinates += piece.lost[1];
-        soup.points_and_lines += piece.points_and_lines;
+        soup.segments.append(&mut piece.segments);
+        soup.points.append(&mut piece.points);
     }
     make_shares(&mut soup.colors);
     (soup, namings)
@@ -233,15 +229,27 @@ mod tests {
     }
 
     #[test]
-    fn points_and_lines_are_said_whether_there_are_faces_or_not() {
-        let mut remarks = Vec::new();
-        let text = format!("{SQUARE}l 1 2\np 1\nl 1 2 3\n");
-        let read =
-            |text: &str, remarks: &mut _| read(text.as_bytes(), "t.obj", &Folder::of_files(&[]), remarks).unwrap();
-        read(&format!("{text}f 1 2 3\n"), &mut remarks);
-        assert_eq!(remarks, ["t.obj: not drawn: 3 statements of points or lines"]);
-        let error = read(&text, &mut Vec::new()).into_mesh("t.obj", &crate::LoadOptions::default()).unwrap_err();
-        assert!(error.to_string().contains("4 vertices and no faces but points or lines"), "{error}");
+    fn points_and_lines_are_read_whether_there_are_faces_or_not() {
+        let text = format!("{SQUARE}l 1/7 2\np 1 -1\nl 2 3 4 # open\nl 4\n");
+        for faces in ["", "f 1 2 3\n"] {
+            let soup = soup(&format!("{text}{faces}"));
+            assert_eq!(soup.segments, [[0, 1], [1, 2], [2, 3]]);
+            assert_eq!(soup.points, [0, 3, 3]);
+            let mesh = soup.into_mesh("t.obj", &crate::LoadOptions::default()).unwrap();
+            assert_eq!((mesh.curves.segments.len(), mesh.curves.points.len()), (3, 3));
+            assert!(mesh.defects.is_empty(), "a curve uses its vertices: {}", mesh.defects);
+            assert_eq!(mesh.triangles.len(), usize::from(!faces.is_empty()));
+        }
+    }
+
+    #[test]
+    fn bad_lines_are_counted_or_said_and_the_others_kept() {
+        let soup = soup(&format!("{SQUARE}v nan 0 0\nl 1 9\np 0\nl 1 5\nl 2 2\nl 1 2\n"));
+        assert_eq!((soup.defects.out_of_range_faces, soup.segments.len()), (2, 3));
+        let mesh = soup.into_mesh("t.obj", &crate::LoadOptions::default()).unwrap();
+        assert_eq!((mesh.curves.segments.len(), mesh.defects.non_finite_vertices), (1, 1));
+        let sentence = "line 5: a line or a point is not a list of vertex numbers";
+        assert!(message(&format!("{SQUARE}l 1 x\n")).contains(sentence));
     }
 
     #[test]

@@ -48,6 +48,7 @@ pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Resul
             "vertex" => contents.vertices(&mut payload, element),
             "face" => contents.faces(&mut payload, element),
             "tristrips" => contents.strips(&mut payload, element, bytes.len()),
+            "edge" if element.has("vertex1") && element.has("vertex2") => contents.edges(&mut payload, element),
             _ => (0..element.count).try_for_each(|_| payload.element(element, |_, _| {})),
         };
         read.map_err(|Damage(cause)| {
@@ -56,6 +57,10 @@ pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Resul
     }
     let mut soup = contents.soup;
     contents.paint.put_on(&mut soup);
+    // A file of vertices alone is a cloud of points.
+    if header.elements.iter().all(|element| element.name == "vertex" || element.count == 0) {
+        soup.points = (0..soup.positions.len() as u32).collect();
+    }
     let has_coordinates = soup.corners.iter().any(|corner| corner.texture != NONE);
     if has_coordinates && soup.materials.is_empty() && soup.colors.is_empty() {
         remarks.push(format!("{path}: it has texture coordinates but names no picture; --skin FILE puts one on"));
@@ -69,6 +74,7 @@ fn many(count: usize, name: &str) -> String {
         "vertex" => ("vertex", "vertices"),
         "face" => ("face", "faces"),
         "tristrips" => ("triangle strip", "triangle strips"),
+        "edge" => ("edge", "edges"),
         _ => return format!("{count} elements {}", shown(name)),
     };
     format!("{count} {}", if count == 1 { one } else { several })
@@ -217,6 +223,24 @@ impl Contents {
             soup.corners.truncate(start);
             let defects = &mut soup.defects;
             *(if is_in_range { &mut defects.degenerate_triangles } else { &mut defects.out_of_range_faces }) += 1;
+        }
+        Ok(())
+    }
+
+    /// Edges between two vertices: segments of curves.
+    fn edges(&mut self, payload: &mut Payload<'_>, element: &Element) -> std::result::Result<(), Damage> {
+        self.soup.segments.reserve_exact(payload.at_most(element));
+        for _ in 0..element.count {
+            let mut ends = [f64::NAN; 2];
+            payload.element(element, |name, value| match (name, value) {
+                ("vertex1", Value::Scalar(number)) => ends[0] = number,
+                ("vertex2", Value::Scalar(number)) => ends[1] = number,
+                _ => {}
+            })?;
+            match ends.iter().all(|end| (0.0..f64::from(self.vertices)).contains(end)) {
+                true => self.soup.segments.push(ends.map(|end| end as u32)),
+                false => self.soup.defects.out_of_range_faces += 1,
+            }
         }
         Ok(())
     }

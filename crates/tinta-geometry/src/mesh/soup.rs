@@ -31,8 +31,10 @@ pub(super) struct Soup {
     pub frames: Vec<String>,
     /// Defects found by the reader.
     pub defects: Defects,
-    /// Points and lines of the file, which are not drawn.
-    pub points_and_lines: usize,
+    /// The straight segments of curves, each between two positions.
+    pub segments: Vec<[u32; 2]>,
+    /// The positions of single points.
+    pub points: Vec<u32>,
     /// The alternative up axis, for formats that do not name one.
     pub other_up: Option<UpAxis>,
     /// The files read besides the model's own: its material libraries, its data.

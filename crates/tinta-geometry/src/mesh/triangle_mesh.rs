@@ -1,6 +1,6 @@
 //! Triangles over shared positions, with their normals, texture coordinates and materials.
 
-use super::Defects;
+use super::{Curves, Defects};
 use glam::{DVec3, Vec2, Vec3};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -14,7 +14,8 @@ pub const NONE: u32 = u32::MAX;
 pub struct Mesh {
     /// The user's name for the model: a path or `builtin:…`.
     pub name: String,
-    /// Welded positions in world space, file units, f64; each is used by at least one triangle.
+    /// Welded positions in world space, file units, f64; each is used by at least one triangle. Empty for a model of curves and
+    /// points alone.
     pub positions: Vec<DVec3>,
     /// For each position the lowest 0-based vertex number of the file that was welded into it.
     pub file_vertices: Vec<u32>,
@@ -34,6 +35,8 @@ pub struct Mesh {
     pub materials: Vec<Material>,
     /// Each triangle's material or [`NONE`]; empty or as long as `triangles`.
     pub triangle_materials: Vec<u32>,
+    /// Curves and points beside the surface.
+    pub curves: Curves,
     /// The file's defects.
     pub defects: Defects,
 }
@@ -105,6 +108,7 @@ impl Mesh {
             triangle_texture_coordinates: Vec::new(),
             materials: Vec::new(),
             triangle_materials: Vec::new(),
+            curves: Curves::default(),
             defects: Defects::default(),
         }
     }
@@ -120,6 +124,10 @@ impl Mesh {
             + bytes_of(&self.texture_coordinates)
             + bytes_of(&self.triangle_texture_coordinates)
             + bytes_of(&self.triangle_materials)
+            + bytes_of(&self.curves.positions)
+            + bytes_of(&self.curves.file_vertices)
+            + bytes_of(&self.curves.segments)
+            + bytes_of(&self.curves.points)
     }
 
     /// Returns a triangle's corners; `None` if one does not exist.
@@ -128,9 +136,21 @@ impl Mesh {
         Some([corner(triangle[0])?, corner(triangle[1])?, corner(triangle[2])?])
     }
 
-    /// Returns the smallest and largest corner of the axis-aligned bounding box, world space, file units.
+    /// Returns the smallest and largest corner of the surface's axis-aligned bounding box, world space, file units; inverted
+    /// infinities without faces.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         bounds(&self.positions)
+    }
+
+    /// Returns the same for all that may be drawn: the surface, curves and points.
+    pub fn extent(&self) -> (DVec3, DVec3) {
+        let ((low, high), (curves_low, curves_high)) = (self.bounds(), bounds(&self.curves.positions));
+        (low.min(curves_low), high.max(curves_high))
+    }
+
+    /// The positions of the surface, its curves and points.
+    pub(crate) fn all_positions(&self) -> impl Iterator<Item = DVec3> + Clone {
+        self.positions.iter().chain(&self.curves.positions).copied()
     }
 }
 

@@ -42,7 +42,7 @@ pub struct Part {
 impl VertexArrays {
     /// Builds the arrays of a mesh; `unit` is the length in file units that becomes 1, the scene's radius.
     pub fn new(mesh: &Mesh, unit: f64) -> Self {
-        let (low, high) = mesh.bounds();
+        let (low, high) = if mesh.positions.is_empty() { mesh.extent() } else { mesh.bounds() };
         let centre = low * 0.5 + high * 0.5;
         let (corners, order) = both(|| CornerVertices::new(mesh, centre, unit), || drawing_order(mesh));
         let CornerVertices { vertices, texture_coordinates, colors, corner_vertices, position_vertices } = corners;

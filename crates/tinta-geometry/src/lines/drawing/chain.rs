@@ -78,8 +78,8 @@ impl End {
     }
 }
 
-/// Joins segments to paths, in the order of each path's first segment. Omits segments without length, and hidden ones
-/// that other lines replace.
+/// Joins segments to paths, in the order of each path's first segment. Omits segments without length, except
+/// points, and hidden ones that other lines replace.
 pub fn chain(segments: &[LineSegment]) -> Vec<LinePath> {
     chain_curves(segments, |_| 0)
 }
@@ -98,7 +98,7 @@ pub(in crate::lines) fn chain_curves(segments: &[LineSegment], curve: impl Fn(&L
 }
 
 fn is_drawn_itself(segment: &LineSegment) -> bool {
-    !segment.is_covered && segment.ends_px[0] != segment.ends_px[1]
+    !segment.is_covered && (segment.class == Class::Point || segment.ends_px[0] != segment.ends_px[1])
 }
 
 fn position(segments: &[LineSegment], end: usize) -> DVec2 {
@@ -108,7 +108,9 @@ fn position(segments: &[LineSegment], end: usize) -> DVec2 {
 /// For each end the end that it is joined to, or [`FREE`].
 fn partners(segments: &[LineSegment], curve: impl Fn(&LineSegment) -> u32) -> Vec<usize> {
     let mut ends = Vec::with_capacity(segments.len() * 2);
-    for (index, segment) in segments.iter().enumerate().filter(|(_, segment)| is_drawn_itself(segment)) {
+    // A point is a path of its own.
+    let is_joined = |segment: &LineSegment| is_drawn_itself(segment) && segment.class != Class::Point;
+    for (index, segment) in segments.iter().enumerate().filter(|(_, segment)| is_joined(segment)) {
         for (which, point) in segment.ends_px.iter().enumerate() {
             // Adding 0 turns -0 into 0, which is the same place.
             let [x, y] = [point.x, point.y].map(|value| (value + 0.0).to_bits());

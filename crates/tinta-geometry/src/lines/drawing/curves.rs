@@ -45,6 +45,9 @@ pub fn fitted(path: &LinePath, error_px: f64) -> (DVec2, Vec<Step>) {
     let mut points = simplified(path);
     points.dedup();
     let Some(first) = points.first().copied() else { return (DVec2::ZERO, Vec::new()) };
+    if points.len() == 1 && !path.is_closed {
+        return (first, vec![Step::Line(first)]);
+    }
     if points.len() < 3 {
         return (first, points[1..].iter().map(|point| Step::Line(*point)).collect());
     }

@@ -2,6 +2,7 @@
 //!
 //! Input: lines, their chained paths, settings. Output: a [`Drawing`], which the SVG and PDF writers share.
 
+use crate::edges::Class;
 use crate::error::Result;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::layers::Layer;
@@ -103,7 +104,8 @@ impl DrawnLayer {
     fn new(layer: Layer, mut paths: Vec<LinePath>, page: &Page, settings: &DrawingSettings, size: Size) -> Self {
         let is_pens_own = settings.is_for_pen && !settings.says_width(layer);
         let width_px = if is_pens_own { PEN_WIDTH_PX } else { settings.width_px(layer, page.units) };
-        let is_dashed = !layer.is_visible() && settings.hidden == Hidden::Dashed;
+        let is_point = layer == Layer::Hidden(Class::Point);
+        let is_dashed = !layer.is_visible() && !is_point && settings.hidden == Hidden::Dashed;
         if settings.is_for_pen {
             if is_dashed {
                 let [dash, gap] = PEN_DASHES.map(|share| share * f64::from(size.width.max(size.height)));

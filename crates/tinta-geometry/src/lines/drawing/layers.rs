@@ -376,7 +376,7 @@ mod tests {
     fn hidden_layers_lie_below_visible_ones_and_the_outline_above_all() {
         let layers: Vec<Layer> = Layer::upwards().collect();
         assert_eq!(layers.len(), 2 * CLASSES + 1);
-        assert_eq!(layers[0], Layer::Hidden(Class::ApparentRidge));
+        assert_eq!(layers[0], Layer::Hidden(Class::Point));
         assert_eq!(layers[2 * CLASSES - 1..], [Layer::Visible(Class::Boundary), Layer::Outline]);
         assert!(layers.iter().position(|layer| layer.is_visible()) == Some(CLASSES));
     }

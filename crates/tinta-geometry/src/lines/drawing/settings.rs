@@ -291,6 +291,7 @@ impl DrawingSettings {
             (Some(Length::Times(times)), _) => times * px(self.width()),
             (Some(width), _) => px(width),
             (None, Layer::Hidden(class)) => self.width_px(Layer::Visible(class), units) * HIDDEN_WIDTH,
+            (None, Layer::Visible(Class::Point)) => px(self.width()) * POINT_WIDTHS,
             (None, _) => px(self.width()),
         }
     }
@@ -347,6 +348,9 @@ pub(in crate::lines) fn mixed(color: Color, paper: Color, strength: f32) -> Colo
 /// Factor of the least length for creases, and for silhouettes inside the outline, with a free end or without a
 /// connection.
 const LEAST_FOLD: f64 = 8.0;
+
+/// Diameter of the dots that show points, in line widths.
+const POINT_WIDTHS: f64 = 2.0;
 
 /// Hidden lines' width and strength, as shares of their class's.
 const HIDDEN_WIDTH: f64 = 0.5;

@@ -16,6 +16,7 @@ mod strokes;
 mod shortest_path;
 
 use crate::bvh::steps;
+use crate::edges::ClassSet;
 use crate::error::{Error, Result};
 use crate::lines::VisibleLines;
 use crate::lines::drawing::layers::Layer;
@@ -59,6 +60,8 @@ impl VisibleLines {
                 .iter()
                 .enumerate()
                 .filter(|(_, segment)| segment.is_visible == is_visible && !segment.is_covered)
+                // A model's own curves and points are no noise, and connect nothing.
+                .filter(|(_, segment)| !ClassSet::FREE.contains(segment.class))
                 .map(|(number, segment)| Stroke::new(number, segment, settings, units))
                 .collect();
             let border = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));

@@ -20,7 +20,15 @@ pub(in crate::lines) struct Feature {
     pub planes: [u32; 2],
     /// The plane that contains all faces at the line.
     pub plane: u32,
-    /// Its vertex numbers in the file.
+    /// Its vertex numbers in the file: of an edge or a free line.
     pub edge: Option<[u32; 2]>,
     pub angle_degrees: Option<f64>,
+}
+
+impl Feature {
+    /// Whether it is drawn and takes part where lines lie on one another in the picture: free lines do not, they hide nothing and
+    /// nothing but faces hides them.
+    pub(in crate::lines) fn overlaps(&self) -> bool {
+        self.class.is_some() && self.own != Own::Free
+    }
 }

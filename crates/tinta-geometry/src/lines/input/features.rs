@@ -4,6 +4,7 @@ use crate::bvh::NO_GROUP;
 use crate::edges::{
     Class, ClassCounts, ClassSet, Classes, EdgeList, Incidence, MeshEdges, SilhouetteRule, persistent_creases,
 };
+use crate::error::Result;
 use crate::lines::LineSettings;
 use crate::lines::input::feature::Feature;
 use crate::lines::input::object_edges::ObjectEdges;
@@ -11,6 +12,7 @@ use crate::lines::smooth::contours::{Contours, OnEdge, between};
 use crate::lines::visible::faces::{Faces, Own, near_crossing};
 use crate::lines::visible::intersections::Intersection;
 use crate::lines::visible::space::Space;
+use crate::memory;
 use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::Scene;
 use glam::DVec3;
@@ -172,6 +174,54 @@ pub(in crate::lines) fn intersection_features(
         }
     };
     intersections.iter().map(feature).collect()
+}
+
+/// The curves and points of all parts, lifted by [`LineSettings::on_surface`]; counts them.
+///
+/// # Errors
+///
+/// [`Error::Setting`](crate::Error::Setting) for more than memory holds.
+pub(in crate::lines) fn free_features(
+    space: &Space,
+    parts: &[ObjectEdges<'_>],
+    settings: &LineSettings,
+    counts: &mut ClassCounts,
+) -> Result<Vec<Feature>> {
+    /// Of a line, its image, its piece and its path, measured.
+    const BYTES: usize = 800;
+    let wanted = |class: Class, count: usize| if settings.classes.contains(class) { count } else { 0 };
+    let curves = || parts.iter().map(|part| &part.object.mesh.curves);
+    counts.curve = wanted(Class::Curve, curves().map(|curves| curves.segments.len()).sum());
+    counts.point = wanted(Class::Point, curves().map(|curves| curves.points.len()).sum());
+    let count = counts.curve + counts.point;
+    memory::check_lines(count.saturating_mul(BYTES), memory::free())?;
+    let mut features = Vec::with_capacity(count);
+    for (number, part) in parts.iter().enumerate() {
+        let curves = &part.object.mesh.curves;
+        let view = |position: u32| {
+            let world = curves.positions[position as usize] + part.object.offset;
+            space.lifted(space.view(world), settings.on_surface)
+        };
+        let free = |class: Class, positions: [u32; 2]| Feature {
+            class: Some(class),
+            occludes: false,
+            object: number as u32,
+            own: Own::Free,
+            ends: positions.map(view),
+            weld: 0.0,
+            planes: [NO_GROUP; 2],
+            plane: NO_GROUP,
+            edge: Some(positions.map(|position| curves.file_vertices[position as usize])),
+            angle_degrees: None,
+        };
+        if settings.classes.contains(Class::Curve) {
+            features.extend(curves.segments.iter().map(|ends| free(Class::Curve, *ends)));
+        }
+        if settings.classes.contains(Class::Point) {
+            features.extend(curves.points.iter().map(|point| free(Class::Point, [*point; 2])));
+        }
+    }
+    Ok(features)
 }
 
 /// The lines where the near plane cuts faces: things behind appear there.

@@ -2,7 +2,7 @@
 //! another begin, end or change places.
 
 use crate::bvh::Exclusion;
-use crate::lines::visible::faces::Own;
+use crate::lines::visible::faces::{NO_FACE, Own};
 use crate::lines::visible::image::Image;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::SearchDepth;
@@ -40,7 +40,11 @@ impl LineIndex<'_> {
         if are_too_many || (!self.finds_hidden && self.add_overlaps(index, image, overlapping, part, most, cuts)) {
             return true;
         }
-        let Own::Faces(own) = feature.own else { return false };
+        let own = match feature.own {
+            Own::Edge(_) => return false,
+            Own::Faces(own) => own,
+            Own::Free => [NO_FACE; 2],
+        };
         // Faces with the corner in which it begins it meets nowhere else.
         self.any_but(&image.part_box(part, touch_px, keys), excluded, |face| {
             if own.contains(&face) {

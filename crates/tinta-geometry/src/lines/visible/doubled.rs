@@ -1,10 +1,11 @@
 //! The hidden lines that a drawing leaves out, because it draws another line that overlaps them in their place.
 //!
 //! In: pieces of lines. Out: the same pieces, hidden ones cut where such a line begins or ends, and marked. A visible line
-//! replaces every hidden one under it. Of hidden lines, the one of the first class stays, and within one class the first. Lines
+//! replaces every hidden one under it, except that curves and points replace no line of a surface. Of hidden lines, the one of the first class stays, and within one class the first. Lines
 //! overlap up to [`JOINED_PX`], which a file of three decimals barely resolves. Trees of visible and of hidden lines find the
 //! candidates. The search for a line ends when it is covered as a whole.
 
+use crate::edges::ClassSet;
 use crate::error::{Error, Result};
 use crate::lines::LineSegment;
 use crate::lines::progress::Progress;
@@ -104,6 +105,10 @@ impl DrawnLines<'_> {
 
     /// Whether a line is drawn in place of a hidden one that it overlaps.
     fn comes_before(&self, other: usize, hidden: usize) -> bool {
+        let is_free = |number: usize| ClassSet::FREE.contains(self.segments[number].class);
+        if is_free(other) && !is_free(hidden) {
+            return false;
+        }
         let rank = |number: usize| (!self.segments[number].is_visible, self.segments[number].class, number);
         let [other, hidden] = [other, hidden].map(rank);
         !other.0 || other < hidden

@@ -47,7 +47,7 @@ pub(in crate::lines) struct Probe {
     pub key: f64,
     /// A unit vector across the line's image, parallel to the picture, in the eye's space.
     pub aside: DVec3,
-    /// The line's length, file units.
+    /// The line's length, file units; see [`Own::contact_length`].
     pub line_length: f64,
     /// The distance below which positions of the line's object count as one, file units.
     pub weld: f64,
@@ -70,14 +70,22 @@ pub(in crate::lines) enum Own {
     Edge([u32; 2]),
     /// The intersection of two faces.
     Faces([u32; 2]),
+    /// None: a curve or a point beside all surfaces, moved towards the eye by [`Space::lifted`]. It touches no face.
+    Free,
 }
 
 impl Own {
+    /// Returns the length that contact with a face is relative to, for a line between two points, file units: none for a free line.
+    pub(in crate::lines) fn contact_length(self, ends: [DVec3; 2]) -> f64 {
+        if self == Self::Free { 0.0 } else { ends[0].distance(ends[1]) }
+    }
+
     /// Returns the positions at the line's ends, or [`NO_POSITION`]. An intersection of faces with a common corner begins in
     /// that corner.
     pub(in crate::lines) fn corners(self, faces: &Faces) -> [u32; 2] {
         match self {
             Self::Edge(ends) => ends,
+            Self::Free => [NO_POSITION; 2],
             Self::Faces([first, second]) => {
                 let [first, second] = [first, second].map(|face| faces.triangles[face as usize]);
                 let common = first.into_iter().find(|corner| second.contains(corner) && first != second);

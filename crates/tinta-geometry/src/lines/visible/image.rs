@@ -20,10 +20,15 @@ pub(in crate::lines) struct Image {
 impl Image {
     /// Returns the image of a line's part between the planes.
     pub(in crate::lines) fn of(space: &Space, ends: [DVec3; 2]) -> Option<Self> {
+        Self::between(space, ends, [space.near, space.far])
+    }
+
+    /// Returns the image of a line's part between two depths.
+    pub(in crate::lines) fn between(space: &Space, ends: [DVec3; 2], [near, far]: [f64; 2]) -> Option<Self> {
         let depths = ends.map(|end| -end.z);
         let mut range = [0.0f64, 1.0f64];
         for (start, end) in
-            [(depths[0] - space.near, depths[1] - space.near), (space.far - depths[0], space.far - depths[1])]
+            [(depths[0] - near, depths[1] - near), (far - depths[0], far - depths[1])]
         {
             if start < 0.0 && end < 0.0 {
                 return None;

@@ -1,6 +1,7 @@
 //! All lines with their images, and the trees that find every face that hides a line and every line that crosses it.
 
 use crate::bvh::{Box3, Exclusion, NO_GROUP, Walk};
+use crate::edges::Class;
 use crate::error::Result;
 use crate::lines::input::feature::Feature;
 use crate::lines::progress::Progress;
@@ -16,7 +17,7 @@ use crate::lines::visible::space::Space;
 use crate::memory;
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::{SHORTEST_LINE, TOUCH};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::cell::LazyCell;
 use std::collections::HashMap;
 
@@ -42,6 +43,8 @@ pub(in crate::lines) struct LineIndex<'a> {
     pub(in crate::lines) shortest_px: f64,
     pub(in crate::lines) finds_outline: bool,
     pub(in crate::lines) finds_hidden: bool,
+    /// See [`LineSettings::on_surface`].
+    on_surface: f64,
 }
 
 /// Parts along the picture's larger side. Long lines search for crossings part by part, because the box of a diagonal line
@@ -68,7 +71,13 @@ impl<'a> LineIndex<'a> {
         progress: &Progress,
     ) -> Result<Self> {
         let &LineSettings { finds_outline, finds_hidden, .. } = settings;
-        let images: Vec<Option<Image>> = features.iter().map(|feature| Image::of(space, feature.ends)).collect();
+        // A lifted line is cut off where it would be without the lift.
+        let lifted = [space.near, space.far].map(|depth| -space.lifted(DVec3::NEG_Z * depth, settings.on_surface).z);
+        let image = |feature: &Feature| match feature.own {
+            Own::Free => Image::between(space, feature.ends, lifted),
+            _ => Image::of(space, feature.ends),
+        };
+        let images: Vec<Option<Image>> = features.iter().map(image).collect();
         let side = space.size.max_element();
         let high_valence = high_valence(features);
         let occluders = Occluders::new(space, faces, pyramid, nearest_faces.is_some());
@@ -90,7 +99,7 @@ impl<'a> LineIndex<'a> {
                     let is_hidden = LazyCell::new(|| pyramid.is_some_and(|pyramid| pyramid.hides_line(ends(part))));
                     // A rim that is hidden for sure changes no visible line. The outline needs rims at any depth.
                     let is_rim = feature.occludes && (finds_outline || !*is_hidden);
-                    let is_beside = feature.class.is_some() && (finds_hidden || !*is_hidden);
+                    let is_beside = feature.overlaps() && (finds_hidden || !*is_hidden);
                     for part in image.parts(part, rim_px).filter(|_| is_rim) {
                         let around = image.part_box(part, margin, part.map(|place| image.key(place)));
                         rims.add_of_groups(around, index, feature.plane, vertex_of(&high_valence, feature.own));
@@ -111,7 +120,7 @@ impl<'a> LineIndex<'a> {
         }
         progress.go_on()?;
         memory::check_lines((rims.len() + overlapping.len()) * BYTES_A_PART, memory::free())?;
-        let is_wanted = |index: usize| features[index].class.is_some();
+        let is_wanted = |index: usize| features[index].overlaps();
         let bundles = Bundles::new(&images, is_wanted, space.size * 0.5, 2.0 * TOUCH * side);
         let mut pierced: HashMap<[u32; 2], Vec<DVec3>> = HashMap::new();
         for piercing in piercings {
@@ -131,6 +140,7 @@ impl<'a> LineIndex<'a> {
             shortest_px: SHORTEST_LINE * side,
             finds_outline,
             finds_hidden,
+            on_surface: settings.on_surface,
         })
     }
 
@@ -139,7 +149,19 @@ impl<'a> LineIndex<'a> {
         self.features[index].class?;
         let image = self.images[index]?;
         let inside = image.inside(self.space.size, 0.0)?;
-        (image.length() * (inside[1] - inside[0]) > self.shortest_px).then_some((image, inside))
+        let has_length = || image.length() * (inside[1] - inside[0]) > self.shortest_px;
+        (self.features[index].class == Some(Class::Point) || has_length()).then_some((image, inside))
+    }
+
+    /// The ends in the world of a line's part between two places of its image: of a free line as it is, not lifted.
+    pub(in crate::lines) fn ends_world(&self, index: usize, image: &Image, places: [f64; 2]) -> [DVec3; 2] {
+        match self.features[index].own {
+            Own::Free => places.map(|place| {
+                let view = self.space.point(image.at(place), image.key(place));
+                self.space.world(self.space.lowered(view, self.on_surface))
+            }),
+            _ => image.ends_world(self.space, places),
+        }
     }
 
     /// Returns the places where a part of a line begins, is cut and ends. A piece below the shortest length joins its neighbour.
@@ -183,14 +205,15 @@ impl<'a> LineIndex<'a> {
     pub(in crate::lines) fn probe(&self, index: usize, image: &Image, place: f64) -> Probe {
         let (px, key) = (image.at(place), image.key(place));
         let feature = &self.features[index];
-        let along = (image.b - image.a).normalize();
+        // A point has no direction: any will do.
+        let along = (image.b - image.a).try_normalize().unwrap_or(DVec2::X);
         Probe {
             view: self.space.point(px, key),
             px,
             key,
             // Down in the picture is up in the eye's space.
             aside: DVec3::new(along.y, along.x, 0.0),
-            line_length: feature.ends[0].distance(feature.ends[1]),
+            line_length: feature.own.contact_length(feature.ends),
             weld: feature.weld,
             own: feature.own,
             own_ends: feature.own.corners(self.faces),

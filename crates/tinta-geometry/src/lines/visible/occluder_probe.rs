@@ -59,7 +59,7 @@ impl Own {
     pub(in crate::lines) fn tip(self, space: &Space, length_px: f64) -> f64 {
         match self {
             Self::Edge(_) => 0.0,
-            Self::Faces(_) => TIP * space.size.max_element() / length_px,
+            Self::Faces(_) | Self::Free => TIP * space.size.max_element() / length_px,
         }
     }
 }
@@ -87,7 +87,7 @@ impl OccluderProbe {
             view: part.map(|place| space.point(image.at(place), image.key(place))),
             own,
             own_ends: corners,
-            line_length: ends[0].distance(ends[1]),
+            line_length: own.contact_length(ends),
             weld,
             touch_px: image.touch_px(space),
             noise_px: image.noise_px,

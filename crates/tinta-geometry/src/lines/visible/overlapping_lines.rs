@@ -32,6 +32,11 @@ impl OverlappingLines {
         Self { line: (index, *image, inside), found: OnceCell::new() }
     }
 
+    /// None.
+    pub(in crate::lines) fn none(index: usize, image: &Image, inside: [f64; 2]) -> Self {
+        Self::new(index, image, inside).known(Vec::new())
+    }
+
     /// The same, already found.
     pub(in crate::lines) fn known(self, lines: Vec<usize>) -> Self {
         Self { found: OnceCell::from(Overlaps::Few(lines)), ..self }

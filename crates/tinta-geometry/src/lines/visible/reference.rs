@@ -97,6 +97,7 @@ pub(in crate::lines) fn with_lines<T>(
         });
         all.extend(forms::form_features(scene, &space, &faces, &parts, settings, &mut edges));
     }
+    all.extend(features::free_features(&space, &parts, settings, &mut edges)?);
     all.extend(features::near_plane_features(&space, &faces));
     let piercings = &crossing_faces.piercings;
     let lines = LineIndex::new(&space, &faces, &all, piercings, (None, None), settings, progress)?;
@@ -134,8 +135,9 @@ impl LineIndex<'_> {
         match feature.own {
             // An edge passes through a face where the intersections say so: what only touches a face is not cut.
             Own::Edge(_) => self.add_piercings(index, image, &mut cuts),
-            Own::Faces(own) => {
-                let passed = self.all_faces().filter(|face| !own.contains(face));
+            Own::Faces(_) | Own::Free => {
+                let is_own = |face: &u32| matches!(feature.own, Own::Faces(own) if own.contains(face));
+                let passed = self.all_faces().filter(|face| !is_own(face));
                 let points = passed.filter_map(|face| self.piercing(feature.ends, face));
                 cuts.extend(points.map(|point| image.place_of(self.space.project(point).0)));
             }
@@ -160,7 +162,8 @@ impl LineIndex<'_> {
     pub(in crate::lines) fn nearer_lines(&self, index: usize, image: &Image, place: f64) -> Vec<(usize, f64)> {
         let (px, depth) = (image.at(place), self.space.depth_of_key(image.key(place)));
         let nearer = |other: usize| {
-            let (other_image, _) = self.wanted(other).filter(|_| other != index)?;
+            let overlap = self.features[other].overlaps() && self.features[index].overlaps();
+            let (other_image, _) = self.wanted(other).filter(|_| other != index && overlap)?;
             let touch_px = image.touch_px(self.space).max(other_image.touch_px(self.space));
             let range = image.overlap(&other_image, touch_px)?;
             let key = other_image.key(other_image.place_of(px).clamp(0.0, 1.0));
@@ -178,7 +181,8 @@ impl LineIndex<'_> {
         let lies_on_it = |other: &usize| {
             let Some(other_image) = self.images[*other].filter(|_| *other != index) else { return false };
             let touch_px = image.touch_px(self.space).max(other_image.touch_px(self.space));
-            self.features[*other].class.is_some() && image.overlap(&other_image, touch_px).is_some()
+            let overlap = self.features[*other].overlaps() && self.features[index].overlaps();
+            overlap && image.overlap(&other_image, touch_px).is_some()
         };
         let lying_on = (0..self.features.len()).filter(lies_on_it).collect();
         OverlappingLines::new(index, image, [0.0, 1.0]).known(lying_on)
@@ -186,7 +190,9 @@ impl LineIndex<'_> {
 
     fn others(&self, index: usize) -> impl Iterator<Item = (&Feature, &Image)> {
         let all = self.features.iter().zip(&self.images).enumerate();
-        all.filter(move |(other, _)| *other != index).filter_map(|(_, (other, image))| Some((other, image.as_ref()?)))
+        let is_other = move |other: usize, feature: &Feature| other != index && feature.own != Own::Free;
+        all.filter(move |(other, (feature, _))| is_other(*other, feature))
+            .filter_map(|(_, (other, image))| Some((other, image.as_ref()?)))
     }
 
     /// Every face that is in the picture.

@@ -24,6 +24,9 @@ pub(in crate::lines) struct Space {
     pub far: f64,
     /// How far rounding of the world's own numbers may move a coordinate, file units.
     pub noise: f64,
+    /// What a lift of 1 moves points towards the eye by: a scene radius in parallel projection, a share of their depth in
+    /// perspective.
+    lift: f64,
     /// Sine of the angle to the view below which a face is edge-on: far from the origin rounding turns the view, too.
     pub edge_on: f64,
 }
@@ -53,6 +56,10 @@ impl Space {
             }
             Projection::Parallel { height } => Lens::Parallel { px_per_unit: size.y / height },
         };
+        let lift = match lens {
+            Lens::Perspective { .. } => scene.radius / (camera.eye - scene.centre).length().max(scene.radius),
+            Lens::Parallel { .. } => scene.radius,
+        };
         let reach = scene.centre.abs().max_element() + scene.radius;
         let noise = COORDINATE_NOISE * reach.max(camera.eye.abs().max_element());
         Self {
@@ -63,6 +70,7 @@ impl Space {
             near: camera.near,
             far: camera.far,
             noise,
+            lift,
             edge_on: EDGE_ON + noise / camera.eye.distance(camera.target),
         }
     }
@@ -75,6 +83,23 @@ impl Space {
     /// A point of the eye's space in the world.
     pub(in crate::lines) fn world(&self, view: DVec3) -> DVec3 {
         self.rotation.transpose() * view + self.eye
+    }
+
+    /// A point moved towards the eye by a share of the scene's radius: in perspective by so much at the depth of the scene's
+    /// centre, and in proportion at others. Its image stays, and straight lines stay straight.
+    pub(in crate::lines) fn lifted(&self, view: DVec3, share: f64) -> DVec3 {
+        match self.lens {
+            Lens::Perspective { .. } => view * (1.0 - share * self.lift),
+            Lens::Parallel { .. } => view + DVec3::Z * (share * self.lift),
+        }
+    }
+
+    /// The point that [`Space::lifted`] moved here.
+    pub(in crate::lines) fn lowered(&self, view: DVec3, share: f64) -> DVec3 {
+        match self.lens {
+            Lens::Perspective { .. } => view / (1.0 - share * self.lift),
+            Lens::Parallel { .. } => view - DVec3::Z * (share * self.lift),
+        }
     }
 
     /// A direction of the world in the eye's space.

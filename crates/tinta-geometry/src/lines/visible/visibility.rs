@@ -54,7 +54,10 @@ impl LineIndex<'_> {
     fn add_segments(&self, index: usize, progress: &Progress, segments: &mut Vec<LineSegment>) -> Option<()> {
         let Some((image, inside)) = self.wanted(index) else { return Some(()) };
         let behind = self.behind_nearest(index, &image, inside);
-        let overlapping = OverlappingLines::new(index, &image, inside);
+        let overlapping = match self.features[index].overlaps() {
+            true => OverlappingLines::new(index, &image, inside),
+            false => OverlappingLines::none(index, &image, inside),
+        };
         let mut cuts = Vec::new();
         let add = |cover: &Cover, most, cuts: &mut Vec<f64>| {
             cover.open.iter().any(|gap| self.add_cuts(index, &image, &overlapping, *gap, most, cuts))
@@ -118,12 +121,12 @@ impl LineIndex<'_> {
             background: piece.background,
             is_covered: false,
             ends_px: [image.at(piece.from), image.at(piece.to)],
-            ends_world: image.ends_world(self.space, [piece.from, piece.to]),
+            ends_world: self.ends_world(index, &image, [piece.from, piece.to]),
             edge: feature.edge,
             angle_degrees: feature.angle_degrees,
             object: feature.object,
         };
-        match self.finds_outline && piece.is_visible {
+        match self.finds_outline && piece.is_visible && feature.overlaps() {
             true => self.with_outline(index, &image, piece).into_iter().map(segment).collect(),
             false => vec![segment(piece)],
         }

@@ -120,18 +120,11 @@ fn a_corner_twice_in_a_row_is_said_and_no_reason_to_refuse() {
 #[test]
 fn why_nothing_is_left_is_said_and_no_other_defect() {
     let message = |soup: Soup| soup.into_mesh("a", &LoadOptions::default()).unwrap_err().to_string();
-    let lines = Soup { points_and_lines: 2, ..Soup::default() };
-    assert_eq!(
-        message(lines),
-        "a: it holds no faces but points or lines, which are not drawn; export it with its faces"
-    );
     let (mut soup, mut empty) = (square(), square());
     soup.corners.clear();
     soup.polygon_sizes.clear();
-    soup.points_and_lines = 1;
     soup.defects.missing_materials = 1;
-    let sentence =
-        "a: it holds 4 vertices and no faces but points or lines, which are not drawn; export it with its faces";
+    let sentence = "a: it holds 4 vertices but no faces; export it with its faces";
     assert_eq!(message(soup), sentence);
     empty.positions = vec![DVec3::ZERO; 4];
     empty.defects.missing_materials = 1;

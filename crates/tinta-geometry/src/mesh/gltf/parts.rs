@@ -1,4 +1,4 @@
-//! A glTF mesh's triangles: which of its primitives share vertices, and those vertices in every place that shows them.
+//! A glTF mesh's triangles, lines and points: which of its primitives share vertices, and those vertices in every place that shows them.
 
 use super::accessors::Accessors;
 use super::materials::Coordinates;
@@ -18,8 +18,6 @@ pub(super) struct Outline<'a> {
     mesh: &'a Mesh,
     sets: Vec<Set<'a>>,
     pieces: Vec<PrimitivePart<'a>>,
-    /// How many primitives are points or lines.
-    pub others: usize,
 }
 
 /// Vertices that one or several primitives use.
@@ -30,7 +28,7 @@ struct Set<'a> {
     coordinates: Coordinates,
 }
 
-/// A primitive's triangles over the vertices of a set.
+/// A primitive's triangles, lines or points over the vertices of a set.
 struct PrimitivePart<'a> {
     primitive: &'a Primitive,
     mode: Mode,
@@ -46,20 +44,16 @@ impl<'a> Outline<'a> {
         accessors: &Accessors<'a>,
         coordinates: &'a [Coordinates],
     ) -> Result<Self, String> {
-        let mut outline = Self { mesh, sets: Vec::new(), pieces: Vec::new(), others: 0 };
+        let mut outline = Self { mesh, sets: Vec::new(), pieces: Vec::new() };
         let mut known = HashMap::new();
         for primitive in &mesh.primitives {
             let mode = match primitive.mode {
-                Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => mode,
-                Valid(_) => {
-                    outline.others += 1;
-                    continue;
-                }
+                Valid(mode) => mode,
                 Checked::Invalid => return Err("it has primitives of an unknown kind; export it again".to_owned()),
             };
             // The standard lets data be left out that an extension brings.
             let Some(positions) = attribute(primitive, Semantic::Positions) else {
-                return Err("it has triangles without positions; export it again".to_owned());
+                return Err("it has primitives without positions; export it again".to_owned());
             };
             let material = primitive.material.map(|material| material.value());
             if material.is_some_and(|material| material >= root.materials.len()) {
@@ -95,10 +89,11 @@ impl<'a> Outline<'a> {
         self.sets.iter().map(|set| set.count.max(1)).fold(0, usize::saturating_add)
     }
 
-    /// How many triangles it has at most, likewise.
+    /// How many triangles, segments and points it has at most, likewise.
     pub(super) fn triangles(&self) -> usize {
         let triangles = self.pieces.iter().map(|piece| match piece.mode {
             Mode::Triangles => piece.corners / 3,
+            Mode::Points | Mode::Lines | Mode::LineStrip | Mode::LineLoop => piece.corners,
             _ => piece.corners.saturating_sub(2),
         });
         triangles.map(|triangles| triangles.max(1)).fold(0, usize::saturating_add)
@@ -149,15 +144,12 @@ pub(super) fn put(
     accessors: &Accessors<'_>,
     nodes: &Nodes,
 ) -> Result<(), String> {
-    let triangles: Vec<Vec<[u32; 3]>> = outline
+    let indices: Vec<Vec<u32>> = outline
         .pieces
         .iter()
-        .map(|piece| {
-            let indices = match piece.primitive.indices {
-                Some(indices) => accessors.indices(indices, piece.corners)?,
-                None => (0..piece.corners as u32).collect(),
-            };
-            Ok(triangles(&indices, piece.mode))
+        .map(|piece| match piece.primitive.indices {
+            Some(indices) => accessors.indices(indices, piece.corners),
+            None => Ok((0..piece.corners as u32).collect()),
         })
         .collect::<Result<_, String>>()?;
     let mut skins: HashMap<usize, Vec<DMat4>> = HashMap::new();
@@ -181,8 +173,18 @@ pub(super) fn put(
             Placed::put(soup, &vertices, &nodes.scene_from_node[*place], joints)
         };
         let sets: Vec<Placed> = outline.sets.iter().map(put).collect::<Result<_, String>>()?;
-        for (piece, triangles) in outline.pieces.iter().zip(&triangles) {
-            sets[piece.set].put_faces(soup, triangles, piece.material);
+        for (piece, indices) in outline.pieces.iter().zip(&indices) {
+            let placed = &sets[piece.set];
+            match piece.mode {
+                Mode::Points => placed.put_points(soup, indices),
+                Mode::Lines => placed.put_segments(soup, indices.chunks_exact(2).map(|pair| [pair[0], pair[1]])),
+                Mode::LineStrip | Mode::LineLoop => {
+                    let closing = indices.last().zip(indices.first()).filter(|_| piece.mode == Mode::LineLoop);
+                    let pairs = indices.windows(2).map(|pair| [pair[0], pair[1]]);
+                    placed.put_segments(soup, pairs.chain(closing.map(|(last, first)| [*last, *first])));
+                }
+                _ => placed.put_faces(soup, &triangles(indices, piece.mode), piece.material),
+            }
         }
     }
     Ok(())
@@ -326,6 +328,22 @@ impl Placed {
         }
         soup.texture_coordinates.extend(&vertices.texture_coordinates);
         Ok(placed)
+    }
+
+    fn put_points(&self, soup: &mut Soup, indices: &[u32]) {
+        let known = indices.iter().filter(|index| (**index as usize) < self.count);
+        let before = soup.points.len();
+        soup.points.extend(known.map(|index| self.first_position + index));
+        soup.defects.out_of_range_faces += indices.len() - (soup.points.len() - before);
+    }
+
+    fn put_segments(&self, soup: &mut Soup, segments: impl Iterator<Item = [u32; 2]>) {
+        for segment in segments {
+            match segment.iter().all(|index| (*index as usize) < self.count) {
+                true => soup.segments.push(segment.map(|index| self.first_position + index)),
+                false => soup.defects.out_of_range_faces += 1,
+            }
+        }
     }
 
     fn put_faces(&self, soup: &mut Soup, triangles: &[[u32; 3]], material: u32) {

@@ -104,8 +104,9 @@ pub(super) struct Chunk {
     pub lost: [usize; 2],
     /// Free-form curves and surfaces, left out.
     pub free_form: [usize; 2],
-    /// Statements of points and lines, left out.
-    pub points_and_lines: usize,
+    /// The segments of lines and the single points, by the file's own numbers from 0.
+    pub segments: Vec<[u32; 2]>,
+    pub points: Vec<u32>,
 }
 
 impl Chunk {
@@ -150,7 +151,7 @@ impl Chunk {
             }
             // The second is the name in the format of 1992.
             "f" | "fo" => self.take_face(&plain(rest), before)?,
-            "p" | "l" => self.points_and_lines += 1,
+            "p" | "l" => self.take_line(&plain(rest), before, keyword == "l")?,
             "curv" | "cdc" => self.free_form[0] += 1,
             "surf" | "cdp" | "bzp" | "bsp" => self.free_form[1] += 1,
             "usemtl" | "mtllib" => {
@@ -203,6 +204,26 @@ impl Chunk {
             self.polygon_sizes.push(count as u32);
         }
         self.polygons += 1;
+    }
+
+    /// Records the vertices of a line as its segments, or as single points: those of a statement of points, and a line of one.
+    /// Counts a statement with a vertex out of range as faulty.
+    fn take_line(&mut self, text: &str, before: Counts, is_line: bool) -> Result<(), &'static str> {
+        let [positions, ..] = self.so_far(before);
+        let position = |word: &str| {
+            let number = word.split('/').next().unwrap_or_default();
+            resolve(number.as_bytes(), positions).filter(|index| *index != NONE)
+        };
+        let vertices: Option<Vec<u32>> = text.split_ascii_whitespace().map(position).collect();
+        let vertices = vertices.ok_or("a line or a point is not a list of vertex numbers")?;
+        if vertices.iter().any(|vertex| *vertex >= positions) {
+            self.out_of_range_faces += 1;
+        } else if is_line && vertices.len() > 1 {
+            self.segments.extend(vertices.windows(2).map(|pair| [pair[0], pair[1]]));
+        } else {
+            self.points.extend(vertices);
+        }
+        Ok(())
     }
 
     /// Records a face's corners, or counts it as faulty if it has too few or one out of range.
