@@ -274,6 +274,9 @@ impl Style {
             let remark = "the model's textures or colours at vertices are not drawn; --surface textured draws them";
             remarks.push(remark.to_owned());
         }
+        if scene.objects.iter().any(|object| !object.mesh.curves.is_empty()) {
+            remarks.push("the model's own curves and points are not drawn; --style lines draws them".to_owned());
+        }
         remarks
     }
 

@@ -245,7 +245,7 @@ fn triangles_strips_and_fans_of_indices_of_every_size_or_of_none() {
         assert_eq!((mesh.triangles.len(), area(&mesh)), (2, 1.0), "mode {mode}, {size} bytes");
         assert!(mesh.defects.is_empty(), "{}", mesh.defects);
     }
-    // Points and lines beside it are reported, not drawn.
+    // Points and lines beside it are read.
     let mut file = box_file();
     let primitives = file.json["meshes"][0]["primitives"].as_array_mut().unwrap();
     for mode in 0..4 {
@@ -253,7 +253,10 @@ fn triangles_strips_and_fans_of_indices_of_every_size_or_of_none() {
     }
     let loaded = file.load().unwrap();
     assert_eq!(loaded.mesh.triangles.len(), 12);
-    assert_eq!(loaded.remarks, ["file.gltf: not drawn: 4 primitives of points or lines"]);
+    let vertices = loaded.mesh.curves.positions.len();
+    let counts = [loaded.mesh.curves.points.len(), loaded.mesh.curves.segments.len()];
+    assert_eq!(counts, [vertices, vertices / 2 + vertices + vertices - 1], "points; lines, a loop, a strip");
+    assert!(loaded.remarks.is_empty(), "{:?}", loaded.remarks);
 }
 
 #[test]

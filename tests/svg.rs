@@ -35,6 +35,7 @@ pub fn lines(segments: Vec<LineSegment>) -> VisibleLines {
         covered_triangles: 0,
         undecided: 0,
         has_specks: false,
+        labels: Vec::new(),
         times: LineTimes::default(),
     }
 }

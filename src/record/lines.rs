@@ -68,8 +68,17 @@ struct SegmentRecord {
     object: u32,
 }
 
-/// Returns all lines as one JSON object: `size`, `camera`, and `segments`, one per line of the text; pixels, y down. A partial
-/// result also has `partial`, a sentence, and `undecided`, the number of missing lines.
+/// A point's label as written to the file.
+#[derive(Serialize)]
+struct LabelRecord<'a> {
+    text: &'a str,
+    visible: bool,
+    at: [f64; 2],
+    object: u32,
+}
+
+/// Returns all lines as one JSON object: `size`, `camera`, `labels` if points have any, and `segments`, one per line of the text;
+/// pixels, y down. A partial result also has `partial`, a sentence, and `undecided`, the number of missing lines.
 ///
 /// # Errors
 ///
@@ -80,7 +89,17 @@ pub fn lines_json(lines: &VisibleLines, scene: &Scene) -> Result<String> {
     if let Some(note) = lines.partial_note() {
         let _ = writeln!(text, "\"partial\": {},\n\"undecided\": {},", json(&note)?, lines.undecided);
     }
-    let _ = write!(text, "\"camera\": {},\n\"segments\": [", json(&CameraRecord::new(scene))?);
+    let _ = write!(text, "\"camera\": {},\n", json(&CameraRecord::new(scene))?);
+    if !lines.labels.is_empty() {
+        let labels = lines.labels.iter().map(|label| LabelRecord {
+            text: &label.text,
+            visible: label.is_visible,
+            at: label.px.to_array(),
+            object: label.object,
+        });
+        let _ = writeln!(text, "\"labels\": {},", json(&labels.collect::<Vec<_>>())?);
+    }
+    text.push_str("\"segments\": [");
     for (index, segment) in lines.segments.iter().enumerate() {
         let [a, b] = segment.ends_px.map(|end| end.to_array());
         let record = SegmentRecord {

@@ -37,6 +37,9 @@ pub const BATCH_BYTES: u64 = 1 << 30;
 /// Longest line of such a list, bytes: some hundred times what all options need.
 pub const JOB_BYTES: usize = 64 << 10;
 
+/// Longest label of a point, letters: several lines of a page.
+pub const LABEL_CHARACTERS: usize = 1000;
+
 /// Longest name of a job, bytes: a table can still show it.
 pub const JOB_ID_BYTES: usize = 200;
 

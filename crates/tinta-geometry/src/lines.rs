@@ -34,6 +34,7 @@
 mod drawing;
 mod identity;
 mod input;
+mod labels;
 mod progress;
 mod segment;
 mod settings;
@@ -55,6 +56,7 @@ pub use drawing::length::{Length, Millimetres, Units, line_width};
 pub use drawing::page::{PageSize, Paper, Sheet, Turn};
 pub use drawing::settings::{DrawingSettings, Hidden};
 pub use identity::StrokeIds;
+pub use labels::Label;
 pub use progress::{Phase, Progress};
 pub use segment::LineSegment;
 pub use settings::LineSettings;
@@ -228,10 +230,11 @@ impl VisibleLines {
         if undecided == 0 {
             segments = visible::doubled::marked(segments, &space, progress)?;
         }
+        let labels = labels::labels(scene, &segments);
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms, compared };
         let covered_triangles = parts.iter().map(ObjectEdges::covered).sum();
         let has_specks = false;
-        Ok(Self { size: scene.size, segments, edges, covered_triangles, changes, undecided, has_specks, times })
+        Ok(Self { size: scene.size, segments, labels, edges, covered_triangles, changes, undecided, has_specks, times })
     }
 }

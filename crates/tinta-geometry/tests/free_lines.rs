@@ -118,7 +118,7 @@ fn free_lines(scene: &Scene, reach: f64, random: &mut Random) -> Mesh {
     };
     let curves: Vec<Vec<DVec3>> = (0..8).map(|_| curve(random)).collect();
     let points: Vec<DVec3> = (0..40).map(|_| somewhere(scene, reach, random)).collect();
-    Mesh::of_curves("curves", &curves, &points).unwrap()
+    Mesh::of_curves("curves", &curves, &points, &[], &LoadOptions::default()).unwrap()
 }
 
 /// The scene with another model, under the same camera.
@@ -265,7 +265,7 @@ fn the_search_finds_the_curves_of_the_reference() {
 /// A cube from -1 to 1 with a curve and a point this far below the middle of its top, seen from above.
 fn below_the_top(depth: f64, parallel: bool) -> Scene {
     let at = |x: f64| DVec3::new(x, 1.0 - depth, 0.1);
-    let free = Mesh::of_curves("curve", &[vec![at(-0.5), at(0.5)]], &[at(0.2)]).unwrap();
+    let free = Mesh::of_curves("curve", &[vec![at(-0.5), at(0.5)]], &[at(0.2)], &["A & B"], &LoadOptions::default()).unwrap();
     let camera = CameraSettings { view: "top".parse().unwrap(), parallel, ..CameraSettings::default() };
     let settings = SceneSettings { camera, ..SceneSettings::default() };
     Scene::new([cuboid(-DVec3::ONE, DVec3::ONE), free], &settings).unwrap()
@@ -300,7 +300,7 @@ fn curves_far_outside_and_through_the_eye_are_cut_off() {
         [DVec3::X * 1e12, -DVec3::X * 1e12],
         [DVec3::Z * 1e12; 2],
     ] {
-        let curves = Mesh::of_curves("curve", &[line.to_vec()], &line).unwrap();
+        let curves = Mesh::of_curves("curve", &[line.to_vec()], &line, &[], &LoadOptions::default()).unwrap();
         scene.objects[1] = scene.objects[1].with_mesh(Arc::new(curves));
         for reference in [false, true] {
             let settings = LineSettings { reference, ..LineSettings::default() };
@@ -316,7 +316,7 @@ fn curves_far_outside_and_through_the_eye_are_cut_off() {
 #[test]
 fn bad_curves_are_refused_in_one_sentence() {
     let refused =
-        |curves: &[Vec<DVec3>], points: &[DVec3]| Mesh::of_curves("c", curves, points).unwrap_err().to_string();
+        |curves: &[Vec<DVec3>], points: &[DVec3]| Mesh::of_curves("c", curves, points, &[], &LoadOptions::default()).unwrap_err().to_string();
     let line = vec![DVec3::ZERO, DVec3::X];
     assert_eq!(
         refused(&[line.clone(), vec![DVec3::X]], &[]),
@@ -380,4 +380,22 @@ fn clouds_of_points_and_edges_of_ply_are_read() {
         "9\n3 0 1 2\n",
     );
     assert!(others.mesh.curves.is_empty() && others.mesh.triangles.len() == 1);
+}
+
+#[test]
+fn labels_are_texts_where_their_points_are_seen() {
+    let texts = |depth: f64, hidden: &str| {
+        let settings = LineSettings::default();
+        let lines = VisibleLines::of(&below_the_top(depth, true), &settings).unwrap();
+        let reference = LineSettings { reference: true, ..settings };
+        assert_eq!(lines.labels, VisibleLines::of(&below_the_top(depth, true), &reference).unwrap().labels);
+        let drawing = DrawingSettings { hidden: hidden.parse().unwrap(), ..DrawingSettings::default() };
+        svg(&lines, &drawing).unwrap().matches(">A &amp; B</text>").count()
+    };
+    assert_eq!((texts(0.0, "none"), texts(0.5, "none"), texts(0.5, "dashed")), (1, 0, 1));
+    let refused = |labels: &[&str]| {
+        Mesh::of_curves("c", &[], &[DVec3::ZERO], labels, &LoadOptions::default()).unwrap_err().to_string()
+    };
+    assert_eq!(refused(&["a", "b"]), "c: there are 2 labels for 1 points; give each point one");
+    assert_eq!(refused(&[&"\u{1f600}".repeat(1_001)]), "c: label 0 has more than 1000 letters; shorten it");
 }

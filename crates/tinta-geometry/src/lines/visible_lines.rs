@@ -1,5 +1,6 @@
 //! The visible and hidden lines of a scene.
 
+use super::labels::Label;
 use super::segment::LineSegment;
 use crate::edges::ClassCounts;
 use crate::error::{Error, Result};
@@ -16,6 +17,8 @@ pub struct VisibleLines {
     /// object, then edge, then along the edge; then intersections, form lines and smooth contours, by object and
     /// face.
     pub segments: Vec<LineSegment>,
+    /// The labels of points inside the picture, in the points' order.
+    pub labels: Vec<Label>,
     /// Number of edges in each class; an edge counts in the first of its classes.
     pub edges: ClassCounts,
     /// Number of triangles covered by coplanar ones, as in models made to be seen from both sides; each region counts

@@ -1,8 +1,9 @@
 //! The curves and points of a model that are no edges of its surface.
 
 use super::soup::Soup;
-use super::{LoadOptions, Mesh, NONE};
+use super::{LoadOptions, Mesh, NONE, options};
 use crate::error::{Error, Result};
+use crate::limits::LABEL_CHARACTERS;
 use glam::DVec3;
 
 /// The curves and points of a model that are no edges of its surface: statements `l` and `p` of OBJ, edges of PLY, glTF's primitives
@@ -17,6 +18,8 @@ pub struct Curves {
     pub segments: Vec<[u32; 2]>,
     /// The positions of single points.
     pub points: Vec<u32>,
+    /// Texts of points, each with the number of its point in `points`; no file gives any.
+    pub labels: Vec<(u32, String)>,
 }
 
 impl Curves {
@@ -58,15 +61,15 @@ impl Curves {
 
 impl Mesh {
     /// Builds a model without faces from a program's curves and points: each curve is a list of positions in order, world space,
-    /// any unit.
+    /// any unit. `labels` are the points' texts in their order, empty for a point without one; or there are none.
     ///
     /// ```
     /// # fn main() -> tinta_geometry::Result<()> {
     /// use glam::DVec3;
-    /// use tinta_geometry::Mesh;
+    /// use tinta_geometry::{LoadOptions, Mesh};
     ///
     /// let arc = vec![DVec3::X, DVec3::Y, -DVec3::X];
-    /// let model = Mesh::of_curves("an arc", &[arc], &[DVec3::ZERO])?;
+    /// let model = Mesh::of_curves("an arc", &[arc], &[DVec3::ZERO], &["centre"], &LoadOptions::default())?;
     /// assert_eq!((model.curves.segments.len(), model.curves.points.len()), (2, 1));
     /// # Ok(())
     /// # }
@@ -74,9 +77,24 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] for a curve of fewer than two positions, for coordinates that are not finite, and as in
-    /// [`Mesh::of_triangles`].
-    pub fn of_curves(name: &str, curves: &[Vec<DVec3>], points: &[DVec3]) -> Result<Self> {
+    /// [`Error::File`] for a curve of fewer than two positions, for coordinates that are not finite, for labels that are too many,
+    /// too few or longer than [`LABEL_CHARACTERS`], and as in [`Mesh::of_triangles`].
+    pub fn of_curves(
+        name: &str,
+        curves: &[Vec<DVec3>],
+        points: &[DVec3],
+        labels: &[&str],
+        options: &LoadOptions,
+    ) -> Result<Self> {
+        options::check(options)?;
+        if !labels.is_empty() && labels.len() != points.len() {
+            let problem = format!("there are {} labels for {} points; give each point one", labels.len(), points.len());
+            return Err(Error::model(name, problem));
+        }
+        if let Some(number) = labels.iter().position(|text| text.chars().nth(LABEL_CHARACTERS).is_some()) {
+            let problem = format!("label {number} has more than {LABEL_CHARACTERS} letters; shorten it");
+            return Err(Error::model(name, problem));
+        }
         let mut soup = Soup::default();
         for (number, curve) in curves.iter().enumerate() {
             let refused = |problem: &str| Err(Error::model(name, format!("curve {number} {problem}")));
@@ -97,6 +115,9 @@ impl Mesh {
         let first = soup.positions.len() as u32;
         soup.points.extend((0..points.len() as u32).map(|place| first + place));
         soup.positions.extend(points);
-        soup.into_mesh(name, &LoadOptions::default())
+        let mut mesh = soup.into_mesh(name, options)?;
+        let given = labels.iter().enumerate().filter(|(_, text)| !text.is_empty());
+        mesh.curves.labels = given.map(|(point, text)| (point as u32, (*text).to_owned())).collect();
+        Ok(mesh)
     }
 }

@@ -26,13 +26,18 @@ impl Scene {
         }
     }
 
-    /// Refuses a camera that GL cannot draw this scene with: f32 matrices are too coarse for the depth, or the planes
+    /// Refuses a scene without faces, which GL draws alone, and a camera that GL cannot draw this scene with: f32 matrices are too coarse for the depth, or the planes
     /// leave the depth buffer too few steps. Exact lines need neither.
     ///
     /// # Errors
     ///
     /// [`Error::Setting`] with the names of the options.
     pub fn check_precision(&self) -> Result<()> {
+        if self.triangle_count() == 0 {
+            let problem = "the model has no faces, only curves and points, which other styles than lines leave out; draw it \
+                           with --style lines, or into a .svg";
+            return Err(Error::setting("style", problem));
+        }
         let distance = self.distance();
         if distance > LARGEST_DISTANCE || !self.clip_from_view().is_finite() {
             return Err(Error::settings(

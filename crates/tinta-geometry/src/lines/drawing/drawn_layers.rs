@@ -5,6 +5,7 @@
 use crate::edges::Class;
 use crate::error::Result;
 use crate::lines::drawing::chain::{LinePath, chain};
+use crate::lines::drawing::drawn_labels::{DrawnLabel, drawn_labels};
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::page::Page;
 use crate::lines::drawing::pen::{dashes, in_pen_order};
@@ -35,6 +36,8 @@ pub(in crate::lines) struct Drawing<'a> {
     pub page: Page,
     /// Non-empty layers, from the lowest to the highest.
     pub layers: Vec<DrawnLayer>,
+    /// Texts above all layers.
+    pub labels: Vec<DrawnLabel<'a>>,
 }
 
 /// The paths of a layer and their style.
@@ -90,7 +93,8 @@ impl<'a> Drawing<'a> {
             (!drawn.paths.is_empty()).then_some(drawn)
         });
         let layers = layers.collect();
-        Ok(Self { segments: &lines.segments, note: lines.partial_note(), settings, page, layers })
+        let labels = drawn_labels(&lines.labels, settings, page.units);
+        Ok(Self { segments: &lines.segments, note: lines.partial_note(), settings, page, layers, labels })
     }
 }
 

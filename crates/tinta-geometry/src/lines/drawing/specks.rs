@@ -82,6 +82,7 @@ impl VisibleLines {
         Self {
             size: self.size,
             segments: Vec::new(),
+            labels: self.labels.clone(),
             edges: self.edges,
             changes: self.changes.clone(),
             covered_triangles: self.covered_triangles,

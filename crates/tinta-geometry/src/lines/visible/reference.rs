@@ -17,6 +17,7 @@ use crate::error::{Error, Result};
 use crate::lines::input::feature::Feature;
 use crate::lines::input::features;
 use crate::lines::input::object_edges::{self, Edges, ObjectEdges};
+use crate::lines::labels;
 use crate::lines::progress::Progress;
 use crate::lines::segment::LineSegment;
 use crate::lines::settings::LineSettings;
@@ -55,6 +56,7 @@ pub(in crate::lines) fn visible_lines(
         }
         Ok(VisibleLines {
             size: scene.size,
+            labels: labels::labels(scene, &segments),
             segments: doubled::marked(segments, lines.space, progress)?,
             edges,
             covered_triangles: parts.iter().map(ObjectEdges::covered).sum(),

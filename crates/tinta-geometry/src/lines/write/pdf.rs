@@ -9,19 +9,21 @@ use crate::error::{Error, Result};
 use crate::lines::VisibleLines;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::{Step, fitted};
+use crate::lines::drawing::drawn_labels::{DrawnLabel, height_px, win_ansi};
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
 use crate::lines::drawing::settings::{DrawingSettings, mixed};
 use crate::lines::drawing::text::{written_point, written_points};
 use crate::scene::{Background, Color};
 use glam::DVec2;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
-use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, TextStr};
+use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
 /// Returns the lines as a PDF file, without spurs and specks.
 ///
 /// # Errors
 ///
-/// Those of [`crate::lines::svg`], and [`Error::Setting`] for a page larger than PDF allows.
+/// Those of [`crate::lines::svg`], and [`Error::Setting`] for a page larger than PDF allows and for labels with letters
+/// that the standard fonts lack.
 pub fn pdf(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<u8>> {
     let lines = lines.without_specks(settings)?;
     pdf_of_paths(&lines, chain(&lines.segments), settings)
@@ -41,8 +43,17 @@ pub fn pdf_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &Drawi
                        --width-mm, --dpi or --size";
         return Err(Error::setting("page", problem));
     }
-    Ok(written(&drawing, scale))
+    let encode = |label: &DrawnLabel<'_>| win_ansi(label.text).map(|text| (text, label.at_px, label.color));
+    let labels: Vec<Text> = drawing.labels.iter().map(encode).collect::<Result<_>>()?;
+    Ok(written(&drawing, &labels, scale))
 }
+
+/// A text in the encoding of the standard fonts, the left end of its base line in pixels, its colour.
+type Text = (Vec<u8>, DVec2, Color);
+
+/// The standard font of labels, and its name on the page.
+const FONT: &[u8] = b"Helvetica";
+const FONT_NAME: &[u8] = b"F1";
 
 /// Limits for the sides of a page, points (ISO 32000-1, annex C).
 const LARGEST_PAGE: f64 = 14_400.0;
@@ -55,7 +66,7 @@ const CONTENT: Ref = Ref::new(4);
 const INFORMATION: Ref = Ref::new(5);
 const FIRST_LAYER: i32 = 6;
 
-fn written(drawing: &Drawing<'_>, scale: f64) -> Vec<u8> {
+fn written(drawing: &Drawing<'_>, labels: &[Text], scale: f64) -> Vec<u8> {
     let (settings, page) = (drawing.settings, &drawing.page);
     let [width, height] = (page.extent_px * scale).to_array().map(|side| side as f32);
     let layers: Vec<Ref> = (FIRST_LAYER..).map(Ref::new).take(drawing.layers.len()).collect();
@@ -79,6 +90,10 @@ fn written(drawing: &Drawing<'_>, scale: f64) -> Vec<u8> {
         properties.pair(Name(layer_name(number).as_bytes()), *layer);
     }
     properties.finish();
+    let font = Ref::new(FIRST_LAYER + layers.len() as i32);
+    if !labels.is_empty() {
+        resources.fonts().pair(Name(FONT_NAME), font);
+    }
     resources.finish();
     sheet.finish();
 
@@ -92,6 +107,17 @@ fn written(drawing: &Drawing<'_>, scale: f64) -> Vec<u8> {
     content.set_line_cap(LineCapStyle::RoundCap).set_line_join(LineJoinStyle::RoundJoin);
     for (number, layer) in drawing.layers.iter().enumerate() {
         write_layer(drawing, layer, number, &mut content);
+    }
+    if !labels.is_empty() {
+        let height = height_px(page.units) as f32;
+        content.begin_text().set_font(Name(FONT_NAME), height);
+        for (text, at, Color([red, green, blue])) in labels {
+            // Pixels have y down, letters up.
+            content.set_fill_rgb(*red, *green, *blue).set_text_matrix([1.0, 0.0, 0.0, -1.0, at.x as f32, at.y as f32]);
+            content.show(Str(text));
+        }
+        content.end_text();
+        pdf.type1_font(font).base_font(Name(FONT)).encoding_predefined(Name(b"WinAnsiEncoding"));
     }
     pdf.stream(CONTENT, &content.finish());
 

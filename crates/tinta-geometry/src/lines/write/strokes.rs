@@ -121,6 +121,7 @@ mod tests {
             covered_triangles: 0,
             undecided: 0,
             has_specks: false,
+            labels: Vec::new(),
             times: LineTimes::default(),
         }
     }

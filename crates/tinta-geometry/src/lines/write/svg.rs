@@ -1,4 +1,4 @@
-//! Writes lines as SVG 1.1: a layer of polylines for each class and visibility, nothing else.
+//! Writes lines as SVG 1.1: a layer of polylines for each class and visibility, and one of texts if points have labels.
 //!
 //! Input: [`VisibleLines`] and [`DrawingSettings`]. Output: a text that is byte-identical for the same input.
 //! Coordinates are pixels with three decimals, y down, in the order of the segments. The layers are groups that
@@ -8,6 +8,7 @@ use crate::error::Result;
 use crate::lines::VisibleLines;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::fitted;
+use crate::lines::drawing::drawn_labels::height_px;
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
 use crate::lines::drawing::page::PAGE_DECIMALS;
 use crate::lines::drawing::settings::DrawingSettings;
@@ -40,8 +41,26 @@ pub fn svg_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &Drawi
     for layer in &drawing.layers {
         write_layer(&drawing, layer, &mut out);
     }
+    write_labels(&drawing, &mut out);
     out.push_str("</svg>\n");
     Ok(out)
+}
+
+fn write_labels(drawing: &Drawing<'_>, out: &mut String) {
+    if drawing.labels.is_empty() {
+        return;
+    }
+    let height = number(height_px(drawing.page.units));
+    let _ = writeln!(
+        out,
+        r#"<g id="labels" inkscape:groupmode="layer" inkscape:label="labels" font-family="sans-serif" font-size="{height}">"#
+    );
+    for label in &drawing.labels {
+        let [x, y] = label.at_px.to_array().map(number);
+        let (fill, text) = (hexadecimal(label.color), escaped(label.text));
+        let _ = writeln!(out, r#"<text x="{x}" y="{y}" fill="{fill}">{text}</text>"#);
+    }
+    out.push_str("</g>\n");
 }
 
 /// Writes everything before the layers.

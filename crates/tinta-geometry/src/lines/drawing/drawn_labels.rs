@@ -1,0 +1,88 @@
+//! Labels as drawn texts: place, size and colour.
+
+use crate::edges::Class;
+#[cfg(feature = "pdf")]
+use crate::error::{Error, Result};
+use crate::lines::drawing::layers::Layer;
+use crate::lines::drawing::length::Units;
+use crate::lines::drawing::settings::DrawingSettings;
+use crate::lines::labels::Label;
+use crate::scene::Color;
+use glam::DVec2;
+
+/// Height of the letters, pixels without a size on paper and millimetres with one: ten points.
+const HEIGHT_PX: f64 = 12.0;
+const HEIGHT_MM: f64 = 3.53;
+
+/// Gap between a point's dot and its text, and how far the base line lies below the point, in letter heights.
+const GAP: f64 = 0.25;
+const BASELINE: f64 = 0.35;
+
+/// A text to write.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::lines) struct DrawnLabel<'a> {
+    pub text: &'a str,
+    /// The left end of its base line, pixels, y down.
+    pub at_px: DVec2,
+    pub color: Color,
+}
+
+/// The height of all labels' letters, pixels.
+pub(in crate::lines) fn height_px(units: Units) -> f64 {
+    units.px_per_mm.map_or(HEIGHT_PX, |px| px * HEIGHT_MM)
+}
+
+/// The labels that a drawing shows, to the right of their points.
+pub(in crate::lines) fn drawn_labels<'a>(
+    labels: &'a [Label],
+    settings: &DrawingSettings,
+    units: Units,
+) -> Vec<DrawnLabel<'a>> {
+    let height = height_px(units);
+    let drawn = |label: &'a Label| {
+        let layer = Layer::of(Class::Point, label.is_visible, false);
+        let right = settings.width_px(layer, units) * 0.5 + GAP * height;
+        let at_px = label.px + DVec2::new(right, BASELINE * height);
+        DrawnLabel { text: &label.text, at_px, color: settings.color(layer) }
+    };
+    labels.iter().filter(|label| settings.draws(label.is_visible) && !label.text.is_empty()).map(drawn).collect()
+}
+
+/// Returns a text's bytes in the encoding of PDF's standard fonts, WinAnsi (ISO 32000-1, annex D).
+///
+/// # Errors
+///
+/// [`Error::Setting`] for letters that these fonts lack.
+#[cfg(feature = "pdf")]
+pub(in crate::lines) fn win_ansi(text: &str) -> Result<Vec<u8>> {
+    /// The letters of 0x80 to 0x9F that are none of Latin 1.
+    const OTHERS: [char; 32] = [
+        '€', '\0', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\0', 'Ž', '\0', '\0', '‘', '’', '“', '”', '•', '–',
+        '—', '˜', '™', 'š', '›', 'œ', '\0', 'ž', 'Ÿ',
+    ];
+    let byte = |letter: char| match letter {
+        '\t' | '\n' | '\r' => Some(b' '),
+        ' '..='~' | '\u{a0}'..='\u{ff}' => u8::try_from(letter).ok(),
+        '\0' => None,
+        _ => OTHERS.iter().position(|other| *other == letter).map(|place| 0x80 + place as u8),
+    };
+    let encoded: Option<Vec<u8>> = text.chars().map(byte).collect();
+    encoded.ok_or_else(|| {
+        let shown: String = text.chars().take(40).collect();
+        Error::value("labels", shown, "a PDF's standard fonts lack some of its letters; write it as .svg")
+    })
+}
+
+#[cfg(all(test, feature = "pdf"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn western_letters_have_bytes_and_others_are_refused_with_the_remedy() {
+        assert_eq!(win_ansi("Höhe 3 €\n–").unwrap(), b"H\xf6he 3 \x80 \x96");
+        assert!(win_ansi("").unwrap().is_empty());
+        for text in ["λ", "山", "\u{1}", "\u{81}", "a\0"] {
+            assert!(win_ansi(text).unwrap_err().to_string().contains("write it as .svg"), "{text:?}");
+        }
+    }
+}
