@@ -202,6 +202,19 @@ impl Lines {
         layers.into_iter().map(described).collect()
     }
 
+    /// The labels of points, each a dict.
+    fn labels<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let described = |label: &tinta::lines::Label| {
+            let described = PyDict::new(py);
+            described.set_item("text", &label.text)?;
+            described.set_item("at", label.px.to_array())?;
+            described.set_item("visible", label.is_visible)?;
+            described.set_item("object", label.object)?;
+            Ok(described)
+        };
+        self.lines.labels.iter().map(described).collect()
+    }
+
     /// The camera: eye, target, up, and either fov in degrees or height in the mesh's units.
     fn camera<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         use tinta::camera::Projection;

@@ -123,6 +123,75 @@ impl Mesh {
         Ok(Self::new(mesh, None, options, Vec::new(), remarks))
     }
 
+    /// Makes a mesh without faces of curves, given by all positions and the place where each curve ends, of points and of their
+    /// labels, empty or as many. Everything is copied first, and the copies are checked.
+    #[staticmethod]
+    fn of_curves(
+        py: Python<'_>,
+        positions: PyReadonlyArray2<'_, f64>,
+        ends: PyReadonlyArray1<'_, i64>,
+        points: PyReadonlyArray2<'_, f64>,
+        labels: Vec<String>,
+        given: &Bound<'_, PyDict>,
+    ) -> PyResult<Self> {
+        let options = options("mesh", given)?;
+        let numbers = positions.as_array().iter().copied().collect::<Vec<f64>>();
+        let points = points.as_array().iter().copied().collect::<Vec<f64>>();
+        let ends = ends.as_array().to_vec();
+        drop(positions);
+        let of_mesh = options.clone();
+        let made = done(
+            py,
+            || (),
+            move || {
+                let positions = match checked_vertices(&numbers) {
+                    Ok(positions) => positions,
+                    Err(problem) => return Ok(Err(("curves", problem))),
+                };
+                let points = match checked_vertices(&points) {
+                    Ok(points) => points,
+                    Err(problem) => return Ok(Err(("points", problem))),
+                };
+                let mut start = 0;
+                let curves: Option<Vec<Vec<DVec3>>> = ends
+                    .iter()
+                    .map(|end| {
+                        let end = usize::try_from(*end).ok()?;
+                        let curve = positions.get(start..end)?.to_vec();
+                        start = end;
+                        Some(curve)
+                    })
+                    .collect();
+                let Some(curves) = curves else { return Ok(Err(("curves", "their ends are out of order".to_owned()))) };
+                let labels: Vec<&str> = labels.iter().map(String::as_str).collect();
+                let load = LoadOptions::from_options(&of_mesh)?;
+                tinta::Mesh::of_curves("curves", &curves, &points, &labels, &load).map(Ok)
+            },
+        )?;
+        let mesh = made.map_err(|(argument, problem)| wrong(argument, problem))?;
+        Ok(Self::new(mesh, None, options, Vec::new(), Vec::new()))
+    }
+
+    /// The positions of its curves and points, which belong to no face: (N, 3) float64.
+    #[getter]
+    fn free<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let positions = &self.mesh.curves.positions;
+        let numbers: Vec<f64> = positions.iter().flat_map(|point| point.to_array()).collect();
+        shaped(py, numbers, &[positions.len(), 3])
+    }
+
+    /// This surface with the curves and points of another mesh, at other positions, as many as before.
+    fn with_curves_of(&self, other: &Self, positions: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
+        let numbers = positions.as_array().iter().copied().collect::<Vec<f64>>();
+        let positions = checked_vertices(&numbers).map_err(|problem| wrong("curves", problem))?;
+        if positions.len() != other.mesh.curves.positions.len() {
+            return Err(wrong("curves", "they have another number of positions"));
+        }
+        let curves = tinta::mesh::Curves { positions, ..other.mesh.curves.clone() };
+        let mesh = tinta::Mesh { curves, ..(*self.mesh).clone() };
+        Ok(Self::new(mesh, self.path.clone(), self.options.clone(), self.files.clone(), self.remarks.clone()))
+    }
+
     /// Reads a mesh from a file.
     #[staticmethod]
     fn of_file(py: Python<'_>, path: String, given: &Bound<'_, PyDict>) -> PyResult<Self> {

@@ -30,7 +30,7 @@ def test_names_of_settings_in_it_are_settings():
 
     text = DOCUMENT.read_text()
     known = {setting["name"] for function in tinta_npr._native.names("function") for setting in tinta_npr._native.settings(function)}
-    known |= {"style", "look", "preset", "camera", "left", "right", "styles", "off_screen", "figure", "projection", "xlim", "ylim", "zlim"}
+    known |= {"style", "look", "preset", "camera", "left", "right", "styles", "off_screen", "figure", "projection", "xlim", "ylim", "zlim", "curves", "points", "labels"}
     code = "\n".join(re.findall(r"```python\n(.*?)```", text, re.S) + re.findall(r"`([^`\n]*)`", text.replace("```", "")))
     given = set(re.findall(r"[(,] ?([a-z_]+)=", code))
     assert len(given) > 12 and given <= known, given - known

@@ -195,3 +195,57 @@ def test_styles_are_measured_and_compared(cube):
     count = dict(zip(map(tuple, colors.tolist()), counts.tolist()))
     assert count.get((213, 94, 0, 255), 0) == numbers["only_left_px"]
     assert count.get((0, 114, 178, 255), 0) == numbers["only_right_px"]
+
+
+def test_curves_and_points_are_hidden_by_faces_and_labels_follow_their_points(cube):
+    vertices, faces = cube
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    middle, size = (low + high) / 2, high - low
+    view = {"view": "front", "parallel": True, "size": 200}
+    # Along the view through the cube, before it, behind it, and across its front face.
+    depth = np.array([0, 0, 1]) * size
+    beside = np.array([1, 0.05, 0]) * size
+    behind = [middle - depth - beside, middle - depth + beside]
+    before = [middle + depth - beside, middle + depth + beside]
+    across = [middle + depth / 2 - beside / 4, middle + depth / 2 + beside / 4]
+    points = [middle, middle + depth, middle - depth]
+    lines = tn.lines(vertices, faces, curves=[behind, before, across], points=points, labels=["in", "before", None], **view)
+    is_curve = lines.cls == "curve"
+    of = {number: lines.visible[is_curve & (lines.edge[:, 0] == 2 * number)].tolist() for number in range(3)}
+    assert of[0] == [True, False, True] and of[1] == [True] and of[2] == [True]
+    assert lines.visible[lines.cls == "point"].tolist() == [False, True, False]
+    assert [(label["text"], label["visible"]) for label in lines.labels] == [("in", False), ("before", True)]
+    assert lines.counts["curve"] == 3 and lines.counts["point"] == 3
+    svg = lines.svg()
+    assert ">before</text>" in svg and ">in</text>" not in svg and ">in</text>" in lines.svg(hidden="dashed")
+    assert b"(before)" in lines.pdf() and b"Helvetica" in lines.pdf()
+    alone = tn.lines(curves=np.array(across), view="front")
+    assert set(alone.cls) == {"curve"} and alone.visible.all()
+    # The same through a matrix that tinta's camera has not, which moves positions.
+    matrix = np.array([[90, 0, 3.0, 100], [0, -100, 7.0, 100], [0, 0, 0, 1]]) + 0.0
+    moved = tn.lines(vertices - middle, faces, curves=[np.array(behind) - middle], camera=matrix, size=200)
+    assert moved.visible[moved.cls == "curve"].tolist() == [True, False, True]
+
+
+def test_bad_curves_points_and_labels_are_refused_by_name(cube):
+    vertices, faces = cube
+    line = [[0, 0, 0], [1, 1, 1]]
+    for given, problem in [
+        ({"curves": [line, [[0, 0, 0]]]}, "curves: curve 1 has 1 of the 2 or more positions of a curve"),
+        ({"curves": [[[0, 0, 0], [1, np.nan, 1]]]}, "curves: row 1 is not finite"),
+        ({"curves": [[[0, 0], [1, 1]]]}, "curves: the shape is"),
+        ({"points": [[0, 0, np.inf]]}, "points: row 0 is not finite"),
+        ({"points": line, "labels": ["a"]}, "labels: there are 1 for 2 points"),
+        ({"labels": ["a"]}, "labels: they are texts of points"),
+        ({"points": line, "labels": ["a" * 1001, ""]}, "label 0 has more than 1000 letters"),
+    ]:
+        with pytest.raises(ValueError, match=problem):
+            tn.lines(vertices, faces, **given)
+    with pytest.raises(TypeError, match="curves: give a list"):
+        tn.lines(vertices, faces, curves="line")
+    with pytest.raises(TypeError, match="mesh: it is missing"):
+        tn.lines()
+    greek = tn.lines(vertices, faces, points=[[9, 9, 9]], labels=["λ"])
+    assert ">λ</text>" in greek.svg()
+    with pytest.raises(ValueError, match="standard fonts"):
+        greek.pdf()

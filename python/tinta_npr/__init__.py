@@ -14,6 +14,7 @@ import atexit as _atexit
 
 from . import _native
 from ._camera import settings_of as _camera_settings
+from ._curves import mesh_of as _mesh_of_curves
 from ._mesh import meshes_of as _meshes_of
 from ._results import Comparison, Edges, Lines, Picture
 
@@ -61,7 +62,9 @@ def mesh(mesh, faces=None, *, name=None, **settings):
     return _one(mesh, faces, name, settings, "mesh")
 
 
-def lines(mesh, faces=None, *, camera=None, look=None, preset=None, name=None, **settings):
+def lines(
+    mesh=None, faces=None, *, curves=None, points=None, labels=None, camera=None, look=None, preset=None, name=None, **settings
+):
     """Find the visible and the hidden lines of a mesh, exactly, in float64.
 
     Needs neither OpenGL nor a display. Ctrl-C stops it; other threads keep running.
@@ -69,7 +72,15 @@ def lines(mesh, faces=None, *, camera=None, look=None, preset=None, name=None, *
     Parameters
     ----------
     mesh, faces, name
-        As in `tinta_npr.mesh`; a list of meshes makes one scene.
+        As in `tinta_npr.mesh`; a list of meshes makes one scene. May be left out if curves or points are given.
+    curves : list of array_like (K, 3), optional
+        Curves in the mesh's coordinates, each a list of positions in order; or an object with ``points`` and ``lines``
+        (PyVista). Faces in front hide them; they hide nothing. Their class is ``"curve"``.
+    points : array_like (N, 3), optional
+        Points, drawn as dots of class ``"point"``.
+    labels : sequence of str, optional
+        A text for each point, None for a point without one. It stands beside the point where the point is drawn, in SVG and
+        PDF; a PDF has western letters only.
     camera : optional
         A view's name (``"iso"``, ``"front"``, ``"top"`` …) or ``(azimuth, elevation)`` in degrees; a dict of the settings under
         Camera, such as ``{"eye": (3, 2, 5), "target": (0, 0, 0), "fov": 30}``; ``plotter.camera`` of PyVista; a `trimesh.Scene`;
@@ -84,12 +95,13 @@ def lines(mesh, faces=None, *, camera=None, look=None, preset=None, name=None, *
     Returns
     -------
     Lines
-        With ``segments``, ``cls``, ``visible`` and other arrays, ``svg()``, ``pdf()`` and ``save()``.
+        With ``segments``, ``cls``, ``visible`` and other arrays, ``labels``, ``svg()``, ``pdf()`` and ``save()``.
 
     Settings
     --------
     """
-    meshes, settings = _drawn("lines", mesh, faces, name, camera, settings, (None, look, preset))
+    free = (curves, points, labels)
+    meshes, settings = _drawn("lines", mesh, faces, name, camera, settings, (None, look, preset), free)
     return Lines(_native.lines(meshes, settings, look, preset), CLASSES)
 
 
@@ -238,7 +250,7 @@ def _one(mesh, faces, name, settings, function):
     return found[0]
 
 
-def _drawn(function, mesh, faces, name, camera, settings, basis):
+def _drawn(function, mesh, faces, name, camera, settings, basis, free=(None, None, None)):
     """The meshes of a drawing, and its settings with the camera's among them."""
     settings = dict(settings)
     camera, matrix = _camera_settings(camera, settings, is_exact=function != "lines")
@@ -249,7 +261,11 @@ def _drawn(function, mesh, faces, name, camera, settings, basis):
     _native.check(function, settings)
     asked = _reading(settings)
     reading = {**_native.reading(function, *basis), **asked}
-    meshes = _meshes_of(mesh, faces, name, reading, tuple(asked))
+    of_curves = _mesh_of_curves(*free, reading)
+    if mesh is None and of_curves is None:
+        raise TypeError("mesh: it is missing; give a mesh, curves or points")
+    meshes = [] if mesh is None else _meshes_of(mesh, faces, name, reading, tuple(asked))
+    meshes = meshes + ([] if of_curves is None else [of_curves])
     if matrix is not None:
         if reading.get("up_axis") not in (None, "auto", "y"):
             raise ValueError("up_axis: a camera's matrix is in the mesh's own coordinates; leave one of them out")

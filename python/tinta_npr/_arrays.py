@@ -64,6 +64,12 @@ def padded(cells):
     first = int(cells[0])
     if cells.size % (first + 1) == 0 and (cells[:: first + 1] == first).all():
         return corners(cells.reshape(-1, first + 1)[:, 1:])
+    return counted(cells)
+
+
+def counted(cells):
+    """VTK's cells of any kind: the numbers of all corners, and how many each cell has."""
+    cells = np.asarray(cells, dtype=np.int64)
     starts, place = [], 0
     while place < cells.size:
         starts.append(place)

@@ -117,7 +117,7 @@ class Matrix:
 
     def of_meshes(self, meshes, reading):
         """The meshes to draw and their settings: meshes unchanged, or moved to give tinta's camera the same view."""
-        corners = np.concatenate([_box(mesh.vertices) for mesh in meshes])
+        corners = np.concatenate([_box(np.concatenate([mesh.vertices, mesh.free])) for mesh in meshes])
         far = np.abs(corners).max()
         is_parallel = np.abs(self._matrix[2, :3]).max() * far <= _NOTHING * abs(self._matrix[2, 3])
         rotation, moved, scale, eye = (_parallel if is_parallel else _perspective)(self._matrix, self._size, corners)
@@ -136,7 +136,14 @@ class Matrix:
         through = moved @ rotation
         # The settings that still apply to moved vertices.
         kept = {key: value for key, value in reading.items() if key in ("normals", "smooth_angle")}
-        meshes = [_mesh.of_arrays((mesh.vertices - eye) @ through.T, mesh.faces, mesh.name, kept) for mesh in meshes]
+
+        def in_view(mesh):
+            surface = mesh
+            if len(mesh.faces):
+                surface = _mesh.of_arrays((mesh.vertices - eye) @ through.T, mesh.faces, mesh.name, kept)
+            return surface.with_curves_of(mesh, np.ascontiguousarray((mesh.free - eye) @ through.T)) if len(mesh.free) else surface
+
+        meshes = [in_view(mesh) for mesh in meshes]
         return meshes, {**settings, "eye": (0, 0, 0), "target": (0, 0, 1), "up": (0, -1, 0)}
 
 

@@ -21,11 +21,12 @@ class Lines:
     cls : ndarray (N,) of str
         The class, one of `tinta_npr.CLASSES`.
     edge : ndarray (N, 2) of int64
-        The mesh edge it is part of, by the numbers of its vertices in the given mesh; -1 where faces intersect.
+        The mesh edge it is part of, by the numbers of its vertices in the given mesh; -1 where faces intersect. For a curve the
+        numbers of two positions among those of all curves, for a point its number after all of them, twice.
     angle : ndarray (N,) of float64
         Between the normals of its two faces, degrees; NaN for an edge without exactly two.
     object : ndarray (N,) of uint32
-        The number of its mesh in the given list.
+        The number of its mesh in the given list; curves and points follow the last.
     outline : ndarray (N,) of bool
         Whether it has only background on one side; all False unless ``outline`` has a width or colour.
     covered : ndarray (N,) of bool
@@ -36,6 +37,8 @@ class Lines:
         The number of edges of each class.
     camera : dict
         In the form that `tinta_npr.lines` takes.
+    labels : list of dict
+        The labels of points in the picture: ``text``, ``at`` (pixels), ``visible``, ``object``.
     """
 
     def __init__(self, found, classes):
@@ -44,6 +47,7 @@ class Lines:
         self.size = found.size
         self.counts = found.counts()
         self.camera = found.camera()
+        self.labels = found.labels()
 
     def __getattr__(self, name):
         # A drawing needs no hidden pieces: they are found on the first access to the arrays.
