@@ -43,6 +43,7 @@ pub fn bumpy_sphere(triangles: usize) -> Mesh {
         materials: Vec::new(),
         triangle_materials: Vec::new(),
         position_colors: Vec::new(),
+        marked: Vec::new(),
         curves: Default::default(),
         defects: Defects::default(),
     }

@@ -265,7 +265,8 @@ fn the_search_finds_the_curves_of_the_reference() {
 /// A cube from -1 to 1 with a curve and a point this far below the middle of its top, seen from above.
 fn below_the_top(depth: f64, parallel: bool) -> Scene {
     let at = |x: f64| DVec3::new(x, 1.0 - depth, 0.1);
-    let free = Mesh::of_curves("curve", &[vec![at(-0.5), at(0.5)]], &[at(0.2)], &["A & B"], &LoadOptions::default()).unwrap();
+    let free =
+        Mesh::of_curves("curve", &[vec![at(-0.5), at(0.5)]], &[at(0.2)], &["A & B"], &LoadOptions::default()).unwrap();
     let camera = CameraSettings { view: "top".parse().unwrap(), parallel, ..CameraSettings::default() };
     let settings = SceneSettings { camera, ..SceneSettings::default() };
     Scene::new([cuboid(-DVec3::ONE, DVec3::ONE), free], &settings).unwrap()
@@ -315,8 +316,9 @@ fn curves_far_outside_and_through_the_eye_are_cut_off() {
 
 #[test]
 fn bad_curves_are_refused_in_one_sentence() {
-    let refused =
-        |curves: &[Vec<DVec3>], points: &[DVec3]| Mesh::of_curves("c", curves, points, &[], &LoadOptions::default()).unwrap_err().to_string();
+    let refused = |curves: &[Vec<DVec3>], points: &[DVec3]| {
+        Mesh::of_curves("c", curves, points, &[], &LoadOptions::default()).unwrap_err().to_string()
+    };
     let line = vec![DVec3::ZERO, DVec3::X];
     assert_eq!(
         refused(&[line.clone(), vec![DVec3::X]], &[]),

@@ -34,6 +34,8 @@ crate::choices! {
         Texture = "texture",
         /// Its vertex normals differ between its two faces; likewise.
         Normal = "normal",
+        /// The model's file marks it as an edge to draw: glTF's EXT_mesh_primitive_edge_visibility.
+        Marked = "marked",
         /// No edge of the mesh: two faces intersect along it. Only the exact lines find it.
         Intersection = "intersection",
         /// A suggestive contour: a nearby eye would see a contour there (DeCarlo et al. 2003). This and the three classes below
@@ -61,11 +63,11 @@ impl Class {
 
 /// A set of classes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct ClassSet(u16);
+pub struct ClassSet(u32);
 
 impl ClassSet {
     /// Every class.
-    pub const ALL: Self = Self(u16::MAX >> (u16::BITS as usize - Class::ALL.len()));
+    pub const ALL: Self = Self(u32::MAX >> (u32::BITS as usize - Class::ALL.len()));
 
     /// Every class that a mesh's edges can be of.
     pub const EDGES: Self = Self(Self::ALL.0 & !(1 << Class::Intersection as u8) & !Self::FORMS.0 & !Self::FREE.0);
@@ -135,7 +137,7 @@ impl ClassSet {
             "CLASSES",
             Kind::Several(names.collect()),
             "Edges to draw: boundary, non-manifold, silhouette, crease (or convex-crease, concave-crease), material, texture, \
-             normal, in style lines also intersection, the form lines suggestive, ridge, valley, apparent-ridge, and the \
+             normal, marked, in style lines also intersection, the form lines suggestive, ridge, valley, apparent-ridge, and the \
              model's own curve and point; separated by commas, or all",
             move |of: &T| field(&mut of.clone()).classes().map(Class::name).collect::<Vec<_>>().join(","),
             move |of: &mut T, text: &str| {
@@ -149,7 +151,7 @@ impl ClassSet {
                 Ok(())
             },
         )
-        .said("boundary,silhouette,crease; style lines: also non-manifold, material, intersection, curve and point")
+        .said("boundary,silhouette,crease; style lines: also non-manifold, material, marked, intersection, curve and point")
         .printed("D, Inking: boundary, crease and silhouette are what the listing asks for")
     }
 }
@@ -279,6 +281,8 @@ pub struct ClassCounts {
     pub texture: usize,
     /// Between different vertex normals.
     pub normal: usize,
+    /// Marked as an edge by the file.
+    pub marked: usize,
     /// Intersections of faces; not counted among edges.
     pub intersection: usize,
     /// Faces crossed by a suggestive contour.
@@ -309,6 +313,7 @@ impl ClassCounts {
             Class::Material => &mut self.material,
             Class::Texture => &mut self.texture,
             Class::Normal => &mut self.normal,
+            Class::Marked => &mut self.marked,
             Class::Intersection => &mut self.intersection,
             Class::Suggestive => &mut self.suggestive,
             Class::Ridge => &mut self.ridge,
@@ -346,11 +351,16 @@ impl Classes {
             fronts_outside: (!wanted.and(TURNS).is_empty()).then(|| fronts_outside(mesh, edges)),
             seams: Seams::of(mesh, wanted),
         };
+        let has_marks = wanted.contains(Class::Marked) && !mesh.marked.is_empty();
         let parts = in_parallel(edges.len(), threads, |range| {
             let mut marked = Vec::new();
             let classes: Vec<ClassSet> = range
                 .map(|edge| {
-                    let classes = judge.classes(edge).and(wanted);
+                    let mut classes = judge.classes(edge);
+                    if has_marks && mesh.marked.binary_search(&edges.positions[edge]).is_ok() {
+                        classes = classes.or(ClassSet::of(&[Class::Marked]));
+                    }
+                    let classes = classes.and(wanted);
                     if !classes.is_empty() {
                         marked.push(edge as u32);
                     }

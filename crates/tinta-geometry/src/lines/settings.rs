@@ -52,6 +52,7 @@ impl Default for LineSettings {
                 Class::Silhouette,
                 Class::Crease,
                 Class::Material,
+                Class::Marked,
                 Class::Intersection,
                 Class::Curve,
                 Class::Point,
@@ -78,11 +79,10 @@ impl HasSettings for LineSettings {
 }
 
 impl LineSettings {
-    /// The defaults, with the creases of Dachsbacher's listing and without curves and points, which only exact lines
-    /// draw: the reference for the ink of all styles.
+    /// The defaults, with the creases of Dachsbacher's listing and without a file's marks, curves and points: the reference for the ink of all styles.
     pub fn as_published() -> Self {
         let base = Self::default();
-        let classes = base.classes.without(&[Class::Curve, Class::Point]);
+        let classes = base.classes.without(&[Class::Marked, Class::Curve, Class::Point]);
         Self { crease_angle: CreaseAngle::default(), classes, ..base }
     }
 

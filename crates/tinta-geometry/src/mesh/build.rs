@@ -114,6 +114,15 @@ impl Soup {
         defects.unused_vertices += unused.into_iter().filter(|unused| *unused).count();
 
         let (positions, file_vertices) = compact(&self.positions, &mut pieces.triangles);
+        // A position's file vertex is the one that others are welded to.
+        let position = |vertex: u32| file_vertices.binary_search(&welded[vertex as usize]).ok().map(|at| at as u32);
+        let edge = |[a, b]: &[u32; 2]| {
+            let (a, b) = (position(*a)?, position(*b)?);
+            (a != b).then_some([a.min(b), a.max(b)])
+        };
+        let mut marked: Vec<[u32; 2]> = self.marked.iter().filter_map(edge).collect();
+        marked.sort_unstable();
+        marked.dedup();
         let color = |vertex: &u32| self.colors.get(*vertex as usize).copied();
         let mut mesh = Mesh {
             name: name.to_owned(),
@@ -127,6 +136,7 @@ impl Soup {
             triangle_texture_coordinates: pieces.texture_coordinates,
             materials: std::mem::take(&mut self.materials),
             triangle_materials: pieces.materials,
+            marked,
             curves,
             defects,
         };

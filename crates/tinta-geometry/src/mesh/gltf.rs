@@ -8,6 +8,7 @@ mod accessors;
 mod buffers;
 mod cameras;
 mod container;
+mod edge_marks;
 mod materials;
 mod nodes;
 mod parts;
@@ -28,8 +29,8 @@ use nodes::Nodes;
 use parts::Outline;
 
 /// Extensions that are read, or that do not affect the drawing.
-const UNDERSTOOD: [&str; 4] =
-    ["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual", "KHR_xmp_json_ld"];
+const UNDERSTOOD: [&str; 5] =
+    ["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual", "KHR_xmp_json_ld", edge_marks::EXTENSION];
 
 /// Reads a glTF or GLB file's bytes. `path` appears in messages; `folder` holds its data and pictures.
 pub(super) fn read(
@@ -62,7 +63,8 @@ fn contents(
     let Materials { list, coordinates, unread_pictures } = Materials::of(&root, &buffers, path)?;
     let mut soup =
         Soup { materials: list, files: buffers.files.clone(), bytes_beside: buffers.bytes_beside, ..Soup::default() };
-    let outlines = parts::outlines(&nodes, &root, &accessors, &coordinates)?;
+    let said = edge_marks::Said::of(json)?;
+    let outlines = parts::outlines(&nodes, &root, &accessors, &coordinates, &said)?;
     if outlines.is_empty() {
         return Err(match root.meshes.len() {
             0 => "it holds no meshes; is it the right file?".to_owned(),

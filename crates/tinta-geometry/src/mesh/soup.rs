@@ -31,6 +31,8 @@ pub(super) struct Soup {
     pub frames: Vec<String>,
     /// Defects found by the reader.
     pub defects: Defects,
+    /// Sides of polygons that the file marks as edges to draw, each by its two positions.
+    pub marked: Vec<[u32; 2]>,
     /// The straight segments of curves, each between two positions.
     pub segments: Vec<[u32; 2]>,
     /// The positions of single points.

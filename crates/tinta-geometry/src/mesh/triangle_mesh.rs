@@ -35,6 +35,8 @@ pub struct Mesh {
     pub materials: Vec<Material>,
     /// Each triangle's material or [`NONE`]; empty or as long as `triangles`.
     pub triangle_materials: Vec<u32>,
+    /// The edges that the file marks as edges to draw, each by its two positions, the lower first; ascending.
+    pub marked: Vec<[u32; 2]>,
     /// Curves and points beside the surface.
     pub curves: Curves,
     /// The file's defects.
@@ -108,6 +110,7 @@ impl Mesh {
             triangle_texture_coordinates: Vec::new(),
             materials: Vec::new(),
             triangle_materials: Vec::new(),
+            marked: Vec::new(),
             curves: Curves::default(),
             defects: Defects::default(),
         }
@@ -124,6 +127,7 @@ impl Mesh {
             + bytes_of(&self.texture_coordinates)
             + bytes_of(&self.triangle_texture_coordinates)
             + bytes_of(&self.triangle_materials)
+            + bytes_of(&self.marked)
             + bytes_of(&self.curves.positions)
             + bytes_of(&self.curves.file_vertices)
             + bytes_of(&self.curves.segments)

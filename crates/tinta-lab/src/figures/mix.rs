@@ -145,6 +145,7 @@ fn cut(mesh: &Mesh, pieces: usize) -> Mesh {
         materials: Vec::new(),
         triangle_materials: Vec::new(),
         position_colors: Vec::new(),
+        marked: Vec::new(),
         curves: Default::default(),
         defects: mesh.defects.clone(),
     }

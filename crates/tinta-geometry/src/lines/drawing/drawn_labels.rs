@@ -57,8 +57,8 @@ pub(in crate::lines) fn drawn_labels<'a>(
 pub(in crate::lines) fn win_ansi(text: &str) -> Result<Vec<u8>> {
     /// The letters of 0x80 to 0x9F that are none of Latin 1.
     const OTHERS: [char; 32] = [
-        '€', '\0', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\0', 'Ž', '\0', '\0', '‘', '’', '“', '”', '•', '–',
-        '—', '˜', '™', 'š', '›', 'œ', '\0', 'ž', 'Ÿ',
+        '€', '\0', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\0', 'Ž', '\0', '\0', '‘', '’', '“', '”',
+        '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\0', 'ž', 'Ÿ',
     ];
     let byte = |letter: char| match letter {
         '\t' | '\n' | '\r' => Some(b' '),

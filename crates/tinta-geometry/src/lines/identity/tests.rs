@@ -91,7 +91,7 @@ fn creases(of: &[[f64; 2]]) -> VisibleLines {
         covered_triangles: 0,
         undecided: 0,
         has_specks: false,
-            labels: Vec::new(),
+        labels: Vec::new(),
         times: LineTimes::default(),
     }
 }

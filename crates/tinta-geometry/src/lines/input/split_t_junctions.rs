@@ -231,7 +231,22 @@ fn split_at(mesh: &Mesh, on_sides: BTreeMap<[u32; 2], Vec<u32>>) -> Option<Split
         is_split |= faces.len() > before + 1;
     }
     let whole_faces = faces.iter().map(|(face, _)| *face as u32).collect();
-    is_split.then(|| Split { mesh: with_faces(mesh, faces), whole_faces, on_edges: on_sides })
+    is_split.then(|| {
+        let mesh = with_marks_split(with_faces(mesh, faces), &on_sides);
+        Split { mesh, whole_faces, on_edges: on_sides }
+    })
+}
+
+/// The mesh with the parts of a marked edge marked instead of it.
+fn with_marks_split(mesh: Mesh, on_sides: &BTreeMap<[u32; 2], Vec<u32>>) -> Mesh {
+    let parts = |[a, b]: &[u32; 2]| {
+        let along = on_sides.get(&[*a, *b]).map_or(&[][..], Vec::as_slice);
+        let along: Vec<u32> = [&[*a][..], along, &[*b]].concat();
+        along.windows(2).map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]).collect::<Vec<_>>()
+    };
+    let mut marked: Vec<[u32; 2]> = mesh.marked.iter().flat_map(parts).collect();
+    marked.sort_unstable();
+    Mesh { marked, ..mesh }
 }
 
 /// Splits a face at the vertices on its sides: a fan around the corner opposite the first side with vertices, and

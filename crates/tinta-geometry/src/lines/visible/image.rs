@@ -27,9 +27,7 @@ impl Image {
     pub(in crate::lines) fn between(space: &Space, ends: [DVec3; 2], [near, far]: [f64; 2]) -> Option<Self> {
         let depths = ends.map(|end| -end.z);
         let mut range = [0.0f64, 1.0f64];
-        for (start, end) in
-            [(depths[0] - near, depths[1] - near), (far - depths[0], far - depths[1])]
-        {
+        for (start, end) in [(depths[0] - near, depths[1] - near), (far - depths[0], far - depths[1])] {
             if start < 0.0 && end < 0.0 {
                 return None;
             }

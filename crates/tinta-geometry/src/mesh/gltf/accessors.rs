@@ -61,6 +61,15 @@ impl<'a> Accessors<'a> {
         self.root.get(index).ok_or_else(|| format!("its accessor {index} does not exist; export it again"))
     }
 
+    /// The largest number that an accessor's type of whole numbers holds.
+    pub(super) fn largest(&self, index: Index<Accessor>) -> Result<u32, String> {
+        Ok(match &self.get(index)?.component_type {
+            Valid(component) if component.0 == ComponentType::U8 => u8::MAX.into(),
+            Valid(component) if component.0 == ComponentType::U16 => u16::MAX.into(),
+            _ => u32::MAX,
+        })
+    }
+
     /// The first `count` elements of `N` numbers each.
     pub(super) fn numbers<const N: usize>(
         &self,

@@ -1,6 +1,7 @@
 //! A glTF mesh's triangles, lines and points: which of its primitives share vertices, and those vertices in every place that shows them.
 
 use super::accessors::Accessors;
+use super::edge_marks::{Edges, Said};
 use super::materials::Coordinates;
 use super::nodes::Nodes;
 use crate::mesh::NONE;
@@ -35,6 +36,8 @@ struct PrimitivePart<'a> {
     set: usize,
     corners: usize,
     material: u32,
+    /// What the file says of its edges.
+    edges: Option<&'a Edges>,
 }
 
 impl<'a> Outline<'a> {
@@ -43,10 +46,11 @@ impl<'a> Outline<'a> {
         root: &Root,
         accessors: &Accessors<'a>,
         coordinates: &'a [Coordinates],
+        said: impl Fn(usize) -> Option<&'a Edges>,
     ) -> Result<Self, String> {
         let mut outline = Self { mesh, sets: Vec::new(), pieces: Vec::new() };
         let mut known = HashMap::new();
-        for primitive in &mesh.primitives {
+        for (number, primitive) in mesh.primitives.iter().enumerate() {
             let mode = match primitive.mode {
                 Valid(mode) => mode,
                 Checked::Invalid => return Err("it has primitives of an unknown kind; export it again".to_owned()),
@@ -79,7 +83,7 @@ impl<'a> Outline<'a> {
                 None => outline.sets[set].count,
             };
             let material = material.map_or(NONE, |material| material as u32);
-            outline.pieces.push(PrimitivePart { primitive, mode, set, corners, material });
+            outline.pieces.push(PrimitivePart { primitive, mode, set, corners, material, edges: said(number) });
         }
         Ok(outline)
     }
@@ -122,6 +126,7 @@ pub(super) fn outlines<'a>(
     root: &'a Root,
     accessors: &Accessors<'a>,
     coordinates: &'a [Coordinates],
+    said: &'a Said,
 ) -> Result<Vec<(Outline<'a>, Vec<usize>)>, String> {
     let mut places: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for node in &nodes.shown {
@@ -129,9 +134,11 @@ pub(super) fn outlines<'a>(
             places.entry(mesh.value()).or_default().push(*node);
         }
     }
-    let outline = |(mesh, nodes): (usize, Vec<usize>)| {
-        let mesh = root.meshes.get(mesh).ok_or_else(|| format!("its mesh {mesh} does not exist; export it again"))?;
-        Ok((Outline::of(mesh, root, accessors, coordinates)?, nodes))
+    let outline = |(number, nodes): (usize, Vec<usize>)| {
+        let missing = || format!("its mesh {number} does not exist; export it again");
+        let mesh = root.meshes.get(number).ok_or_else(missing)?;
+        let said = |primitive| said.of_primitive(number, primitive);
+        Ok((Outline::of(mesh, root, accessors, coordinates, said)?, nodes))
     };
     places.into_iter().map(outline).collect()
 }
@@ -183,24 +190,34 @@ pub(super) fn put(
                     let pairs = indices.windows(2).map(|pair| [pair[0], pair[1]]);
                     placed.put_segments(soup, pairs.chain(closing.map(|(last, first)| [*last, *first])));
                 }
-                _ => placed.put_faces(soup, &triangles(indices, piece.mode), piece.material),
+                _ => {
+                    placed.put_faces(soup, &triangles(indices, piece.mode), piece.material);
+                    placed.put_marks(soup, &every_triangle(indices, piece.mode), piece.edges, accessors)?;
+                }
             }
         }
     }
     Ok(())
 }
 
-/// The triangles that indices stand for, counter-clockwise.
+/// The triangles that indices stand for, counter-clockwise, without those of strips that only continue elsewhere.
 fn triangles(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
-    // Strips repeat indices to continue elsewhere.
-    let is_triangle = |[a, b, c]: &[u32; 3]| a != b && b != c && a != c;
+    let mut triangles = every_triangle(indices, mode);
+    if mode == Mode::TriangleStrip {
+        triangles.retain(|[a, b, c]| a != b && b != c && a != c);
+    }
+    triangles
+}
+
+/// The same with all triangles of strips.
+fn every_triangle(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
     match (mode, indices) {
         (Mode::TriangleStrip, _) => {
             let turned = |(place, corners): (usize, &[u32])| match place % 2 {
                 0 => [corners[0], corners[1], corners[2]],
                 _ => [corners[0], corners[2], corners[1]],
             };
-            indices.windows(3).enumerate().map(turned).filter(is_triangle).collect()
+            indices.windows(3).enumerate().map(turned).collect()
         }
         (Mode::TriangleFan, [first, rest @ ..]) => rest.windows(2).map(|pair| [pair[0], pair[1], *first]).collect(),
         _ => indices.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect(),
@@ -344,6 +361,20 @@ impl Placed {
                 false => soup.defects.out_of_range_faces += 1,
             }
         }
+    }
+
+    fn put_marks(
+        &self,
+        soup: &mut Soup,
+        triangles: &[[u32; 3]],
+        edges: Option<&Edges>,
+        accessors: &Accessors<'_>,
+    ) -> Result<(), String> {
+        let Some(edges) = edges else { return Ok(()) };
+        let marks = edges.marks(triangles, accessors)?;
+        let known = marks.iter().filter(|ends| ends.iter().all(|index| (*index as usize) < self.count));
+        soup.marked.extend(known.map(|ends| ends.map(|index| self.first_position + index)));
+        Ok(())
     }
 
     fn put_faces(&self, soup: &mut Soup, triangles: &[[u32; 3]], material: u32) {
