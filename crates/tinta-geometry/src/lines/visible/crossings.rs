@@ -2,7 +2,7 @@
 //! another begin, end or change places.
 
 use crate::bvh::Exclusion;
-use crate::lines::visible::faces::{NO_FACE, Own};
+use crate::lines::visible::faces::Own;
 use crate::lines::visible::image::Image;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::SearchDepth;
@@ -40,14 +40,12 @@ impl LineIndex<'_> {
         if are_too_many || (!self.finds_hidden && self.add_overlaps(index, image, overlapping, part, most, cuts)) {
             return true;
         }
-        let own = match feature.own {
-            Own::Edge(_) => return false,
-            Own::Faces(own) => own,
-            Own::Free => [NO_FACE; 2],
-        };
+        if matches!(feature.own, Own::Edge(_)) {
+            return false;
+        }
         // Faces with the corner in which it begins it meets nowhere else.
         self.any_but(&image.part_box(part, touch_px, keys), excluded, |face| {
-            if own.contains(&face) {
+            if matches!(feature.own, Own::Faces(own) if own.contains(&face)) {
                 return false;
             }
             cuts.extend(self.piercing(feature.ends, face).map(|point| image.place_of(self.space.project(point).0)));
