@@ -1,0 +1,183 @@
+//! The faces of a view: which may be seen, where their images end, and which one a ray hits first.
+
+use super::grid::Grid;
+use super::snap::Segment;
+use crate::bvh::Box3;
+use crate::error::Result;
+use crate::lines::input::object_edges::{Edges, ObjectEdges};
+use crate::lines::progress::Progress;
+use crate::lines::visible::cast::{Hit, meet};
+use crate::lines::visible::faces::Faces;
+use crate::lines::visible::intersections::intersections;
+use crate::lines::visible::pyramid::Pyramid;
+use crate::lines::visible::space::Space;
+use crate::scene::Scene;
+use crate::threads::{cores, in_chunks};
+use crate::tolerances::CONTACT;
+use glam::{DVec2, DVec3};
+
+/// The faces of a scene in the eye's space.
+pub(super) struct View<'a> {
+    pub scene: &'a Scene,
+    pub space: Space,
+    pub faces: Faces,
+    pub grid: Grid,
+    /// Each object's first face among all.
+    starts: Vec<u32>,
+    /// Places of the faces that may be seen.
+    pub seen: Vec<u32>,
+    /// Parts of lines in which faces pass through one another.
+    intersections: Vec<[DVec3; 2]>,
+}
+
+impl<'a> View<'a> {
+    /// Finds the faces that may be seen, and where they intersect.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Progress::go_on`].
+    pub(super) fn of(scene: &'a Scene, progress: &Progress) -> Result<Self> {
+        let space = Space::of(scene);
+        let meshes: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
+        let faces = Faces::new(&space, &meshes);
+        progress.go_on()?;
+        let pyramid = Pyramid::fine(&space, &faces);
+        let seen = pyramid.as_ref().map(|pyramid| pyramid.seen(&space, &faces));
+        let is_seen = |place: &u32| seen.as_ref().is_none_or(|seen| seen[*place as usize]);
+        let seen = (0..faces.triangles.len() as u32).filter(is_seen).collect();
+        let edges = |object| ObjectEdges { object, edges: Edges::OfScene(scene.edges(object)) };
+        let parts: Vec<ObjectEdges> = scene.objects.iter().map(edges).collect();
+        let found = intersections(&space, &faces, &parts, (pyramid.as_ref(), None), progress);
+        progress.go_on()?;
+        let intersections = found.lines.into_iter().map(|line| line.ends).collect();
+        let next = |next: &mut u32, object: &crate::scene::Object| {
+            Some(std::mem::replace(next, *next + object.mesh.triangles.len() as u32))
+        };
+        let starts = scene.objects.iter().scan(0, next).collect();
+        let grid = Grid::over(space.size);
+        Ok(Self { scene, space, faces, grid, starts, seen, intersections })
+    }
+
+    /// The image of a line of the eye's space, between the near and the far plane and inside the picture.
+    pub(super) fn image(&self, [from, to]: [DVec3; 2]) -> Option<Segment> {
+        let (near, far) = (self.space.near, self.space.far);
+        let (mut first, mut last) = (from, to);
+        // Positive where a point is on the drawn side of a plane.
+        for (plane, sign) in [(near, 1.0), (far, -1.0)] {
+            let [a, b] = [from, to].map(|point| (-point.z - plane) * sign);
+            let crossing = || {
+                let point = from + (to - from) * (a / (a - b));
+                DVec3::new(point.x, point.y, -plane)
+            };
+            match (a >= 0.0, b >= 0.0) {
+                (false, false) => return None,
+                (true, true) => {}
+                (false, true) => first = crossing(),
+                (true, false) => last = crossing(),
+            }
+        }
+        self.grid.segment([first, last].map(|point| self.space.project(point).0))
+    }
+
+    /// The lines where planes cut faces that may be seen.
+    pub(super) fn plane_cuts(&self) -> impl Iterator<Item = [DVec3; 2]> + '_ {
+        let of_face = |place: &u32| {
+            let corners = self.faces.corners(*place);
+            [self.space.near, self.space.far].map(|plane| {
+                let sides = [0, 1, 2].map(|side| [corners[side], corners[(side + 1) % 3]]);
+                let crossings = sides.into_iter().filter_map(|[a, b]| {
+                    let [above, below] = [a, b].map(|point| -point.z - plane);
+                    let mut point = a + (b - a) * (above / (above - below));
+                    point.z = -plane;
+                    ((above >= 0.0) != (below >= 0.0)).then_some(point)
+                });
+                let crossings: Vec<DVec3> = crossings.collect();
+                <[DVec3; 2]>::try_from(crossings).ok()
+            })
+        };
+        self.seen.iter().flat_map(of_face).flatten()
+    }
+
+    /// The images of all places where one face may give way to another: sides of faces that may be seen and that `is_border`
+    /// wants, intersections, cuts by planes, the picture's frame.
+    pub(super) fn borders(&self, is_border: impl Fn(&Sides) -> bool + Sync) -> Vec<Segment> {
+        let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * self.seen.len());
+        for place in &self.seen {
+            let [a, b, c] = self.faces.triangles[*place as usize];
+            sides.extend([[a, b], [b, c], [c, a]].map(|[a, b]| ([a.min(b), a.max(b)], *place)));
+        }
+        crate::threads::sort_by(&mut sides, cores(), |a, b| a.cmp(b));
+        let mut segments = Vec::new();
+        for of_edge in sides.chunk_by(|a, b| a.0 == b.0) {
+            let edge = of_edge[0].0;
+            if is_border(&Sides { edge, of_edge }) {
+                segments.extend(self.image(edge.map(|position| self.faces.positions[position as usize])));
+            }
+        }
+        let more = self.intersections.iter().copied().chain(self.plane_cuts());
+        segments.extend(more.filter_map(|line| self.image(line)));
+        segments.extend(self.grid.frame());
+        segments
+    }
+
+    /// The first face that the ray through a place of the picture hits. Of faces that touch there, the one with the lowest number
+    /// counts, as in a picture by GL.
+    pub(super) fn first_hit(&self, px: DVec2) -> Option<Hit> {
+        let column = Box3::new(px.extend(f64::NEG_INFINITY), px.extend(f64::INFINITY));
+        let ray = self.space.ray(px);
+        let mut hits: Vec<(f64, u32, [f64; 3])> = Vec::new();
+        self.faces.tree.any(&column, |place| {
+            let hit = meet(&self.space, self.faces.corners(place), ray);
+            let hit = hit.filter(|(depth, _)| (self.space.near..=self.space.far).contains(depth));
+            hits.extend(hit.map(|(depth, weights)| (depth, place, weights)));
+            false
+        });
+        let (depth, nearest, weights) = hits.iter().min_by(|a, b| a.0.total_cmp(&b.0)).copied()?;
+        let [a, b, c] = self.faces.corners(nearest);
+        let point = a * weights[0] + b * weights[1] + c * weights[2];
+        let touches = |place: u32| {
+            let [a, b, c] = self.faces.corners(place);
+            let normal = (b - a).cross(c - a);
+            let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+            let contact = CONTACT * longest + self.faces.weld(self.faces.triangles[place as usize][0]);
+            normal.dot(point - a).abs() <= (contact + 4.0 * self.space.noise) * normal.length()
+        };
+        let number = |place: u32| self.faces.numbers[place as usize];
+        let touching = hits.iter().filter(|(_, place, _)| *place == nearest || touches(*place));
+        let first = touching.min_by_key(|(_, place, _)| number(*place));
+        let (depth, place, weights) = first.copied().unwrap_or((depth, nearest, weights));
+        let object = self.starts.partition_point(|start| *start <= number(place)) - 1;
+        Some(Hit { object: object as u32, face: number(place) - self.starts[object], weights, depth })
+    }
+
+    /// The object and the face in it at a place of the hierarchy.
+    pub(super) fn face(&self, place: u32) -> [u32; 2] {
+        let number = self.faces.numbers[place as usize];
+        let object = self.starts.partition_point(|start| *start <= number) - 1;
+        [object as u32, number - self.starts[object]]
+    }
+
+    /// For each place of the picture a label, by several threads. Empty once the time runs out.
+    pub(super) fn labels<T: Send + Sync + Copy>(
+        &self,
+        count: usize,
+        label: impl Fn(u32) -> T + Sync,
+        progress: &Progress,
+    ) -> Result<Vec<T>> {
+        const CHUNK: usize = 256;
+        let labels = in_chunks(count, CHUNK, cores(), |range| {
+            let rest = range.take_while(|_| !progress.is_over());
+            rest.map(|cell| label(cell as u32)).collect::<Vec<T>>()
+        });
+        progress.go_on()?;
+        Ok(labels.concat())
+    }
+}
+
+/// An edge with those of its faces that may be seen.
+pub(super) struct Sides<'a> {
+    /// Positions, the lower number first.
+    pub edge: [u32; 2],
+    /// Places of faces.
+    pub of_edge: &'a [([u32; 2], u32)],
+}
