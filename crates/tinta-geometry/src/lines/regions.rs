@@ -27,10 +27,14 @@
 //! # }
 //! ```
 
+mod crossings;
 mod grid;
 mod planar_map;
 mod snap;
+mod tones;
 mod view;
+
+pub use tones::{ToneLight, ToneRule, TonedSurface};
 
 use crate::error::Result;
 use crate::lines::progress::Progress;
@@ -106,39 +110,78 @@ fn cut<T: Copy + PartialEq + Send + Sync>(
     let map = PlanarMap::new(&snapped(borders, progress)?);
     progress.go_on()?;
     let labels = view.labels(map.cell_count(), |cell| label(view.grid.px(map.inside(cell))), progress)?;
-    let (regions, mixed) = joined(&map, &labels, &view.grid);
+    let (regions, mixed) = dissolved(&map, &labels, &view.grid);
     Ok(Regions { size: view.scene.size, regions, broken: map.defect + mixed })
 }
 
 /// Joins neighbouring cells of one label. Returns the regions, and the number of defects.
-fn joined<T: Copy + PartialEq>(map: &PlanarMap, labels: &[T], grid: &Grid) -> (Vec<Region<T>>, usize) {
+fn dissolved<T: Copy + PartialEq>(map: &PlanarMap, labels: &[T], grid: &Grid) -> (Vec<Region<T>>, usize) {
     let label = |cell: u32| (cell != OUTSIDE).then(|| labels[cell as usize]);
     let point = |point: u32| map.points[point as usize];
-    let mut kept: Vec<(Segment, [Option<T>; 2])> = Vec::new();
+    let mut kept: Vec<Border<T>> = Vec::new();
     for (edge, [a, b]) in map.edges.iter().enumerate() {
         let sides = [label(map.cells[2 * edge]), label(map.cells[2 * edge + 1])];
         if sides[0] != sides[1] {
             kept.push((ordered(point(*a), point(*b)), sides));
         }
     }
-    let segments: Vec<Segment> = kept.iter().map(|(segment, _)| *segment).collect();
-    let joined = PlanarMap::new(&segments);
-    let mut broken = joined.defect;
-    let mut regions = Vec::with_capacity(joined.cell_count());
-    for cell in 0..joined.cell_count() as u32 {
-        let loops = joined.loops(cell);
-        let side = |half: u32| kept[half as usize / 2].1[half as usize % 2];
-        let Some(seen) = side(loops[0]) else {
-            broken += 1;
-            continue;
-        };
-        let is_mixed = |first: &&u32| joined.from(**first).any(|half| side(half) != Some(seen));
+    walked(kept, grid)
+}
+
+/// A border with what is on its left and on its right, `None` outside.
+type Border<T> = (Segment, [Option<T>; 2]);
+
+/// Walks along borders around the regions that they bound. Returns these, and the number of defects.
+fn walked<T: Copy + PartialEq>(borders: Vec<Border<T>>, grid: &Grid) -> (Vec<Region<T>>, usize) {
+    let segments: Vec<Segment> = borders.iter().map(|(segment, _)| *segment).collect();
+    let map = PlanarMap::new(&segments);
+    let mut broken = map.defect;
+    let mut regions = Vec::with_capacity(map.cell_count());
+    for cell in 0..map.cell_count() as u32 {
+        let loops = map.loops(cell);
+        let side = |half: u32| borders[half as usize / 2].1[half as usize % 2];
+        let seen = side(loops[0]);
+        let is_mixed = |first: &&u32| map.from(**first).any(|half| side(half) != seen);
         broken += loops.iter().filter(is_mixed).count();
+        // What is outside all regions may form cells, too.
+        let Some(seen) = seen else { continue };
         let corners = |first: &u32| {
-            joined.from(*first).map(|half| grid.px(joined.points[joined.ends(half)[0] as usize].as_dvec2())).collect()
+            map.from(*first).map(|half| grid.px(map.points[map.ends(half)[0] as usize].as_dvec2())).collect()
         };
-        let area_px = grid.area_px(joined.areas[cell as usize]);
+        let area_px = grid.area_px(map.areas[cell as usize]);
         regions.push(Region { seen, loops: loops.iter().map(corners).collect(), area_px });
     }
     (regions, broken)
+}
+
+impl<T: Copy> Regions<T> {
+    /// Joins neighbouring regions that get the same label; leaves out those that get none. So the outlines of objects come about, or
+    /// the area of several tones.
+    #[must_use]
+    pub fn joined<U: Copy + PartialEq>(&self, label: impl Fn(T) -> Option<U>) -> Regions<U> {
+        let size = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));
+        let grid = Grid::over(size);
+        let mut sides: Vec<(Segment, usize, U)> = Vec::new();
+        for region in &self.regions {
+            let Some(label) = label(region.seen) else { continue };
+            for corners in &region.loops {
+                for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+                    let [from, to] = [from, to].map(|px| grid.point(*px));
+                    let segment = ordered(from, to);
+                    sides.push((segment, usize::from(segment[0] != from), label));
+                }
+            }
+        }
+        sides.sort_unstable_by_key(|([a, b], side, _)| (a.x, a.y, b.x, b.y, *side));
+        let mut borders: Vec<Border<U>> = Vec::new();
+        for of_segment in sides.chunk_by(|a, b| a.0 == b.0) {
+            let mut labels = [None; 2];
+            of_segment.iter().for_each(|(_, side, label)| labels[*side] = Some(*label));
+            if labels[0] != labels[1] {
+                borders.push((of_segment[0].0, labels));
+            }
+        }
+        let (regions, mixed) = walked(borders, &grid);
+        Regions { size: self.size, regions, broken: self.broken + mixed }
+    }
 }

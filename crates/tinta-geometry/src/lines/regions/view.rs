@@ -1,20 +1,23 @@
 //! The faces of a view: which may be seen, where their images end, and which one a ray hits first.
 
+use super::crossings::crossings;
 use super::grid::Grid;
+use super::SeenFace;
 use super::snap::Segment;
 use crate::bvh::Box3;
 use crate::error::Result;
-use crate::lines::input::object_edges::{Edges, ObjectEdges};
 use crate::lines::progress::Progress;
 use crate::lines::visible::cast::{Hit, meet};
 use crate::lines::visible::faces::Faces;
-use crate::lines::visible::intersections::intersections;
 use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
 use crate::scene::Scene;
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::CONTACT;
 use glam::{DVec2, DVec3};
+
+/// How far a line is drawn beyond a border, grid steps: at angles above a tenth of a degree it then crosses the border.
+const BEYOND: f64 = 1024.0;
 
 /// The faces of a scene in the eye's space.
 pub(super) struct View<'a> {
@@ -26,8 +29,8 @@ pub(super) struct View<'a> {
     starts: Vec<u32>,
     /// Places of the faces that may be seen.
     pub seen: Vec<u32>,
-    /// Parts of lines in which faces pass through one another.
-    intersections: Vec<[DVec3; 2]>,
+    /// The lines in which faces pass through one another.
+    crossings: Vec<[DVec3; 2]>,
 }
 
 impl<'a> View<'a> {
@@ -42,24 +45,21 @@ impl<'a> View<'a> {
         let faces = Faces::new(&space, &meshes);
         progress.go_on()?;
         let pyramid = Pyramid::fine(&space, &faces);
-        let seen = pyramid.as_ref().map(|pyramid| pyramid.seen(&space, &faces));
-        let is_seen = |place: &u32| seen.as_ref().is_none_or(|seen| seen[*place as usize]);
-        let seen = (0..faces.triangles.len() as u32).filter(is_seen).collect();
-        let edges = |object| ObjectEdges { object, edges: Edges::OfScene(scene.edges(object)) };
-        let parts: Vec<ObjectEdges> = scene.objects.iter().map(edges).collect();
-        let found = intersections(&space, &faces, &parts, (pyramid.as_ref(), None), progress);
+        let all = || vec![true; faces.triangles.len()];
+        let is_seen = pyramid.as_ref().map_or_else(all, |pyramid| pyramid.seen(&space, &faces));
+        let crossings = crossings(&faces, &is_seen, progress);
         progress.go_on()?;
-        let intersections = found.lines.into_iter().map(|line| line.ends).collect();
+        let seen = (0..faces.triangles.len() as u32).filter(|place| is_seen[*place as usize]).collect();
         let next = |next: &mut u32, object: &crate::scene::Object| {
             Some(std::mem::replace(next, *next + object.mesh.triangles.len() as u32))
         };
         let starts = scene.objects.iter().scan(0, next).collect();
         let grid = Grid::over(space.size);
-        Ok(Self { scene, space, faces, grid, starts, seen, intersections })
+        Ok(Self { scene, space, faces, grid, starts, seen, crossings })
     }
 
-    /// The image of a line of the eye's space, between the near and the far plane and inside the picture.
-    pub(super) fn image(&self, [from, to]: [DVec3; 2]) -> Option<Segment> {
+    /// The image of a line of the eye's space, between the near and the far plane.
+    fn image(&self, [from, to]: [DVec3; 2]) -> Option<[DVec2; 2]> {
         let (near, far) = (self.space.near, self.space.far);
         let (mut first, mut last) = (from, to);
         // Positive where a point is on the drawn side of a plane.
@@ -76,7 +76,22 @@ impl<'a> View<'a> {
                 (true, false) => last = crossing(),
             }
         }
-        self.grid.segment([first, last].map(|point| self.space.project(point).0))
+        Some([first, last].map(|point| self.space.project(point).0))
+    }
+
+    /// The part of an image inside the picture.
+    fn side(&self, line: [DVec3; 2]) -> Option<Segment> {
+        self.grid.segment(self.image(line)?)
+    }
+
+    /// The image of a line that ends on borders, and a little more beyond both ends: so it reaches them wherever rounding moves
+    /// either.
+    pub(super) fn across(&self, line: [DVec3; 2]) -> impl Iterator<Item = Segment> {
+        let parts = self.image(line).map(|[from, to]| {
+            let beyond = self.grid.px((to - from).normalize_or_zero() * BEYOND);
+            [[from, to], [from - beyond, from], [to, to + beyond]].map(|part| self.grid.segment(part))
+        });
+        parts.into_iter().flatten().flatten()
     }
 
     /// The lines where planes cut faces that may be seen.
@@ -99,7 +114,7 @@ impl<'a> View<'a> {
     }
 
     /// The images of all places where one face may give way to another: sides of faces that may be seen and that `is_border`
-    /// wants, intersections, cuts by planes, the picture's frame.
+    /// wants, faces passing through one another, cuts by planes, the picture's frame.
     pub(super) fn borders(&self, is_border: impl Fn(&Sides) -> bool + Sync) -> Vec<Segment> {
         let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * self.seen.len());
         for place in &self.seen {
@@ -111,11 +126,11 @@ impl<'a> View<'a> {
         for of_edge in sides.chunk_by(|a, b| a.0 == b.0) {
             let edge = of_edge[0].0;
             if is_border(&Sides { edge, of_edge }) {
-                segments.extend(self.image(edge.map(|position| self.faces.positions[position as usize])));
+                segments.extend(self.side(edge.map(|position| self.faces.positions[position as usize])));
             }
         }
-        let more = self.intersections.iter().copied().chain(self.plane_cuts());
-        segments.extend(more.filter_map(|line| self.image(line)));
+        let more = self.crossings.iter().copied().chain(self.plane_cuts());
+        segments.extend(more.flat_map(|line| self.across(line)));
         segments.extend(self.grid.frame());
         segments
     }
@@ -146,18 +161,22 @@ impl<'a> View<'a> {
         let touching = hits.iter().filter(|(_, place, _)| *place == nearest || touches(*place));
         let first = touching.min_by_key(|(_, place, _)| number(*place));
         let (depth, place, weights) = first.copied().unwrap_or((depth, nearest, weights));
-        let object = self.starts.partition_point(|start| *start <= number(place)) - 1;
-        Some(Hit { object: object as u32, face: number(place) - self.starts[object], weights, depth })
+        let SeenFace { object, face } = self.face(place);
+        Some(Hit { object, face, weights, depth })
     }
 
     /// The object and the face in it at a place of the hierarchy.
-    pub(super) fn face(&self, place: u32) -> [u32; 2] {
+    pub(super) fn face(&self, place: u32) -> SeenFace {
         let number = self.faces.numbers[place as usize];
         let object = self.starts.partition_point(|start| *start <= number) - 1;
-        [object as u32, number - self.starts[object]]
+        SeenFace { object: object as u32, face: number - self.starts[object] }
     }
 
-    /// For each place of the picture a label, by several threads. Empty once the time runs out.
+    /// The labels of all cells, by several threads.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Progress::go_on`].
     pub(super) fn labels<T: Send + Sync + Copy>(
         &self,
         count: usize,
