@@ -7,6 +7,7 @@
 use crate::bvh::{Box3, BoxTree, NodeSelection};
 use crate::error::Result;
 use crate::lines::progress::Progress;
+use crate::memory::{check_regions, free};
 use crate::threads::{cores, in_chunks, sort_by, spread_chunks};
 use glam::{DVec2, I64Vec2};
 
@@ -18,6 +19,9 @@ pub(super) const LARGEST: i64 = 1 << 29;
 
 /// A segment, its lower end in lexicographic order first.
 pub(super) type Segment = [Point; 2];
+
+/// Memory that a planar map takes for each piece of a segment: its cut, two half-edges, their loops, its box in the hierarchy.
+const PIECE_BYTES: usize = 256;
 
 /// Items that a thread takes at once.
 const CHUNK: usize = 2048;
@@ -41,7 +45,7 @@ pub(super) fn turn([from, to]: Segment, point: Point) -> i64 {
 ///
 /// # Errors
 ///
-/// Those of [`Progress::go_on`].
+/// Those of [`Progress::go_on`], and [`crate::Error::Setting`] if the pieces need more memory than is free.
 pub(super) fn snapped(mut segments: Vec<Segment>, progress: &Progress) -> Result<Vec<Segment>> {
     segments.retain(|[a, b]| a != b);
     sort(&mut segments);
@@ -59,6 +63,8 @@ pub(super) fn snapped(mut segments: Vec<Segment>, progress: &Progress) -> Result
         found
     });
     progress.go_on()?;
+    let count: usize = found.iter().map(|found| found.cuts.len() + 2 * found.crossings.len()).sum();
+    check_regions((segments.len() + count) * PIECE_BYTES, free())?;
     let mut cuts: Vec<(u32, Point)> = found.iter().flat_map(|found| &found.cuts).copied().collect();
     let mut crossings: Vec<Point> = found.iter().flat_map(|found| &found.crossings).copied().collect();
     drop(found);
