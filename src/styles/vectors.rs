@@ -2,7 +2,9 @@
 
 use super::{Cartoon, CreaseBy, Ink, LineStyle, LineWidth, Mrt, Style, Tones};
 use crate::error::{Error, Result};
-use crate::lines::{DrawingSettings, FillGroup, LineSettings, Progress, Regions, ToneLight, ToneRule, TonedSurface, fills};
+use crate::lines::{
+    DrawingSettings, FillGroup, LineSettings, Progress, Regions, ToneLight, ToneRule, TonedSurface, fills,
+};
 use crate::scene::{Color, Scene, Size};
 use glam::DVec3;
 use tinta_geometry::lines::Length;

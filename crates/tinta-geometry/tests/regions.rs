@@ -233,7 +233,14 @@ fn regions_of_public_models_are_the_faces_that_rays_hit() {
 #[ignore = "exhaustive: all public models from 26 sides"]
 fn regions_of_all_public_models_are_the_faces_that_rays_hit() {
     let names = [
-        "ant.ply", "beethoven.obj", "cow.obj", "doll.obj", "faerie.md2", "fandisk.obj", "stanford-bunny.obj", "suzanne.obj",
+        "ant.ply",
+        "beethoven.obj",
+        "cow.obj",
+        "doll.obj",
+        "faerie.md2",
+        "fandisk.obj",
+        "stanford-bunny.obj",
+        "suzanne.obj",
         "teapot.obj",
     ];
     let mut views = vec![view("0,90", false), view("0,-90", false)];

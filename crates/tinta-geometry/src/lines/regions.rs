@@ -30,6 +30,7 @@
 mod crossings;
 mod grid;
 mod planar_map;
+mod sheets;
 mod snap;
 mod tones;
 mod view;

@@ -40,10 +40,7 @@ pub struct Fill {
 }
 
 /// Returns the areas of regions as they are painted, in the colours of their surfaces.
-pub fn fills(
-    regions: &Regions<Option<TonedSurface>>,
-    color: impl Fn(TonedSurface) -> Color,
-) -> Vec<FillGroup> {
+pub fn fills(regions: &Regions<Option<TonedSurface>>, color: impl Fn(TonedSurface) -> Color) -> Vec<FillGroup> {
     let surfaces: BTreeSet<TonedSurface> = regions.regions.iter().filter_map(|region| region.seen).collect();
     let surfaces: Vec<TonedSurface> = surfaces.into_iter().collect();
     let neighbours = neighbours(regions);

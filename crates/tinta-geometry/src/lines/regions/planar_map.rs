@@ -4,9 +4,10 @@
 //! bound. A half-edge has its cell on its left, with y up. A loop around a cell runs counter-clockwise; a loop around a hole, or
 //! around a whole component from outside, runs clockwise.
 
-use super::snap::{Point, Segment, lower, turn};
+use super::snap::{Point, Segment, turn};
 use crate::bvh::{Box3, BoxTree};
 use crate::disjoint_sets::DisjointSets;
+use crate::threads::{cores, sort_by};
 use glam::DVec2;
 use std::cmp::Ordering;
 
@@ -36,13 +37,16 @@ pub(super) struct PlanarMap {
 
 impl PlanarMap {
     pub(super) fn new(segments: &[Segment]) -> Self {
-        let mut points: Vec<Point> = segments.as_flattened().to_vec();
-        points.sort_unstable_by_key(|point| (point.x, point.y));
-        points.dedup();
-        let number = |point: &Point| {
-            points.partition_point(|other| lower(*other, *point)) as u32
-        };
-        let edges: Vec<[u32; 2]> = segments.iter().map(|[a, b]| [number(a), number(b)]).collect();
+        let mut ends: Vec<(Point, u32)> = segments.as_flattened().iter().copied().zip(0..).collect();
+        sort_by(&mut ends, cores(), |(a, _), (b, _)| (a.x, a.y).cmp(&(b.x, b.y)));
+        let mut points: Vec<Point> = Vec::with_capacity(segments.len());
+        let mut edges = vec![[0; 2]; segments.len()];
+        for (point, end) in ends {
+            if points.last() != Some(&point) {
+                points.push(point);
+            }
+            edges[end as usize / 2][end as usize % 2] = points.len() as u32 - 1;
+        }
         let next = next_around(&points, &edges);
         let mut sets = DisjointSets::new(points.len());
         edges.iter().for_each(|edge| sets.join(*edge));
@@ -89,7 +93,8 @@ impl PlanarMap {
         let mut cell_of_loop = vec![OUTSIDE; outer.len() + around.len()];
         outer.iter().zip(0..).for_each(|(found, cell)| cell_of_loop[found.number as usize] = cell);
         let mut of_cells: Vec<Vec<FoundLoop>> = outer.into_iter().map(|found| vec![found]).collect();
-        let boxes = |edge: &[u32; 2]| Box3::around(edge.map(|point| self.points[point as usize].as_dvec2().extend(0.0)));
+        let boxes =
+            |edge: &[u32; 2]| Box3::around(edge.map(|point| self.points[point as usize].as_dvec2().extend(0.0)));
         // One component has nothing around it.
         let boxes: Vec<Box3> = if around.len() > 1 { self.edges.iter().map(boxes).collect() } else { Vec::new() };
         let (tree, order) = BoxTree::new(&boxes);
@@ -176,7 +181,8 @@ impl PlanarMap {
         let low = halves.iter().map(|[from, _]| from.y).min().unwrap_or(0);
         let high = halves.iter().map(|[from, _]| from.y).max().unwrap_or(0);
         // Rows between those of the grid meet no point.
-        let row = |share: f64| (low as f64 + (high - low) as f64 * share).floor().clamp(low as f64, high as f64 - 1.0) + 0.5;
+        let row =
+            |share: f64| (low as f64 + (high - low) as f64 * share).floor().clamp(low as f64, high as f64 - 1.0) + 0.5;
         let widest = [0.5, 0.29, 0.83].map(|share| widest_in_row(&halves, row(share)));
         widest.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default().0
     }

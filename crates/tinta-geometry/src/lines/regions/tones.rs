@@ -123,11 +123,7 @@ impl Shading<'_> {
                 }
             };
             let cosine = to_light.dot(normal);
-            Light {
-                diffuse: ((cosine + 1.0) * 0.5).max(0.0),
-                mirrored: normal * (2.0 * cosine) - to_light,
-                to_eye,
-            }
+            Light { diffuse: ((cosine + 1.0) * 0.5).max(0.0), mirrored: normal * (2.0 * cosine) - to_light, to_eye }
         })
     }
 
@@ -147,11 +143,7 @@ impl Shading<'_> {
     }
 
     fn tone(&self, corners: &[Light; 3], weights: [f64; 3]) -> u8 {
-        if self.specular(corners, weights) > 0.0 {
-            2
-        } else {
-            u8::from(self.diffuse(corners, weights) >= 0.0)
-        }
+        if self.specular(corners, weights) > 0.0 { 2 } else { u8::from(self.diffuse(corners, weights) >= 0.0) }
     }
 
     /// The surface of a face, `None` where it has several tones, and the borders between these.
@@ -221,20 +213,9 @@ impl Shading<'_> {
     }
 
     /// Whether what is seen may differ on both sides of an edge. Sides of faces with several tones count: their borders end there.
-    fn is_border(&self, Sides { edge, of_edge }: &Sides, surfaces: &[Option<TonedSurface>]) -> bool {
-        let [(_, first), (_, second)] = **of_edge else { return true };
+    fn is_border(&self, sides: &Sides, surfaces: &[Option<TonedSurface>]) -> bool {
+        let [(_, first), (_, second)] = *sides.of_edge else { return true };
         let [one, other] = [first, second].map(|place| surfaces[place as usize]);
-        if one.is_none() || one != other {
-            return true;
-        }
-        // Does the surface go on across the edge?
-        let faces = &self.view.faces;
-        let [from, to] = edge.map(|position| faces.positions[position as usize]);
-        let side = |place: u32| {
-            let third = faces.triangles[place as usize].into_iter().find(|corner| !edge.contains(corner));
-            third.map_or(0.0, |third| self.view.space.turn(from, to, faces.positions[third as usize]).0)
-        };
-        let [first, second] = [side(first), side(second)];
-        !(first > 0.0 && second < 0.0 || first < 0.0 && second > 0.0)
+        one.is_none() || one != other || !self.view.goes_on(sides)
     }
 }

@@ -1,8 +1,8 @@
 //! The faces of a view: which may be seen, where their images end, and which one a ray hits first.
 
+use super::SeenFace;
 use super::crossings::crossings;
 use super::grid::Grid;
-use super::SeenFace;
 use super::snap::Segment;
 use crate::bvh::Box3;
 use crate::error::Result;
@@ -12,12 +12,12 @@ use crate::lines::visible::faces::Faces;
 use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
 use crate::scene::Scene;
-use crate::threads::{cores, in_chunks};
+use crate::threads::{cores, in_chunks, sort_by};
 use crate::tolerances::CONTACT;
 use glam::{DVec2, DVec3};
 
-/// How far a line is drawn beyond a border, grid steps: at angles above a tenth of a degree it then crosses the border.
-const BEYOND: f64 = 1024.0;
+/// How far a line is drawn beyond a border, grid steps: at angles above a hundredth of a degree it then crosses the border.
+const BEYOND: f64 = 8192.0;
 
 /// The faces of a scene in the eye's space.
 pub(super) struct View<'a> {
@@ -29,6 +29,8 @@ pub(super) struct View<'a> {
     starts: Vec<u32>,
     /// Places of the faces that may be seen.
     pub seen: Vec<u32>,
+    /// The sides of these faces, sorted: an edge's positions, the lower number first, and the place of a face at it.
+    pub sides: Vec<([u32; 2], u32)>,
     /// The lines in which faces pass through one another.
     crossings: Vec<[DVec3; 2]>,
 }
@@ -44,18 +46,27 @@ impl<'a> View<'a> {
         let meshes: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
         let faces = Faces::new(&space, &meshes);
         progress.go_on()?;
-        let pyramid = Pyramid::fine(&space, &faces);
+        let pyramid = Pyramid::new(&space, &faces);
         let all = || vec![true; faces.triangles.len()];
         let is_seen = pyramid.as_ref().map_or_else(all, |pyramid| pyramid.seen(&space, &faces));
         let crossings = crossings(&faces, &is_seen, progress);
         progress.go_on()?;
-        let seen = (0..faces.triangles.len() as u32).filter(|place| is_seen[*place as usize]).collect();
+        let seen: Vec<u32> = (0..faces.triangles.len() as u32).filter(|place| is_seen[*place as usize]).collect();
+        let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * seen.len());
+        for place in &seen {
+            let [a, b, c] = faces.triangles[*place as usize];
+            sides.extend([[a, b], [b, c], [c, a]].map(|[a, b]| ([a.min(b), a.max(b)], *place)));
+        }
+        sort_by(&mut sides, cores(), |a, b| a.cmp(b));
         let next = |next: &mut u32, object: &crate::scene::Object| {
             Some(std::mem::replace(next, *next + object.mesh.triangles.len() as u32))
         };
         let starts = scene.objects.iter().scan(0, next).collect();
         let grid = Grid::over(space.size);
-        Ok(Self { scene, space, faces, grid, starts, seen, crossings })
+        let mut view = Self { scene, space, faces, grid, starts, seen, sides, crossings };
+        view.leave_out_hidden_sheets();
+        progress.go_on()?;
+        Ok(view)
     }
 
     /// The image of a line of the eye's space, between the near and the far plane.
@@ -116,14 +127,8 @@ impl<'a> View<'a> {
     /// The images of all places where one face may give way to another: sides of faces that may be seen and that `is_border`
     /// wants, faces passing through one another, cuts by planes, the picture's frame.
     pub(super) fn borders(&self, is_border: impl Fn(&Sides) -> bool + Sync) -> Vec<Segment> {
-        let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * self.seen.len());
-        for place in &self.seen {
-            let [a, b, c] = self.faces.triangles[*place as usize];
-            sides.extend([[a, b], [b, c], [c, a]].map(|[a, b]| ([a.min(b), a.max(b)], *place)));
-        }
-        crate::threads::sort_by(&mut sides, cores(), |a, b| a.cmp(b));
         let mut segments = Vec::new();
-        for of_edge in sides.chunk_by(|a, b| a.0 == b.0) {
+        for of_edge in self.sides.chunk_by(|a, b| a.0 == b.0) {
             let edge = of_edge[0].0;
             if is_border(&Sides { edge, of_edge }) {
                 segments.extend(self.side(edge.map(|position| self.faces.positions[position as usize])));
@@ -135,34 +140,56 @@ impl<'a> View<'a> {
         segments
     }
 
+    /// Whether a surface goes on across an edge: from one of its two faces to the other, on the other side in the picture.
+    pub(super) fn goes_on(&self, Sides { edge, of_edge }: &Sides) -> bool {
+        let [(_, first), (_, second)] = **of_edge else { return false };
+        let [from, to] = edge.map(|position| self.faces.positions[position as usize]);
+        let side = |place: u32| {
+            let third = self.faces.triangles[place as usize].into_iter().find(|corner| !edge.contains(corner));
+            third.map_or(0.0, |third| self.space.turn(from, to, self.faces.positions[third as usize]).0)
+        };
+        let [first, second] = [side(first), side(second)];
+        first > 0.0 && second < 0.0 || first < 0.0 && second > 0.0
+    }
+
     /// The first face that the ray through a place of the picture hits. Of faces that touch there, the one with the lowest number
     /// counts, as in a picture by GL.
     pub(super) fn first_hit(&self, px: DVec2) -> Option<Hit> {
+        let first =
+            |a: &FaceHit, b: &FaceHit| self.faces.numbers[a.place as usize].cmp(&self.faces.numbers[b.place as usize]);
+        let FaceHit { depth, place, weights } = self.nearest_hits(px).into_iter().min_by(first)?;
+        let SeenFace { object, face } = self.face(place);
+        Some(Hit { object, face, weights, depth })
+    }
+
+    /// Whether a face is the first that the ray through a place of the picture hits, or touches the first there.
+    pub(super) fn is_seen(&self, place: u32, px: DVec2) -> bool {
+        self.nearest_hits(px).iter().any(|hit| hit.place == place)
+    }
+
+    /// The first hit of the ray through a place of the picture, and those of faces that touch it there.
+    fn nearest_hits(&self, px: DVec2) -> Vec<FaceHit> {
         let column = Box3::new(px.extend(f64::NEG_INFINITY), px.extend(f64::INFINITY));
         let ray = self.space.ray(px);
-        let mut hits: Vec<(f64, u32, [f64; 3])> = Vec::new();
+        let mut hits: Vec<FaceHit> = Vec::new();
         self.faces.tree.any(&column, |place| {
             let hit = meet(&self.space, self.faces.corners(place), ray);
             let hit = hit.filter(|(depth, _)| (self.space.near..=self.space.far).contains(depth));
-            hits.extend(hit.map(|(depth, weights)| (depth, place, weights)));
+            hits.extend(hit.map(|(depth, weights)| FaceHit { depth, place, weights }));
             false
         });
-        let (depth, nearest, weights) = hits.iter().min_by(|a, b| a.0.total_cmp(&b.0)).copied()?;
-        let [a, b, c] = self.faces.corners(nearest);
-        let point = a * weights[0] + b * weights[1] + c * weights[2];
-        let touches = |place: u32| {
-            let [a, b, c] = self.faces.corners(place);
+        let Some(nearest) = hits.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)).copied() else { return hits };
+        let [a, b, c] = self.faces.corners(nearest.place);
+        let point = a * nearest.weights[0] + b * nearest.weights[1] + c * nearest.weights[2];
+        hits.retain(|hit| {
+            let [a, b, c] = self.faces.corners(hit.place);
             let normal = (b - a).cross(c - a);
             let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-            let contact = CONTACT * longest + self.faces.weld(self.faces.triangles[place as usize][0]);
-            normal.dot(point - a).abs() <= (contact + 4.0 * self.space.noise) * normal.length()
-        };
-        let number = |place: u32| self.faces.numbers[place as usize];
-        let touching = hits.iter().filter(|(_, place, _)| *place == nearest || touches(*place));
-        let first = touching.min_by_key(|(_, place, _)| number(*place));
-        let (depth, place, weights) = first.copied().unwrap_or((depth, nearest, weights));
-        let SeenFace { object, face } = self.face(place);
-        Some(Hit { object, face, weights, depth })
+            let contact = CONTACT * longest + self.faces.weld(self.faces.triangles[hit.place as usize][0]);
+            let distance = normal.dot(point - a).abs();
+            hit.place == nearest.place || distance <= (contact + 4.0 * self.space.noise) * normal.length()
+        });
+        hits
     }
 
     /// The object and the face in it at a place of the hierarchy.
@@ -191,6 +218,14 @@ impl<'a> View<'a> {
         progress.go_on()?;
         Ok(labels.concat())
     }
+}
+
+/// Where a ray meets a face.
+#[derive(Debug, Clone, Copy)]
+struct FaceHit {
+    depth: f64,
+    place: u32,
+    weights: [f64; 3],
 }
 
 /// An edge with those of its faces that may be seen.
