@@ -4,9 +4,10 @@
 //! in each face. The border of the specular tone is a curve; it is followed from side to side of a fine division of the face, at
 //! most a pixel apart, with each point on the curve.
 
+use super::cut::cut;
+use super::region::{Regions, SeenFace};
 use super::snap::Segment;
 use super::view::{Sides, View};
-use super::{Regions, SeenFace, cut};
 use crate::error::Result;
 use crate::lines::progress::Progress;
 use crate::mesh::NONE;

@@ -1,8 +1,8 @@
 //! The faces of a view: which may be seen, where their images end, and which one a ray hits first.
 
-use super::SeenFace;
 use super::crossings::crossings;
 use super::grid::Grid;
+use super::region::SeenFace;
 use super::snap::Segment;
 use crate::bvh::Box3;
 use crate::error::Result;
