@@ -61,6 +61,8 @@ pub struct Request {
     pub backend: Backend,
     /// What to leave out of the published plan.
     pub pruning: PruneSettings,
+    /// Whether a style of passes is drawn as vectors where it can be: areas of tone, and exact lines above them. Default no.
+    pub as_vectors: bool,
     /// Whether to find all pieces of exact lines, including those that the drawing does not show and short ones. Default no.
     pub tells_all: bool,
     /// Whether hidden lines are found though the drawing does not show them, and it is counted where smooth silhouettes break. Default no.
@@ -266,6 +268,7 @@ impl Request {
             animation: AnimationSettings::default(),
             backend: Backend::default(),
             pruning: PruneSettings::default(),
+            as_vectors: false,
             tells_all: false,
             tells_hidden: false,
             options: Options::new(),

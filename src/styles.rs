@@ -44,6 +44,7 @@ mod suggestive;
 mod supersample;
 mod textured;
 mod tones;
+mod vectors;
 
 pub use crate::lines::ClassColors;
 pub use border::{Border, Filter};
@@ -67,6 +68,7 @@ pub use show::Show;
 pub use suggestive::Suggestive;
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
+pub use vectors::Vectors;
 
 use crate::choice::{Choice, meant_or};
 use crate::error::{Error, ParseError, Result};

@@ -93,7 +93,7 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     refuse("turn.gif", &["--style", "lines"], &["style lines writes .svg, .pdf, .json or a still picture"]);
     refuse(&png, &["--style", "lines", "--page", "A4"], &["--page", "no paper"]);
     refuse("a.jpg", &["--style", "lines", "--transparent"], &["a.jpg", "no transparency"]);
-    refuse(&svg, &["--style", "three-pass"], &["a.svg: style three-pass draws pixels", ".png"]);
+    refuse(&svg, &["--style", "phong"], &["a.svg: style phong draws pixels", ".png"]);
     refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "suggestive, lines"]);
     refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
     refuse("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);

@@ -149,16 +149,16 @@ const MISTAKES: [(&str, &str); 88] = [
     ("render triangle.obj -o nowhere/out.png", "nowhere/out.png: the folder nowhere does not exist; create it first"),
     ("render triangle.obj -o dir", "dir: this is a directory; name a file in it"),
     (
-        "render triangle.obj -o out.svg --style ink",
-        "out.svg: style ink draws pixels; --look technical in its place writes lines, or name a picture such as drawing.png",
+        "render triangle.obj -o out.svg --style phong",
+        "out.svg: style phong draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture such as drawing.png",
     ),
     (
-        "render triangle.obj -o out.svg --look print",
-        "out.svg: look print draws pixels; --look technical in its place writes lines, or name a picture such as drawing.png",
+        "render triangle.obj -o out.json --look print",
+        "out.json: look print draws areas and lines, for which this format has no place; name a .svg, a .pdf or a picture such as drawing.png",
     ),
     (
         "render triangle.obj -o out.pdf --look charcoal --style sand",
-        "out.pdf: style sand draws pixels; --look technical in its place writes lines, or name a picture such as drawing.png",
+        "out.pdf: style sand draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture such as drawing.png",
     ),
     ("render triangle.obj -o .png", ".png: this is an ending without a name; write drawing.png"),
     ("render triangle.obj -o .svg --look technical", ".svg: this is an ending without a name; write drawing.svg"),

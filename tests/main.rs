@@ -86,6 +86,7 @@ mod textures;
 mod tiles;
 mod turntable;
 mod twin;
+mod vectors;
 mod why;
 #[cfg(feature = "window")]
 mod window;

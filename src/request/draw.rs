@@ -4,14 +4,14 @@ use super::{ModelCache, Request, Session};
 use crate::clock::Instant;
 use crate::edges::SilhouetteRule;
 use crate::error::{Error, Result};
-use crate::lines::{DrawingSettings, LineSettings, Progress, VisibleLines};
+use crate::lines::{DrawingSettings, FillGroup, LineSettings, Progress, VisibleLines};
 use crate::mesh::{LoadStage, Mesh};
 use crate::picture::Picture;
 use crate::plan::Plan;
 use crate::plan::prune::{Kept, Omission, Pruned, prune};
 use crate::renderer::{Renderer, milliseconds_since};
 use crate::scene::Scene;
-use crate::styles::LineStyle;
+use crate::styles::{LineStyle, Vectors};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -77,6 +77,10 @@ pub struct DrawnLines {
     pub style: LineStyle,
     /// The lines.
     pub lines: VisibleLines,
+    /// The areas below them, in the order in which they are painted; empty in styles of lines alone.
+    pub fills: Vec<FillGroup>,
+    /// Remarks for the user, a sentence each.
+    pub remarks: Vec<String>,
     /// How long reading took, milliseconds.
     pub load_ms: f64,
 }
@@ -109,14 +113,25 @@ impl Request {
     ///
     /// Those of reading, of the settings with this scene, of the way to OpenGL; [`Error::Cancelled`] where `progress` was.
     pub fn draw(&self, session: &mut Session, progress: &Progress) -> Result<Drawn> {
-        if self.style.lines().is_none() {
+        let vectors = self.vectors();
+        if self.style.lines().is_none() && vectors.is_none() {
             return self.picture(session).map(|picture| Drawn::Picture(Box::new(picture)));
         }
         let ReadModels { meshes, files, ms: load_ms, .. } = self.models(&session.models)?;
         let scene = Scene::new(meshes, &self.scene)?;
-        let lines = self.lines(&scene, progress)?;
+        let fills = vectors.as_ref().map_or(Ok(Vec::new()), |vectors| vectors.fills(&scene, progress))?;
+        let remarks = vectors.as_ref().map_or(Vec::new(), |vectors| vectors.remarks(&scene));
+        let lines = match vectors {
+            Some(vectors) if vectors.lines.is_none() => VisibleLines::none(scene.size),
+            _ => self.lines(&scene, progress)?,
+        };
         let style = self.line_style().unwrap_or_default();
-        Ok(Drawn::Lines(Box::new(DrawnLines { scene, files, style, lines, load_ms })))
+        Ok(Drawn::Lines(Box::new(DrawnLines { scene, files, style, lines, fills, remarks, load_ms })))
+    }
+
+    /// The vectors of this request's style of passes; `None` where it draws pixels.
+    fn vectors(&self) -> Option<Vectors> {
+        self.as_vectors.then(|| self.style.vectors(self.scene.size)).flatten()
     }
 
     /// Reads the models.
@@ -142,10 +157,11 @@ impl Request {
         Ok(models)
     }
 
-    /// How lines are drawn: the style's way, on the scene's background, titled after the models. `None` for a style that draws in
-    /// passes.
+    /// How lines are drawn: the style's way, on the scene's background, titled after the models. `None` for a style that draws
+    /// pixels.
     pub fn line_style(&self) -> Option<LineStyle> {
-        let LineStyle { lines, drawing } = self.style.lines()?;
+        let of_vectors = || self.vectors().map(|vectors| vectors.lines.unwrap_or_default());
+        let LineStyle { lines, drawing } = self.style.lines().or_else(of_vectors)?;
         let drawing = DrawingSettings { title: self.title(), background: self.scene.background, ..drawing };
         Some(LineStyle { lines, drawing })
     }

@@ -117,7 +117,7 @@ impl Tones {
     }
 
     /// Returns the diffuse and specular thresholds; those of unused tones are out of reach.
-    fn thresholds(&self) -> [f32; 2] {
+    pub(super) fn thresholds(&self) -> [f32; 2] {
         let with = |used: bool, threshold: f32| if used { threshold } else { NEVER };
         [with(self.count >= 2, self.diffuse_threshold), with(self.count >= 3, self.specular_threshold)]
     }

@@ -78,6 +78,21 @@ pub(crate) fn check_lines(needed: usize, free: Option<u64>) -> Result<()> {
     }
 }
 
+/// Rejects regions that need more bytes than are free.
+///
+/// # Errors
+///
+/// [`Error::Setting`] with both numbers.
+pub(crate) fn check_regions(needed: usize, free: Option<u64>) -> Result<()> {
+    match too_much(needed as u64, free) {
+        None => Ok(()),
+        Some(both) => {
+            let problem = format!("the areas of this scene take {both}; draw fewer or simpler models at once");
+            Err(Error::setting("copies", problem))
+        }
+    }
+}
+
 /// Returns `2.5 GiB of memory, and 1.0 GiB are free` if too little is free.
 fn too_much(needed: u64, free: Option<u64>) -> Option<String> {
     let free = free.filter(|free| needed > *free && needed > MEMORY_SLACK_BYTES as u64)?;
@@ -135,5 +150,9 @@ mod tests {
             "classes: the lines of this scene take 5.0 GiB of memory, and 1.5 GiB are free; ask for fewer, for instance \
              without intersection"
         );
+        let message = check_regions(5 * gib, Some(3 << 29)).unwrap_err().to_string();
+        let sentence = "copies: the areas of this scene take 5.0 GiB of memory, and 1.5 GiB are free; draw fewer or simpler models at \
+                        once";
+        assert_eq!(message, sentence);
     }
 }

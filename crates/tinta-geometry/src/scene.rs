@@ -351,11 +351,11 @@ impl Scene {
 
     /// The colour of faces without one; white under vertex colours.
     fn bare_color(&self, mesh: &Mesh) -> Color {
-        if self.has_colors(mesh) { Color([1.0; 3]) } else { self.color }
+        if self.shows_vertex_colors(mesh) { Color([1.0; 3]) } else { self.color }
     }
 
     /// Whether a mesh shows its vertex colours, in styles that follow the scene's setting.
-    fn has_colors(&self, mesh: &Mesh) -> bool {
+    pub fn shows_vertex_colors(&self, mesh: &Mesh) -> bool {
         self.surface == Surface::Textured && !self.recolor && !mesh.position_colors.is_empty()
     }
 
@@ -367,13 +367,18 @@ impl Scene {
 
     /// Whether any texture or vertex colours are shown, in styles that follow the scene's setting.
     pub fn has_textured_surfaces(&self) -> bool {
+        self.shows_textures() || self.objects.iter().any(|object| self.shows_vertex_colors(&object.mesh))
+    }
+
+    /// Whether any texture is shown, in styles that follow the scene's setting.
+    pub fn shows_textures(&self) -> bool {
         let is_textured = |object: &Object| object.mesh.materials.iter().any(|it| self.is_textured(&object.mesh, it));
-        self.objects.iter().any(|object| is_textured(object) || self.has_colors(&object.mesh))
+        self.objects.iter().any(is_textured)
     }
 
     /// The vertex colours of each object, white without any; `None` if no object shows them.
     pub fn vertex_colors(&self) -> Option<Vec<Arc<Vec<[f32; 4]>>>> {
-        if !self.objects.iter().any(|object| self.has_colors(&object.mesh)) {
+        if !self.objects.iter().any(|object| self.shows_vertex_colors(&object.mesh)) {
             return None;
         }
         let mut lists: Vec<Arc<Vec<[f32; 4]>>> = Vec::with_capacity(self.objects.len());

@@ -42,6 +42,7 @@ impl Format {
     /// Where style and file's name do not go together.
     pub(super) fn of(request: &Request, output: &str) -> Result<Option<Self>> {
         let style = request.style.name();
+        let has_vectors = request.style.vectors(request.scene.size).is_some();
         let refuse = |problem: String| Err(Error::output(output, problem));
         match (request.style.lines().is_some(), Self::of_name(output)) {
             (true, Some(format)) => Ok(Some(format)),
@@ -50,8 +51,15 @@ impl Format {
             (true, None) => refuse(format!(
                 "style {style} writes .svg, .pdf, .json or a still picture such as .png; name the file so, or leave out --style {style}"
             )),
+            (false, Some(format @ (Self::Svg | Self::Pdf))) if has_vectors => Ok(Some(format)),
+            (false, Some(_)) if has_vectors => refuse(format!(
+                "{} draws areas and lines, for which this format has no place; name a .svg, a .pdf or a picture such as \
+                 drawing.png",
+                request.style_said()
+            )),
             (false, Some(_)) => refuse(format!(
-                "{} draws pixels; --look technical in its place writes lines, or name a picture such as drawing.png",
+                "{} draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture \
+                 such as drawing.png",
                 request.style_said()
             )),
             // A name that is no picture either is refused later, with the full list of formats.

@@ -35,18 +35,23 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     // A job of a batch leaves signals to its run.
     let stop = (!is_captured()).then(Stop::on_signals);
     if let Some(views) = views {
+        if request.style.lines().is_none() {
+            let problem = "areas are drawn from one view; leave it out, or choose --look technical";
+            return Err(Error::setting("turntable", problem));
+        }
         return turn::run(rendering, format, views, session, stop.as_ref());
     }
     let mut asked = request.clone();
     (asked.tells_all, asked.tells_hidden) = (format == Format::Json, run.is_told());
+    asked.as_vectors = true;
     let drawn = match watched(&progress, stop.as_ref(), || asked.draw(session, &progress)) {
         Err(Error::Cancelled) => return Ok(stopped(stop.as_ref())),
         drawn => drawn?,
     };
     let Drawn::Lines(drawn) = drawn else { return Ok(Verdict::Good) };
-    let DrawnLines { scene, files, style, lines, load_ms } = *drawn;
-    scene.crack_remarks().iter().for_each(|remark| say(&format!("tinta: {remark}")));
-    if !lines.segments.iter().any(|segment| segment.is_visible) {
+    let DrawnLines { scene, files, style, lines, fills, remarks, load_ms } = *drawn;
+    scene.crack_remarks().iter().chain(&remarks).for_each(|remark| say(&format!("tinta: {remark}")));
+    if fills.is_empty() && !lines.segments.iter().any(|segment| segment.is_visible) {
         say("tinta: no line of these classes is visible in this picture; see --classes, --eye and --target");
     }
 
@@ -76,7 +81,7 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
         false => String::new(),
     };
     let said = note.map(comment).or_else(|| recipe.as_ref().and_then(Recipe::note));
-    write(format, output, &scene, (&lines, paths), &drawn, said.as_ref())?;
+    write(format, output, &scene, (&lines, paths), &fills, &drawn, said.as_ref())?;
     let lines_ms = milliseconds_since(start);
     if run.explain {
         super::super::print(&(explain::lines(&lines, &counts, load_ms, lines_ms) + &pens))?;
@@ -130,7 +135,9 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Resu
         None => Ok(()),
     };
     run.refuse_for_lines()?;
-    refuse(&["no-borders"], "style lines draws nothing but lines; leave it out")?;
+    if request.style.lines().is_some() {
+        refuse(&["no-borders"], "style lines draws nothing but lines; leave it out")?;
+    }
     refuse(&["full", "keep"], "style lines is computed, not drawn by passes; leave it out here")?;
     let problem =
         "style lines has no passes and no model's frames; leave it out, or name a picture such as drawing.png";

@@ -4,6 +4,7 @@ pub(super) mod chain;
 pub(super) mod curves;
 pub(super) mod drawn_labels;
 pub(super) mod drawn_layers;
+pub(super) mod fills;
 pub(super) mod layers;
 pub(super) mod length;
 pub(super) mod page;

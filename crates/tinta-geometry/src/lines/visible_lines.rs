@@ -53,6 +53,20 @@ pub struct LineTimes {
 }
 
 impl VisibleLines {
+    /// Returns no lines in a picture of this size.
+    pub fn none(size: Size) -> Self {
+        Self {
+            size,
+            segments: Vec::new(),
+            edges: ClassCounts::default(),
+            covered_triangles: 0,
+            changes: None,
+            undecided: 0,
+            has_specks: false,
+            times: LineTimes::default(),
+        }
+    }
+
     /// Returns the note that files carry if lines are missing (see [`VisibleLines::undecided`]) or specks remain.
     pub fn partial_note(&self) -> Option<String> {
         let lines = if self.undecided == 1 { "1 line was" } else { &format!("{} lines were", self.undecided) };

@@ -42,7 +42,7 @@ const ESTIMATED: f64 = 0.7;
 
 /// Returns a path's first point and curves at most `error_px` from it; a closed path returns to that point.
 pub fn fitted(path: &LinePath, error_px: f64) -> (DVec2, Vec<Step>) {
-    let mut points = simplified(path);
+    let mut points = simplified(&path.points_px, path.is_closed);
     points.dedup();
     let Some(first) = points.first().copied() else { return (DVec2::ZERO, Vec::new()) };
     if points.len() == 1 && !path.is_closed {

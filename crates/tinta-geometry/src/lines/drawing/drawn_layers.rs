@@ -131,6 +131,6 @@ impl DrawnLayer {
 impl DrawingSettings {
     /// The points of a path that are written.
     pub(in crate::lines) fn points_of(&self, path: &LinePath) -> Vec<DVec2> {
-        if self.has_provenance { path.points_px.clone() } else { simplified(path) }
+        if self.has_provenance { path.points_px.clone() } else { simplified(&path.points_px, path.is_closed) }
     }
 }

@@ -4,16 +4,15 @@
 //! kept point therefore passes all of them within [`STRAIGHT_PX`]. Each point is visited once, O(n), without
 //! recursion.
 
-use crate::lines::LinePath;
 use crate::tolerances::STRAIGHT_PX;
 use glam::DVec2;
 
-/// Returns a path's points without those within [`STRAIGHT_PX`] of the straight lines between the others. The first
-/// point stays, and an open path's last.
-pub(in crate::lines) fn simplified(path: &LinePath) -> Vec<DVec2> {
-    let mut points = path.points_px.clone();
-    if path.is_closed {
-        points.extend(path.points_px.first());
+/// Returns a polyline's points without those within [`STRAIGHT_PX`] of the straight lines between the others. The first
+/// point stays, and an open polyline's last.
+pub(in crate::lines) fn simplified(points_px: &[DVec2], is_closed: bool) -> Vec<DVec2> {
+    let mut points = points_px.to_vec();
+    if is_closed {
+        points.extend(points_px.first());
     }
     let Some(first) = points.first() else { return points };
     let mut kept = vec![*first];
@@ -26,11 +25,11 @@ pub(in crate::lines) fn simplified(path: &LinePath) -> Vec<DVec2> {
         }
         cone.narrow(point);
     }
-    if !path.is_closed {
+    if !is_closed {
         kept.extend(points.last());
     } else if kept.len() == 1 {
         // All turns are within the tolerance; a path needs at least two points.
-        kept.extend(path.points_px.get(1));
+        kept.extend(points_px.get(1));
     }
     kept
 }
@@ -82,24 +81,13 @@ impl Cone {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edges::Class;
 
-    fn path(points: &[[f64; 2]], is_closed: bool) -> LinePath {
-        let points_px = points.iter().map(|point| DVec2::from_array(*point)).collect();
-        LinePath {
-            stroke: None,
-            class: Class::Crease,
-            is_visible: true,
-            is_outline: false,
-            object: 0,
-            points_px,
-            is_closed,
-            segments: Vec::new(),
-        }
+    fn path(points: &[[f64; 2]]) -> Vec<DVec2> {
+        points.iter().map(|point| DVec2::from_array(*point)).collect()
     }
 
     fn kept(points: &[[f64; 2]], is_closed: bool) -> Vec<[f64; 2]> {
-        simplified(&path(points, is_closed)).into_iter().map(|point| point.to_array()).collect()
+        simplified(&path(points), is_closed).into_iter().map(|point| point.to_array()).collect()
     }
 
     #[test]
@@ -131,7 +119,7 @@ mod tests {
     fn a_circle_of_many_points_stays_within_the_tolerance_of_all_of_them() {
         let at = |k: u32| DVec2::from_angle(f64::from(k) / 20_000.0 * std::f64::consts::TAU) * 200.0;
         let points: Vec<[f64; 2]> = (0..20_000).map(|k| at(k).to_array()).collect();
-        let corners = simplified(&path(&points, true));
+        let corners = simplified(&path(&points), true);
         assert!((100..2_000).contains(&corners.len()), "{}", corners.len());
         let distance = |point: DVec2, a: DVec2, b: DVec2| {
             let share = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);

@@ -11,6 +11,7 @@ use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::{Step, fitted};
 use crate::lines::drawing::drawn_labels::{DrawnLabel, height_px, win_ansi};
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
+use crate::lines::drawing::fills::{Fill, FillGroup, TRAP_PX};
 use crate::lines::drawing::settings::{DrawingSettings, mixed};
 use crate::lines::drawing::text::{written_point, written_points};
 use crate::scene::{Background, Color};
@@ -26,15 +27,20 @@ use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 /// that the standard fonts lack.
 pub fn pdf(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<u8>> {
     let lines = lines.without_specks(settings)?;
-    pdf_of_paths(&lines, chain(&lines.segments), settings)
+    pdf_of_paths(&lines, chain(&lines.segments), &[], settings)
 }
 
-/// Returns the given lines as a PDF file, with the paths that [`chain`] made of them.
+/// Returns the given lines as a PDF file, with the paths that [`chain`] made of them, above the given areas.
 ///
 /// # Errors
 ///
 /// Those of [`pdf`].
-pub fn pdf_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &DrawingSettings) -> Result<Vec<u8>> {
+pub fn pdf_of_paths(
+    lines: &VisibleLines,
+    paths: Vec<LinePath>,
+    fills: &[FillGroup],
+    settings: &DrawingSettings,
+) -> Result<Vec<u8>> {
     let drawing = Drawing::new(lines, paths, settings)?;
     let scale = drawing.page.points_per_px();
     let page_points = drawing.page.extent_px * scale;
@@ -45,7 +51,7 @@ pub fn pdf_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &Drawi
     }
     let encode = |label: &DrawnLabel<'_>| win_ansi(label.text).map(|text| (text, label.at_px, label.color));
     let labels: Vec<Text> = drawing.labels.iter().map(encode).collect::<Result<_>>()?;
-    Ok(written(&drawing, &labels, scale))
+    Ok(written(&drawing, fills, &labels, scale))
 }
 
 /// A text in the encoding of the standard fonts, the left end of its base line in pixels, its colour.
@@ -66,7 +72,7 @@ const CONTENT: Ref = Ref::new(4);
 const INFORMATION: Ref = Ref::new(5);
 const FIRST_LAYER: i32 = 6;
 
-fn written(drawing: &Drawing<'_>, labels: &[Text], scale: f64) -> Vec<u8> {
+fn written(drawing: &Drawing<'_>, fills: &[FillGroup], labels: &[Text], scale: f64) -> Vec<u8> {
     let (settings, page) = (drawing.settings, &drawing.page);
     let [width, height] = (page.extent_px * scale).to_array().map(|side| side as f32);
     let layers: Vec<Ref> = (FIRST_LAYER..).map(Ref::new).take(drawing.layers.len()).collect();
@@ -104,6 +110,7 @@ fn written(drawing: &Drawing<'_>, labels: &[Text], scale: f64) -> Vec<u8> {
     let origin = page.origin_px;
     let matrix = [scale, 0.0, 0.0, -scale, -origin.x * scale, (origin.y + page.extent_px.y) * scale];
     content.transform(matrix.map(|number| number as f32));
+    fills.iter().flat_map(|group| &group.fills).for_each(|fill| write_fill(fill, &mut content));
     content.set_line_cap(LineCapStyle::RoundCap).set_line_join(LineJoinStyle::RoundJoin);
     for (number, layer) in drawing.layers.iter().enumerate() {
         write_layer(drawing, layer, number, &mut content);
@@ -161,9 +168,38 @@ fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, number: usize, content
     content.end_marked_content();
 }
 
+/// Writes an area and its trap.
+fn write_fill(fill: &Fill, content: &mut Content) {
+    let [red, green, blue] = fill.color.0;
+    content.set_fill_rgb(red, green, blue);
+    fill.loops.iter().for_each(|corners| write_polyline(corners, true, content));
+    content.fill_even_odd();
+    if !fill.trap.is_empty() {
+        content.set_stroke_rgb(red, green, blue).set_line_width(TRAP_PX as f32);
+        fill.trap.iter().for_each(|points| write_polyline(points, false, content));
+        content.stroke();
+    }
+}
+
+fn write_polyline(points: &[DVec2], is_closed: bool, content: &mut Content) {
+    for (index, point) in written_points(points, is_closed, false).iter().enumerate() {
+        let [x, y] = numbers(point);
+        match index {
+            0 => content.move_to(x, y),
+            _ => content.line_to(x, y),
+        };
+    }
+    if is_closed {
+        content.close_path();
+    }
+}
+
+/// A point as it is written, exactly the numbers of the SVG.
+fn numbers(point: &[String; 2]) -> [f32; 2] {
+    [0, 1].map(|axis| point[axis].parse::<f32>().unwrap_or(0.0))
+}
+
 fn write_path(settings: &DrawingSettings, path: &LinePath, content: &mut Content) {
-    // Exactly the numbers of the SVG.
-    let numbers = |point: &[String; 2]| [0, 1].map(|axis| point[axis].parse::<f32>().unwrap_or(0.0));
     if let Some(error_px) = settings.fit_px {
         let (first, steps) = fitted(path, error_px);
         let at = |point: DVec2| numbers(&written_point(point));

@@ -10,12 +10,15 @@ use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::fitted;
 use crate::lines::drawing::drawn_labels::height_px;
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
+use crate::lines::drawing::fills::{FillGroup, TRAP_PX};
 use crate::lines::drawing::page::PAGE_DECIMALS;
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::drawing::text::{curve_data, decimal, hexadecimal, number, path_data};
 use crate::markup::escaped;
 use crate::markup::recipe_element;
+use crate::mesh::NONE;
 use crate::scene::Background;
+use glam::DVec2;
 use std::fmt::Write;
 
 /// Returns the lines as an SVG file, without spurs and specks.
@@ -26,18 +29,24 @@ use std::fmt::Write;
 /// that are not finite or leave the picture.
 pub fn svg(lines: &VisibleLines, settings: &DrawingSettings) -> Result<String> {
     let lines = lines.without_specks(settings)?;
-    svg_of_paths(&lines, chain(&lines.segments), settings)
+    svg_of_paths(&lines, chain(&lines.segments), &[], settings)
 }
 
-/// Returns the given lines as an SVG file, with the paths that [`chain`] made of them.
+/// Returns the given lines as an SVG file, with the paths that [`chain`] made of them, above the given areas.
 ///
 /// # Errors
 ///
 /// Those of [`svg`].
-pub fn svg_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &DrawingSettings) -> Result<String> {
+pub fn svg_of_paths(
+    lines: &VisibleLines,
+    paths: Vec<LinePath>,
+    fills: &[FillGroup],
+    settings: &DrawingSettings,
+) -> Result<String> {
     let drawing = Drawing::new(lines, paths, settings)?;
     let mut out = String::new();
     begin(&drawing, &mut out);
+    fills.iter().for_each(|group| write_fills(group, &mut out));
     for layer in &drawing.layers {
         write_layer(&drawing, layer, &mut out);
     }
@@ -97,6 +106,30 @@ fn begin(drawing: &Drawing<'_>, out: &mut String) {
         let _ =
             writeln!(out, r#"<rect id="background" {place}width="{width_px}" height="{height_px}" fill="{fill}"/>"#);
     }
+}
+
+/// Writes an object's material as a layer of areas.
+fn write_fills(group: &FillGroup, out: &mut String) {
+    let object = group.object;
+    let (name, label) = match group.material {
+        NONE => (format!("fill-{object}"), format!("object {object}")),
+        material => (format!("fill-{object}-{material}"), format!("object {object} material {material}")),
+    };
+    let _ = writeln!(
+        out,
+        r#"<g id="{name}" inkscape:groupmode="layer" inkscape:label="{label}" fill-rule="evenodd" stroke="none" stroke-width="{TRAP_PX}" stroke-linejoin="round">"#
+    );
+    let data = |polylines: &[Vec<DVec2>], is_closed: bool| {
+        polylines.iter().map(|points| path_data(points, is_closed, false)).collect::<String>()
+    };
+    for fill in &group.fills {
+        let color = hexadecimal(fill.color);
+        let _ = writeln!(out, r#"<path data-tone="{}" fill="{color}" d="{}"/>"#, fill.tone, data(&fill.loops, true));
+        if !fill.trap.is_empty() {
+            let _ = writeln!(out, r#"<path fill="none" stroke="{color}" d="{}"/>"#, data(&fill.trap, false));
+        }
+    }
+    out.push_str("</g>\n");
 }
 
 fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, out: &mut String) {

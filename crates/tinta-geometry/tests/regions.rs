@@ -1,0 +1,301 @@
+//! Tests exact regions with rays: the region of a pixel's middle has the face that a ray hits there. The regions fill the picture
+//! without gaps and overlaps.
+
+extern crate tinta_geometry as tinta;
+
+#[path = "../../../tests/lines_families.rs"]
+mod lines_families;
+#[path = "../../../tests/lines_random.rs"]
+mod lines_random;
+#[expect(dead_code, reason = "shared with the tests of the whole program")]
+#[path = "../../../tests/lines_support.rs"]
+mod lines_support;
+#[expect(dead_code, reason = "shared with the tests of the whole program")]
+#[path = "../../../tests/shapes.rs"]
+mod shapes;
+
+use glam::{DVec2, DVec3};
+use lines_families::FAMILIES;
+use lines_support::{scenes_wanted, view};
+use shapes::{Random, mesh};
+use std::path::PathBuf;
+use std::time::Duration;
+use tinta::camera::Projection;
+use tinta::lines::{Progress, Region, Regions, SeenFace, first_hits};
+use tinta::tolerances::{CONTACT, WELD};
+use tinta::{CameraSettings, Error, LoadOptions, Scene, SceneSettings, load};
+
+/// The families, and four kinds of randomly oriented scenes.
+const KINDS: usize = FAMILIES.len() + 4;
+
+fn scene(number: usize, random: &mut Random) -> (String, Scene) {
+    match FAMILIES.get(number % KINDS) {
+        Some((name, make)) => ((*name).to_owned(), make(random)),
+        None => {
+            let kind = number % KINDS - FAMILIES.len();
+            (format!("random scenes {kind}"), lines_random::random_scene(kind as u32, random))
+        }
+    }
+}
+
+/// Distance of a pixel's middle from a border below which either side is right, pixels.
+const NEAR_BORDER_PX: f64 = 0.01;
+
+#[derive(Debug, Default)]
+struct Checked {
+    pixels: usize,
+    near_borders: usize,
+    wrong: usize,
+    example: String,
+}
+
+/// Compares the regions of all pixels with rays. Panics where the regions do not fill the picture exactly once.
+fn check(name: &str, scene: &Scene) -> Checked {
+    let found = Regions::of(scene).unwrap();
+    assert_eq!(found.broken, 0, "{name}");
+    let size = [scene.size.width as usize, scene.size.height as usize];
+    let whole = (size[0] * size[1]) as f64;
+    let sum: f64 = found.regions.iter().map(|region| region.area_px).sum();
+    assert!((sum - whole).abs() <= 1e-9 * whole, "{name}: {sum} of {whole}");
+    let by_corners: f64 = found.regions.iter().flat_map(|region| &region.loops).map(|corners| area(corners)).sum();
+    assert!((by_corners.abs() - whole).abs() <= 1e-9 * whole, "{name}: {by_corners} of {whole}");
+    let mut region_of = vec![usize::MAX; size[0] * size[1]];
+    for (number, region) in found.regions.iter().enumerate() {
+        fill(region, size, |pixel| {
+            assert_eq!(region_of[pixel], usize::MAX, "{name}: two regions at {pixel}");
+            region_of[pixel] = number;
+        });
+    }
+    let mut checked = Checked { pixels: region_of.len(), ..Checked::default() };
+    for (pixel, (number, hit)) in region_of.into_iter().zip(first_hits(scene)).enumerate() {
+        assert_ne!(number, usize::MAX, "{name}: no region at {pixel}");
+        let seen = found.regions[number].seen;
+        let hit_face = hit.map(|hit| SeenFace { object: hit.object, face: hit.face });
+        let px = DVec2::new((pixel % size[0]) as f64 + 0.5, (pixel / size[0]) as f64 + 0.5);
+        if seen == hit_face || hit.zip(seen).is_some_and(|(hit, seen)| touches(scene, world(scene, &hit), seen)) {
+            continue;
+        }
+        let is_near = |region: &Region| region.loops.iter().any(|corners| distance(corners, px) < NEAR_BORDER_PX);
+        if found.regions.iter().any(is_near) {
+            checked.near_borders += 1;
+        } else {
+            checked.wrong += 1;
+            checked.example = format!("{name} at {px}: {seen:?} instead of {hit_face:?}");
+        }
+    }
+    checked
+}
+
+fn corners(scene: &Scene, seen: SeenFace) -> [DVec3; 3] {
+    let object = &scene.objects[seen.object as usize];
+    object.mesh.triangles[seen.face as usize].map(|corner| object.mesh.positions[corner as usize] + object.offset)
+}
+
+fn world(scene: &Scene, hit: &tinta::lines::Hit) -> DVec3 {
+    let [a, b, c] = corners(scene, SeenFace { object: hit.object, face: hit.face });
+    a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2]
+}
+
+/// Whether a face is at a point of another: the two coincide there, and the lower number counts.
+fn touches(scene: &Scene, point: DVec3, seen: SeenFace) -> bool {
+    let [a, b, c] = corners(scene, seen);
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+    let (low, high) = scene.objects[seen.object as usize].mesh.bounds();
+    let toward = match scene.camera.projection {
+        Projection::Parallel { .. } => scene.camera.backward(),
+        Projection::Perspective { .. } => (scene.camera.eye - point).normalize(),
+    };
+    let distance = normal.dot(point - a);
+    // Along the ray, where the ray meets the face's plane.
+    let on_plane = point - toward * (distance / normal.dot(toward));
+    let inside = [[a, b], [b, c], [c, a]].into_iter().all(|[from, to]| {
+        let inward = normal.cross(to - from).normalize_or_zero();
+        inward.dot(on_plane - from) >= -1e-6 * longest
+    });
+    distance.abs() <= 2.0 * (CONTACT * longest + WELD * low.distance(high)) && inside
+}
+
+/// The signed area of a polygon.
+fn area(corners: &[DVec2]) -> f64 {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum::<f64>() * 0.5
+}
+
+/// Calls `at` with each pixel whose middle lies in a region.
+fn fill(region: &Region, [width, height]: [usize; 2], mut at: impl FnMut(usize)) {
+    let all = || region.loops.iter().flatten();
+    let low = all().map(|point| point.y).fold(f64::INFINITY, f64::min);
+    let high = all().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max);
+    for row in low.floor() as usize..(high.ceil() as usize).min(height) {
+        let y = row as f64 + 0.5;
+        let mut places: Vec<f64> = Vec::new();
+        for corners in &region.loops {
+            for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+                if (a.y > y) != (b.y > y) {
+                    // The same for both neighbours.
+                    let (a, b) = if a.y < b.y { (a, b) } else { (b, a) };
+                    places.push(a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)));
+                }
+            }
+        }
+        places.sort_unstable_by(f64::total_cmp);
+        for pair in places.chunks_exact(2) {
+            let columns = (pair[0] - 0.5).ceil() as usize..((pair[1] - 0.5).ceil() as usize).min(width);
+            columns.for_each(|column| at(row * width + column));
+        }
+    }
+}
+
+/// The distance of a point from a closed polygon's sides.
+fn distance(corners: &[DVec2], px: DVec2) -> f64 {
+    let of_side = |(a, b): (&DVec2, &DVec2)| {
+        let along = *b - *a;
+        let place = ((px - *a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        px.distance(*a + along * place)
+    };
+    corners.iter().zip(corners.iter().cycle().skip(1)).map(of_side).fold(f64::INFINITY, f64::min)
+}
+
+fn check_families(count: u64) {
+    let mut all = Checked::default();
+    for seed in 1..=count {
+        let mut random = Random::seeded(seed);
+        let (name, scene) = scene(seed as usize, &mut random);
+        add(&mut all, check(&format!("{name}, seed {seed}"), &scene));
+    }
+    judge(&all);
+}
+
+fn add(all: &mut Checked, one: Checked) {
+    all.pixels += one.pixels;
+    all.near_borders += one.near_borders;
+    all.wrong += one.wrong;
+    if one.wrong > 0 {
+        println!("{} wrong, {}", one.wrong, one.example);
+        all.example = one.example;
+    }
+}
+
+fn judge(all: &Checked) {
+    println!("{} pixels, {} near borders differ, {} wrong {}", all.pixels, all.near_borders, all.wrong, all.example);
+    assert!(all.pixels > 0 && all.wrong as f64 <= 1e-5 * all.pixels as f64, "{all:?}");
+}
+
+#[test]
+fn regions_of_every_family_are_the_faces_that_rays_hit() {
+    check_families(KINDS as u64);
+}
+
+#[test]
+#[ignore = "exhaustive: 25 scenes of each family"]
+fn regions_of_many_scenes_are_the_faces_that_rays_hit() {
+    check_families(scenes_wanted().unwrap_or(25 * KINDS as u64));
+}
+
+/// The public models, by name; empty where they are not at hand.
+fn models(names: &[&str]) -> Vec<(String, tinta::Mesh)> {
+    let near = || concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/models").into();
+    let folder = std::env::var_os("TINTA_MODELS").map_or_else(near, PathBuf::from);
+    let mut meshes = Vec::new();
+    for name in names {
+        let path = folder.join(name);
+        if !path.exists() {
+            println!("skipped: no {}", path.display());
+            continue;
+        }
+        meshes.push(((*name).to_owned(), load(&path.display().to_string(), &LoadOptions::default()).unwrap().mesh));
+    }
+    meshes
+}
+
+fn check_models(names: &[&str], views: &[CameraSettings]) {
+    let models = models(names);
+    let mut all = Checked::default();
+    for (name, mesh) in &models {
+        for camera in views {
+            let settings = SceneSettings { camera: camera.clone(), ..SceneSettings::default() };
+            let scene = Scene::new([mesh.clone()], &settings).unwrap();
+            add(&mut all, check(&format!("{name} from {:?}", camera.view), &scene));
+        }
+    }
+    if !models.is_empty() {
+        judge(&all);
+    }
+}
+
+#[test]
+fn regions_of_public_models_are_the_faces_that_rays_hit() {
+    check_models(&["cow.obj", "teapot.obj", "suzanne.obj"], &[view("30,23", false), view("front", true)]);
+}
+
+#[test]
+#[ignore = "exhaustive: all public models from 26 sides"]
+fn regions_of_all_public_models_are_the_faces_that_rays_hit() {
+    let names = [
+        "ant.ply",
+        "beethoven.obj",
+        "cow.obj",
+        "doll.obj",
+        "faerie.md2",
+        "fandisk.obj",
+        "stanford-bunny.obj",
+        "suzanne.obj",
+        "teapot.obj",
+    ];
+    let mut views = vec![view("0,90", false), view("0,-90", false)];
+    for height in [-45, 0, 45] {
+        views.extend((0..8).map(|turn| view(&format!("{},{height}", turn * 45), turn % 2 == 1)));
+    }
+    check_models(&names, &views);
+}
+
+#[test]
+fn two_squares_one_behind_the_other_have_three_regions() {
+    let square = |half: f64, z: f64| {
+        let at = |x: f64, y: f64| DVec3::new(x * half, y * half, z);
+        mesh(vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)], vec![[0, 1, 2], [0, 2, 3]])
+    };
+    let settings = SceneSettings { camera: view("front", true), ..SceneSettings::default() };
+    let scene = Scene::new([square(1.0, 0.0), square(0.5, 1.0)], &settings).unwrap();
+    let found = Regions::of(&scene).unwrap();
+    // Two halves of each square, and the background.
+    let of = |object: u32| found.regions.iter().filter(move |it| it.seen.is_some_and(|seen| seen.object == object));
+    assert_eq!((of(0).count(), of(1).count(), found.regions.len()), (2, 2, 5));
+    let [large, small] = [0, 1].map(|object| of(object).map(|region| region.area_px).sum::<f64>());
+    assert!((large - 3.0 * small).abs() < 1e-3, "{large} {small}");
+    let background = found.regions.iter().find(|region| region.seen.is_none()).unwrap();
+    assert_eq!(background.loops.len(), 2, "the picture's frame, and a hole");
+}
+
+#[test]
+fn regions_end_when_asked() {
+    let scene = scene(0, &mut Random::seeded(1)).1;
+    let late = Regions::with_progress(&scene, &Progress::within(Duration::ZERO));
+    assert!(matches!(late, Err(Error::OutOfTime { .. })));
+    let progress = Progress::default();
+    progress.cancel();
+    assert!(matches!(Regions::with_progress(&scene, &progress), Err(Error::Cancelled)));
+}
+
+#[test]
+#[ignore = "exhaustive: times, for a release build"]
+fn a_map_takes_at_most_three_times_its_lines() {
+    for (name, mesh) in models(&["cow.obj", "stanford-bunny.obj"]) {
+        for _ in 0..4 {
+            let scene = Scene::new([mesh.clone()], &SceneSettings::default()).unwrap();
+            let clock = std::time::Instant::now();
+            let lines = tinta::VisibleLines::of(&scene, &tinta::LineSettings::default()).unwrap();
+            let lines_ms = clock.elapsed().as_secs_f64() * 1e3;
+            let scene = Scene::new([mesh.clone()], &SceneSettings::default()).unwrap();
+            let clock = std::time::Instant::now();
+            let regions = Regions::of(&scene).unwrap();
+            let regions_ms = clock.elapsed().as_secs_f64() * 1e3;
+            println!(
+                "{name}: {} lines in {lines_ms:.1} ms, {} regions in {regions_ms:.1} ms",
+                lines.segments.len(),
+                regions.regions.len()
+            );
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Cartoons as vectors: a renderer that is not ours draws their SVG, and each pixel beside no border is that of the style by OpenGL.
+
+use crate::support::{BACKENDS, public_models, renderer, scene_with};
+use resvg::{tiny_skia, usvg};
+use std::sync::Arc;
+use tinta::lines::{Progress, svg_of_paths};
+use tinta::styles::{Cartoon, Ink, Tones};
+use tinta::{
+    Background, CameraSettings, Color, DrawingSettings, LoadOptions, Picture, Scene, SceneSettings, Size, Style,
+    VisibleLines, load,
+};
+
+/// The areas of a style as SVG.
+fn areas(scene: &Scene, style: &Style) -> String {
+    let fills = style.vectors(scene.size).unwrap().fills(scene, &Progress::default()).unwrap();
+    let settings = DrawingSettings { background: scene.background, ..DrawingSettings::default() };
+    svg_of_paths(&VisibleLines::none(scene.size), Vec::new(), &fills, &settings).unwrap()
+}
+
+/// An SVG's pixels at a zoom.
+fn drawn(text: &str, zoom: f32) -> Picture {
+    let tree = usvg::Tree::from_str(text, &usvg::Options::default()).unwrap();
+    let [width, height] = [tree.size().width(), tree.size().height()].map(|side| (side * zoom).round() as u32);
+    let mut pixels = tiny_skia::Pixmap::new(width, height).unwrap();
+    resvg::render(&tree, tiny_skia::Transform::from_scale(zoom, zoom), &mut pixels.as_mut());
+    Picture { size: Size { width, height }, pixels: pixels.data().to_vec() }
+}
+
+/// Calls `at` with the red, green and blue of each pixel whose neighbours have the same colour in the first picture.
+fn beside_no_border(picture: &Picture, mut at: impl FnMut(usize, [u8; 3])) {
+    let (width, height) = (picture.size.width as usize, picture.size.height as usize);
+    let rgb = |x: usize, y: usize| <[u8; 3]>::try_from(&picture.pixels[(y * width + x) * 4..][..3]).unwrap();
+    for y in 1..height - 1 {
+        for x in 1..width - 1 {
+            let here = rgb(x, y);
+            if (y - 1..=y + 1).all(|y| (x - 1..=x + 1).all(|x| rgb(x, y) == here)) {
+                at(y * width + x, here);
+            }
+        }
+    }
+}
+
+/// The styles whose tones are compared, without lines.
+fn tones_alone() -> [(&'static str, Style); 4] {
+    let two = Tones { count: 2, ..Tones::default() };
+    let of_print = Tones {
+        count: 3,
+        levels: [0.68, 0.88, 1.0],
+        diffuse_threshold: 0.56,
+        specular_threshold: 0.2,
+        ..Tones::default()
+    };
+    let cartoon = Cartoon { border: None, ..Cartoon::default() };
+    let ink = Ink { is_inked: false, tones: of_print, tone_light: Some([-0.4, 1.0, 0.6]), ..Ink::default() };
+    [
+        ("three-pass", Style::ThreePass(cartoon.clone())),
+        ("two-pass in two tones", Style::TwoPass(Cartoon { tones: two, ..cartoon })),
+        ("ink", Style::Ink(Ink { is_inked: false, ..Ink::default() })),
+        ("ink as printed", Style::Ink(ink)),
+    ]
+}
+
+fn check(name: &str, scene: &Scene) {
+    let mut renderer = renderer(BACKENDS[0]);
+    for (style_name, style) in tones_alone() {
+        let expected = renderer.render(scene, &style).unwrap();
+        let found = drawn(&areas(scene, &style), 1.0);
+        assert_eq!(expected.size, found.size);
+        let (mut compared, mut wrong) = (0, 0);
+        beside_no_border(&found, |pixel, rgb| {
+            compared += 1;
+            let of_style = &expected.pixels[pixel * 4..][..3];
+            wrong += usize::from(rgb.iter().zip(of_style).any(|(a, b)| a.abs_diff(*b) > 1));
+        });
+        println!("{name}, {style_name}: {compared} pixels beside no border, {wrong} differ");
+        assert!(compared * 2 > found.size.pixel_count(), "{name}, {style_name}: {compared} compared");
+        assert_eq!(wrong, 0, "{name}, {style_name}");
+    }
+}
+
+#[test]
+fn areas_of_tone_are_the_pixels_of_the_style() {
+    for model in ["builtin:bust", "builtin:gear"] {
+        check(model, &scene_with(model, SceneSettings::default()));
+    }
+    let copies = SceneSettings { copies: 4, ..SceneSettings::default() };
+    check("four busts", &scene_with("builtin:bust", copies));
+}
+
+#[test]
+fn areas_of_public_models_are_the_pixels_of_the_style() {
+    let Some(folder) = public_models() else { return };
+    for file in ["cow.obj", "teapot.obj", "suzanne.obj", "beethoven.obj"] {
+        let path = folder.join(file);
+        if !path.is_file() {
+            crate::support::skip(&format!("{file}: not in {}", folder.display()));
+            continue;
+        }
+        let mesh = load(path.to_str().unwrap(), &LoadOptions::default()).unwrap().mesh;
+        let camera = CameraSettings { view: "30,23".parse().unwrap(), ..CameraSettings::default() };
+        let settings = SceneSettings { camera, ..SceneSettings::default() };
+        check(file, &Scene::new(vec![Arc::new(mesh)], &settings).unwrap());
+    }
+}
+
+/// On magenta, grey areas without seams: no pixel inside them has a trace of the ground.
+#[test]
+fn no_ground_shines_through_between_areas() {
+    let settings = SceneSettings {
+        background: Background::Color(Color([1.0, 0.0, 1.0])),
+        color: Some(Color([1.0; 3])),
+        copies: 4,
+        ..SceneSettings::default()
+    };
+    let scene = scene_with("builtin:bust", settings);
+    for (name, style) in tones_alone() {
+        let text = areas(&scene, &style);
+        for (zoom, most) in [(0.5, 24), (1.0, 16), (2.5, 16)] {
+            let found = drawn(&text, zoom);
+            let width = found.size.width as usize;
+            let rgb = |pixel: usize| &found.pixels[pixel * 4..][..3];
+            let is_ground = |pixel: usize| rgb(pixel)[1] < 100;
+            let (mut inside, mut worst) = (0, 0);
+            for pixel in 2 * width + 2..found.pixels.len() / 4 - 2 * width - 2 {
+                let around = (0..25).map(|step| pixel + step % 5 + step / 5 * width - 2 - 2 * width);
+                if around.into_iter().all(|near| !is_ground(near)) {
+                    inside += 1;
+                    worst = worst.max(rgb(pixel)[0].abs_diff(rgb(pixel)[1]));
+                }
+            }
+            println!("{name} at {zoom}: {inside} pixels inside, at most {worst} of 255 from the ground");
+            assert!(inside > 1000 && worst <= most, "{name} at {zoom}: {worst}");
+        }
+    }
+}
