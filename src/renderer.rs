@@ -84,6 +84,17 @@ pub struct StepPicture {
     pub picture: Picture,
 }
 
+/// GL's numbers after one step, in some pixels of the surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepValues {
+    /// The pixels.
+    pub part: Rectangle,
+    /// For each texture of the target, or the framebuffer: red, green, blue and alpha of each pixel, bottom row first.
+    pub colors: Vec<Vec<[f32; 4]>>,
+    /// The depth of each pixel, 0 to 1; empty if the target has no depth buffer.
+    pub depth: Vec<f32>,
+}
+
 impl Renderer {
     /// Opens a context.
     ///
@@ -387,6 +398,28 @@ impl Renderer {
             }
             let picture = |(pass, step, canvas): (_, _, Canvas)| StepPicture { pass, step, picture: canvas.picture };
             Ok(canvases.into_iter().map(picture).collect())
+        })
+    }
+
+    /// Draws one frame and returns what GL held in these pixels of the surface after each step, in the order of
+    /// [`Plan::steps`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::draw`]; also if the picture is too large for one piece.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn step_values(&mut self, scene: &Scene, plan: &Plan, part: Rectangle) -> Result<Vec<StepValues>> {
+        self.with_context(scene, plan, |frame| {
+            let &[tile] = frame.tiles.as_slice() else {
+                return Err(Error::value(
+                    "size",
+                    scene.size,
+                    "this is read back in one piece; ask for a smaller picture",
+                ));
+            };
+            frame.resources.begin_tile(plan, tile)?;
+            let steps = plan.passes.iter().flat_map(|pass| pass.steps.iter().map(move |step| (pass, step)));
+            steps.map(|(pass, step)| frame.step_values(pass, step, part)).collect()
         })
     }
 

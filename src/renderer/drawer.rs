@@ -1,11 +1,12 @@
 //! One context and its resources: plans go in, frames come out.
 
+use super::StepValues;
 use crate::error::{Error, Result};
 use crate::gl::context::{Context, Current};
 use crate::gl::execute::Resources;
 use crate::limits::{DRAWN_AT_ONCE_PIXELS, DRAWN_PIXELS, TILE_SIDE_PX};
 use crate::picture::Picture;
-use crate::plan::{Output, Pass, Plan, Step, Tile, TileLimits};
+use crate::plan::{Output, Pass, Plan, Step, Target, Tile, TileLimits};
 use crate::scene::{Rectangle, Scene, Size};
 use std::collections::HashMap;
 
@@ -195,6 +196,21 @@ impl Frame<'_> {
             }
         }
         self.resources.check(pass.name)
+    }
+
+    /// Carries out one step of a picture in one piece and reads what the target then holds in some pixels.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(super) fn step_values(&mut self, pass: &Pass, step: &Step, part: Rectangle) -> Result<StepValues> {
+        self.resources.begin(pass.target, pass.scissor)?;
+        self.resources.step(self.scene, step)?;
+        let (count, has_depth) = match pass.target {
+            Target::Framebuffer => (1, true),
+            Target::Textures(attachments) => (attachments.colors.len() as u32, attachments.has_depth),
+        };
+        let colors = (0..count).map(|number| self.resources.read_colors(number, part)).collect();
+        let depth = if has_depth { self.resources.read_depth(part) } else { Vec::new() };
+        self.resources.check(pass.name)?;
+        Ok(StepValues { part, colors, depth })
     }
 
     /// Reads back a tile's part of the picture.
