@@ -1,0 +1,261 @@
+//! A pixel explained: every step of a plan recomputed for one pixel, beside the values that the driver left there.
+//!
+//! In: a [`Plan`], and what GL held after each of its steps ([`crate::Renderer::step_values`]). Out: the triangles that cover the
+//! pixel, their varyings, each statement of the shaders with its value, the depth test, the blending and the value written. Each
+//! step starts from the driver's own values, so an error does not travel from pass to pass.
+
+mod fragment;
+mod textures;
+mod triangles;
+
+use crate::error::{Error, Result};
+use crate::gl::fixed_function;
+use crate::glsl;
+use crate::plan::{Attachments, Draw, Format, Geometry, Plan, Step, Target};
+use crate::renderer::StepValues;
+use crate::scene::Scene;
+pub use fragment::{Corner, Fragment};
+use fragment::{PreparedDraw, blended};
+use serde::Serialize;
+use textures::Images;
+pub use tinta_glsl::{Base, Event, Mistake, Precision, Sample, Texel, Type, Value, What};
+use triangles::Triangles;
+
+tinta_geometry::choices! {
+    /// How textures are read between their texels.
+    #[derive(Default)]
+    pub enum Filtering {
+        /// By real weights, as GL defines it.
+        #[default]
+        Exact = "exact",
+        /// By weights of 1/256, each mixture rounded to 8 bits: as llvmpipe reads textures of 8 bits.
+        Bytes = "bytes",
+    }
+}
+
+/// How a pixel is recomputed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Recomputation {
+    /// How floats are kept.
+    pub precision: Precision,
+    /// How textures are read between their texels.
+    pub filtering: Filtering,
+    /// Parts of a pixel, as bits, that the driver places corners at ([`crate::gl::ContextInfo::subpixel_bits`]).
+    pub subpixel_bits: u32,
+}
+
+/// A step of a plan at one pixel.
+#[derive(Debug, Clone, Serialize)]
+pub struct PixelStep {
+    /// The pass's name.
+    pub pass: &'static str,
+    /// The step's name.
+    pub step: &'static str,
+    /// The shaders that draw it; `None` if nothing is drawn.
+    pub program: Option<String>,
+    /// The triangles that cover the pixel, in drawing order.
+    pub fragments: Vec<Fragment>,
+    /// Red, green, blue and alpha that the driver held before, for each texture of the target; empty in a first step.
+    pub before: Vec<[f32; 4]>,
+    /// The same after the step, recomputed; `None` for steps that are not explained.
+    pub computed: Option<Vec<[f64; 4]>>,
+    /// What the driver held after the step.
+    pub drawn: Vec<[f32; 4]>,
+    /// The largest difference between the two last, in steps of 1/255; `None` if the step is not explained.
+    pub difference: Option<f64>,
+    /// Why the step is not explained.
+    pub remark: Option<&'static str>,
+}
+
+/// A plan prepared for questions about its pixels.
+pub struct Explainer<'a> {
+    plan: &'a Plan,
+    values: &'a [StepValues],
+    /// The drawing steps' shaders, triangles and textures.
+    draws: Vec<Option<PreparedDraw<'a>>>,
+}
+
+impl std::fmt::Debug for Explainer<'_> {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.debug_struct("Explainer").field("passes", &self.plan.passes.len()).finish_non_exhaustive()
+    }
+}
+
+impl<'a> Explainer<'a> {
+    /// Parses the plan's shaders and finds its triangles. `values` are those of the plan's steps, in order.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for supersampled plans and for textures that cannot be recomputed, [`Error::Shader`] for shaders that the
+    /// interpreter does not understand.
+    pub fn new(scene: &'a Scene, plan: &'a Plan, values: &'a [StepValues], how: Recomputation) -> Result<Self> {
+        if plan.supersample > 1 {
+            let problem = "a pixel of it has several colours; explain a pixel of the picture drawn once, without this";
+            return Err(Error::value("supersample", plan.supersample, problem));
+        }
+        let prepare = |(number, (_, step)): (usize, (&str, &'a Step))| match step {
+            Step::Draw(draw) if !matches!(draw.geometry, Geometry::Edges { .. }) => {
+                prepared(scene, plan, values, (number, draw), how).map(Some)
+            }
+            _ => Ok(None),
+        };
+        let draws = plan.steps().enumerate().map(prepare).collect::<Result<_>>()?;
+        Ok(Self { plan, values, draws })
+    }
+
+    /// Explains a pixel, counted from the picture's lower left as GL does. It must lie within the values' part.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Shader`] with the line of a statement that cannot be carried out.
+    pub fn pixel(&self, at: [u32; 2], is_traced: bool) -> Result<Vec<PixelStep>> {
+        let mut steps = Vec::new();
+        let mut targets: Vec<(Target, usize)> = Vec::new();
+        let mut number = 0;
+        for pass in &self.plan.passes {
+            for step in &pass.steps {
+                let last = targets.iter().rev().find(|(target, _)| *target == pass.target).map(|(_, number)| *number);
+                let values_of = |number: usize| {
+                    let StepValues { part, colors, .. } = &self.values[number];
+                    let place = (at[1] - part.y) as usize * part.width as usize + (at[0] - part.x) as usize;
+                    (colors.iter().map(|color| color[place]).collect::<Vec<_>>(), self.values[number].depth.get(place))
+                };
+                let (before, depth) = last.map_or((Vec::new(), None), values_of);
+                let (drawn, _) = values_of(number);
+                let mut explained = PixelStep {
+                    pass: pass.name,
+                    step: step.name(),
+                    program: None,
+                    fragments: Vec::new(),
+                    before,
+                    computed: None,
+                    drawn,
+                    difference: None,
+                    remark: None,
+                };
+                self.explain(step, (number, pass.target), (at, depth.copied(), is_traced), &mut explained)?;
+                explained.difference =
+                    explained.computed.as_ref().map(|computed| difference(computed, &explained.drawn));
+                steps.push(explained);
+                targets.push((pass.target, number));
+                number += 1;
+            }
+        }
+        Ok(steps)
+    }
+
+    fn explain(
+        &self,
+        step: &Step,
+        (number, target): (usize, Target),
+        (at, depth, is_traced): ([u32; 2], Option<f32>, bool),
+        explained: &mut PixelStep,
+    ) -> Result<()> {
+        let before: Vec<[f64; 4]> = explained.before.iter().map(|color| color.map(f64::from)).collect();
+        let count = explained.drawn.len();
+        match step {
+            Step::Clear { color: Some(color), .. } => {
+                explained.computed = Some(vec![stored(color.map(f64::from), target, 0); count]);
+            }
+            Step::ClearEach { colors } => {
+                let colors = colors.iter().enumerate();
+                explained.computed =
+                    Some(colors.map(|(number, color)| stored(color.map(f64::from), target, number)).collect());
+            }
+            Step::Clear { color: None, .. } | Step::CopyFramebuffer | Step::CopyDepth => {
+                explained.computed = Some(before);
+            }
+            Step::Draw(draw) => {
+                let Some(prepared) = &self.draws[number] else {
+                    explained.remark = Some("lines and points are drawn by GL itself and are not recomputed");
+                    return Ok(());
+                };
+                explained.program = Some(prepared.program.clone());
+                explained.fragments = prepared.fragments(at, depth, is_traced)?;
+                let mut colors = if before.is_empty() { vec![[0.0; 4]; count] } else { before };
+                for fragment in explained.fragments.iter().filter(|fragment| fragment.is_written()) {
+                    for (number, (color, given)) in colors.iter_mut().zip(&fragment.colors).enumerate() {
+                        *color =
+                            stored(blended(draw.blend, stored_source(*given, target, number), *color), target, number);
+                    }
+                }
+                explained.computed = Some(colors);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Prepares one draw.
+fn prepared<'a>(
+    scene: &'a Scene,
+    plan: &'a Plan,
+    values: &'a [StepValues],
+    (number, draw): (usize, &'a Draw),
+    how: Recomputation,
+) -> Result<PreparedDraw<'a>> {
+    let program = fixed_function::program_of(draw, false)
+        .ok_or_else(|| Error::gl("explaining a pixel", "a draw has no shaders"))?;
+    let text = |path: &'static str| {
+        let missing = || Error::gl("explaining a pixel", format!("{path} is no shader of tinta"));
+        glsl::source(path).map(|text| (path, text)).ok_or_else(missing)
+    };
+    let fragments: Vec<(&str, &str)> = program.fragments.iter().map(|path| text(path)).collect::<Result<_>>()?;
+    let stage = |texts: &[(&str, &str)]| tinta_glsl::Stage::new(texts).map_err(misunderstood);
+    let material = draw.textures.iter().position(|(_, texture)| *texture == crate::plan::Texture::Material);
+    let samplers = (0_u32..)
+        .zip(&draw.textures)
+        .map(|(unit, (name, _))| fixed_function::sampler(draw, &program, unit).unwrap_or(name));
+    Ok(PreparedDraw {
+        draw,
+        program: program.to_string(),
+        vertex: stage(&[text(program.vertex)?])?,
+        fragment: stage(&fragments)?,
+        triangles: Triangles::of(scene, draw, material, how.subpixel_bits),
+        samplers: samplers.collect(),
+        images: Images::of(scene, plan, values, (number, draw), how.filtering)?,
+        precision: how.precision,
+        height: scene.size.height,
+        is_texture: plan_target(plan, number) != Target::Framebuffer,
+    })
+}
+
+/// The target of a plan's step.
+fn plan_target(plan: &Plan, number: usize) -> Target {
+    let targets = plan.passes.iter().flat_map(|pass| pass.steps.iter().map(|_| pass.target));
+    targets.clone().nth(number).unwrap_or_default()
+}
+
+/// What the interpreter says of a shader, as an error.
+fn misunderstood(mistake: Mistake) -> Error {
+    let Mistake { path, line, problem } = mistake;
+    Error::Shader { path, log: format!("line {line}: {problem}") }
+}
+
+/// The format of a target's texture.
+fn format(target: Target, number: usize) -> Format {
+    match target {
+        Target::Framebuffer => Format::Unorm8,
+        Target::Textures(Attachments { colors, .. }) => colors.get(number).map_or(Format::Unorm8, |color| color.format),
+    }
+}
+
+/// Returns a shader's colour as it goes into blending: clamped where it is stored in 8 bits.
+fn stored_source(color: [f64; 4], target: Target, number: usize) -> [f64; 4] {
+    if format(target, number) == Format::Unorm8 { color.map(|channel| channel.clamp(0.0, 1.0)) } else { color }
+}
+
+/// Returns a colour as it is stored.
+fn stored(color: [f64; 4], target: Target, number: usize) -> [f64; 4] {
+    match format(target, number) {
+        // A NaN is stored as 0.
+        Format::Unorm8 => color.map(|channel| (channel.clamp(0.0, 1.0).max(0.0) * 255.0).round() / 255.0),
+        Format::Float16 | Format::Float32 => color,
+    }
+}
+
+/// The largest difference of two colours, in steps of 1/255.
+fn difference(computed: &[[f64; 4]], drawn: &[[f32; 4]]) -> f64 {
+    let pairs = computed.as_flattened().iter().zip(drawn.as_flattened());
+    pairs.map(|(a, b)| (a - f64::from(*b)).abs() * 255.0).fold(0.0, f64::max)
+}
