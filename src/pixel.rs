@@ -7,11 +7,12 @@
 mod fragment;
 mod textures;
 mod triangles;
+mod verdict;
 
 use crate::error::{Error, Result};
-use crate::gl::fixed_function;
+use crate::gl::{ContextInfo, fixed_function};
 use crate::glsl;
-use crate::plan::{Attachments, Draw, Format, Geometry, Plan, Step, Target};
+use crate::plan::{self, Attachments, Draw, Format, Geometry, Pass, Plan, Step, Target};
 use crate::renderer::StepValues;
 use crate::scene::Scene;
 pub use fragment::{Corner, Fragment};
@@ -20,6 +21,7 @@ use serde::Serialize;
 use textures::Images;
 pub use tinta_glsl::{Base, Event, Mistake, Precision, Sample, Texel, Type, Value, What};
 use triangles::Triangles;
+pub use verdict::{AgainstLines, Flip, INK_FROM, LINE_TOLERANCE_PX, Verdict, against_lines};
 
 tinta_geometry::choices! {
     /// How textures are read between their texels.
@@ -28,8 +30,16 @@ tinta_geometry::choices! {
         /// By real weights, as GL defines it.
         #[default]
         Exact = "exact",
-        /// By weights of 1/256, each mixture rounded to 8 bits: as llvmpipe reads textures of 8 bits.
+        /// By weights rounded to 1/256, each mixture of two texels rounded to 8 bits: as llvmpipe reads textures of 8 bits.
         Bytes = "bytes",
+    }
+}
+
+impl Recomputation {
+    /// Returns how this context computes: in 32 bits, and textures as its driver reads them.
+    pub fn like(context: &ContextInfo) -> Self {
+        let filtering = if context.renderer.contains("llvmpipe") { Filtering::Bytes } else { Filtering::Exact };
+        Self { precision: Precision::Single, filtering, subpixel_bits: context.subpixel_bits }
     }
 }
 
@@ -53,6 +63,8 @@ pub struct PixelStep {
     pub step: &'static str,
     /// The shaders that draw it; `None` if nothing is drawn.
     pub program: Option<String>,
+    /// Whether it reads what earlier steps left.
+    pub reads_buffers: bool,
     /// The triangles that cover the pixel, in drawing order.
     pub fragments: Vec<Fragment>,
     /// Red, green, blue and alpha that the driver held before, for each texture of the target; empty in a first step.
@@ -71,7 +83,7 @@ pub struct PixelStep {
 pub struct Explainer<'a> {
     plan: &'a Plan,
     values: &'a [StepValues],
-    /// The drawing steps' shaders, triangles and textures.
+    /// The steps' shaders, triangles and textures, if they draw triangles.
     draws: Vec<Option<PreparedDraw<'a>>>,
 }
 
@@ -93,14 +105,26 @@ impl<'a> Explainer<'a> {
             let problem = "a pixel of it has several colours; explain a pixel of the picture drawn once, without this";
             return Err(Error::value("supersample", plan.supersample, problem));
         }
-        let prepare = |(number, (_, step)): (usize, (&str, &'a Step))| match step {
-            Step::Draw(draw) if !matches!(draw.geometry, Geometry::Edges { .. }) => {
-                prepared(scene, plan, values, (number, draw), how).map(Some)
-            }
-            _ => Ok(None),
-        };
-        let draws = plan.steps().enumerate().map(prepare).collect::<Result<_>>()?;
+        let draws =
+            (0..values.len()).map(|number| prepared(scene, plan, values, number, how)).collect::<Result<_>>()?;
         Ok(Self { plan, values, draws })
+    }
+
+    /// Explains one step of a plan at one pixel, without a trace, from the values that another plan of the same steps left.
+    ///
+    /// # Errors
+    ///
+    /// As [`Explainer::new`] and [`Explainer::pixel`].
+    pub fn step(
+        scene: &'a Scene,
+        plan: &'a Plan,
+        values: &'a [StepValues],
+        how: Recomputation,
+        (number, at): (usize, [u32; 2]),
+    ) -> Result<PixelStep> {
+        let mut draws: Vec<Option<PreparedDraw<'a>>> = (0..number).map(|_| None).collect();
+        draws.push(prepared(scene, plan, values, number, how)?);
+        Self { plan, values, draws }.at_step(number, at, false)
     }
 
     /// Explains a pixel, counted from the picture's lower left as GL does. It must lie within the values' part.
@@ -109,39 +133,49 @@ impl<'a> Explainer<'a> {
     ///
     /// [`Error::Shader`] with the line of a statement that cannot be carried out.
     pub fn pixel(&self, at: [u32; 2], is_traced: bool) -> Result<Vec<PixelStep>> {
-        let mut steps = Vec::new();
-        let mut targets: Vec<(Target, usize)> = Vec::new();
-        let mut number = 0;
-        for pass in &self.plan.passes {
-            for step in &pass.steps {
-                let last = targets.iter().rev().find(|(target, _)| *target == pass.target).map(|(_, number)| *number);
-                let values_of = |number: usize| {
-                    let StepValues { part, colors, .. } = &self.values[number];
-                    let place = (at[1] - part.y) as usize * part.width as usize + (at[0] - part.x) as usize;
-                    (colors.iter().map(|color| color[place]).collect::<Vec<_>>(), self.values[number].depth.get(place))
-                };
-                let (before, depth) = last.map_or((Vec::new(), None), values_of);
-                let (drawn, _) = values_of(number);
-                let mut explained = PixelStep {
-                    pass: pass.name,
-                    step: step.name(),
-                    program: None,
-                    fragments: Vec::new(),
-                    before,
-                    computed: None,
-                    drawn,
-                    difference: None,
-                    remark: None,
-                };
-                self.explain(step, (number, pass.target), (at, depth.copied(), is_traced), &mut explained)?;
-                explained.difference =
-                    explained.computed.as_ref().map(|computed| difference(computed, &explained.drawn));
-                steps.push(explained);
-                targets.push((pass.target, number));
-                number += 1;
-            }
-        }
-        Ok(steps)
+        (0..self.values.len()).map(|number| self.at_step(number, at, is_traced)).collect()
+    }
+
+    fn at_step(&self, number: usize, at: [u32; 2], is_traced: bool) -> Result<PixelStep> {
+        let steps: Vec<(&Pass, &Step)> = all_steps(self.plan).collect();
+        let (pass, step) = steps[number];
+        let StepValues { part, colors, .. } = &self.values[number];
+        let place = (at[1] - part.y) as usize * part.width as usize + (at[0] - part.x) as usize;
+        // A texture, or the framebuffer, as the last step that drew into it left it.
+        let before = (0..colors.len()).map_while(|wanted| {
+            let wanted = texture(pass.target, wanted);
+            (0..number).rev().find_map(|earlier| {
+                let names = (0..).map_while(|n| texture(steps[earlier].0.target, n));
+                let color = names.into_iter().position(|name| Some(name) == wanted)?;
+                Some(self.values[earlier].colors[color][place])
+            })
+        });
+        let is_framebuffer = |target: Target| target == Target::Framebuffer;
+        let has_its_depth = |earlier: &usize| {
+            is_framebuffer(steps[*earlier].0.target) == is_framebuffer(pass.target)
+                && !self.values[*earlier].depth.is_empty()
+        };
+        let depth = (0..number).rev().find(has_its_depth).map(|earlier| self.values[earlier].depth[place]);
+        let reads = |draw: &Draw| {
+            draw.textures.iter().any(|(_, read)| {
+                matches!(read, plan::Texture::BorderMap | plan::Texture::DepthMap | plan::Texture::Drawn(_))
+            })
+        };
+        let mut explained = PixelStep {
+            pass: pass.name,
+            step: step.name(),
+            program: None,
+            reads_buffers: matches!(step, Step::Draw(draw) if reads(draw)),
+            fragments: Vec::new(),
+            before: before.collect(),
+            computed: None,
+            drawn: colors.iter().map(|color| color[place]).collect(),
+            difference: None,
+            remark: None,
+        };
+        self.explain(step, (number, pass.target), (at, depth, is_traced), &mut explained)?;
+        explained.difference = explained.computed.as_ref().map(|computed| difference(computed, &explained.drawn));
+        Ok(explained)
     }
 
     fn explain(
@@ -175,8 +209,7 @@ impl<'a> Explainer<'a> {
                 let mut colors = if before.is_empty() { vec![[0.0; 4]; count] } else { before };
                 for fragment in explained.fragments.iter().filter(|fragment| fragment.is_written()) {
                     for (number, (color, given)) in colors.iter_mut().zip(&fragment.colors).enumerate() {
-                        *color =
-                            stored(blended(draw.blend, stored_source(*given, target, number), *color), target, number);
+                        *color = stored(blended(draw.blend, stored(*given, target, number), *color), target, number);
                     }
                 }
                 explained.computed = Some(colors);
@@ -186,14 +219,18 @@ impl<'a> Explainer<'a> {
     }
 }
 
-/// Prepares one draw.
+/// Prepares a step of the plan; `None` if it draws no triangles.
 fn prepared<'a>(
     scene: &'a Scene,
     plan: &'a Plan,
     values: &'a [StepValues],
-    (number, draw): (usize, &'a Draw),
+    number: usize,
     how: Recomputation,
-) -> Result<PreparedDraw<'a>> {
+) -> Result<Option<PreparedDraw<'a>>> {
+    let Some((pass, Step::Draw(draw))) = all_steps(plan).nth(number) else { return Ok(None) };
+    if matches!(draw.geometry, Geometry::Edges { .. }) {
+        return Ok(None);
+    }
     let program = fixed_function::program_of(draw, false)
         .ok_or_else(|| Error::gl("explaining a pixel", "a draw has no shaders"))?;
     let text = |path: &'static str| {
@@ -202,11 +239,11 @@ fn prepared<'a>(
     };
     let fragments: Vec<(&str, &str)> = program.fragments.iter().map(|path| text(path)).collect::<Result<_>>()?;
     let stage = |texts: &[(&str, &str)]| tinta_glsl::Stage::new(texts).map_err(misunderstood);
-    let material = draw.textures.iter().position(|(_, texture)| *texture == crate::plan::Texture::Material);
+    let material = draw.textures.iter().position(|(_, texture)| *texture == plan::Texture::Material);
     let samplers = (0_u32..)
         .zip(&draw.textures)
         .map(|(unit, (name, _))| fixed_function::sampler(draw, &program, unit).unwrap_or(name));
-    Ok(PreparedDraw {
+    Ok(Some(PreparedDraw {
         draw,
         program: program.to_string(),
         vertex: stage(&[text(program.vertex)?])?,
@@ -216,14 +253,31 @@ fn prepared<'a>(
         images: Images::of(scene, plan, values, (number, draw), how.filtering)?,
         precision: how.precision,
         height: scene.size.height,
-        is_texture: plan_target(plan, number) != Target::Framebuffer,
-    })
+        is_texture: pass.target != Target::Framebuffer,
+    }))
 }
 
-/// The target of a plan's step.
-fn plan_target(plan: &Plan, number: usize) -> Target {
-    let targets = plan.passes.iter().flat_map(|pass| pass.steps.iter().map(|_| pass.target));
-    targets.clone().nth(number).unwrap_or_default()
+/// A plan's steps, each with its pass.
+fn all_steps(plan: &Plan) -> impl Iterator<Item = (&Pass, &Step)> {
+    plan.passes.iter().flat_map(|pass| pass.steps.iter().map(move |step| (pass, step)))
+}
+
+/// Whether nothing but background is drawn at a pixel: no object covers it, and steps that read earlier ones leave it unchanged.
+pub fn is_background(steps: &[PixelStep]) -> bool {
+    let is_still = |step: &PixelStep| {
+        step.fragments.iter().all(|fragment| fragment.object.is_none())
+            && (!step.reads_buffers || step.fragments.is_empty() || step.before.is_empty() || step.before == step.drawn)
+            && (step.remark.is_none() || step.before == step.drawn)
+    };
+    steps.iter().all(is_still)
+}
+
+/// The name of a target's texture of this number; the framebuffer has one without a name.
+fn texture(target: Target, number: usize) -> Option<&'static str> {
+    match target {
+        Target::Framebuffer => (number == 0).then_some(""),
+        Target::Textures(Attachments { colors, .. }) => colors.get(number).map(|color| color.name.0),
+    }
 }
 
 /// What the interpreter says of a shader, as an error.
@@ -238,11 +292,6 @@ fn format(target: Target, number: usize) -> Format {
         Target::Framebuffer => Format::Unorm8,
         Target::Textures(Attachments { colors, .. }) => colors.get(number).map_or(Format::Unorm8, |color| color.format),
     }
-}
-
-/// Returns a shader's colour as it goes into blending: clamped where it is stored in 8 bits.
-fn stored_source(color: [f64; 4], target: Target, number: usize) -> [f64; 4] {
-    if format(target, number) == Format::Unorm8 { color.map(|channel| channel.clamp(0.0, 1.0)) } else { color }
 }
 
 /// Returns a colour as it is stored.

@@ -172,8 +172,8 @@ fn linear(picture: &Picture, at: [f64; 2], filtering: Filtering) -> Sample {
                 (first[axis], share[axis]) = (place.floor() as i64, place - place.floor());
             }
             Filtering::Bytes => {
-                // In 1/256 of a texel.
-                let place = f64::from(at[axis] as f32 * (side as f32 * 256.0)).floor() as i64 - 128;
+                // In 1/256 of a texel, rounded, from a coordinate of 32 bits.
+                let place = f64::from((at[axis] as f32 * side as f32 - 0.5) * 256.0).round() as i64;
                 (first[axis], share[axis]) = (place.div_euclid(256), place.rem_euclid(256) as f64);
             }
         }
@@ -186,7 +186,7 @@ fn linear(picture: &Picture, at: [f64; 2], filtering: Filtering) -> Sample {
     let value = [0, 1, 2, 3].map(|channel| {
         let mixed = |first: f64, second: f64, share: f64| match filtering {
             Filtering::Exact => first + (second - first) * share,
-            Filtering::Bytes => first + ((byte_share(share) * (second - first) + 128.0) / 256.0).floor(),
+            Filtering::Bytes => first + ((share * (second - first) + 128.0) / 256.0).floor(),
         };
         let (below, above) = (mixed(a[channel], b[channel], share[0]), mixed(c[channel], d[channel], share[0]));
         mixed(below, above, share[1]) / 255.0
@@ -199,9 +199,4 @@ fn linear(picture: &Picture, at: [f64; 2], filtering: Filtering) -> Sample {
     let texels =
         texels.map(|(step, place, value)| Texel { place, weight: weight(step), value: value.map(|v| v / 255.0) });
     Sample { value, texels: texels.to_vec() }
-}
-
-/// A share of 0 to 255 as 0 to 256.
-fn byte_share(share: f64) -> f64 {
-    share + if share >= 128.0 { 1.0 } else { 0.0 }
 }
