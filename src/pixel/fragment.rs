@@ -1,13 +1,12 @@
 //! One draw at one pixel: its vertices and the pixel itself, run by the interpreter.
 
-use super::misunderstood;
 use super::textures::{Images, OfTriangle};
 use super::triangles::{Cover, Triangles};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::plan::{self, Blend, Depth, Draw};
 use glam::{DMat3, Mat4};
 use serde::Serialize;
-use tinta_glsl::{Base, Event, Precision, Run, Settings, Stage, Type, Value};
+use tinta_glsl::{Base, Event, Mistake, Precision, Run, Settings, Stage, Type, Value};
 
 /// The steps of a depth buffer of 24 bits.
 const DEPTH_STEPS: f64 = 16_777_215.0;
@@ -287,4 +286,10 @@ pub(super) fn blended(blend: Blend, source: [f64; 4], there: [f64; 4]) -> [f64; 
         }
         Blend::Multiply => [0, 1, 2, 3].map(|n| if n == 3 { there[3] } else { source[n] * there[n] }),
     }
+}
+
+/// What the interpreter says of a shader, as an error.
+pub(super) fn misunderstood(mistake: Mistake) -> Error {
+    let Mistake { path, line, problem } = mistake;
+    Error::Shader { path, log: format!("line {line}: {problem}") }
 }

@@ -1,6 +1,6 @@
 //! The textures of a draw, read as GL reads them: the buffers that earlier steps left, and the plan's own pictures.
 
-use super::Filtering;
+use super::recomputation::Filtering;
 use crate::error::{Error, Result};
 use crate::mesh::NONE;
 use crate::picture::{MaterialPictures, Picture};

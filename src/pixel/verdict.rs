@@ -1,6 +1,7 @@
 //! A pixel of a drawing against the exact lines, and the smallest change of a setting that turns ink into none or none into ink.
 
-use super::{Explainer, Recomputation};
+use super::explainer::Explainer;
+use super::recomputation::Recomputation;
 use crate::error::Result;
 use crate::lines::VisibleLines;
 use crate::plan::Plan;

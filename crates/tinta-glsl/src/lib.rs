@@ -18,26 +18,21 @@
 //! assert_eq!(run.events[1].what, What::Branched { is_taken: true });
 //! ```
 
-mod arithmetic;
-mod parse;
-mod preprocess;
-mod run;
-mod syntax;
-pub mod tokens;
 mod value;
+mod arithmetic;
+mod mistake;
+pub mod tokens;
+mod preprocess;
+mod syntax;
+mod parse;
+mod program;
+mod variables;
+mod trace;
+mod machine;
+mod stage;
 
 pub use arithmetic::Precision;
-pub use run::{Event, Run, Sample, Settings, Stage, Texel, Textures, What};
+pub use mistake::Mistake;
+pub use stage::Stage;
+pub use trace::{Event, Run, Sample, Settings, Texel, Textures, What};
 pub use value::{Base, Type, Value};
-
-/// What is wrong with a shader, and where.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{path}, line {line}: {problem}")]
-pub struct Mistake {
-    /// The shader's name, as given.
-    pub path: String,
-    /// Counted from 1, in the text as written.
-    pub line: u32,
-    /// What is wrong, a sentence without its full stop.
-    pub problem: String,
-}

@@ -1,6 +1,6 @@
 //! From lexemes to a [`Shader`]: recursive descent, as chapter 9 of the GLSL 1.20 specification orders it.
 
-use crate::Mistake;
+use crate::mistake::Mistake;
 use crate::preprocess::{Lexeme, lexemes};
 use crate::syntax::{
     Expression, ExpressionKind, Function, Global, Loop, Parameter, Shader, Statement, StatementKind, Storage,

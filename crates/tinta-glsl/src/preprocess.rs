@@ -1,6 +1,6 @@
 //! From a shader's text to its lexemes: comments dropped, macros replaced, operators of two signs joined, each with its line.
 
-use crate::Mistake;
+use crate::mistake::Mistake;
 use crate::tokens::{Kind, Token, tokens};
 use std::collections::HashMap;
 

@@ -1,11 +1,12 @@
-//! Runs a stage for one vertex or pixel.
+//! Runs a program for one vertex or pixel: its statements and expressions.
 
-use crate::Mistake;
-use crate::arithmetic::{Precision, binary, call, construct, promoted, unary};
-use crate::parse::parse;
-use crate::syntax::{Expression, ExpressionKind, Function, Loop, Shader, Statement, StatementKind, Storage};
+use crate::arithmetic::{binary, call, construct, promoted, unary};
+use crate::mistake::Mistake;
+use crate::program::Program;
+use crate::syntax::{Expression, ExpressionKind, Function, Loop, Statement, StatementKind, Storage};
+use crate::trace::{Event, Run, Settings, Textures, What};
 use crate::value::{Base, Type, Value};
-use serde::Serialize;
+use crate::variables::{Place, Variables};
 
 /// How many statements a run may carry out, so that a loop without end is refused.
 const MOST_STATEMENTS: u32 = 200_000;
@@ -15,211 +16,6 @@ const MOST_EVENTS: usize = 10_000;
 
 /// How deep functions may call each other; GLSL has no recursion.
 const DEEPEST_CALL: u32 = 64;
-
-/// The shaders of one stage: one of them has `main`, the others have functions that it declares.
-#[derive(Debug, Clone)]
-pub struct Stage {
-    shaders: Vec<Shader>,
-    asks_neighbours: bool,
-}
-
-/// How a run computes and what it records.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Settings<'a> {
-    /// How floats are kept.
-    pub precision: Precision,
-    /// Whether to record events.
-    pub is_traced: bool,
-    /// For each value in [`Run::asked`], in order: its change to the pixel on the right and to the pixel above.
-    pub changes: &'a [[Value; 2]],
-}
-
-/// The result of a run.
-#[derive(Debug, Clone, Default)]
-pub struct Run {
-    /// Varyings and GL's own variables, by name, as the run left them.
-    pub outputs: Vec<(String, Value)>,
-    /// Whether the pixel was discarded.
-    pub is_discarded: bool,
-    /// What happened, in order, if traced.
-    pub events: Vec<Event>,
-    /// The arguments of `dFdx`, `dFdy` and `fwidth`, in order: what neighbouring pixels must be asked for.
-    pub asked: Vec<Value>,
-}
-
-/// One thing that a statement did.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Event {
-    /// The shader's name, as given.
-    pub shader: String,
-    /// The line in it, counted from 1.
-    pub line: u32,
-    /// What happened.
-    #[serde(flatten)]
-    pub what: What,
-}
-
-/// What a statement did.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum What {
-    /// A variable got a value.
-    Set {
-        /// Its name.
-        variable: String,
-        /// All of its value, also where a part was set.
-        value: Value,
-    },
-    /// A condition of `if` or `?:` was tested.
-    Branched {
-        /// Whether it was true.
-        is_taken: bool,
-    },
-    /// A texture was read.
-    Read {
-        /// The name of its sampler.
-        texture: String,
-        /// The coordinate.
-        at: Value,
-        /// The result.
-        sample: Sample,
-    },
-    /// A function of the shader's own returned.
-    Returned {
-        /// Its name.
-        function: String,
-        /// Its result.
-        value: Value,
-    },
-    /// The pixel was discarded.
-    Discarded,
-}
-
-/// What a texture returns for a coordinate.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct Sample {
-    /// Red, green, blue, alpha.
-    pub value: [f64; 4],
-    /// The texels it comes from.
-    pub texels: Vec<Texel>,
-}
-
-/// A texel and its share in a sample.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Texel {
-    /// Column and row, from the lower left, counted from 0.
-    pub place: [u32; 2],
-    /// Its weight; all weights add up to 1.
-    pub weight: f64,
-    /// Red, green, blue, alpha.
-    pub value: [f64; 4],
-}
-
-/// The textures that samplers number.
-pub trait Textures {
-    /// Reads a texture at a coordinate, x and y; `None` if there is no such texture.
-    fn read(&self, sampler: usize, at: [f64; 2]) -> Option<Sample>;
-}
-
-/// No textures.
-impl Textures for () {
-    fn read(&self, _: usize, _: [f64; 2]) -> Option<Sample> {
-        None
-    }
-}
-
-impl Run {
-    /// Returns an output; `None` if the run never named it.
-    pub fn output(&self, name: &str) -> Option<Value> {
-        self.outputs.iter().find(|(known, _)| known == name).map(|(_, value)| *value)
-    }
-}
-
-impl Stage {
-    /// Parses the shaders of a stage, each given by its name and text.
-    ///
-    /// # Errors
-    ///
-    /// The first [`Mistake`]; also if no shader has a `main`.
-    pub fn new(texts: &[(&str, &str)]) -> Result<Self, Mistake> {
-        let shaders: Vec<Shader> = texts.iter().map(|(path, text)| parse(path, text)).collect::<Result<_, _>>()?;
-        let asks_neighbours =
-            texts.iter().any(|(_, text)| ["dFdx", "dFdy", "fwidth"].iter().any(|name| text.contains(name)));
-        let stage = Self { shaders, asks_neighbours };
-        if stage.function("main", &[]).is_none() {
-            let path = texts.first().map_or_else(String::new, |(path, _)| (*path).to_owned());
-            return Err(Mistake { path, line: 1, problem: "no shader has a main function".to_owned() });
-        }
-        Ok(stage)
-    }
-
-    /// Whether it computes derivatives, so that [`Settings::changes`] matters.
-    pub fn asks_neighbours(&self) -> bool {
-        self.asks_neighbours
-    }
-
-    /// Returns the names of its varyings, or of a vertex's attributes, each once.
-    pub fn varyings(&self) -> Vec<&str> {
-        let mut names: Vec<&str> = Vec::new();
-        for global in self.shaders.iter().flat_map(|shader| &shader.globals) {
-            if global.storage == Storage::Passed && !names.contains(&global.name.as_str()) {
-                names.push(&global.name);
-            }
-        }
-        names
-    }
-
-    /// Runs `main`. `inputs` gives uniforms, GL's own variables and, for pixels, varyings; samplers are [`Base::Sampler`] numbers
-    /// that `textures` understands. What is not given is 0.
-    ///
-    /// # Errors
-    ///
-    /// A [`Mistake`] with the line that cannot be carried out: a type that does not fit, an unknown name, a loop without end.
-    pub fn run(
-        &self,
-        inputs: &[(&str, Value)],
-        textures: &dyn Textures,
-        settings: &Settings<'_>,
-    ) -> Result<Run, Mistake> {
-        let mut machine = Machine {
-            stage: self,
-            textures,
-            settings,
-            globals: inputs.iter().map(|(name, value)| (None, *name, *value)).collect(),
-            locals: Vec::new(),
-            first_local: 0,
-            shader: 0,
-            statements: 0,
-            calls: 0,
-            run: Run::default(),
-        };
-        match machine.start() {
-            Ok(()) => {}
-            Err(Stop::Discard) => machine.run.is_discarded = true,
-            Err(Stop::Mistake(mistake)) => return Err(*mistake),
-        }
-        let Machine { globals, mut run, .. } = machine;
-        run.outputs = globals.into_iter().map(|(_, name, value)| (name.to_owned(), value)).collect();
-        Ok(run)
-    }
-
-    /// Returns a function's definition, and the number of its shader.
-    fn function(&self, name: &str, arguments: &[Type]) -> Option<(usize, &Function)> {
-        let fits = |function: &Function, converts: bool| {
-            let has = |(of, given): (&Type, &Type)| {
-                of == given
-                    || (converts && of.base == Base::Float && given.base == Base::Int && of.count() == given.count())
-            };
-            function.name == name
-                && function.body.is_some()
-                && function.parameters.len() == arguments.len()
-                && function.parameters.iter().map(|parameter| &parameter.of).zip(arguments).all(has)
-        };
-        let all =
-            || self.shaders.iter().enumerate().flat_map(|(n, shader)| shader.functions.iter().map(move |f| (n, f)));
-        all().find(|(_, function)| fits(function, false)).or_else(|| all().find(|(_, function)| fits(function, true)))
-    }
-}
 
 /// Why a run ends early.
 enum Stop {
@@ -235,55 +31,45 @@ enum Flow {
     Return(Option<Value>),
 }
 
-/// A variable, or some of its numbers.
-struct Place {
-    is_global: bool,
-    number: usize,
-    components: Option<Vec<usize>>,
-}
-
 type Stepped<T> = Result<T, Stop>;
 
 /// A stage while it runs.
 struct Machine<'a> {
-    stage: &'a Stage,
+    program: &'a Program,
     textures: &'a dyn Textures,
     settings: &'a Settings<'a>,
-    /// Those of one shader, by its number, and those of all.
-    globals: Vec<(Option<usize>, &'a str, Value)>,
-    locals: Vec<(&'a str, Value)>,
-    /// The first local of the function that runs.
-    first_local: usize,
-    /// The shader whose function runs.
-    shader: usize,
+    variables: Variables<'a>,
     statements: u32,
     calls: u32,
     run: Run,
 }
 
-/// Returns the type of GL's own variables that a shader may write.
-fn output_type(name: &str) -> Option<Type> {
-    match name {
-        "gl_FragDepth" | "gl_PointSize" | "gl_FogFragCoord" => Some(Type::FLOAT),
-        "gl_Position"
-        | "gl_ClipVertex"
-        | "gl_FrontColor"
-        | "gl_BackColor"
-        | "gl_FrontSecondaryColor"
-        | "gl_BackSecondaryColor"
-        | "gl_FragColor" => Some(Type::vector(Base::Float, 4)),
-        _ if name.starts_with("gl_TexCoord[") || name.starts_with("gl_FragData[") => Some(Type::vector(Base::Float, 4)),
-        _ => None,
+/// Runs `main`: see [`crate::Stage::run`].
+pub(crate) fn run(
+    program: &Program,
+    inputs: &[(&str, Value)],
+    textures: &dyn Textures,
+    settings: &Settings<'_>,
+) -> Result<Run, Mistake> {
+    let variables = Variables::given(inputs);
+    let mut machine = Machine { program, textures, settings, variables, statements: 0, calls: 0, run: Run::default() };
+    match machine.start() {
+        Ok(()) => {}
+        Err(Stop::Discard) => machine.run.is_discarded = true,
+        Err(Stop::Mistake(mistake)) => return Err(*mistake),
     }
+    let Machine { variables, mut run, .. } = machine;
+    run.outputs = variables.into_globals();
+    Ok(run)
 }
 
 impl<'a> Machine<'a> {
     fn start(&mut self) -> Stepped<()> {
-        let stage = self.stage;
-        for (number, shader) in stage.shaders.iter().enumerate() {
-            self.shader = number;
+        let program = self.program;
+        for (number, shader) in program.shaders.iter().enumerate() {
+            self.variables.shader = number;
             for global in &shader.globals {
-                let given = self.globals.iter().any(|(_, name, _)| *name == global.name);
+                let given = self.variables.global(&global.name).is_some();
                 if given && global.storage != Storage::Own {
                     continue;
                 }
@@ -293,16 +79,16 @@ impl<'a> Machine<'a> {
                     value = self.fitting(value, global.of, global.line)?;
                 }
                 let owner = (global.storage == Storage::Own).then_some(number);
-                self.globals.push((owner, &global.name, value));
+                self.variables.add_global(owner, &global.name, value);
             }
         }
-        let Some((number, main)) = stage.function("main", &[]) else { return Ok(()) };
-        self.shader = number;
+        let Some((number, main)) = program.function("main", &[]) else { return Ok(()) };
+        self.variables.shader = number;
         self.run_body(main).map(drop)
     }
 
     fn fail<T>(&self, line: u32, problem: impl Into<String>) -> Stepped<T> {
-        let path = self.stage.shaders[self.shader].path.clone();
+        let path = self.program.shaders[self.variables.shader].path.clone();
         Err(Stop::Mistake(Box::new(Mistake { path, line, problem: problem.into() })))
     }
 
@@ -312,7 +98,7 @@ impl<'a> Machine<'a> {
 
     fn record(&mut self, line: u32, what: impl FnOnce() -> What) {
         if self.settings.is_traced && self.run.events.len() < MOST_EVENTS {
-            let shader = self.stage.shaders[self.shader].path.clone();
+            let shader = self.program.shaders[self.variables.shader].path.clone();
             self.run.events.push(Event { shader, line, what: what() });
         }
     }
@@ -332,7 +118,7 @@ impl<'a> Machine<'a> {
 
     /// Runs statements; what they declare ends with them.
     fn block(&mut self, statements: &'a [Statement]) -> Stepped<Flow> {
-        let count = self.locals.len();
+        let count = self.variables.count();
         let mut flow = Flow::Next;
         for statement in statements {
             flow = self.statement(statement)?;
@@ -340,7 +126,7 @@ impl<'a> Machine<'a> {
                 break;
             }
         }
-        self.locals.truncate(count);
+        self.variables.forget_from(count);
         Ok(flow)
     }
 
@@ -362,7 +148,7 @@ impl<'a> Machine<'a> {
                         }
                         None => Value::new(*of, &[]),
                     };
-                    self.locals.push((name, value));
+                    self.variables.add(name, value);
                 }
                 Ok(Flow::Next)
             }
@@ -371,19 +157,19 @@ impl<'a> Machine<'a> {
             StatementKind::If(condition, then, otherwise) => {
                 let is_taken = self.condition(condition)?;
                 self.record(line, || What::Branched { is_taken });
-                let count = self.locals.len();
+                let count = self.variables.count();
                 let flow = match (is_taken, otherwise) {
                     (true, _) => self.statement(then),
                     (false, Some(otherwise)) => self.statement(otherwise),
                     (false, None) => Ok(Flow::Next),
                 };
-                self.locals.truncate(count);
+                self.variables.forget_from(count);
                 flow
             }
             StatementKind::Loop(parts) => {
-                let count = self.locals.len();
+                let count = self.variables.count();
                 let flow = self.repeat(parts);
-                self.locals.truncate(count);
+                self.variables.forget_from(count);
                 flow
             }
             StatementKind::Return(None) => Ok(Flow::Return(None)),
@@ -411,9 +197,9 @@ impl<'a> Machine<'a> {
             if !may_go_on {
                 return Ok(Flow::Next);
             }
-            let count = self.locals.len();
+            let count = self.variables.count();
             let flow = self.statement(&parts.body)?;
-            self.locals.truncate(count);
+            self.variables.forget_from(count);
             match flow {
                 Flow::Break => return Ok(Flow::Next),
                 Flow::Return(value) => return Ok(Flow::Return(value)),
@@ -441,7 +227,7 @@ impl<'a> Machine<'a> {
             ExpressionKind::Constant(value) => Ok(precision.keep(*value)),
             ExpressionKind::Variable(_) => {
                 let place = self.place(expression)?;
-                Ok(self.value_at(&place))
+                Ok(self.variables.value(&place))
             }
             ExpressionKind::Unary(operator, operand) => {
                 let operand = self.evaluate(operand)?;
@@ -464,7 +250,7 @@ impl<'a> Machine<'a> {
                 let mut value = self.evaluate(value)?;
                 let place = self.place(target)?;
                 if let Some(operator) = operator {
-                    let before = self.value_at(&place);
+                    let before = self.variables.value(&place);
                     value = self.computed(line, binary(operator, before, value, precision))?;
                 }
                 self.set(&place, value, line)?;
@@ -472,7 +258,7 @@ impl<'a> Machine<'a> {
             }
             ExpressionKind::Increment { by, target, is_before } => {
                 let place = self.place(target)?;
-                let before = self.value_at(&place);
+                let before = self.variables.value(&place);
                 let after = precision.keep(before.map(|number| number + by));
                 self.set(&place, after, line)?;
                 Ok(if *is_before { before } else { after })
@@ -520,21 +306,7 @@ impl<'a> Machine<'a> {
         let line = expression.line;
         match &expression.kind {
             ExpressionKind::Variable(name) => {
-                let local = self.locals[self.first_local..].iter().rposition(|(known, _)| known == name);
-                if let Some(number) = local {
-                    return Ok(Place { is_global: false, number: self.first_local + number, components: None });
-                }
-                let is_seen = |owner: Option<usize>| owner.is_none_or(|owner| owner == self.shader);
-                let global = self.globals.iter().position(|(owner, known, _)| known == name && is_seen(*owner));
-                let number = match (global, output_type(name)) {
-                    (Some(number), _) => number,
-                    (None, Some(of)) => {
-                        self.globals.push((None, name, Value::new(of, &[])));
-                        self.globals.len() - 1
-                    }
-                    (None, None) => return self.fail(line, format!("there is no variable {name}")),
-                };
-                Ok(Place { is_global: true, number, components: None })
+                self.variables.find(name).map_or_else(|| self.fail(line, format!("there is no variable {name}")), Ok)
             }
             ExpressionKind::Swizzle(of, places) => {
                 let place = self.place(of)?;
@@ -543,7 +315,7 @@ impl<'a> Machine<'a> {
             ExpressionKind::Index(of, index) => {
                 let place = self.place(of)?;
                 let index = self.evaluate(index)?;
-                let places = self.indexed(self.value_at(&place).of, index, line)?;
+                let places = self.indexed(self.variables.value(&place).of, index, line)?;
                 self.narrowed(place, &places, line)
             }
             _ => self.fail(line, "only a variable can be set"),
@@ -552,51 +324,14 @@ impl<'a> Machine<'a> {
 
     /// Returns some components of a place.
     fn narrowed(&self, place: Place, places: &[usize], line: u32) -> Stepped<Place> {
-        let within: Vec<usize> =
-            place.components.clone().unwrap_or_else(|| (0..self.value_at(&place).of.count()).collect());
-        let components: Option<Vec<usize>> = places.iter().map(|number| within.get(*number).copied()).collect();
-        match components {
-            Some(components) => Ok(Place { components: Some(components), ..place }),
-            None => self.fail(line, format!("{} has no such component", self.value_at(&place).of)),
-        }
-    }
-
-    fn whole(&self, place: &Place) -> (&'a str, Value) {
-        if place.is_global {
-            let (_, name, value) = self.globals[place.number];
-            (name, value)
-        } else {
-            self.locals[place.number]
-        }
-    }
-
-    fn value_at(&self, place: &Place) -> Value {
-        let (_, value) = self.whole(place);
-        match &place.components {
-            None => value,
-            Some(components) => {
-                let numbers: Vec<f64> = components.iter().map(|number| value.numbers()[*number]).collect();
-                Value::new(Type::vector(value.of.base, numbers.len() as u8), &numbers)
-            }
-        }
+        let of = self.variables.value(&place).of;
+        let narrowed = self.variables.narrowed(place, places);
+        narrowed.map_or_else(|| self.fail(line, format!("{of} has no such component")), Ok)
     }
 
     fn set(&mut self, place: &Place, value: Value, line: u32) -> Stepped<()> {
-        let value = self.fitting(value, self.value_at(place).of, line)?;
-        let (name, mut whole) = self.whole(place);
-        match &place.components {
-            None => whole = value,
-            Some(components) => {
-                for (number, given) in components.iter().zip(value.numbers()) {
-                    whole.numbers_mut()[*number] = *given;
-                }
-            }
-        }
-        if place.is_global {
-            self.globals[place.number].2 = whole;
-        } else {
-            self.locals[place.number].1 = whole;
-        }
+        let value = self.fitting(value, self.variables.value(place).of, line)?;
+        let (name, whole) = self.variables.set(place, value);
         self.record(line, || What::Set { variable: name.to_owned(), value: whole });
         Ok(())
     }
@@ -608,16 +343,14 @@ impl<'a> Machine<'a> {
             return self.computed(line, construct(of, &values));
         }
         let types: Vec<Type> = values.iter().map(|value| value.of).collect();
-        if let Some((shader, function)) = self.stage.function(name, &types) {
+        if let Some((shader, function)) = self.program.function(name, &types) {
             return self.call_own(shader, function, arguments, values, line);
         }
         match (name, values.as_slice()) {
             ("ftransform", []) => {
-                let given = |wanted: &str| self.globals.iter().find(|(_, name, _)| *name == wanted);
+                let given = |name: &str| self.variables.global(name);
                 match (given("gl_ModelViewProjectionMatrix"), given("gl_Vertex")) {
-                    (Some((_, _, matrix)), Some((_, _, vertex))) => {
-                        self.computed(line, binary("*", *matrix, *vertex, precision))
-                    }
+                    (Some(matrix), Some(vertex)) => self.computed(line, binary("*", matrix, vertex, precision)),
                     _ => self.fail(line, "only a vertex shader has ftransform()"),
                 }
             }
@@ -679,23 +412,19 @@ impl<'a> Machine<'a> {
                 outs.push((number, self.place(&arguments[number])?));
             }
         }
-        let caller = (self.first_local, self.shader, self.locals.len());
-        (self.first_local, self.shader) = (self.locals.len(), shader);
+        let caller = self.variables.enter(shader);
         for (parameter, value) in function.parameters.iter().zip(values) {
-            self.locals.push((&parameter.name, promoted(value, parameter.of)));
+            self.variables.add(&parameter.name, promoted(value, parameter.of));
         }
         self.calls += 1;
         let result = self.run_body(function)?;
         self.calls -= 1;
-        let first = self.first_local;
-        let set: Vec<Value> = outs.iter().map(|(number, _)| self.locals[first + number].1).collect();
+        let set: Vec<Value> = outs.iter().map(|(number, _)| self.variables.local(*number)).collect();
         let value = match result {
             Some(value) => self.fitting(value, function.of, line)?,
             None => Value::new(function.of, &[]),
         };
-        let length;
-        (self.first_local, self.shader, length) = caller;
-        self.locals.truncate(length);
+        self.variables.leave(caller);
         for ((_, place), value) in outs.iter().zip(set) {
             self.set(place, value, line)?;
         }
