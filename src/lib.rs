@@ -120,7 +120,6 @@ pub mod styles;
 // Drawing it.
 pub mod gl;
 pub mod renderer;
-#[cfg(not(target_arch = "wasm32"))]
 pub mod pixel;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod drivers;

@@ -31,6 +31,7 @@ use crate::plan::{Draw, Geometry, LineDrawing, Plan, Program, Step};
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use crate::values::Rectangle;
+pub use drawer::StepValues;
 use drawer::{Canvas, Drawer, Frame};
 use serde::Serialize;
 use std::collections::HashMap;
@@ -82,17 +83,6 @@ pub struct StepPicture {
     pub step: &'static str,
     /// The target's contents after the step: the first of several textures, or for a copy the copy; exactly GL's bytes.
     pub picture: Picture,
-}
-
-/// GL's numbers after one step, in some pixels of the surface.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StepValues {
-    /// The pixels.
-    pub part: Rectangle,
-    /// For each texture of the target, or the framebuffer: red, green, blue and alpha of each pixel, bottom row first.
-    pub colors: Vec<Vec<[f32; 4]>>,
-    /// The depth of each pixel, 0 to 1; empty if the target has no depth buffer.
-    pub depth: Vec<f32>,
 }
 
 impl Renderer {
