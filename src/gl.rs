@@ -23,7 +23,7 @@ pub mod context;
 mod edges;
 pub(crate) mod execute;
 mod faults;
-mod fixed_function;
+pub(crate) mod fixed_function;
 mod immediate;
 mod legacy;
 mod meshes;
@@ -33,7 +33,7 @@ pub(crate) mod probe;
 mod quads;
 mod smooth_edges;
 mod sources;
-mod squares;
+pub(crate) mod squares;
 mod targets;
 mod textures;
 

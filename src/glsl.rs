@@ -6,7 +6,6 @@
 //! ```
 
 pub mod es;
-mod tokens;
 
 /// A shader's path below `glsl/` and its text.
 pub type Source = (&'static str, &'static str);
@@ -133,6 +132,14 @@ pub fn source(path: &str) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_shader_is_its_tokens_put_together() {
+        for (path, text) in SOURCES {
+            let together: String = tinta_glsl::tokens::tokens(text).iter().map(|token| token.text).collect();
+            assert_eq!(together, *text, "{path}");
+        }
+    }
 
     #[test]
     fn the_table_holds_the_folder_and_every_file_begins_with_its_version() {

@@ -120,6 +120,7 @@ pub mod styles;
 // Drawing it.
 pub mod gl;
 pub mod renderer;
+pub mod pixel;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod drivers;
 pub mod orbit;

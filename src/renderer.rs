@@ -31,6 +31,7 @@ use crate::plan::{Draw, Geometry, LineDrawing, Plan, Program, Step};
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use crate::values::Rectangle;
+pub use drawer::StepValues;
 use drawer::{Canvas, Drawer, Frame};
 use serde::Serialize;
 use std::collections::HashMap;
@@ -387,6 +388,28 @@ impl Renderer {
             }
             let picture = |(pass, step, canvas): (_, _, Canvas)| StepPicture { pass, step, picture: canvas.picture };
             Ok(canvases.into_iter().map(picture).collect())
+        })
+    }
+
+    /// Draws one frame and returns what GL held in these pixels of the surface after each step, in the order of
+    /// [`Plan::steps`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::draw`]; also if the picture is too large for one piece.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn step_values(&mut self, scene: &Scene, plan: &Plan, part: Rectangle) -> Result<Vec<StepValues>> {
+        self.with_context(scene, plan, |frame| {
+            let &[tile] = frame.tiles.as_slice() else {
+                return Err(Error::value(
+                    "size",
+                    scene.size,
+                    "this is read back in one piece; ask for a smaller picture",
+                ));
+            };
+            frame.resources.begin_tile(plan, tile)?;
+            let steps = plan.passes.iter().flat_map(|pass| pass.steps.iter().map(move |step| (pass, step)));
+            steps.map(|(pass, step)| frame.step_values(pass, step, part)).collect()
         })
     }
 

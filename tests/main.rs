@@ -65,6 +65,7 @@ mod output;
 mod output_killed;
 mod pdf;
 mod pipeline;
+mod pixel;
 mod plan_facts;
 mod presets;
 mod prune;

@@ -64,6 +64,63 @@ fn what_cannot_be_explained_is_refused_in_one_sentence() {
     refused_in_one_line(&["why", box_, "1,2,3"], &["two numbers"]);
     refused_in_one_line(&["why", box_], &["X,Y"]);
     refused_in_one_line(&["why", box_, "5,5", "--classes", "non-manifold"], &["no line of these classes"]);
-    refused_in_one_line(&["why", box_, "5,5", "--style", "ink"], &["--style ink: only lines are explained so far"]);
+    refused_in_one_line(&["why", box_, "5,5", "--style", "inks"], &["inks", "ink"]);
+    let three = ["--style", "three-pass", "--size", "64"];
+    let refused = |place, words: &[&str]| refused_in_one_line(&[&["why", box_, place], &three[..]].concat(), words);
+    refused("64,5", &["64,5: this is outside of the picture; choose x from 0 to 63 and y from 0 to 63"]);
+    refused("-1,5", &["-1,5: this is outside of the picture"]);
+    refused("1,1", &["1,1: this is background, where nothing is drawn; choose a pixel of the model"]);
     refused_in_one_line(&["why", box_, "5,5", "--silhouette", "smooth"], &["ask for exact ones"]);
+}
+
+/// The text and the JSON of a pixel of the open box, in the style and with the options given.
+fn pixel(place: &str, options: &[&str]) -> (String, Value) {
+    let why = |more: &[&str]| {
+        let output = tinta(&[&["why", "builtin:open-box", place, "--size", "64"], options, more].concat());
+        assert!(output.status.success(), "{output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    (why(&[]), serde_json::from_str(&why(&["--json"])).unwrap())
+}
+
+#[test]
+fn a_pixel_is_explained_pass_by_pass_with_each_statement_and_the_driver_s_value() {
+    let (text, json) = pixel("32,32", &["--style", "three-pass"]);
+    for word in ["Pixel 32,32 of three-pass", "map, objects", "tones, objects", "border, square", "tap B, texel 32,30"]
+    {
+        assert!(text.contains(word), "{word}: {text}");
+    }
+    // The listing's own line, and the variable that it sets.
+    assert!(text.contains("float border=filter.r+filter.g+filter.b+filter.a;"), "{text}");
+    let steps = json["steps"].as_array().unwrap();
+    assert_eq!(steps.len(), 8, "{json}");
+    for step in steps {
+        assert!(step["difference"].as_f64().unwrap() <= 1.01, "{step}");
+    }
+    let border = &steps[7]["fragments"][0]["events"];
+    let reads = border.as_array().unwrap().iter().filter(|event| event.get("read").is_some()).count();
+    assert_eq!(reads, 5, "{border}");
+}
+
+#[test]
+fn a_pixel_names_the_setting_that_turns_its_ink_over() {
+    let places: Vec<String> = (4..60).step_by(2).map(|x| format!("{x},32")).collect();
+    let mut turned = 0;
+    for place in &places {
+        let output = tinta(&["why", "builtin:open-box", place, "--size", "64", "--style", "three-pass", "--json"]);
+        if !output.status.success() {
+            continue;
+        }
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let darkness = |json: &Value| json["lines"]["darkness"].as_u64().unwrap();
+        let was_ink = darkness(&json) >= 64;
+        for flip in json["lines"]["flips"].as_array().unwrap() {
+            let (option, value) = (format!("--{}", flip["setting"].as_str().unwrap()), flip["value"].to_string());
+            let options = ["--style", "three-pass", option.as_str(), value.as_str()];
+            // What the driver draws with it.
+            assert_eq!(darkness(&pixel(place, &options).1) >= 64, !was_ink, "{place} {option} {value}: {json}");
+            turned += 1;
+        }
+    }
+    assert!(turned >= 4, "{turned}");
 }

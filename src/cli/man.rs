@@ -66,7 +66,7 @@ const ENVIRONMENT: [(&str, &str); 3] = [
 ];
 
 /// Commands that open no OpenGL.
-const WITHOUT_OPENGL: [&str; 5] = ["edges", "why", "textures", "completions", "man"];
+const WITHOUT_OPENGL: [&str; 4] = ["edges", "textures", "completions", "man"];
 
 /// The meaning of each exit code.
 const EXIT_CODES: [(&str, &str); 4] = [

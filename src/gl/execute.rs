@@ -6,14 +6,14 @@ use super::fixed_function;
 use super::legacy;
 use super::objects::{Buffer, Program, Shader, TimerQuery};
 use super::sources;
+use super::squares::Square;
 use super::targets::{Targets, clear_each};
 use super::textures::Textures;
 use crate::error::{Error, Result};
 use crate::glsl;
 use crate::plan::{self, Blend, Depth, Draw, Geometry, LineDrawing, Plan, Step, Submission, Target, Tile};
 use crate::scene::{Rectangle, Scene, Size};
-use crate::tolerances::BACKGROUND_DISTANCE;
-use glam::{Mat4, Vec3, Vec4};
+use glam::Mat4;
 use glow::HasContext;
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -191,14 +191,10 @@ impl Resources {
                     self.draw_edges(scene, runs, *mark, *width_px, *is_smooth)?;
                 }
             }
-            Geometry::BackgroundSquare { color } => {
-                let far_away = Mat4::from_translation(Vec3::new(0.0, 0.0, -BACKGROUND_DISTANCE));
-                // x and y unchanged, depth that of the far plane: a parallel projection that fills the picture.
-                let flat = Mat4::from_cols(Vec4::X, Vec4::Y, Vec4::ZERO, Vec4::new(0.0, 0.0, 1.0, 1.0));
-                self.draw_square(0, *color, &far_away, &self.in_tile(flat))?;
-            }
-            Geometry::ScreenSquare | Geometry::PictureSquare => {
-                self.draw_square(4, [1.0; 4], &Mat4::IDENTITY, &self.in_tile(Mat4::IDENTITY))?;
+            square => {
+                if let Some(square) = Square::of(square) {
+                    self.draw_square(&square)?;
+                }
             }
         }
         Ok(())
@@ -344,6 +340,38 @@ impl Resources {
         let target = glow::PixelPackData::Slice(Some(pixels));
         // SAFETY: the context is current, rows are packed without gaps, and the memory has the size asserted.
         unsafe { self.gl.glow.read_pixels(x, y, width, height, glow::RGBA, glow::UNSIGNED_BYTE, target) };
+    }
+
+    /// Reads these pixels of the target's texture of this number, 0 for the framebuffer, as numbers: red, green, blue, alpha,
+    /// bottom row first.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn read_colors(&self, number: u32, part: Rectangle) -> Vec<[f32; 4]> {
+        let mut values = vec![[0.0; 4]; part.pixel_count()];
+        let [x, y, width, height] = [part.x, part.y, part.width, part.height].map(|number| number as i32);
+        let pixels = glow::PixelPackData::Slice(Some(bytemuck::cast_slice_mut(&mut values)));
+        // SAFETY: the context is current, rows are packed without gaps, and the memory has four floats a pixel. The texture
+        // read by default is chosen again.
+        unsafe {
+            if self.into_textures {
+                self.gl.glow.read_buffer(glow::COLOR_ATTACHMENT0 + number);
+            }
+            self.gl.glow.read_pixels(x, y, width, height, glow::RGBA, glow::FLOAT, pixels);
+            if self.into_textures {
+                self.gl.glow.read_buffer(glow::COLOR_ATTACHMENT0);
+            }
+        }
+        values
+    }
+
+    /// Reads these pixels of the target's depth buffer, bottom row first; it must have one.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn read_depth(&self, part: Rectangle) -> Vec<f32> {
+        let mut values = vec![0.0; part.pixel_count()];
+        let [x, y, width, height] = [part.x, part.y, part.width, part.height].map(|number| number as i32);
+        let pixels = glow::PixelPackData::Slice(Some(bytemuck::cast_slice_mut(&mut values)));
+        // SAFETY: the context is current, rows are packed without gaps, and the memory has a float a pixel.
+        unsafe { self.gl.glow.read_pixels(x, y, width, height, glow::DEPTH_COMPONENT, glow::FLOAT, pixels) };
+        values
     }
 
     /// Reads the texture that this copying step filled, as [`Resources::read_framebuffer`] does; depth becomes grey.

@@ -21,7 +21,7 @@ pub(super) fn smooth(mark: Mark) -> Program {
 }
 
 /// Returns the program of a draw; `None` for the pipeline.
-pub(super) fn program_of(draw: &Draw, has_pipeline: bool) -> Option<Program> {
+pub(crate) fn program_of(draw: &Draw, has_pipeline: bool) -> Option<Program> {
     let fragments = || vec![FRAGMENTS[draw.textures.len().min(FRAGMENTS.len() - 1)]];
     match &draw.program {
         program if has_pipeline => program.clone(),
@@ -35,7 +35,7 @@ pub(super) fn program_of(draw: &Draw, has_pipeline: bool) -> Option<Program> {
 }
 
 /// The sampler name of a texture unit, if the program is one of these.
-pub(super) fn sampler(draw: &Draw, program: &Program, unit: u32) -> Option<&'static str> {
+pub(crate) fn sampler(draw: &Draw, program: &Program, unit: u32) -> Option<&'static str> {
     if draw.program.as_ref() == Some(program) { None } else { SAMPLERS.get(unit as usize).copied() }
 }
 

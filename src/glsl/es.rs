@@ -20,8 +20,8 @@
 //! # Ok::<(), String>(())
 //! ```
 
-use super::tokens::{Kind, Token, is_whole, tokens};
 use std::collections::HashSet;
+use tinta_glsl::tokens::{Kind, Token, is_whole, tokens};
 
 /// The stage of a shader in its program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -197,6 +197,21 @@ impl Frame<'_> {
         self.resources.check(pass.name)
     }
 
+    /// Carries out one step of a picture in one piece and reads what the target then holds in some pixels.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(super) fn step_values(&mut self, pass: &Pass, step: &Step, part: Rectangle) -> Result<StepValues> {
+        self.resources.begin(pass.target, pass.scissor)?;
+        self.resources.step(self.scene, step)?;
+        let (count, has_depth) = match pass.target {
+            crate::plan::Target::Framebuffer => (1, true),
+            crate::plan::Target::Textures(attachments) => (attachments.colors.len() as u32, attachments.has_depth),
+        };
+        let colors = (0..count).map(|number| self.resources.read_colors(number, part)).collect();
+        let depth = if has_depth { self.resources.read_depth(part) } else { Vec::new() };
+        self.resources.check(pass.name)?;
+        Ok(StepValues { part, colors, depth })
+    }
+
     /// Reads back a tile's part of the picture.
     pub(super) fn read_back(&mut self, tile: Tile) -> Result<Rectangle> {
         self.resources.begin(self.plan.picture_target(), None)?;
@@ -237,6 +252,17 @@ fn shrunk(tile: Tile, times: u32) -> (Rectangle, Rectangle) {
 fn cut(pixels: &[u8], size: Size, part: Rectangle) -> Vec<u8> {
     let rows = pixels.chunks_exact(size.width as usize * 4).skip(part.y as usize).take(part.height as usize);
     rows.flat_map(|row| &row[part.x as usize * 4..][..part.width as usize * 4]).copied().collect()
+}
+
+/// GL's numbers after one step, in some pixels of the surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepValues {
+    /// The pixels.
+    pub part: Rectangle,
+    /// For each texture of the target, or the framebuffer: red, green, blue and alpha of each pixel, bottom row first.
+    pub colors: Vec<Vec<[f32; 4]>>,
+    /// The depth of each pixel, 0 to 1; empty if the target has no depth buffer.
+    pub depth: Vec<f32>,
 }
 
 /// A picture assembled from parts.

@@ -22,10 +22,8 @@
 use glam::DVec2;
 use serde::Serialize;
 use tinta::picture::Picture;
+use tinta::pixel::INK_FROM;
 use tinta::scene::Size;
-
-/// Least darkness of a pixel that counts as ink, of 255.
-const INK_FROM: u8 = 64;
 
 /// The ink pixels of a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -46,6 +46,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 use tinta::error::{Error, Result};
 use tinta::lines::LineSegment;
+use tinta::pixel::LINE_TOLERANCE_PX;
 
 /// How a drawing is judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,7 +59,7 @@ pub struct JudgeSettings {
 
 impl Default for JudgeSettings {
     fn default() -> Self {
-        Self { tolerance_px: 2.0, fits: false }
+        Self { tolerance_px: LINE_TOLERANCE_PX, fits: false }
     }
 }
 

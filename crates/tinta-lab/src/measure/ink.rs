@@ -12,8 +12,7 @@ use tinta::renderer::Renderer;
 use tinta::scene::{Scene, Size};
 use tinta::styles::{Show, Style};
 
-/// Least darkness of a pixel of ink, of 255: a quarter, to include faint lines.
-pub const INK_FROM: u8 = 64;
+pub use tinta::pixel::INK_FROM;
 
 /// A picture's ink: how dark each pixel is, of 255, row by row from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]

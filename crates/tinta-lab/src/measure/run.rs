@@ -11,6 +11,7 @@ use tinta::error::{Error, Result};
 use tinta::lines::LineSettings;
 use tinta::lines::closed_forms::ClosedForm;
 use tinta::picture::Picture;
+use tinta::pixel::LINE_TOLERANCE_PX;
 use tinta::plan::{Plan, Submission};
 use tinta::renderer::{Renderer, median, milliseconds_since};
 use tinta::scene::{Scene, Size};
@@ -72,7 +73,7 @@ impl Default for MeasureSettings {
     fn default() -> Self {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let machine = format!("{} {}, {threads} threads", std::env::consts::OS, std::env::consts::ARCH);
-        Self { tolerance_px: 2.0, frames: 21, machine }
+        Self { tolerance_px: LINE_TOLERANCE_PX, frames: 21, machine }
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::measure::{Against, Setting};
 use std::sync::LazyLock;
 use tinta::cli::options::Selection;
+use tinta::pixel::LINE_TOLERANCE_PX;
 use tinta::plan::Submission;
 use tinta::recipe::option_words;
 use tinta::request::Request;
@@ -35,7 +36,7 @@ impl Default for HowMeasured {
             styles: Vec::new(),
             frames: None,
             quick: false,
-            tolerance_px: 2.0,
+            tolerance_px: LINE_TOLERANCE_PX,
             resume: false,
             machine: None,
             backend: Backend::default(),

@@ -2,7 +2,7 @@
 
 /// The kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub enum Kind {
     /// A name or keyword.
     Word,
     /// A number, with its suffix.
@@ -15,17 +15,17 @@ pub(super) enum Kind {
 
 /// A piece of a shader's text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Token<'a> {
+pub struct Token<'a> {
     /// Its kind.
-    pub(super) kind: Kind,
+    pub kind: Kind,
     /// Its text, unchanged.
-    pub(super) text: &'a str,
+    pub text: &'a str,
     /// Whether its line begins with `#`.
-    pub(super) is_directive: bool,
+    pub is_directive: bool,
 }
 
 /// Splits a text into pieces; together they are the whole text.
-pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
+pub fn tokens(text: &str) -> Vec<Token<'_>> {
     let (mut tokens, mut rest) = (Vec::new(), text);
     let (mut is_directive, mut begins_line) = (false, true);
     while let Some(first) = rest.chars().next() {
@@ -79,21 +79,13 @@ fn number_length(text: &str) -> usize {
 }
 
 /// Whether a number is whole: no point, no exponent, no suffix of a float.
-pub(super) fn is_whole(number: &str) -> bool {
+pub fn is_whole(number: &str) -> bool {
     number.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn every_shader_is_its_tokens_put_together() {
-        for (path, text) in super::super::SOURCES {
-            let together: String = tokens(text).iter().map(|token| token.text).collect();
-            assert_eq!(together, *text, "{path}");
-        }
-    }
 
     #[test]
     fn numbers_names_and_comments_are_told_apart() {
