@@ -107,11 +107,11 @@ pub fn measure_claims(
 pub fn tally(records: &[ClaimRecord]) -> String {
     let count = |verdict| records.iter().filter(|record| record.finding.verdict == verdict).count();
     format!(
-        "{} claims: {} confirmed, {} refuted, {} not testable here.",
+        "{} claims: {} confirmed, {} refuted, {} not decided here.",
         records.len(),
         count(Verdict::Confirmed),
         count(Verdict::Refuted),
-        count(Verdict::NotTestable)
+        count(Verdict::NotDecided)
     )
 }
 

@@ -35,13 +35,10 @@ impl Claim {
 }
 
 impl ClaimRecord {
-    /// The measured numbers in a line, or the reason for their absence.
+    /// The measured numbers in a line, after the reason for an open verdict.
     pub(crate) fn measured(&self) -> String {
-        let numbers: Vec<String> = self.finding.numbers.iter().map(ToString::to_string).collect();
-        match self.finding.reason {
-            Some(reason) => reason.to_owned(),
-            None => numbers.join("; "),
-        }
+        let numbers = self.finding.numbers.iter().map(ToString::to_string);
+        self.finding.reason.map(str::to_owned).into_iter().chain(numbers).collect::<Vec<_>>().join("; ")
     }
 }
 
@@ -88,8 +85,9 @@ const HEAD: &str = "\
 # Claims
 
 Every measurable sentence of the three texts, beside the measurement here. A rule in the code
-decides between confirmed and refuted; no verdict is written by hand. A verdict is about this program on this machine: the texts had
-other hardware, and measured there.
+decides between confirmed, refuted and not decided here; no verdict is written by hand. A verdict is about this program on this
+machine: the texts had other hardware, and measured there. Times are medians of repeats that take turns, with their quartiles in
+brackets. A limit within the quartiles decides nothing.
 
 E stands for Evangelista et al. 2005, V for Valente 2007, D for Dachsbacher; the number is the line of the transcript that this
 project was made from, and the section is the text's own. The words are ours. `tinta figures` measures them all, writes

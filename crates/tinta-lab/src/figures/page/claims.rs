@@ -38,14 +38,14 @@ fn claim(out: &mut String, text: Text, record: &ClaimRecord) -> Result {
     let class = match record.finding.verdict {
         Verdict::Confirmed => "confirmed",
         Verdict::Refuted => "refuted",
-        Verdict::NotTestable => "untested",
+        Verdict::NotDecided => "untested",
     };
     writeln!(out, "<article class=\"claim\" id=\"{}\">", record.id)?;
     writeln!(out, "<p><b>{}.</b> {}</p>", escaped(&place(text, record.section, record.line)), escaped(record.says))?;
     let name = record.finding.verdict.name();
     let measured = escaped(&record.measured());
     writeln!(out, "<p><span class=\"verdict {class}\">{name}</span> {measured}</p>")?;
-    if record.finding.verdict != Verdict::NotTestable {
+    if !record.finding.numbers.is_empty() {
         writeln!(out, "<p class=\"hint\">Confirmed if {}.</p>", escaped(record.rule))?;
     }
     Ok(())
