@@ -125,7 +125,9 @@ impl BackgroundRow {
     /// By how many points this gain is larger than another.
     pub(super) fn gains_more_than(&self, other: &Self) -> Interval {
         let series = [&self.two_pass_without, &self.three_pass, &other.two_pass_without, &other.three_pass];
-        Interval::of_turns(series, |[two, three, other_two, other_three]| (three / two - other_three / other_two) * 100.0)
+        Interval::of_turns(series, |[two, three, other_two, other_three]| {
+            (three / two - other_three / other_two) * 100.0
+        })
     }
 }
 

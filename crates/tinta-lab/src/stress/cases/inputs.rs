@@ -65,7 +65,11 @@ fn textures() -> Vec<Case> {
         )
         .degrades(),
         drawn("a skin of one texel", "the surface has its colour", of(Written::Skin(1, 1))),
-        drawn("a skin 16,384 texels high", "it is drawn, or refused by the driver's limit", of(Written::Skin(2, 16_384))),
+        drawn(
+            "a skin 16,384 texels high",
+            "it is drawn, or refused by the driver's limit",
+            of(Written::Skin(2, 16_384)),
+        ),
         drawn("a skin 65,537 texels high", "a skin beyond the driver's limit is refused", of(Written::Skin(2, 65_537))),
     ];
     for case in &mut all[3..] {
@@ -83,7 +87,8 @@ fn textures() -> Vec<Case> {
     };
     all.push(drawn("charcoal's textures of one texel", "grain, noise and paper are one tone each", grain(1)));
     all.push(drawn("charcoal's largest textures", "they are drawn", grain(4096)));
-    let refused = Case::refused(Group::Inputs, "charcoal's textures one texel larger", grain(4097), "setting", "texture-size");
+    let refused =
+        Case::refused(Group::Inputs, "charcoal's textures one texel larger", grain(4097), "setting", "texture-size");
     all.push(Case { answer: "the limit is named", ..refused });
     all
 }
@@ -108,7 +113,12 @@ fn matrices() -> Vec<Case> {
     let mut all = vec![
         same("a camera matrix times 1e-30", factor, of(matrix() * 1e-30), of(matrix())),
         same("a camera matrix times 1e30", factor, of(matrix() * 1e30), of(matrix())),
-        same("a camera matrix with half the depth", "depth runs as the program chooses", of(scaled(1.0, 1.0, 0.5)), of(matrix())),
+        same(
+            "a camera matrix with half the depth",
+            "depth runs as the program chooses",
+            of(scaled(1.0, 1.0, 0.5)),
+            of(matrix()),
+        ),
     ];
     let mut sheared = DMat4::IDENTITY;
     sheared.y_axis.x = 0.3;
@@ -134,9 +144,13 @@ fn models() -> Vec<Case> {
     let many = |cells| Drawing { study: Study::Picture, ..written(Written::Sheet(cells)) };
     let none = Drawing { scale: 1e-310, ..Drawing::default() };
     vec![
-        drawn("a mirrored model", "its lines are the same; its faces are inside out and their tones those of the other side", mirrored)
-            .degrades()
-            .with("twin_lines_differing", 0.0, ROUNDED),
+        drawn(
+            "a mirrored model",
+            "its lines are the same; its faces are inside out and their tones those of the other side",
+            mirrored,
+        )
+        .degrades()
+        .with("twin_lines_differing", 0.0, ROUNDED),
         same("a vertex at 1e-310", "a denormal number is next to nothing", denormal(1e-310), denormal(0.0)),
         same("a vertex at 1e-40", "and so is one that only f32 makes denormal", denormal(1e-40), denormal(0.0)),
         Case {
@@ -158,7 +172,8 @@ fn exponents() -> Vec<Case> {
         (0.5, "light is raised, not lowered"),
         (1e30, "all that is not lit fully is black"),
     ];
-    let case = |(exponent, answer): (f32, _)| drawn(format!("a contrast exponent of {exponent:e}"), answer, of(exponent));
+    let case =
+        |(exponent, answer): (f32, _)| drawn(format!("a contrast exponent of {exponent:e}"), answer, of(exponent));
     answers.into_iter().map(case).collect()
 }
 

@@ -91,7 +91,9 @@ pub(super) fn gain_varies(numbers: &Numbers) -> Finding {
     let gains = gains(numbers);
     let [least, most] = [extreme(&gains, f64::min), extreme(&gains, f64::max)];
     let row = |of: Interval| numbers.backgrounds.iter().find(|row| row.gain_percent() == of);
-    let (Some(worst), Some(best)) = (row(least), row(most)) else { return Finding::nowhere("no distance was measured") };
+    let (Some(worst), Some(best)) = (row(least), row(most)) else {
+        return Finding::nowhere("no distance was measured");
+    };
     Finding::of_repeats(
         best.gains_more_than(worst).is_above(GREATLY),
         vec![Number::percents("smallest gain", least), Number::percents("largest", most)],
@@ -200,9 +202,10 @@ pub(super) fn hidden(lab: &mut Lab<'_>) -> Result<Finding> {
     }
     let series = lab.times(frames)?;
     let [beside, behind] = [0, 2].map(|first| gain_percent(&series[first], &series[first + 1]));
-    let more = Interval::of_turns([0, 1, 2, 3].map(|index| &series[index]), |[two_beside, three_beside, two, three]| {
-        (three / two - three_beside / two_beside) * 100.0
-    });
+    let more =
+        Interval::of_turns([0, 1, 2, 3].map(|index| &series[index]), |[two_beside, three_beside, two, three]| {
+            (three / two - three_beside / two_beside) * 100.0
+        });
     Ok(Finding::of_repeats(
         more.is_above(EQUAL_PERCENT),
         vec![

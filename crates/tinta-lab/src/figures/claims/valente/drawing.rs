@@ -45,9 +45,8 @@ const EXPONENTS: [f64; 5] = [1.2, 1.3, 1.5, 5.5, 15.0];
 
 pub(super) fn operator_stays_within_one(lab: &mut Lab<'_>) -> Result<Finding> {
     let values = EXPONENTS.iter().flat_map(|m| (0..=1000).map(move |step| (f64::from(step) / 1000.0).powf(*m)));
-    let [least, most] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| {
-        [value.min(least), value.max(most)]
-    });
+    let [least, most] =
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| [value.min(least), value.max(most)]);
     // The listing gives the operator the sum of two lights.
     let scene = lab.scene("builtin:bust")?;
     let view = scene.camera.view_from_world();
@@ -62,7 +61,10 @@ pub(super) fn operator_stays_within_one(lab: &mut Lab<'_>) -> Result<Finding> {
         vec![
             Number::new("smallest value", least, "", 0),
             Number::new("largest", most, "", 0),
-            Number::share("of the vertices, the listing's sum of two lights in one place is above 1 (erratum V3)", above),
+            Number::share(
+                "of the vertices, the listing's sum of two lights in one place is above 1 (erratum V3)",
+                above,
+            ),
         ],
     ))
 }
