@@ -101,6 +101,14 @@ impl std::fmt::Display for Number {
     }
 }
 
+impl std::fmt::Display for Finding {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let numbers = self.numbers.iter().map(ToString::to_string);
+        let parts: Vec<String> = self.reason.map(str::to_owned).into_iter().chain(numbers).collect();
+        out.write_str(&parts.join("; "))
+    }
+}
+
 impl Finding {
     /// Confirmed if the rule holds, refuted if not. A NaN decides nothing.
     pub(super) fn of(holds: bool, numbers: Vec<Number>) -> Self {

@@ -17,7 +17,7 @@ impl Text {
 }
 
 /// The place of a claim: `E:145, section 4.1`.
-pub(crate) fn place(text: Text, section: &str, line: u32) -> String {
+pub(super) fn place(text: Text, section: &str, line: u32) -> String {
     let section = if section.starts_with(char::is_numeric) { format!("section {section}") } else { section.to_owned() };
     format!("{}:{line}, {section}", text.letter())
 }
@@ -31,14 +31,6 @@ impl Claim {
             self.rule.to_owned(),
             format!("`{}`", self.command),
         ]
-    }
-}
-
-impl ClaimRecord {
-    /// The measured numbers in a line, after the reason for an open verdict.
-    pub(crate) fn measured(&self) -> String {
-        let numbers = self.finding.numbers.iter().map(ToString::to_string);
-        self.finding.reason.map(str::to_owned).into_iter().chain(numbers).collect::<Vec<_>>().join("; ")
     }
 }
 
@@ -64,10 +56,10 @@ pub fn markdown(records: &[ClaimRecord], host: &Host, how: &HowToMeasure) -> Str
         for record in of_text {
             out.push_str(&format!(
                 "| {} | {} | {} | {} | {} | `{}` |\n",
-                place(text, record.section, record.line),
+                record.place,
                 record.says,
                 record.finding.verdict.name(),
-                record.measured(),
+                record.measured,
                 record.rule,
                 record.command
             ));
