@@ -63,14 +63,18 @@ impl Interval {
         if low > limit { Some(true) } else { (high < limit).then_some(false) }
     }
 
-    /// [`Self::is_above`] the other way round.
-    pub(super) fn is_below(&self, limit: f64) -> Option<bool> {
-        self.is_above(limit).map(|is_above| !is_above)
+    /// Whether it is larger than 0 by more than [`EQUAL_PERCENT`], or smaller by more; `None` where neither is certain.
+    pub(super) fn is_positive(&self) -> Option<bool> {
+        match (self.is_above(EQUAL_PERCENT), self.is_above(-EQUAL_PERCENT)) {
+            (Some(true), _) => Some(true),
+            (_, Some(false)) => Some(false),
+            _ => None,
+        }
     }
 }
 
 /// Costs nearer to each other than this are equal, percent.
-pub(super) const EQUAL_PERCENT: f64 = 3.0;
+const EQUAL_PERCENT: f64 = 3.0;
 
 /// How much more frames for the same cost `one` gives than `other`, percent.
 pub(super) fn gain_percent(one: &Series, other: &Series) -> Interval {
@@ -140,7 +144,8 @@ mod tests {
         assert_eq!((interval.middle, interval.quartiles), (11.0, [6.0, 16.0]));
         let decided = [5.9, 6.0, 11.0, 16.0, 16.1].map(|limit| interval.is_above(limit));
         assert_eq!(decided, [Some(true), None, None, None, Some(false)]);
-        assert_eq!(interval.is_below(16.1), Some(true));
+        let around = |middle: f64| Interval { middle, quartiles: [middle - 1.0, middle + 1.0] }.is_positive();
+        assert_eq!([-9.0, -3.5, 0.0, 3.5, 9.0].map(around), [Some(false), None, None, None, Some(true)]);
     }
 
     #[test]

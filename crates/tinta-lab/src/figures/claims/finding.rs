@@ -123,7 +123,9 @@ impl Finding {
         match holds {
             Some(true) => Self { verdict: Verdict::Confirmed, numbers, reason: None },
             Some(false) => Self { verdict: Verdict::Refuted, numbers, reason: None },
-            None => Self::undecided("the quartiles of the repeats contain the rule's limit", numbers),
+            None => {
+                Self::undecided("the repeats lie on both sides of the rule's limit, or within 3 % of equal", numbers)
+            }
         }
     }
 

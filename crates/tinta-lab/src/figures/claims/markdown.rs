@@ -79,7 +79,7 @@ const HEAD: &str = "\
 Every measurable sentence of the three texts, beside the measurement here. A rule in the code
 decides between confirmed, refuted and not decided here; no verdict is written by hand. A verdict is about this program on this
 machine: the texts had other hardware, and measured there. Times are medians of repeats that take turns, with their quartiles in
-brackets. A limit within the quartiles decides nothing.
+brackets. A limit within the quartiles decides nothing, and neither does a difference of up to 3 %.
 
 E stands for Evangelista et al. 2005, V for Valente 2007, D for Dachsbacher; the number is the line of the transcript that this
 project was made from, and the section is the text's own. The words are ours. `tinta figures` measures them all, writes

@@ -3,7 +3,6 @@
 use super::super::finding::{Finding, Number};
 use super::super::lab::{Error, Lab, MODELS, TOLERANCE_PX};
 use crate::figures::figure::{Panel, Shot, panel};
-use crate::figures::series::EQUAL_PERCENT;
 use crate::measure::INK_FROM;
 use tinta::camera::{CameraSettings, View};
 use tinta::edges::SilhouetteRule;
@@ -85,7 +84,7 @@ fn dietrich() -> Style {
 pub(super) fn dietrich_is_faster(lab: &mut Lab<'_>) -> Result<Finding> {
     let longer = lab.slower_percent("builtin:bust", &[dietrich(), Style::Inking(Inking::default())])?;
     let numbers = vec![Number::percents("longer by inking, edges known", longer)];
-    Ok(Finding::of_repeats(longer.is_above(EQUAL_PERCENT), numbers))
+    Ok(Finding::of_repeats(longer.is_positive(), numbers))
 }
 
 pub(super) fn dietrich_is_less_exact(lab: &mut Lab<'_>) -> Result<Finding> {

@@ -4,7 +4,7 @@ use super::super::finding::{Finding, Number};
 use super::super::lab::Lab;
 use crate::figures::measure::{covered, from};
 use crate::figures::numbers::{BackgroundRow, Numbers};
-use crate::figures::series::{EQUAL_PERCENT, Interval, gain_percent};
+use crate::figures::series::{Interval, gain_percent};
 use crate::figures::throughput::ShaderRow;
 use glam::DVec3;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ fn three_pass(border: Border) -> Style {
 /// Frames of the gear in two styles, the second's price.
 fn price(lab: &mut Lab<'_>, what: &'static str, styles: [Style; 2]) -> Result<Finding> {
     let slower = lab.slower_percent("builtin:gear", &styles)?;
-    Ok(Finding::of_repeats(slower.is_above(EQUAL_PERCENT), vec![Number::percents(what, slower)]))
+    Ok(Finding::of_repeats(slower.is_positive(), vec![Number::percents(what, slower)]))
 }
 
 pub(super) fn mitchell_in_two(lab: &mut Lab<'_>) -> Result<Finding> {
@@ -46,18 +46,27 @@ pub(super) fn second_texture(lab: &mut Lab<'_>) -> Result<Finding> {
 pub(super) fn nine_reads(numbers: &Numbers) -> Finding {
     let [.., four, eight] = numbers.shaders.as_slice() else { return Finding::nowhere("no shader was timed") };
     let longer = eight.against(&[four], |ratio| (ratio - 1.0) * 100.0);
-    Finding::of_repeats(longer.is_above(EQUAL_PERCENT), vec![Number::percents("longer with nine reads", longer)])
+    Finding::of_repeats(longer.is_positive(), vec![Number::percents("longer with nine reads", longer)])
+}
+
+/// A rule on a rate or a percentage that the text measured on its graphics card: a program that draws decides nothing.
+fn on_a_card(numbers: &Numbers, holds: Option<bool>, measured: Vec<Number>) -> Finding {
+    match numbers.host.is_software {
+        true => Finding::undecided("the text's number is a graphics card's, and here a program draws", measured),
+        false => Finding::of_repeats(holds, measured),
+    }
 }
 
 pub(super) fn cheaper_filter(numbers: &Numbers) -> Finding {
     let Some(gain) = numbers.filter_gain_percent() else { return Finding::nowhere("no filter was timed") };
     let limit = numbers.article.filter_gain_percent * FOUND_AGAIN;
-    Finding::of_repeats(gain.is_above(limit), vec![Number::percents("more frames a second", gain)])
+    on_a_card(numbers, gain.is_above(limit), vec![Number::percents("more frames a second", gain)])
 }
 
 pub(super) fn two_always_slower(numbers: &Numbers) -> Finding {
     let gains = numbers.gains_of_two();
-    let are_slower: Vec<Option<bool>> = gains.iter().map(|gain| gain.is_below(-EQUAL_PERCENT)).collect();
+    let are_slower: Vec<Option<bool>> =
+        gains.iter().map(|gain| gain.is_positive().map(|is_faster| !is_faster)).collect();
     let count = |wanted: Option<bool>| are_slower.iter().filter(|is| **is == wanted).count();
     let decided = if count(Some(false)) > 0 { Some(false) } else { (count(None) == 0).then_some(true) };
     Finding::of_repeats(
@@ -84,7 +93,7 @@ fn gains(numbers: &Numbers) -> Vec<Interval> {
 pub(super) fn without_square(numbers: &Numbers) -> Finding {
     let best = extreme(&gains(numbers), f64::max);
     let limit = numbers.article.background_gain_percent * FOUND_AGAIN;
-    Finding::of_repeats(best.is_above(limit), vec![Number::percents("largest gain", best)])
+    on_a_card(numbers, best.is_above(limit), vec![Number::percents("largest gain", best)])
 }
 
 pub(super) fn gain_varies(numbers: &Numbers) -> Finding {
@@ -108,7 +117,7 @@ fn against_whole(numbers: &Numbers, distance: f64, what: &'static str, sign: f64
     };
     let [more, less] = if sign > 0.0 { [other, whole] } else { [whole, other] };
     Finding::of_repeats(
-        more.gains_more_than(less).is_above(EQUAL_PERCENT),
+        more.gains_more_than(less).is_positive(),
         vec![
             Number::percents(what, other.gain_percent()),
             Number::percents("gain where the bust fills the picture", whole.gain_percent()),
@@ -149,16 +158,13 @@ pub(super) fn real_time(numbers: &Numbers) -> Finding {
         extreme(&rates.collect::<Vec<_>>(), f64::min)
     };
     let rates = [2, 3].map(slowest);
-    let numbers_of = vec![
+    let measured = vec![
         Number::repeated("frames a second of two passes in their slowest scene", rates[0], "", 0),
         Number::repeated("of three", rates[1], "", 0),
     ];
-    if numbers.host.is_software {
-        return Finding::undecided("the text had a graphics card, and here a program draws", numbers_of);
-    }
     let [two, three] = rates.map(|rate| rate.is_above(REAL_TIME));
     let decided = if [two, three].contains(&Some(false)) { Some(false) } else { two.and(three) };
-    Finding::of_repeats(decided, numbers_of)
+    on_a_card(numbers, decided, measured)
 }
 
 /// How many busts stand in a row, and how far apart, of their width.
@@ -207,7 +213,7 @@ pub(super) fn hidden(lab: &mut Lab<'_>) -> Result<Finding> {
             (three / two - three_beside / two_beside) * 100.0
         });
     Ok(Finding::of_repeats(
-        more.is_above(EQUAL_PERCENT),
+        more.is_positive(),
         vec![
             Number::percents("gain one behind the other", behind),
             Number::percents("side by side", beside),
