@@ -493,6 +493,18 @@ fn confine(plan: &mut Plan, size: Size) {
     }
 }
 
+/// Processor time of all threads of this process so far, milliseconds; `None` where the system does not tell it. On a software
+/// renderer the load of other programs changes it far less than the clock's time.
+pub fn processor_milliseconds() -> Option<f64> {
+    #[cfg(unix)]
+    {
+        let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+        Some(time.tv_sec as f64 * 1e3 + time.tv_nsec as f64 * 1e-6)
+    }
+    #[cfg(not(unix))]
+    None
+}
+
 /// Returns the middle value, or the mean of the two middle ones; `None` for an empty list.
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);

@@ -185,7 +185,7 @@ const MISTAKES: [(&str, &str); 88] = [
     ),
     (
         "render triangle.obj -o out.png --preset none.toml",
-        "none.toml: there is no such file; name a preset, or one that ships: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal, paper:valente-sand",
+        "none.toml: there is no such file; name a preset, or one that ships: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal-in-part, paper:valente-sand-in-part",
     ),
     (
         "render triangle.obj -o out.png --preset paper:evangelista-tree-pass",

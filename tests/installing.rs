@@ -87,7 +87,10 @@ fn bash_completes_commands_options_names_models_and_files() {
     }
     assert_eq!(answers(&["tinta", "render", "builtin", ":", "b"]), ["bust"]);
     assert_eq!(answers(&["tinta", "render", "builtin", ":"]).len(), tinta::mesh::BUILTINS.len());
-    assert_eq!(answers(&["tinta", "view", "--preset", "paper", ":", "valente"]), ["valente-charcoal", "valente-sand"]);
+    assert_eq!(
+        answers(&["tinta", "view", "--preset", "paper", ":", "valente"]),
+        ["valente-charcoal-in-part", "valente-sand-in-part"]
+    );
     let mut files = answers(&["tinta", "render", "--fov", ""]);
     files.sort_unstable();
     assert_eq!(files, ["bash", "cow.obj"], "nothing is known of a number");

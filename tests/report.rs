@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use std::io::{Cursor, Write};
 use tinta_lab::measure::{LineError, PassRow, Row, RunTime, ToneError};
 use tinta_lab::report::{
-    Measure, ROWS_FILE, ReportInfo, ReportPicture, RowLog, Shape, columns, csv, html, machines, pareto, plot, points,
-    read_rows, write,
+    Measure, ROWS_FILE, ReportInfo, ReportPicture, RowLog, Shape, Time, columns, csv, html, machines, pareto, plot,
+    points, read_rows, write,
 };
 
 /// A name that breaks pages, tables and lines that do not quote it.
@@ -273,7 +273,7 @@ fn a_point_is_the_mean_over_the_models_that_settings_share() {
         row("m", "b", "--style two-pass --view front", 3.0, 0.5),
         row("m", "a", "--style two-pass --view front --filter sobel", 3.0, 0.5),
     ];
-    let points = points(&rows.iter().collect::<Vec<_>>(), Measure::Lines);
+    let points = points(&rows.iter().collect::<Vec<_>>(), Measure::Lines, Time::Frame);
     assert_eq!((points.left_out, &points.models[..]), (1, &["a".to_owned(), "b".to_owned()][..]));
     assert_eq!(points.points.len(), 2);
     let inking = &points.points[0];
@@ -302,7 +302,7 @@ fn a_plot_names_its_front_and_holds_only_finite_numbers_inside_it() {
     let all: Vec<&Row> = rows.iter().collect();
     for (name, measure) in Measure::ALL {
         for shape in [Shape::Wide, Shape::Narrow] {
-            let points = points(&all, measure);
+            let points = points(&all, measure, Time::Frame);
             let svg = plot(&points, measure, shape, &format!("mean & {NASTY}")).unwrap().unwrap();
             let document = Document::parse(&svg).unwrap_or_else(|error| panic!("{name}: {error}"));
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
@@ -331,7 +331,7 @@ fn a_plot_names_its_front_and_holds_only_finite_numbers_inside_it() {
             }
         }
     }
-    let none = points(&[], Measure::Lines);
+    let none = points(&[], Measure::Lines, Time::Frame);
     assert_eq!(plot(&none, Measure::Lines, Shape::Wide, "").unwrap(), None);
 }
 
@@ -340,7 +340,7 @@ fn an_exact_setting_is_drawn_at_zero() {
     let rows = [row("m", "a", "--style inking", 1.0, 1.0), row("m", "a", "--style two-pass", 2.0, 0.9)];
     for count in [1, 2] {
         let some: Vec<&Row> = rows[..count].iter().collect();
-        let svg = plot(&points(&some, Measure::Lines), Measure::Lines, Shape::Wide, "").unwrap().unwrap();
+        let svg = plot(&points(&some, Measure::Lines, Time::Frame), Measure::Lines, Shape::Wide, "").unwrap().unwrap();
         assert!(
             Document::parse(&svg).unwrap().descendants().any(|node| node.text().is_some_and(|text| text.trim() == "0"))
         );
@@ -358,11 +358,18 @@ fn a_report_is_three_kinds_of_file_and_nothing_beside_them() {
         names.sort();
         names
     };
-    let one = ["plot-continuous-tones.svg", "plot-lines.svg", "plot-tones.svg", "report.html", "results.csv"];
+    let one = [
+        "plot-continuous-tones.svg",
+        "plot-lines-first-picture.svg",
+        "plot-lines.svg",
+        "plot-tones.svg",
+        "report.html",
+        "results.csv",
+    ];
     assert_eq!(files(&made_up_rows("a", 1.0)), one);
     let mut two = made_up_rows("a", 1.0);
     two.extend(made_up_rows("b", 0.5));
-    assert_eq!(files(&two).iter().filter(|name| name.contains("-machine-")).count(), 6);
+    assert_eq!(files(&two).iter().filter(|name| name.contains("-machine-")).count(), 8);
     let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
     assert!(page.contains("Machines compared") && page.contains(">0.50<"), "times on b are half of those on a");
     assert!(write(folder.path(), &[], &info()).unwrap_err().to_string().contains("no row to report on"));

@@ -168,7 +168,7 @@ fn check_scale(summary: &Summary) {
     let scaled = summary.cases.iter().filter(|row| row.group == Group::Scale && row.name.starts_with("a gear"));
     let mut count = 0;
     for row in scaled.filter(|row| row.name.ends_with("times as large")) {
-        assert_eq!(row.figures["unit_lines_differing"], 0.0, "{}", row.name);
+        assert_eq!(row.figures["twin_lines_differing"], 0.0, "{}", row.name);
         count += 1;
     }
     assert!(count > 0);

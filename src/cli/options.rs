@@ -166,7 +166,7 @@ pub struct CameraFile {
 #[derive(Debug, clap::Args, Default)]
 #[command(next_help_heading = "Presets")]
 pub struct PresetFile {
-    /// Read options from this TOML file, or a paper's constants: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal, paper:valente-sand; the command line overrides it [default: none]
+    /// Read options from this TOML file, or a paper's constants: paper:evangelista-three-pass, paper:evangelista-two-pass, paper:dachsbacher-inking, paper:valente-charcoal-in-part, paper:valente-sand-in-part; the command line overrides it [default: none]
     #[arg(long, value_name = "FILE")]
     pub preset: Option<String>,
 }

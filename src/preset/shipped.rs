@@ -5,6 +5,6 @@ pub const SHIPPED: [(&str, &str); 5] = [
     ("paper:evangelista-three-pass", include_str!("../../presets/evangelista-three-pass.toml")),
     ("paper:evangelista-two-pass", include_str!("../../presets/evangelista-two-pass.toml")),
     ("paper:dachsbacher-inking", include_str!("../../presets/dachsbacher-inking.toml")),
-    ("paper:valente-charcoal", include_str!("../../presets/valente-charcoal.toml")),
-    ("paper:valente-sand", include_str!("../../presets/valente-sand.toml")),
+    ("paper:valente-charcoal-in-part", include_str!("../../presets/valente-charcoal.toml")),
+    ("paper:valente-sand-in-part", include_str!("../../presets/valente-sand.toml")),
 ];

@@ -26,9 +26,11 @@ mod run;
 mod shapes;
 mod table;
 mod variants;
+mod written;
 
 pub use cases::{Case, Check, Content, Drawing, Expected, Group, Study, Work, cases};
 pub use jitter::{Flips, Popped};
 pub use run::{MissingBackend, Row, StressSettings, Summary, run};
 pub use shapes::Shape;
 pub use variants::Variant;
+pub use written::Written;

@@ -93,7 +93,7 @@ fn nothing_is_left_of_the_templates_marks() {
         for mark in ["@models@", "@presets@", "@with-models@", "@with-value@"] {
             assert!(!script.contains(mark), "{shell:?}: {mark}");
         }
-        for own in ["builtin:bust", "paper:valente-sand"] {
+        for own in ["builtin:bust", "paper:valente-sand-in-part"] {
             assert!(script.replace("\\:", ":").contains(own), "{shell:?}: {own}");
         }
     }

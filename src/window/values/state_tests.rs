@@ -115,7 +115,7 @@ fn the_title_says_model_and_styles() {
 
 #[test]
 fn a_preset_that_ships_is_a_style_with_the_papers_constants() {
-    let paper = ViewerEvent::OpenPreset("paper:valente-charcoal".to_owned());
+    let paper = ViewerEvent::OpenPreset("paper:valente-charcoal-in-part".to_owned());
     let state = after([ViewerEvent::Style(Side::Left, "charcoal".to_owned()), set("--seed", "7"), paper]);
     assert_eq!(*state.style(Side::Left), Style::named(StyleName::Charcoal));
 }

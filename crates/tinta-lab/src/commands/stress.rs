@@ -24,7 +24,7 @@ pub(super) struct Arguments {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 
-    /// Try only cases whose name contains this, or one group: scale, depth, topology, thresholds, pictures, mixes, turns, files, faults [default: all]
+    /// Try only cases whose name contains this, or one group: scale, depth, topology, thresholds, pictures, inputs, mixes, turns, files, faults [default: all]
     #[arg(long, value_name = "TEXT")]
     only: Option<String>,
 
@@ -90,5 +90,5 @@ fn said(summary: &Summary) -> String {
 }
 
 /// Groups of cases that `--only` names.
-pub(super) const GROUPS: [&str; 9] =
-    ["scale", "depth", "topology", "thresholds", "pictures", "mixes", "turns", "files", "faults"];
+pub(super) const GROUPS: [&str; 10] =
+    ["scale", "depth", "topology", "thresholds", "pictures", "inputs", "mixes", "turns", "files", "faults"];

@@ -19,7 +19,7 @@ use claim::Measure;
 pub use finding::{Finding, Number, Verdict};
 use lab::Lab;
 pub use markdown::markdown;
-pub(super) use markdown::place;
+use markdown::place;
 use serde::Serialize;
 use tinta::error::Result;
 use tinta::renderer::Renderer;
@@ -35,12 +35,16 @@ pub struct ClaimRecord {
     pub section: &'static str,
     /// As [`Claim::line`].
     pub line: u32,
+    /// Text, line and section in a phrase: `E:145, section 4.1`.
+    pub place: String,
     /// As [`Claim::says`].
     pub says: &'static str,
     /// As [`Claim::rule`].
     pub rule: &'static str,
     /// As [`Claim::command`].
     pub command: &'static str,
+    /// The numbers in a line, after the reason for an open verdict.
+    pub measured: String,
     /// The verdict, the numbers, the reason.
     #[serde(flatten)]
     pub finding: Finding,
@@ -92,9 +96,11 @@ pub fn measure_claims(
             text: text.name(),
             section,
             line,
+            place: place(text, section, line),
             says,
             rule,
             command,
+            measured: finding.to_string(),
             finding,
             text_index: text,
         });
@@ -107,11 +113,11 @@ pub fn measure_claims(
 pub fn tally(records: &[ClaimRecord]) -> String {
     let count = |verdict| records.iter().filter(|record| record.finding.verdict == verdict).count();
     format!(
-        "{} claims: {} confirmed, {} refuted, {} not testable here.",
+        "{} claims: {} confirmed, {} refuted, {} not decided here.",
         records.len(),
         count(Verdict::Confirmed),
         count(Verdict::Refuted),
-        count(Verdict::NotTestable)
+        count(Verdict::NotDecided)
     )
 }
 

@@ -1,11 +1,11 @@
 //! The numbers of Evangelista et al. 2005, section 5, measured here: figure 13, the filter's gain, two passes without the square,
-//! the shaders' throughput. Settings take turns, and a busy moment hits all of them; the report gives medians and keeps every raw
+//! the shaders' throughput. Settings take turns, and a busy moment hits all of them; the report gives medians and quartiles, and keeps every raw
 //! time.
 
 use super::mix::{Kit, TRIANGLES};
 use super::numbers::{ARTICLE, BackgroundRow, FilterRow, FrameRow, Host, MixRow, Numbers};
 use super::reasons::reasons;
-use super::series::{Contestant, Series, take_turns};
+use super::series::{Contestant, take_turns};
 use super::throughput::{self, COMPARED_FACTOR};
 use std::sync::Arc;
 use tinta::error::Result;
@@ -110,7 +110,7 @@ pub fn measure(renderer: &mut Renderer, how: &HowToMeasure, mut step: impl FnMut
     let mut numbers = Numbers {
         host: Host::new(renderer.context()),
         size: how.size,
-        empty: others.last().map_or_else(|| Series::new(Vec::new()), Contestant::series),
+        empty: others.last().map(Contestant::series).unwrap_or_default(),
         scenes,
         frames: frames.collect(),
         filters: filters.map(|(filter, contestant)| FilterRow { filter, series: contestant.series() }).collect(),

@@ -1,7 +1,7 @@
 //! The measurements of Evangelista et al. 2005, section 5, with the numbers printed in the article.
 
 use super::mix::Mix;
-use super::series::{Series, gain_percent};
+use super::series::{Interval, Series, gain_percent};
 use super::throughput::ShaderRow;
 use serde::Serialize;
 use tinta::gl::ContextInfo;
@@ -118,16 +118,34 @@ pub struct BackgroundRow {
 
 impl BackgroundRow {
     /// How much more frames a second two passes without the square give than three passes, percent.
-    pub fn gain_percent(&self) -> f64 {
+    pub fn gain_percent(&self) -> Interval {
         gain_percent(&self.two_pass_without, &self.three_pass)
+    }
+
+    /// By how many points this gain is larger than another.
+    pub(super) fn gains_more_than(&self, other: &Self) -> Interval {
+        let series = [&self.two_pass_without, &self.three_pass, &other.two_pass_without, &other.three_pass];
+        Interval::of_turns(series, |[two, three, other_two, other_three]| {
+            (three / two - other_three / other_two) * 100.0
+        })
     }
 }
 
 impl Numbers {
     /// How much more frames a second the article's filter gives than the one it replaces, percent.
-    pub fn filter_gain_percent(&self) -> Option<f64> {
+    pub fn filter_gain_percent(&self) -> Option<Interval> {
         let of = |filter| self.filters.iter().find(|row| row.filter == filter);
         Some(gain_percent(&of(Filter::Laplacian4)?.series, &of(Filter::Laplacian8)?.series))
+    }
+
+    /// How much more frames a second two passes give than three, percent, in each scene and number of tones.
+    pub fn gains_of_two(&self) -> Vec<Interval> {
+        let of_two = self.frames.iter().filter(|row| row.passes == 2);
+        let gain = |row: &FrameRow| {
+            let three = self.curve(row.tones, 3).find(|other| other.triangles == row.triangles)?;
+            Some(gain_percent(&row.series, &three.series))
+        };
+        of_two.filter_map(gain).collect()
     }
 
     /// The frames of these tones and passes, by triangles.

@@ -1,7 +1,7 @@
 //! Why our numbers differ from the article's: sentences that follow from the measurements and from GL's description of itself.
 
-use super::numbers::{FrameRow, Host, Numbers, Reason};
-use super::series::{EQUAL_PERCENT, gain_percent};
+use super::numbers::{BackgroundRow, FrameRow, Host, Numbers, Reason};
+use super::series::{Interval, gain_percent};
 use super::throughput::ShaderRow;
 
 /// All sentences, by their subject.
@@ -62,27 +62,13 @@ fn growth(numbers: &Numbers) -> Option<String> {
 
 /// Two passes against three.
 fn passes(numbers: &Numbers) -> Option<String> {
-    let mut gains = Vec::new();
-    for row in numbers.frames.iter().filter(|row| row.passes == 2) {
-        let three = numbers.curve(row.tones, 3).find(|other| other.triangles == row.triangles)?;
-        gains.push(gain_percent(&row.series, &three.series));
-    }
-    gains.sort_by(f64::total_cmp);
-    let (least, most) = (*gains.first()?, *gains.last()?);
-    let (slower, faster) = (count(&gains, |gain| gain < -EQUAL_PERCENT), count(&gains, |gain| gain > EQUAL_PERCENT));
-    let verdict = if slower == gains.len() {
-        "as in the paper"
-    } else if faster == 0 && slower == 0 {
-        "the paper finds them slower throughout"
-    } else if slower >= faster {
-        "in part as in the paper, which finds them slower throughout"
-    } else {
-        "unlike in the paper, which finds them slower throughout"
-    };
+    let gains = numbers.gains_of_two();
+    let middles = || gains.iter().map(|gain| gain.middle);
+    let (least, most) = (middles().reduce(f64::min)?, middles().reduce(f64::max)?);
     Some(format!(
-        "Two passes change the frames a second of three by {} to {}, faster by more than {EQUAL_PERCENT:.0} \
-         % in {faster} and slower in {slower} of {} cases, {verdict}; both forms draw every triangle twice, and what remains \
-         between them is a filter over the whole picture, blended, against one joined to the tones.",
+        "Two passes change the frames a second of three by {} to {} in {} cases; the paper finds them slower throughout. Both \
+         forms draw every triangle twice, and what remains between them is a filter over the whole picture, blended, against \
+         one joined to the tones.",
         signed(least),
         signed(most),
         gains.len()
@@ -94,7 +80,7 @@ fn tones(numbers: &Numbers) -> Option<String> {
     let mut spread: f64 = 0.0;
     for row in &numbers.frames {
         let same = |other: &&FrameRow| other.triangles == row.triangles && other.passes == row.passes;
-        let gains = numbers.frames.iter().filter(same).map(|other| gain_percent(&row.series, &other.series));
+        let gains = numbers.frames.iter().filter(same).map(|other| gain_percent(&row.series, &other.series).middle);
         spread = gains.fold(spread, f64::max);
     }
     spread.is_finite().then(|| {
@@ -108,25 +94,18 @@ fn tones(numbers: &Numbers) -> Option<String> {
 
 /// The cheaper filter.
 fn filter(numbers: &Numbers) -> Option<String> {
-    let frame = numbers.filter_gain_percent()?;
+    let frame = numbers.filter_gain_percent()?.middle;
     let [.., four, eight] = numbers.shaders.as_slice() else { return None };
     let alone = (eight.square_ms / four.square_ms - 1.0) * 100.0;
     // The square was timed on four times the pixels.
-    let whole = numbers.filters.first()?.series.median_ms;
+    let whole = Interval::of(numbers.filters.first()?.series.cost_ms().to_vec()).middle;
     let share = four.square_ms / 4.0 / whole * 100.0;
     if !(alone.is_finite() && share.is_finite()) {
         return Some("The filters' squares took no measurable time here.".to_owned());
     }
-    let why = if alone <= EQUAL_PERCENT {
-        "and four reads fewer spare nothing there"
-    } else if share < 50.0 {
-        "so that most of a frame does not depend on the filter"
-    } else {
-        "so that the filter is most of a frame here too"
-    };
     Some(format!(
         "The filter of five reads in place of nine changes the frames a second by {}, the border's square alone by {} (paper: \
-         {} for its scene); in our smallest scene the border's shading is about {share:.0} % of the frame, {why}.",
+         {} for its scene); in our smallest scene the border's shading is about {share:.0} % of the frame.",
         signed(frame),
         signed(alone),
         signed(numbers.article.filter_gain_percent)
@@ -135,21 +114,14 @@ fn filter(numbers: &Numbers) -> Option<String> {
 
 /// Two passes without the square.
 fn background(numbers: &Numbers) -> Option<String> {
-    let rows = &numbers.backgrounds;
-    let best = rows.iter().max_by(|a, b| a.gain_percent().total_cmp(&b.gain_percent()))?;
-    let worst = rows.iter().min_by(|a, b| a.gain_percent().total_cmp(&b.gain_percent()))?;
-    let least_covered = rows.iter().min_by(|a, b| a.covered.total_cmp(&b.covered))?;
-    let as_in_article = if best == least_covered {
-        "as in the paper, which finds distant objects to gain most"
-    } else {
-        "not where least of the picture is covered, as the paper finds"
-    };
+    let by_gain = |a: &&BackgroundRow, b: &&BackgroundRow| a.gain_percent().middle.total_cmp(&b.gain_percent().middle);
+    let (best, worst) = (numbers.backgrounds.iter().max_by(by_gain)?, numbers.backgrounds.iter().min_by(by_gain)?);
     Some(format!(
-        "Against three passes the gain is largest, {}, where the bust covers {:.0} % of the picture, {as_in_article}, and \
-         smallest, {}, where it covers {:.0} % (paper: up to {}).",
-        signed(best.gain_percent()),
+        "Against three passes the gain is largest, {}, where the bust covers {:.0} % of the picture, and smallest, {}, where it \
+         covers {:.0} % (paper: up to {}, most where objects are far away).",
+        signed(best.gain_percent().middle),
         best.covered * 100.0,
-        signed(worst.gain_percent()),
+        signed(worst.gain_percent().middle),
         worst.covered * 100.0,
         signed(numbers.article.background_gain_percent)
     ))
@@ -183,14 +155,9 @@ fn shares(numbers: &Numbers) -> Option<String> {
     let [map, tones, border, joint, ..] = numbers.shaders.as_slice() else { return None };
     let map = cost(map)?;
     let [tones, border, joint] = [cost(tones)? / map, cost(border)? / map, cost(joint)? / map];
-    let are_nearer = tones < 11.0 && border < 14.0 && joint < 25.5;
-    let why = match are_nearer {
-        true => "they lie nearer to each other here, where writing the pixel is in all of them",
-        false => "and writing the pixel is in all of ours",
-    };
     Some(format!(
         "A pixel of tones, of the border and of both in one costs {tones:.1}, {border:.1} and {joint:.1} times a pixel of the \
-         map here, against 11, 14 and 25.5 on the paper's chip; {why}."
+         map here, against 11, 14 and 25.5 on the paper's chip; the writing of the pixel is in all of ours."
     ))
 }
 
@@ -198,16 +165,9 @@ fn shares(numbers: &Numbers) -> Option<String> {
 fn joint(numbers: &Numbers) -> Option<String> {
     let [_, tones, border, joint, ..] = numbers.shaders.as_slice() else { return None };
     let ratio = joint.square_ms / (tones.square_ms + border.square_ms);
-    let verdict = if (ratio - 1.0).abs() * 100.0 <= EQUAL_PERCENT {
-        "the same, as in the paper"
-    } else if ratio < 1.0 {
-        "less: one write, read and blend are saved"
-    } else {
-        "more"
-    };
     (ratio.is_finite() && ratio > 0.0).then(|| {
         format!(
-            "The joint shader costs {ratio:.2} times the cost of the two others together (in the paper's numbers 1.02), {verdict}."
+            "The joint shader costs {ratio:.2} times the cost of the two others together (in the paper's numbers 1.02)."
         )
     })
 }
@@ -216,10 +176,6 @@ fn joint(numbers: &Numbers) -> Option<String> {
 pub(super) fn signed(percent: f64) -> String {
     let whole = percent.round();
     if whole == 0.0 { "0 %".to_owned() } else { format!("{whole:+} %") }
-}
-
-fn count(gains: &[f64], is: impl Fn(f64) -> bool) -> usize {
-    gains.iter().filter(|gain| is(**gain)).count()
 }
 
 #[cfg(test)]

@@ -1,53 +1,104 @@
-//! Frames that take turns, which makes a busy moment hit all settings alike, and the comparison of two series of them.
+//! Frames that take turns, which makes a busy moment hit all settings alike, and comparisons of them by the quartiles of the
+//! turns.
 
+use crate::measure::quartiles;
 use serde::Serialize;
 use std::sync::Arc;
+use std::time::Instant;
 use tinta::error::Result;
 use tinta::plan::Plan;
-use tinta::renderer::{Renderer, median};
+use tinta::renderer::{Renderer, median, milliseconds_since, processor_milliseconds};
 use tinta::scene::Scene;
 use tinta::styles::{Show, Style};
 
 /// Measured frames.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Series {
     /// Their median, milliseconds.
     pub median_ms: f64,
     /// All of them, in the order measured.
     pub frames_ms: Vec<f64>,
+    /// Processor time of each, all threads; empty where a device draws or the system does not tell it.
+    pub processor_ms: Vec<f64>,
 }
 
 impl Series {
-    pub(super) fn new(frames_ms: Vec<f64>) -> Self {
-        Self { median_ms: median(frames_ms.clone()).unwrap_or_default(), frames_ms }
-    }
-
     /// Frames per second, by the median.
     pub fn frames_per_second(&self) -> f64 {
         1e3 / self.median_ms
     }
+
+    /// What a frame costs, milliseconds: its processor time where a program draws, because the load of other programs hardly
+    /// changes it; otherwise the clock's time.
+    pub(super) fn cost_ms(&self) -> &[f64] {
+        if self.processor_ms.is_empty() { &self.frames_ms } else { &self.processor_ms }
+    }
 }
 
-/// Rates nearer to each other than this are equal, percent: medians of a busy machine differ by as much.
-pub(super) const EQUAL_PERCENT: f64 = 3.0;
+/// A number measured in every turn: its median and quartiles.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Interval {
+    /// The median.
+    pub middle: f64,
+    /// Lower and upper quartile.
+    pub quartiles: [f64; 2],
+}
 
-/// How much more frames a second `one` gives than `other`, percent: the median of the ratios within a turn, which a busy
-/// moment's frames, slow for both, do not move.
-pub(super) fn gain_percent(one: &Series, other: &Series) -> f64 {
-    let ratios = other.frames_ms.iter().zip(&one.frames_ms).map(|(other, one)| other / one);
-    (median(ratios.collect()).unwrap_or(1.0) - 1.0) * 100.0
+impl Interval {
+    /// Of these values, one a turn.
+    pub(super) fn of(values: Vec<f64>) -> Self {
+        let quartiles = quartiles(&values);
+        Self { middle: median(values).unwrap_or(f64::NAN), quartiles }
+    }
+
+    /// A number of the costs of these series, computed in each turn.
+    pub(super) fn of_turns<const N: usize>(series: [&Series; N], number: impl Fn([f64; N]) -> f64) -> Self {
+        let turns = series.iter().map(|series| series.cost_ms().len()).min().unwrap_or_default();
+        Self::of((0..turns).map(|turn| number(series.map(|series| series.cost_ms()[turn]))).collect())
+    }
+
+    /// Whether it is larger than a limit; `None` where the limit lies within the quartiles.
+    pub(super) fn is_above(&self, limit: f64) -> Option<bool> {
+        let [low, high] = self.quartiles;
+        if low > limit { Some(true) } else { (high < limit).then_some(false) }
+    }
+
+    /// Whether it is larger than 0 by more than [`EQUAL_PERCENT`], or smaller by more; `None` where neither is certain.
+    pub(super) fn is_positive(&self) -> Option<bool> {
+        match (self.is_above(EQUAL_PERCENT), self.is_above(-EQUAL_PERCENT)) {
+            (Some(true), _) => Some(true),
+            (_, Some(false)) => Some(false),
+            _ => None,
+        }
+    }
+}
+
+/// Costs nearer to each other than this are equal, percent.
+const EQUAL_PERCENT: f64 = 3.0;
+
+/// How much more frames for the same cost `one` gives than `other`, percent.
+pub(super) fn gain_percent(one: &Series, other: &Series) -> Interval {
+    Interval::of_turns([one, other], |[one, other]| (other / one - 1.0) * 100.0)
+}
+
+/// What a piece of work on the processor costs, milliseconds: [`Series::cost_ms`] of a frame that a program draws.
+pub(super) fn cost_ms_of<T>(work: impl FnOnce() -> T) -> f64 {
+    let (start, before) = (Instant::now(), processor_milliseconds());
+    std::hint::black_box(work());
+    let cost = before.zip(processor_milliseconds()).map(|(before, after)| after - before);
+    cost.unwrap_or_else(|| milliseconds_since(start))
 }
 
 /// A plan that takes its turns.
 pub(super) struct Contestant {
     pub(super) scene: Arc<Scene>,
     pub(super) plan: Plan,
-    pub(super) times: Vec<f64>,
+    pub(super) times: Series,
 }
 
 impl Contestant {
     pub(super) fn new(scene: &Arc<Scene>, plan: Plan) -> Self {
-        Self { scene: scene.clone(), plan, times: Vec::new() }
+        Self { scene: scene.clone(), plan, times: Series::default() }
     }
 
     pub(super) fn styled(scene: &Arc<Scene>, style: &Style) -> Result<Self> {
@@ -55,7 +106,8 @@ impl Contestant {
     }
 
     pub(super) fn series(&self) -> Series {
-        Series::new(self.times.clone())
+        let median_ms = median(self.times.frames_ms.clone()).unwrap_or_default();
+        Series { median_ms, ..self.times.clone() }
     }
 }
 
@@ -66,13 +118,40 @@ pub(super) fn take_turns(
     frames: usize,
     step: &mut impl FnMut(),
 ) -> Result<()> {
+    let is_program = renderer.context().is_software();
     for _ in 0..frames {
         for Contestant { scene, plan, times } in contestants.iter_mut() {
             // A frame that follows one of another kind also clears up after that one: up to a fifth of a large scene's frame on a
             // software renderer. Each frame therefore follows an untimed one of its kind, as in an animation.
-            times.extend(renderer.time_frames(scene, plan, 1, 1)?);
+            renderer.time_frames(scene, plan, 0, 1)?;
+            let before = processor_milliseconds().filter(|_| is_program);
+            times.frames_ms.extend(renderer.time_frames(scene, plan, 0, 1)?);
+            let after = processor_milliseconds();
+            times.processor_ms.extend(before.zip(after).map(|(before, after)| after - before));
         }
         step();
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_within_the_quartiles_is_not_decided() {
+        let interval = Interval::of((1..=21).map(f64::from).collect());
+        assert_eq!((interval.middle, interval.quartiles), (11.0, [6.0, 16.0]));
+        let decided = [5.9, 6.0, 11.0, 16.0, 16.1].map(|limit| interval.is_above(limit));
+        assert_eq!(decided, [Some(true), None, None, None, Some(false)]);
+        let around = |middle: f64| Interval { middle, quartiles: [middle - 1.0, middle + 1.0] }.is_positive();
+        assert_eq!([-9.0, -3.5, 0.0, 3.5, 9.0].map(around), [Some(false), None, None, None, Some(true)]);
+    }
+
+    #[test]
+    fn processor_time_is_compared_where_it_is_known() {
+        let clock = Series { frames_ms: vec![2.0, 8.0], ..Series::default() };
+        let slow = Series { frames_ms: vec![9.0, 9.0], processor_ms: vec![4.0, 16.0], ..Series::default() };
+        assert_eq!(gain_percent(&clock, &slow).middle, 100.0);
+    }
 }

@@ -1,12 +1,11 @@
 //! How many pixels a fragment shader shades in a second: the time of a square over the whole picture, drawn as the style
 //! draws it, less that of the same frame without it.
 
-use super::series::{Contestant, Series};
+use super::series::{Contestant, Interval, Series};
 use serde::Serialize;
 use std::sync::Arc;
 use tinta::error::Result;
 use tinta::plan::{Geometry, Plan, Step};
-use tinta::renderer::median;
 use tinta::scene::Scene;
 use tinta::styles::{Border, Cartoon, Filter, Show, Style};
 
@@ -66,10 +65,21 @@ pub struct ShaderRow {
     pub article_mpixels: Option<f64>,
     /// Ours; `None` where the square took no measurable time.
     pub mpixels: Option<f64>,
-    /// Milliseconds of the square alone: the median of the differences within a turn.
+    /// Milliseconds of the square alone, which [`Series::cost_ms`] tells: the median of the differences within a turn.
     pub square_ms: f64,
+    /// These differences, in the order measured.
+    pub squares_ms: Vec<f64>,
     /// The frames with the square.
     pub with_square: Series,
+}
+
+impl ShaderRow {
+    /// A number of the ratio of this square to these together, in each turn.
+    pub(super) fn against(&self, others: &[&Self], number: impl Fn(f64) -> f64) -> Interval {
+        let together = |turn: usize| others.iter().map(|other| other.squares_ms[turn]).sum::<f64>();
+        let ratios = self.squares_ms.iter().enumerate().map(|(turn, ms)| number(ms / together(turn)));
+        Interval::of(ratios.collect())
+    }
 }
 
 /// The frames to measure: one for each shader, and last the one without a square.
@@ -105,9 +115,10 @@ fn frame(square: Option<Step>) -> Plan {
 pub(super) fn rows(contestants: &[Contestant]) -> Vec<ShaderRow> {
     let Some((without, with)) = contestants.split_last() else { return Vec::new() };
     let row = |(shader, contestant): (Shader, &Contestant)| {
-        let with_square = Series::new(contestant.times.clone());
-        let differences = with_square.frames_ms.iter().zip(&without.times).map(|(with, without)| with - without);
-        let square_ms = median(differences.collect()).unwrap_or_default();
+        let with_square = contestant.series();
+        let pairs = with_square.cost_ms().iter().zip(without.times.cost_ms());
+        let squares_ms: Vec<f64> = pairs.map(|(with, without)| with - without).collect();
+        let square_ms = tinta::renderer::median(squares_ms.clone()).unwrap_or_default();
         let mpixels = contestant.scene.size.pixel_count() as f64 / square_ms * 1e-3;
         let draws = contestant.plan.steps().filter_map(|(_, step)| match step {
             Step::Draw(draw) => draw.program.as_ref(),
@@ -119,6 +130,7 @@ pub(super) fn rows(contestants: &[Contestant]) -> Vec<ShaderRow> {
             article_mpixels: shader.article_mpixels,
             mpixels: (square_ms > 0.0).then_some(mpixels),
             square_ms,
+            squares_ms,
             with_square,
         }
     };

@@ -266,7 +266,7 @@ pub(crate) fn shading_of(style: &Style) -> Show {
     if style.has_tones() { Show::Tones } else { Show::Final }
 }
 
-pub(super) fn quartiles(times: &[f64]) -> [f64; 2] {
+pub(crate) fn quartiles(times: &[f64]) -> [f64; 2] {
     let mut sorted = times.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
     [1, 3].map(|quarter| sorted.get(sorted.len() * quarter / 4).copied().unwrap_or_default())

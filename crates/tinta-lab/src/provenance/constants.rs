@@ -46,16 +46,25 @@ pub const CONSTANTS: &[Constant] = &[
     constant(
         LIT_AT_A_POINT,
         "unit of the light's place",
-        "the scene's radius",
+        "the scene's radius: half the diagonal of its bounding box",
         Provenance::ours("the paper gives no unit, and a model must look the same in millimetres and in miles (E11)"),
         "A light nearer to the model bends the borders of its tones",
     ),
     constant(
         CARTOONS,
-        "bits of the map",
-        "8 each for three parts of the normal and for depth",
+        "bits of depth in the map",
+        "8",
         Provenance::printed("E, section 4.1: depth in the alpha of an RGBA texture, at most 8 bits"),
         "More bits find smaller steps in depth (--map-encoding float)",
+    ),
+    constant(
+        CARTOONS,
+        "bits of the normal in the map",
+        "8 for each of three parts",
+        Provenance::deduced(
+            "E, section 4.1: the normal is in the red, green and blue of the texture whose alpha has 8 bits",
+        ),
+        "More bits find smaller steps between normals (--map-encoding float)",
     ),
     constant(
         CARTOONS,
@@ -118,9 +127,16 @@ pub const CONSTANTS: &[Constant] = &[
     constant(
         &[Inking],
         "direction of the light",
-        "(0, 1, 1) in eye space",
+        "(0, 1, 1)",
         Provenance::printed("D, Painting: lightDir"),
-        "Tones lie elsewhere on the model; it moves with the camera",
+        "Tones lie elsewhere on the model",
+    ),
+    constant(
+        &[Inking],
+        "space of the light's direction",
+        "eye space",
+        Provenance::deduced("D, Painting prints \"Worldspace\", but its matrix leads to eye space (D7)"),
+        "In world space the tones would stay on the model when the camera moves",
     ),
     constant(
         &[Inking],

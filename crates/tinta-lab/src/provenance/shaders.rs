@@ -30,10 +30,10 @@ pub const SHADERS: &[ShaderNumbers] = &[
     printed("dachsbacher/ramp.vert", &["0.1", "0.9"], "D, Painting: the light's range"),
     ours("dietrich/dietrich.vert", &["3"], "the element of a matrix that tells parallel projection"),
     printed("evangelista/border.frag", &["0.2", "4"], "E, appendix 1, step 3"),
-    deduced(
+    ours(
         "evangelista/filter-gaussian.frag",
         &["2.0", "3.0", "4.0"],
-        "E, section 4.1 names a Gaussian filter; the pixel less its mean under the weights 1, 2, 1 is our reading",
+        "the paper names a Gaussian filter (section 4.1) and no weights; here the pixel less its mean under 1, 2, 1",
     ),
     printed("evangelista/filter-laplacian4.frag", &["4.0"], "E, figure 11"),
     printed("evangelista/filter-laplacian8.frag", &["8.0"], "E, figure 10, left"),

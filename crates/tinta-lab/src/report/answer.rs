@@ -2,40 +2,66 @@
 
 use super::plot::short;
 use super::settings::{Point, Points};
+use std::collections::BTreeSet;
 
 /// Loss of F1 that speed may cost.
 const EQUALLY_GOOD: f64 = 0.002;
 
-/// The fastest setting with an F1 within [`EQUALLY_GOOD`] of the best, and the same style as published.
+/// The fastest setting with an F1 within [`EQUALLY_GOOD`] of the best at each picture size, the settings that may be as fast, and
+/// the same style as published.
 pub(super) fn answer(lines: &Points) -> Option<String> {
-    let Points { points, models, .. } = lines;
+    let sizes: BTreeSet<[u32; 2]> = lines.points.iter().map(|point| point.size).collect();
+    let of_size = |size: &[u32; 2]| {
+        let points: Vec<&Point> = lines.points.iter().filter(|point| point.size == *size).collect();
+        let place = if sizes.len() > 1 { format!("At {}×{}: ", size[0], size[1]) } else { String::new() };
+        best(&points, lines.models.len()).map(|best| place + &best)
+    };
+    let all: Vec<String> = sizes.iter().filter_map(of_size).collect();
+    (!all.is_empty()).then(|| all.join(" "))
+}
+
+/// The answer at one size.
+fn best(points: &[&Point], models: usize) -> Option<String> {
     let best = points.iter().map(|point| point.error).min_by(f64::total_cmp)?;
     // A little more, because two rounded numbers differ by rounding.
-    let is_good = |point: &&Point| point.error - best <= EQUALLY_GOOD + 1e-12;
-    let fastest = points.iter().filter(is_good).min_by(|a, b| a.time_ms.total_cmp(&b.time_ms))?;
-    let mean = if models.len() > 1 { format!(", means over {} models", models.len()) } else { String::new() };
-    let numbers = |point: &Point| format!("F1 {:.3} in {} ms a frame", 1.0 - point.error, short(point.time_ms));
-    let first = format!("The best lines for the least time: {} ({}{mean}).", fastest.name, numbers(fastest));
-    let published = points.iter().find(|point| point.style == fastest.style && point.is_faithful);
-    Some(match published {
-        Some(published) if published == fastest => format!("{first} These are the published settings."),
-        Some(published) => format!("{first} As published, {} has {}.", fastest.style, numbers(published)),
-        None => first,
-    })
+    let good: Vec<&Point> = points.iter().copied().filter(|point| point.error - best <= EQUALLY_GOOD + 1e-12).collect();
+    let fastest = good.iter().copied().min_by(|a, b| a.time_ms.total_cmp(&b.time_ms))?;
+    let mean = if models > 1 { format!(", means over {models} models") } else { String::new() };
+    // Not rounded up to 1, which only lines without error have.
+    let f1 = |point: &Point| match point.error {
+        error if error > 0.0 && error < 0.0005 => format!("{:.5}", 1.0 - error),
+        error => format!("{:.3}", 1.0 - error),
+    };
+    let numbers = |point: &Point| format!("F1 {} in {} ms a frame", f1(point), short(point.time_ms));
+    let mut text = format!("The best lines for the least time: {} ({}{mean}).", fastest.name, numbers(fastest));
+    let noisy = good.iter().filter(|point| **point != fastest && point.is_as_fast_as(fastest));
+    let names: Vec<&str> = noisy.map(|point| point.name.as_str()).collect();
+    if !names.is_empty() {
+        text += &format!(" As good and, within noise, as fast: {}.", names.join("; "));
+    }
+    match points.iter().find(|point| point.style == fastest.style && point.is_faithful) {
+        Some(published) if *published == fastest => text += " These are the published settings.",
+        Some(published) => text += &format!(" As published, {} has {}.", fastest.style, numbers(published)),
+        None => {}
+    }
+    Some(text)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::settings::Time;
     use super::*;
 
     fn point(name: &str, is_faithful: bool, time_ms: f64, f1: f64) -> Point {
         let style = name.split(':').next().unwrap_or_default().to_owned();
-        Point { name: name.to_owned(), style, is_faithful, time_ms, error: 1.0 - f1 }
+        let (error, name) = (1.0 - f1, name.to_owned());
+        let (times_ms, errors) = ([time_ms * 0.99, time_ms * 1.01], [error; 2]);
+        Point { curve: name.clone(), name, style, is_faithful, size: [512; 2], time_ms, times_ms, error, errors }
     }
 
     fn of(points: &[Point], models: usize) -> Option<String> {
         let models = (0..models).map(|number| number.to_string()).collect();
-        answer(&Points { points: points.to_vec(), models, left_out: 0 })
+        answer(&Points { points: points.to_vec(), models, left_out: 0, time: Time::Frame })
     }
 
     #[test]
@@ -61,5 +87,23 @@ mod tests {
         );
         assert!(!of(&points[..1], 1).unwrap().contains("ublished"));
         assert_eq!(of(&[], 0), None);
+    }
+
+    #[test]
+    fn what_noise_hides_is_said_and_each_size_has_its_own_answer() {
+        let mut points =
+            vec![point("ink", true, 8.4, 0.9996), point("mrt", false, 8.5, 0.9990), point("mrt", true, 9.9, 0.9)];
+        let answer = of(&points, 1).unwrap();
+        assert!(
+            answer.contains("ink (F1 0.99960 in 8.40 ms a frame). As good and, within noise, as fast: mrt."),
+            "{answer}"
+        );
+        points[1].time_ms = 9.0;
+        points[1].times_ms = [8.9, 9.1];
+        assert!(!of(&points, 1).unwrap().contains("noise"));
+        points[1].size = [1024; 2];
+        assert!(
+            of(&points, 1).unwrap().contains(" At 1024×1024: The best lines for the least time: mrt (F1 0.999 in 9.00")
+        );
     }
 }

@@ -9,7 +9,7 @@ use super::convergence::{curves, plot as convergence_plot, surfaces};
 use super::info::ReportInfo;
 use super::plot::{Shape, plot, subtitle};
 use super::ratios::ratios;
-use super::settings::{Machine, Measure, machines, model_names, models, points};
+use super::settings::{Machine, Measure, Time, machines, model_names, models, points};
 use crate::measure::{Against, Row};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -83,7 +83,7 @@ fn heading(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
 fn answers(machines: &[Machine<'_>]) -> String {
     let mut text = String::new();
     for machine in machines {
-        let Some(answer) = answer(&points(&machine.rows, Measure::Lines)) else { continue };
+        let Some(answer) = answer(&points(&machine.rows, Measure::Lines, Time::Frame)) else { continue };
         let place = if machines.len() > 1 { format!("On {}: ", machine.name) } else { String::new() };
         let _ = writeln!(text, "<p class=\"answer\">{}</p>", escaped(&format!("{place}{answer}")));
     }
@@ -119,14 +119,17 @@ fn choices(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
 fn plots(models: &[&str], machines: &[Machine<'_>]) -> Result<String> {
     let mut text =
         "<section id=\"plots\">\n<h2>Error against run time</h2>\n<p>A mark is a setting; the lower and the \
-                    farther left, the better. Both axes are logarithmic.</p>\n<div class=\"plots\">\n"
+                    farther left, the better. Both axes are logarithmic. Bars are quartiles: of a frame's time, and of the models' errors.</p>\n<div class=\"plots\">\n"
             .to_owned();
     for machine in machines {
         for model in std::iter::once(None).chain(models.iter().copied().filter(|_| models.len() > 1).map(Some)) {
             let rows = machine.rows.iter().copied().filter(|row| model.is_none_or(|model| row.model == model));
             let shown = Machine { name: machine.name.clone(), rows: rows.collect() };
-            for (_, measure) in Measure::ALL {
-                let points = points(&shown.rows, measure);
+            // The first picture only where it tells most: for lines, over all models.
+            let first = (Measure::Lines, Time::FirstPicture);
+            let frames = Measure::ALL.map(|(_, measure)| (measure, Time::Frame));
+            for (measure, time) in frames.into_iter().chain(Some(first).filter(|_| model.is_none())) {
+                let points = points(&shown.rows, measure, time);
                 let subtitle = subtitle(&shown, measure);
                 let of_shape = |shape| plot(&points, measure, shape, &subtitle);
                 if let (Some(wide), Some(narrow)) = (of_shape(Shape::Wide)?, of_shape(Shape::Narrow)?) {

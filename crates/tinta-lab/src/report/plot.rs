@@ -6,7 +6,9 @@
 use super::canvas::{Anchor, Axes, Canvas, FAINT, MIDDLE, text_width, wrapped};
 use super::labels::{Rectangle, place};
 use super::marks;
-use super::settings::{Machine, Measure, Point, Points, model_names, pareto, points};
+use super::settings::{Machine, Measure, Point, Points, Time, model_names, pareto, points};
+use plotters::style::RGBColor;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use tinta::error::Result;
 
@@ -30,6 +32,9 @@ pub(super) struct Layout {
 
 pub(super) const MARGIN: f64 = 12.0;
 
+/// Quartiles and curves.
+const BAR: RGBColor = RGBColor(150, 150, 150);
+
 /// Names with more characters get a number instead.
 const LONGEST_LABEL: usize = 46;
 
@@ -44,7 +49,7 @@ impl Shape {
 
 /// The plot's subject: the models and the machine.
 pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
-    let Points { models, left_out, .. } = points(&machine.rows, measure);
+    let Points { models, left_out, .. } = points(&machine.rows, measure, Time::Frame);
     let names = model_names(models.iter().map(String::as_str));
     let models: Vec<String> = models.iter().map(|model| names[model.as_str()].clone()).collect();
     let what = match &models[..] {
@@ -65,7 +70,7 @@ pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
 ///
 /// [`tinta::Error::File`] should the drawing fail.
 pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> Result<Option<String>> {
-    let points = &points.points;
+    let (time, points) = (points.time, &points.points);
     if points.is_empty() {
         return Ok(None);
     }
@@ -110,9 +115,22 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
         text((MARGIN, y), Anchor::Start, words)?;
     }
     text((MARGIN, inner.top - line_height * 0.7), Anchor::Start, &format!("↑ {}", measure.axis()))?;
-    text((inner.right, inner.bottom + line_height * 2.0), Anchor::End, "time of a frame, ms (median) →")?;
+    text((inner.right, inner.bottom + line_height * 2.0), Anchor::End, &format!("{} →", time.axis()))?;
     grid(&canvas, &axes, &scale, &inner, &layout)?;
     canvas.line(&steps, MIDDLE, 2)?;
+    for curve in curves(points) {
+        canvas.line(&curve.iter().map(|index| middles[*index]).collect::<Vec<_>>(), BAR, 1)?;
+    }
+    for (point, (x, y)) in points.iter().zip(&middles) {
+        let [fast, slow] =
+            point.times_ms.map(|ms| axes.pixel(ms.clamp(scale.time_ms.start, scale.time_ms.end), point.error).0);
+        let [least, most] = point.errors.map(|error| {
+            let drawn = scale.drawn_error(error).clamp(scale.error.start, scale.error.end);
+            axes.pixel(point.time_ms, drawn).1
+        });
+        canvas.line(&[(fast, *y), (slow, *y)], BAR, 1)?;
+        canvas.line(&[(*x, least), (*x, most)], BAR, 1)?;
+    }
     // Hollow marks first, to put the published settings above them.
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by_key(|index| (front.contains(index), points[*index].is_faithful));
@@ -133,6 +151,7 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
         let at = (item.left, legend_top + line_height * item.line as f64);
         match &item.mark {
             Mark::Style(style, is_filled) => marks::draw(&canvas, style, (at.0 + 7.0, at.1), *is_filled)?,
+            Mark::Bar => canvas.line(&[at, (at.0 + 14.0, at.1)], BAR, 1)?,
             Mark::Front => canvas.line(&[at, (at.0 + 14.0, at.1)], MIDDLE, 2)?,
         }
         text((at.0 + 20.0, at.1), Anchor::Start, &item.text)?;
@@ -251,6 +270,17 @@ pub(super) fn grid(canvas: &Canvas<'_>, axes: &Axes, scale: &Scale, inner: &Rect
     canvas.line(&[(inner.left, inner.top), (inner.left, inner.bottom), (inner.right, inner.bottom)], MIDDLE, 1)
 }
 
+/// A setting's points at several picture sizes, from the smallest: each a line of the plot.
+fn curves(points: &[Point]) -> Vec<Vec<usize>> {
+    let mut curves: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (index, point) in points.iter().enumerate() {
+        curves.entry(&point.curve).or_default().push(index);
+    }
+    let mut curves: Vec<Vec<usize>> = curves.into_values().filter(|curve| curve.len() > 1).collect();
+    curves.iter_mut().for_each(|curve| curve.sort_by_key(|index| points[*index].size));
+    curves
+}
+
 /// The front's points from the fastest to the most exact; the first of equal ones.
 fn front(points: &[Point]) -> Vec<usize> {
     let all: Vec<(f64, f64)> = points.iter().map(|point| (point.time_ms, point.error)).collect();
@@ -323,6 +353,7 @@ fn labels(
 
 enum Mark {
     Style(String, bool),
+    Bar,
     Front,
 }
 
@@ -342,6 +373,10 @@ fn legend(points: &[Point], layout: &Layout) -> Vec<Item> {
         styles.iter().map(|style| (Mark::Style((*style).to_owned(), true), (*style).to_owned())).collect();
     if points.iter().any(|point| !point.is_faithful) {
         items.push((Mark::Style(styles[0].to_owned(), false), "hollow: not the published settings".to_owned()));
+    }
+    items.push((Mark::Bar, "quartiles: of a frame's time, and of the models' errors".to_owned()));
+    if !curves(points).is_empty() {
+        items.push((Mark::Bar, "a setting at several picture sizes".to_owned()));
     }
     items.push((Mark::Front, "Pareto front: no setting is both faster and closer".to_owned()));
     let mut left = MARGIN;

@@ -1,6 +1,6 @@
 //! Groups rows: by machine, and a setting's rows of several models into one point of a plot.
 
-use crate::measure::Row;
+use crate::measure::{Row, quartiles};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The quantity that a plot shows against time.
@@ -46,6 +46,39 @@ impl Measure {
             Self::Lines => "1 − F1 against the true lines",
             Self::Tones => "share of pixels with another tone",
             Self::ContinuousTones => "mean difference of tones, of 255",
+        }
+    }
+}
+
+/// The time that a plot shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Time {
+    /// A frame, its plan made: what an animation repeats.
+    Frame,
+    /// The first picture: model and edges read, plan made, shaders compiled, one frame drawn.
+    FirstPicture,
+}
+
+impl Time {
+    /// Both, with the ends of their file names.
+    pub const ALL: [(&'static str, Self); 2] = [("", Self::Frame), ("-first-picture", Self::FirstPicture)];
+
+    /// Lower quartile, median, upper quartile, milliseconds; one number where it was measured once.
+    fn of(self, row: &Row) -> [f64; 3] {
+        let time = &row.time;
+        match (self, time.quartiles_ms) {
+            (Self::FirstPicture, _) => [time.load_ms + time.edges_ms + time.plan_ms + time.first_frame_ms; 3],
+            // A row of an older version lacks quartiles.
+            (Self::Frame, [low, high]) if low > 0.0 => [low, time.median_ms, high],
+            (Self::Frame, _) => [time.median_ms; 3],
+        }
+    }
+
+    /// The time's axis.
+    pub(super) fn axis(self) -> &'static str {
+        match self {
+            Self::Frame => "time of a frame, ms (median)",
+            Self::FirstPicture => "time of the first picture, ms",
         }
     }
 }
@@ -119,10 +152,25 @@ pub struct Point {
     pub style: String,
     /// Whether these are the published program's settings.
     pub is_faithful: bool,
-    /// Geometric mean over models of the median time, milliseconds.
+    /// Its name without the picture's size: the points of one curve share it.
+    pub curve: String,
+    /// Width and height of the picture.
+    pub size: [u32; 2],
+    /// Geometric mean over models of the time, milliseconds; of frames the median.
     pub time_ms: f64,
+    /// The same of the lower and upper quartiles of the frames.
+    pub times_ms: [f64; 2],
     /// Mean over models of the error.
     pub error: f64,
+    /// Lower and upper quartile of the models' errors.
+    pub errors: [f64; 2],
+}
+
+impl Point {
+    /// Whether its time may be as short as another's: the quartiles of their frames overlap.
+    pub(super) fn is_as_fast_as(&self, other: &Self) -> bool {
+        self.times_ms[0] <= other.times_ms[1]
+    }
 }
 
 /// A plot's points, with the models of their means.
@@ -134,14 +182,16 @@ pub struct Points {
     pub models: Vec<String>,
     /// Settings not measured on all of them, which a mean would compare unfairly.
     pub left_out: usize,
+    /// The time of the points.
+    pub time: Time,
 }
 
 /// A point for each setting of these rows, which are one machine's: the setting's mean over the models most settings share.
-pub fn points(rows: &[&Row], measure: Measure) -> Points {
+pub fn points(rows: &[&Row], measure: Measure, time: Time) -> Points {
     let rows: Vec<&Row> = rows
         .iter()
         .copied()
-        .filter(|row| measure.error(row).is_some_and(f64::is_finite) && row.time.median_ms > 0.0)
+        .filter(|row| measure.error(row).is_some_and(f64::is_finite) && time.of(row)[1] > 0.0)
         .collect();
     // If a setting was measured twice on a model, the last row counts.
     let mut by_setting: BTreeMap<SettingKey<'_>, BTreeMap<&str, &Row>> = BTreeMap::new();
@@ -165,17 +215,28 @@ pub fn points(rows: &[&Row], measure: Measure) -> Points {
         let of_models: Vec<&Row> = shared.iter().filter_map(|model| by_setting[key].get(model).copied()).collect();
         let (Some(first), true) = (of_models.first(), of_models.len() == shared.len()) else { continue };
         let count = of_models.len() as f64;
+        let [low, middle, high] =
+            [0, 1, 2].map(|at: usize| (of_models.iter().map(|row| time.of(row)[at].ln()).sum::<f64>() / count).exp());
+        let errors: Vec<f64> = of_models.iter().filter_map(|row| measure.error(row)).collect();
+        let size = first.size;
         points.push(Point {
             name: names[key].clone(),
+            curve: names[key]
+                .replace(&format!("{}×{}", size[0], size[1]), "")
+                .trim_end_matches([',', ':', ' '])
+                .to_owned(),
+            size,
             style: first.style.clone(),
             is_faithful: first.is_faithful,
-            time_ms: (of_models.iter().map(|row| row.time.median_ms.ln()).sum::<f64>() / count).exp(),
-            error: of_models.iter().filter_map(|row| measure.error(row)).sum::<f64>() / count,
+            time_ms: middle,
+            times_ms: [low, high],
+            error: errors.iter().sum::<f64>() / count,
+            errors: quartiles(&errors),
         });
     }
     let left_out = order.len() - points.len();
     let models = models(&rows).into_iter().filter(|model| shared.contains(model)).map(str::to_owned).collect();
-    Points { points, models, left_out }
+    Points { points, models, left_out, time }
 }
 
 /// The key of a setting on a machine.

@@ -4,6 +4,7 @@ mod case;
 mod depth;
 mod faults;
 mod files;
+mod inputs;
 mod mixes;
 mod pictures;
 mod scale;
@@ -21,6 +22,7 @@ pub fn cases(seed: u64, mixes: usize) -> Vec<Case> {
     all.extend(topology::cases());
     all.extend(thresholds::cases());
     all.extend(pictures::cases());
+    all.extend(inputs::cases());
     all.extend(mixes::cases(seed, mixes));
     all.extend(turntable::cases());
     all.extend(files::cases());
@@ -39,8 +41,8 @@ mod tests {
         let mut names: Vec<&str> = all.iter().map(|case| case.name.as_str()).collect();
         names.sort_unstable();
         names.windows(2).for_each(|pair| assert_ne!(pair[0], pair[1]));
-        use Group::{Depth, Faults, Files, Mixes, Pictures, Scale, Thresholds, Topology, Turns};
-        for group in [Scale, Depth, Topology, Thresholds, Pictures, Mixes, Turns, Files, Faults] {
+        use Group::{Depth, Faults, Files, Inputs, Mixes, Pictures, Scale, Thresholds, Topology, Turns};
+        for group in [Scale, Depth, Topology, Thresholds, Pictures, Inputs, Mixes, Turns, Files, Faults] {
             assert!(all.iter().any(|case| case.group == group), "{group:?}");
         }
     }

@@ -11,7 +11,7 @@ use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
 use tinta::camera::CameraSettings;
-use tinta::error::Result;
+use tinta::error::{Error, Result};
 use tinta::picture::Picture;
 use tinta::plan::prune::prune;
 use tinta::renderer::Renderer;
@@ -29,8 +29,8 @@ pub(super) struct Subject {
     exact: Option<(Exact, Exact, Flips)>,
     /// The scene at every step of a turn.
     turn: Vec<Exact>,
-    /// The same shape, unscaled.
-    unit: Option<Exact>,
+    /// The scene that its picture is compared with.
+    twin: Option<Scene>,
     figures: Figures,
 }
 
@@ -49,7 +49,7 @@ impl Subject {
             scene,
             exact: None,
             turn: Vec::new(),
-            unit: None,
+            twin: None,
         };
         match drawing.study {
             Study::Picture => {}
@@ -67,19 +67,17 @@ impl Subject {
                 }
             }
         }
-        if drawing.is_compared_with_unit {
-            // Not 1: an unscaled built-in model would bring its normals and materials.
-            let unit = Drawing { scale: 1.0 + f64::EPSILON, offset: DVec3::ZERO, ..drawing.clone() };
-            subject.unit = Some(Exact::of(self::scene(&unit, largest, folder)?)?);
+        if let Some(twin) = &drawing.twin {
+            subject.twin = Some(self::scene(twin, largest, folder)?);
         }
-        subject.figures.extend(subject.unit_lines());
+        subject.figures.extend(subject.twin_lines()?);
         Ok(subject)
     }
 
-    fn unit_lines(&self) -> Option<(&'static str, f64)> {
-        let (unit, (exact, ..)) = (self.unit.as_ref()?, self.exact.as_ref()?);
-        let [unit, here] = [unit.lines(), exact.lines()];
-        Some(("unit_lines_differing", here.differing(&unit) as f64 / unit.count().max(1) as f64))
+    fn twin_lines(&self) -> Result<Option<(&'static str, f64)>> {
+        let (Some(twin), Some((exact, ..))) = (&self.twin, &self.exact) else { return Ok(None) };
+        let [twin, here] = [Exact::of(twin.clone())?.lines(), exact.lines()];
+        Ok(Some(("twin_lines_differing", here.differing(&twin) as f64 / twin.count().max(1) as f64)))
     }
 
     /// Draws it in a style; `is_first` for the backend that also measures the effect of a jitter or a turn.
@@ -92,10 +90,9 @@ impl Subject {
         let mut figures = self.figures.clone();
         figures.insert("covered_px", covered_px(&picture));
         figures.insert("pruned_differing_px", differing_px(&picture, &full));
-        if let Some(unit) = &self.unit {
-            let unit = renderer.draw(&unit.scene, &style.plan(&unit.scene, Show::Final)?)?;
-            let share = differing_px(&unit, &full) / unit.size.pixel_count() as f64;
-            figures.insert("unit_differing", share);
+        if let Some(twin) = &self.twin {
+            let twin = renderer.draw(twin, &style.plan(twin, Show::Final)?)?;
+            figures.insert("twin_differing", differing_px(&twin, &full) / twin.size.pixel_count() as f64);
         }
         if is_first {
             self.study(renderer, variant, &mut figures)?;
@@ -206,6 +203,9 @@ fn note(what: &'static str, popped: &Popped, figures: &mut Figures) {
 fn scene(drawing: &Drawing, largest: Size, folder: &Path) -> Result<Scene> {
     let mesh = drawing.shape.mesh(drawing.scale, drawing.offset, folder)?;
     let place = |point: DVec3| point * drawing.scale + drawing.offset;
+    let of_matrix = |matrix| {
+        CameraSettings::of_clip_from_world(&matrix).map_err(|error| Error::value("camera", "matrix", error.to_string()))
+    };
     let camera = CameraSettings {
         eye: drawing.camera.eye.map(place),
         target: drawing.camera.target.map(place),
@@ -213,6 +213,7 @@ fn scene(drawing: &Drawing, largest: Size, folder: &Path) -> Result<Scene> {
         far: drawing.camera.far.map(|far| far * drawing.scale),
         ..drawing.camera.clone()
     };
+    let camera = drawing.matrix.map_or(Ok(camera), of_matrix)?;
     let size = Size {
         width: side_px(drawing.size.width, largest.width),
         height: side_px(drawing.size.height, largest.height),

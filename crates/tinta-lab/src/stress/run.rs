@@ -48,7 +48,7 @@ impl StressSettings {
                 "only",
                 only,
                 "no case has this in its name; give some of a name, or a group: scale, depth, topology, thresholds, pictures, \
-                 mixes, turns, files or faults",
+                 inputs, mixes, turns, files or faults",
             )),
         }
     }
@@ -78,6 +78,11 @@ pub struct Row {
     pub verdict: String,
     /// The required outcome.
     pub expected: String,
+    /// The kind of the right answer: holds, degrades as computed, refused.
+    pub kind: &'static str,
+    /// The right answer in words; empty where outcome and figures say it all.
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub answer: &'static str,
     /// Whether it did, and every figure is as it must be.
     pub passed: bool,
     /// The fault, or the error's sentence.
@@ -178,6 +183,8 @@ fn row(case: &Case, style: &str, backend: &'static str, outcome: Outcome) -> Row
         backend,
         verdict,
         expected: case.expected.text(),
+        kind: case.kind(),
+        answer: case.answer,
         passed: faults.is_empty(),
         remark,
         figures,

@@ -1,5 +1,6 @@
 //! The shapes that stiff cases are made of: small, each with one thing wrong or extreme, in units of about 1.
 
+use super::Written;
 use glam::{DVec2, DVec3, Vec2};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -63,6 +64,8 @@ pub enum Shape {
     Flat,
     /// A square of two triangles with a picture on it.
     Textured,
+    /// A shape that a file brings.
+    Written(Written),
     /// A long strip from in front of the eye of these cases to far behind it, through the point (1, 1, 1) of eye space, the place
     /// of the articles' light.
     ThroughTheLight,
@@ -83,6 +86,7 @@ impl Shape {
             Self::Builtin(name) if scale == 1.0 && offset == DVec3::ZERO => {
                 return Ok(load(name, &LoadOptions::default())?.mesh);
             }
+            Self::Written(written) => return written.mesh(folder),
             Self::Builtin(name) => {
                 let mesh = load(name, &LoadOptions::default())?.mesh;
                 (mesh.positions, mesh.triangles)
@@ -99,7 +103,7 @@ impl Shape {
 
     fn triangles(self) -> Triangles {
         match self {
-            Self::Builtin(_) | Self::Nothing => Default::default(),
+            Self::Builtin(_) | Self::Written(_) | Self::Nothing => Default::default(),
             Self::Ball(cuts) => ball(cuts),
             Self::InsideOut(cuts) => turned_round(ball(cuts)),
             Self::Cube => cube(DVec3::ZERO, DVec3::ONE),

@@ -9,7 +9,7 @@ impl Summary {
         let failed = self.failures().count();
         let mut text = format!(
             "# Stiff and extreme cases\n\ntinta {}, {}: {} cases, {} rows, {failed} not as they must be.\n\n{}\
-             | case | style | backend | verdict | as expected | figures |\n|---|---|---|---|---|---|\n",
+             | case | right answer | style | backend | verdict | as expected | figures |\n|---|---|---|---|---|---|---|\n",
             self.version,
             self.renderers.join(" and "),
             self.case_count,
@@ -21,8 +21,9 @@ impl Summary {
             // Writing to a String cannot fail.
             let _ = writeln!(
                 text,
-                "| {} | `{}` | {} | {} | {passed} | {} |",
+                "| {} | {} | `{}` | {} | {} | {passed} | {} |",
                 row.name,
+                answer(row),
                 row.style,
                 row.backend,
                 row.verdict,
@@ -31,6 +32,12 @@ impl Summary {
         }
         text
     }
+}
+
+/// The kind of the right answer, and the answer.
+fn answer(row: &Row) -> String {
+    let parts = [row.kind, row.answer].into_iter().filter(|part| !part.is_empty());
+    parts.collect::<Vec<_>>().join(": ")
 }
 
 /// A sentence for each missing backend.

@@ -1,5 +1,6 @@
 //! The finding of a claim: a verdict and the numbers behind it.
 
+use crate::figures::series::Interval;
 use serde::Serialize;
 
 /// A claim's verdict with its numbers.
@@ -9,7 +10,7 @@ pub struct Finding {
     pub verdict: Verdict,
     /// The measured numbers, the one that decides first.
     pub numbers: Vec<Number>,
-    /// Why it cannot be tested, if so.
+    /// Why it is not decided, if so.
     pub reason: Option<&'static str>,
 }
 
@@ -19,10 +20,10 @@ pub struct Finding {
 pub enum Verdict {
     /// The numbers agree with the text.
     Confirmed,
-    /// They are not.
+    /// They do not.
     Refuted,
-    /// It cannot be measured here.
-    NotTestable,
+    /// The repeats lie on both sides of the rule's limit, or the sentence is about something that is not here.
+    NotDecided,
 }
 
 impl Verdict {
@@ -31,7 +32,7 @@ impl Verdict {
         match self {
             Self::Confirmed => "confirmed",
             Self::Refuted => "refuted",
-            Self::NotTestable => "not testable here",
+            Self::NotDecided => "not decided here",
         }
     }
 }
@@ -43,6 +44,9 @@ pub struct Number {
     pub what: String,
     /// It.
     pub value: f64,
+    /// The quartiles, for the median of repeats.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub quartiles: Option<[f64; 2]>,
     /// Its unit; empty for a count or a ratio.
     pub unit: &'static str,
     /// Digits that are shown after the point.
@@ -52,7 +56,12 @@ pub struct Number {
 
 impl Number {
     pub(super) fn new(what: impl Into<String>, value: f64, unit: &'static str, digits: usize) -> Self {
-        Self { what: what.into(), value, unit, digits }
+        Self { what: what.into(), value, quartiles: None, unit, digits }
+    }
+
+    /// The median of repeats with its quartiles.
+    pub(super) fn repeated(what: impl Into<String>, of: Interval, unit: &'static str, digits: usize) -> Self {
+        Self { quartiles: Some(of.quartiles), ..Self::new(what, of.middle, unit, digits) }
     }
 
     /// A share of 0 to 1 as percent.
@@ -65,6 +74,11 @@ impl Number {
         Self::new(what, percent, "%", 0)
     }
 
+    /// Percent, the median of repeats.
+    pub(super) fn percents(what: impl Into<String>, of: Interval) -> Self {
+        Self::repeated(what, of, "%", 0)
+    }
+
     pub(super) fn count(what: impl Into<String>, count: usize) -> Self {
         Self::new(what, count as f64, "", 0)
     }
@@ -72,24 +86,55 @@ impl Number {
 
 impl std::fmt::Display for Number {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let digits = self.digits;
         // Minus zero prints as zero.
-        let value = if format!("{:.*}", self.digits, self.value.abs()).parse() == Ok(0.0) { 0.0 } else { self.value };
+        let text = |value: f64| {
+            let is_none = format!("{:.digits$}", value.abs()).parse() == Ok(0.0);
+            format!("{:.digits$}", if is_none { 0.0 } else { value })
+        };
         let blank = if self.unit.is_empty() { "" } else { " " };
-        write!(out, "{}: {value:.*}{blank}{}", self.what, self.digits, self.unit)
+        write!(out, "{}: {}", self.what, text(self.value))?;
+        if let Some([low, high]) = self.quartiles {
+            write!(out, " ({} to {})", text(low), text(high))?;
+        }
+        write!(out, "{blank}{}", self.unit)
+    }
+}
+
+impl std::fmt::Display for Finding {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let numbers = self.numbers.iter().map(ToString::to_string);
+        let parts: Vec<String> = self.reason.map(str::to_owned).into_iter().chain(numbers).collect();
+        out.write_str(&parts.join("; "))
     }
 }
 
 impl Finding {
     /// Confirmed if the rule holds, refuted if not. A NaN decides nothing.
     pub(super) fn of(holds: bool, numbers: Vec<Number>) -> Self {
+        Self::of_repeats(Some(holds), numbers)
+    }
+
+    /// The same of measured times: `None` where the repeats do not decide.
+    pub(super) fn of_repeats(holds: Option<bool>, numbers: Vec<Number>) -> Self {
         if numbers.iter().any(|number| !number.value.is_finite()) {
-            return Self { numbers: Vec::new(), ..Self::nowhere("the measured work took no measurable time") };
+            return Self::nowhere("the measured work took no measurable time");
         }
-        let verdict = if holds { Verdict::Confirmed } else { Verdict::Refuted };
-        Self { verdict, numbers, reason: None }
+        match holds {
+            Some(true) => Self { verdict: Verdict::Confirmed, numbers, reason: None },
+            Some(false) => Self { verdict: Verdict::Refuted, numbers, reason: None },
+            None => {
+                Self::undecided("the repeats lie on both sides of the rule's limit, or within 3 % of equal", numbers)
+            }
+        }
+    }
+
+    /// Not decided, for this reason, whatever the numbers.
+    pub(super) fn undecided(reason: &'static str, numbers: Vec<Number>) -> Self {
+        Self { verdict: Verdict::NotDecided, numbers, reason: Some(reason) }
     }
 
     pub(super) fn nowhere(reason: &'static str) -> Self {
-        Self { verdict: Verdict::NotTestable, numbers: Vec::new(), reason: Some(reason) }
+        Self::undecided(reason, Vec::new())
     }
 }

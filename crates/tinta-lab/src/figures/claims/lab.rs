@@ -3,7 +3,7 @@
 
 use super::finding::Number;
 use crate::figures::measure::HowToMeasure;
-use crate::figures::series::{Contestant, EQUAL_PERCENT, Series, gain_percent, take_turns};
+use crate::figures::series::{Contestant, Interval, Series, gain_percent, take_turns};
 use crate::measure::{Ink, Reference};
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -92,10 +92,13 @@ impl<'a> Lab<'a> {
         Ok(sum)
     }
 
-    /// How much longer a frame of each takes than one of the first, percent: median of the ratios within a turn.
-    pub(super) fn slower_percent(&mut self, frames: Vec<(Arc<Scene>, Plan)>) -> Result<Vec<f64>> {
-        let series = self.times(frames)?;
-        Ok(series.iter().map(|other| gain_percent(&series[0], other)).collect())
+    /// How much more a frame of the second style costs than one of the first, percent.
+    pub(super) fn slower_percent(&mut self, model: &'static str, styles: &[Style; 2]) -> Result<Interval> {
+        let scene = self.scene(model)?;
+        let frames: Result<Vec<_>> =
+            styles.iter().map(|style| Ok((scene.clone(), style.plan(&scene, Show::Final)?))).collect();
+        let series = self.times(frames?)?;
+        Ok(gain_percent(&series[0], &series[1]))
     }
 
     /// Frames of each, one of each in turn.
@@ -129,11 +132,6 @@ impl Error {
         let name = |what: &str| if of.is_empty() { what.to_owned() } else { format!("{of}, {what}") };
         vec![Number::share(name("lines found"), self.recall), Number::share(name("ink on a line"), self.precision)]
     }
-}
-
-/// Whether something is slower by more than a busy machine's noise.
-pub(super) fn is_slower(percent: f64) -> bool {
-    percent > EQUAL_PERCENT
 }
 
 /// Share of pixels with a channel that differs by more than `limit`; with flags, of the flagged pixels.

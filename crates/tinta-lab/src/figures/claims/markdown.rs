@@ -17,7 +17,7 @@ impl Text {
 }
 
 /// The place of a claim: `E:145, section 4.1`.
-pub(crate) fn place(text: Text, section: &str, line: u32) -> String {
+pub(super) fn place(text: Text, section: &str, line: u32) -> String {
     let section = if section.starts_with(char::is_numeric) { format!("section {section}") } else { section.to_owned() };
     format!("{}:{line}, {section}", text.letter())
 }
@@ -31,17 +31,6 @@ impl Claim {
             self.rule.to_owned(),
             format!("`{}`", self.command),
         ]
-    }
-}
-
-impl ClaimRecord {
-    /// The measured numbers in a line, or the reason for their absence.
-    pub(crate) fn measured(&self) -> String {
-        let numbers: Vec<String> = self.finding.numbers.iter().map(ToString::to_string).collect();
-        match self.finding.reason {
-            Some(reason) => reason.to_owned(),
-            None => numbers.join("; "),
-        }
     }
 }
 
@@ -67,10 +56,10 @@ pub fn markdown(records: &[ClaimRecord], host: &Host, how: &HowToMeasure) -> Str
         for record in of_text {
             out.push_str(&format!(
                 "| {} | {} | {} | {} | {} | `{}` |\n",
-                place(text, record.section, record.line),
+                record.place,
                 record.says,
                 record.finding.verdict.name(),
-                record.measured(),
+                record.measured,
                 record.rule,
                 record.command
             ));
@@ -88,8 +77,9 @@ const HEAD: &str = "\
 # Claims
 
 Every measurable sentence of the three texts, beside the measurement here. A rule in the code
-decides between confirmed and refuted; no verdict is written by hand. A verdict is about this program on this machine: the texts had
-other hardware, and measured there.
+decides between confirmed, refuted and not decided here; no verdict is written by hand. A verdict is about this program on this
+machine: the texts had other hardware, and measured there. Times are medians of repeats that take turns, with their quartiles in
+brackets. A limit within the quartiles decides nothing, and neither does a difference of up to 3 %.
 
 E stands for Evangelista et al. 2005, V for Valente 2007, D for Dachsbacher; the number is the line of the transcript that this
 project was made from, and the section is the text's own. The words are ours. `tinta figures` measures them all, writes

@@ -32,7 +32,7 @@ fn a_rule_decides_and_a_number_that_is_none_decides_nothing() {
     assert_eq!(verdict(true, 1.0), Verdict::Confirmed);
     assert_eq!(verdict(false, 1.0), Verdict::Refuted);
     for value in [f64::NAN, f64::INFINITY] {
-        assert_eq!(verdict(true, value), Verdict::NotTestable);
+        assert_eq!(verdict(true, value), Verdict::NotDecided);
     }
 }
 
@@ -46,7 +46,7 @@ fn numbers_are_written_with_their_unit_and_without_minus_nothing() {
 }
 
 #[test]
-fn what_follows_from_section_5_is_not_testable_without_it() {
+fn what_follows_from_section_5_is_not_decided_without_it() {
     let of_section_5 = all().into_iter().filter(|claim| matches!(claim.measure, Measure::Section5(_))).count();
     assert!(of_section_5 >= 9, "{of_section_5}");
 }

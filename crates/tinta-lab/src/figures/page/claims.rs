@@ -1,7 +1,6 @@
 //! The claims on the page: each a block with its verdict, its numbers, its pictures and its command.
 
 use super::pictures::{PictureRecord, pictures};
-use crate::figures::claims::place;
 use crate::figures::{ClaimRecord, Text, Verdict, tally};
 use std::fmt::{Result, Write};
 use tinta_geometry::markup::escaped;
@@ -25,7 +24,7 @@ pub(super) fn claims(
         text.letter()
     )?;
     for record in &of_text {
-        claim(out, text, record)?;
+        claim(out, record)?;
         if let Some((_, records)) = shown.iter().find(|(id, _)| *id == record.id) {
             pictures(out, records.iter(), record.says)?;
         }
@@ -34,18 +33,18 @@ pub(super) fn claims(
     Ok(())
 }
 
-fn claim(out: &mut String, text: Text, record: &ClaimRecord) -> Result {
+fn claim(out: &mut String, record: &ClaimRecord) -> Result {
     let class = match record.finding.verdict {
         Verdict::Confirmed => "confirmed",
         Verdict::Refuted => "refuted",
-        Verdict::NotTestable => "untested",
+        Verdict::NotDecided => "untested",
     };
     writeln!(out, "<article class=\"claim\" id=\"{}\">", record.id)?;
-    writeln!(out, "<p><b>{}.</b> {}</p>", escaped(&place(text, record.section, record.line)), escaped(record.says))?;
+    writeln!(out, "<p><b>{}.</b> {}</p>", escaped(&record.place), escaped(record.says))?;
     let name = record.finding.verdict.name();
-    let measured = escaped(&record.measured());
+    let measured = escaped(&record.measured);
     writeln!(out, "<p><span class=\"verdict {class}\">{name}</span> {measured}</p>")?;
-    if record.finding.verdict != Verdict::NotTestable {
+    if !record.finding.numbers.is_empty() {
         writeln!(out, "<p class=\"hint\">Confirmed if {}.</p>", escaped(record.rule))?;
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use crate::figures::numbers::Numbers;
 use crate::figures::reasons::signed;
-use crate::figures::series::Series;
+use crate::figures::series::{Interval, Series};
 use std::fmt::{Result, Write};
 use tinta::styles::Filter;
 use tinta_geometry::markup::escaped;
@@ -12,11 +12,13 @@ pub(super) fn summary(numbers: &Numbers) -> String {
     let frames = numbers.empty.frames_ms.len();
     format!(
         "Times are medians of {frames} {} of each setting, the settings taking turns, the picture read back each time, on {} \
-         with {} processor {}; gains are medians of the ratios within a turn. figures.json holds every raw time.",
+         with {} processor {}; gains are medians of the ratios within a turn, with their quartiles, {}. figures.json holds \
+         every raw time.",
         if frames == 1 { "frame" } else { "frames" },
         numbers.host.renderer,
         numbers.host.threads,
-        if numbers.host.threads == 1 { "thread" } else { "threads" }
+        if numbers.host.threads == 1 { "thread" } else { "threads" },
+        if numbers.host.is_software { "by processor time" } else { "by the clock" }
     ) + if frames < ENOUGH_FRAMES { TOO_FEW } else { "" }
 }
 
@@ -78,7 +80,7 @@ fn filter(out: &mut String, numbers: &Numbers) -> Result {
     let name = |filter| if filter == Filter::Laplacian4 { "five reads (the paper's)" } else { "nine reads" };
     let mut rows: Vec<Vec<String>> =
         numbers.filters.iter().map(|row| vec![name(row.filter).to_owned(), rate(&row.series), String::new()]).collect();
-    let gain = numbers.filter_gain_percent().map(signed).unwrap_or_default();
+    let gain = numbers.filter_gain_percent().map(between).unwrap_or_default();
     rows.push(vec!["gain".to_owned(), gain, signed(numbers.article.filter_gain_percent)]);
     table(out, &["filter", "frames per second", "paper"], &rows)?;
     why(out, numbers, "filter")
@@ -96,7 +98,7 @@ fn background(out: &mut String, numbers: &Numbers) -> Result {
                 rate(&row.three_pass),
                 rate(&row.two_pass),
                 rate(&row.two_pass_without),
-                signed(row.gain_percent()),
+                between(row.gain_percent()),
             ]
         })
         .collect();
@@ -146,6 +148,12 @@ fn table(out: &mut String, heads: &[&str], rows: &[Vec<String>]) -> Result {
         writeln!(out, "<tr>{}</tr>", cells.concat())?;
     }
     writeln!(out, "</table></div>")
+}
+
+/// Percent with the quartiles in brackets.
+fn between(gain: Interval) -> String {
+    let [low, high] = gain.quartiles.map(signed);
+    format!("{} ({low} to {high})", signed(gain.middle))
 }
 
 fn rate(series: &Series) -> String {

@@ -31,7 +31,7 @@ fn hardware_is_never_called_a_program() {
 }
 
 fn series(median_ms: f64) -> Series {
-    Series::new(vec![median_ms])
+    Series { median_ms, frames_ms: vec![median_ms], processor_ms: Vec::new() }
 }
 
 /// Two scenes; two passes take so many times as long as three, and the square's frames so long.
@@ -55,6 +55,7 @@ fn numbers(two_by_three: f64, per_triangle_ms: f64, without_ms: [f64; 2]) -> Num
         article_mpixels: None,
         mpixels: (square_ms > 0.0).then(|| square_ms.recip()),
         square_ms,
+        squares_ms: vec![square_ms],
         with_square: series(square_ms + 1.0),
     };
     let background = |(distance, covered, without): (f64, f64, f64)| BackgroundRow {
@@ -86,15 +87,9 @@ fn sentences(numbers: &Numbers, about: &str) -> String {
 }
 
 #[test]
-fn the_verdict_on_two_passes_follows_the_times() {
-    let verdict = |ratio| sentences(&numbers(ratio, 1e-3, [3.0, 2.0]), "frames");
-    assert!(verdict(1.25).contains("slower in 2 of 2 cases, as in the paper"), "{}", verdict(1.25));
-    assert!(
-        verdict(0.8).contains("by +25 % to +25 %") && verdict(0.8).contains("unlike in the paper"),
-        "{}",
-        verdict(0.8)
-    );
-    assert!(verdict(1.0).contains("in 0 and slower in 0 of 2 cases, the paper finds"), "{}", verdict(1.0));
+fn two_passes_are_told_by_their_gains_and_no_verdict() {
+    let slower = sentences(&numbers(1.25, 1e-3, [3.0, 2.0]), "frames");
+    assert!(slower.contains("of three by -20 % to -20 % in 2 cases; the paper finds"), "{slower}");
 }
 
 #[test]
@@ -105,26 +100,16 @@ fn what_a_triangle_costs_follows_the_times() {
 }
 
 #[test]
-fn a_filter_that_spares_nothing_is_said_to() {
-    let mut numbers = numbers(1.0, 1e-3, [4.0, 2.0]);
-    numbers.shaders[5].square_ms = 2.9;
-    let filter = sentences(&numbers, "filter");
-    assert!(filter.contains("alone by -3 %") && filter.contains("spare nothing"), "{filter}");
-    assert_eq!([-0.3, 0.4, 12.5, -7.0].map(signed), ["0 %", "0 %", "+13 %", "-7 %"]);
-}
-
-#[test]
 fn gains_are_the_measured_ones() {
     let numbers = numbers(1.0, 1e-3, [4.0, 2.0]);
     let filter = sentences(&numbers, "filter");
     assert!(filter.contains("by +25 %, the border's square alone by +100 %"), "{filter}");
     let background = sentences(&numbers, "background");
     assert!(
-        background.contains("largest, +100 %, where the bust covers 10 % of the picture, as in the paper"),
+        background.contains("largest, +100 %, where the bust covers 10 % of the picture, and smallest, 0 %"),
         "{background}"
     );
     let joint = sentences(&numbers, "throughput");
     assert!(joint.contains("costs 0.80 times") && joint.contains("2.0, 3.0 and 4.0 times"), "{joint}");
-    let elsewhere = self::numbers(1.0, 1e-3, [2.0, 4.0]);
-    assert!(sentences(&elsewhere, "background").contains("not where least of the picture is covered"));
+    assert_eq!([-0.3, 0.4, 12.5, -7.0].map(signed), ["0 %", "0 %", "+13 %", "-7 %"]);
 }

@@ -1,7 +1,7 @@
 //! A case: its work, its required outcome, and the required values of its figures.
 
 use crate::stress::{Shape, Variant};
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 use serde::Serialize;
 use tinta::camera::CameraSettings;
 use tinta::gl::Fault;
@@ -24,6 +24,8 @@ pub enum Group {
     Thresholds,
     /// The picture's own size.
     Pictures,
+    /// What a model or another program gives GL.
+    Inputs,
     /// Some of all that together, by chance.
     Mixes,
     /// A turn by small steps.
@@ -91,8 +93,10 @@ pub struct Drawing {
     pub variants: Vec<Variant>,
     /// How much is found out.
     pub study: Study,
-    /// Whether its picture is compared with that of the unscaled shape.
-    pub is_compared_with_unit: bool,
+    /// Another program's matrix in place of the camera: clip space from world space, by columns.
+    pub matrix: Option<DMat4>,
+    /// A drawing that its picture is compared with.
+    pub twin: Option<Box<Drawing>>,
 }
 
 impl Drawing {
@@ -122,7 +126,8 @@ impl Default for Drawing {
             copies: 1,
             variants: Variant::all(),
             study: Study::Full,
-            is_compared_with_unit: false,
+            matrix: None,
+            twin: None,
         }
     }
 }
@@ -164,6 +169,10 @@ pub struct Case {
     pub expected: Expected,
     /// The required values of figures.
     pub checks: Vec<Check>,
+    /// The right answer in words; empty where outcome and figures say it all.
+    pub answer: &'static str,
+    /// Whether the picture loses something by the text's own design, as much as the figures allow.
+    pub is_degraded: bool,
 }
 
 impl Case {
@@ -174,6 +183,23 @@ impl Case {
             work: Work::Draw(Box::new(drawing)),
             expected: Expected::Rendered,
             checks: Vec::new(),
+            answer: "",
+            is_degraded: false,
+        }
+    }
+
+    /// The same for a picture that loses something by design.
+    pub(super) fn degrades(self) -> Self {
+        Self { is_degraded: true, ..self }
+    }
+
+    /// The kind of its right answer.
+    pub fn kind(&self) -> &'static str {
+        match self.expected {
+            Expected::Refused { .. } => "refused",
+            Expected::Either(_) => "holds or is refused",
+            Expected::Rendered if self.is_degraded => "degrades as computed",
+            Expected::Rendered => "holds",
         }
     }
 

@@ -12,6 +12,8 @@ pub(super) fn cases() -> Vec<Case> {
         work: Work::Fail(fault, Box::new(Variant::published(style))),
         expected: Expected::Refused { kind, words },
         checks: Vec::new(),
+        answer: "",
+        is_degraded: false,
     };
     use StyleName::{Charcoal, Inking, Mrt, ThreePass};
     vec![

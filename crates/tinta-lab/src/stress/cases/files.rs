@@ -9,6 +9,8 @@ pub(super) fn cases() -> Vec<Case> {
         work: Work::Read(file, content),
         expected,
         checks: Vec::new(),
+        answer: "",
+        is_degraded: false,
     };
     let refused = |words| Expected::Refused { kind: "model", words };
     let text = |text: &str| Content::Bytes(text.as_bytes().to_vec());

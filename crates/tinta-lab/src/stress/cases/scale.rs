@@ -13,13 +13,13 @@ pub(super) fn cases() -> Vec<Case> {
     let rendered = |name: String, drawing| Case::rendered(Group::Scale, name, drawing);
     let mut all = Vec::new();
     for scale in [1e-30, 1e-6, 1e6, 1e30] {
-        let drawing = Drawing { shape: Shape::Builtin("builtin:gear"), scale, ..compared() };
+        let drawing = compared(Drawing { shape: Shape::Builtin("builtin:gear"), scale, ..Drawing::default() });
         let case = rendered(format!("a gear {scale:e} times as large"), drawing);
-        all.push(case.with("unit_differing", 0.0, ROUNDED).with("unit_lines_differing", 0.0, ROUNDED));
+        all.push(case.with("twin_differing", 0.0, ROUNDED).with("twin_lines_differing", 0.0, ROUNDED));
     }
     for scale in [1e-58, 1e58] {
-        let drawing = Drawing { shape: Shape::Cube, scale, ..compared() };
-        all.push(rendered(format!("a cube {scale:e} times as large"), drawing).with("unit_differing", 0.0, ROUNDED));
+        let drawing = compared(Drawing { shape: Shape::Cube, scale, ..Drawing::default() });
+        all.push(rendered(format!("a cube {scale:e} times as large"), drawing).with("twin_differing", 0.0, ROUNDED));
     }
     for (scale, kind, words) in [(1e-62, "model", "radius"), (1e61, "model", "scale it down")] {
         let drawing = Drawing { shape: Shape::Cube, scale, ..Drawing::default() };
@@ -29,9 +29,9 @@ pub(super) fn cases() -> Vec<Case> {
     // Beyond 1e8 an f64 knows a unit model's coordinates to 1e-8 only, and welding at 1e-7 of its size still holds.
     for (distance, differing) in [(1e3, ROUNDED), (1e5, ROUNDED), (1e7, ROUNDED), (1e9, 0.01)] {
         let offset = DVec3::new(1.0, -0.7, 0.4) * distance;
-        let drawing = Drawing { shape: Shape::Builtin("builtin:gear"), offset, ..compared() };
+        let drawing = compared(Drawing { shape: Shape::Builtin("builtin:gear"), offset, ..Drawing::default() });
         let case = rendered(format!("a gear {distance:e} units away from the origin"), drawing);
-        all.push(case.with("unit_differing", 0.0, differing).with("unit_lines_differing", 0.0, differing));
+        all.push(case.with("twin_differing", 0.0, differing).with("twin_lines_differing", 0.0, differing));
     }
     let smaller = Shape::CubeAndSmaller(1e6);
     all.push(rendered(
@@ -71,6 +71,8 @@ pub(super) fn cases() -> Vec<Case> {
     all
 }
 
-fn compared() -> Drawing {
-    Drawing { is_compared_with_unit: true, ..Drawing::default() }
+/// Beside the unscaled shape. Its scale is not 1: an unscaled built-in model would bring its normals and materials.
+fn compared(drawing: Drawing) -> Drawing {
+    let unit = Drawing { scale: 1.0 + f64::EPSILON, offset: DVec3::ZERO, ..drawing.clone() };
+    Drawing { twin: Some(Box::new(unit)), ..drawing }
 }

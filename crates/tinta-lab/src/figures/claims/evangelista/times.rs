@@ -1,16 +1,16 @@
 //! The claims about time: rules on section 5's numbers, and frames timed for a claim.
 
 use super::super::finding::{Finding, Number};
-use super::super::lab::{Lab, is_slower};
+use super::super::lab::Lab;
 use crate::figures::measure::{covered, from};
 use crate::figures::numbers::{BackgroundRow, Numbers};
-use crate::figures::series::{EQUAL_PERCENT, gain_percent};
+use crate::figures::series::{Interval, gain_percent};
+use crate::figures::throughput::ShaderRow;
 use glam::DVec3;
 use std::sync::Arc;
 use tinta::camera::{CameraSettings, View};
 use tinta::error::Result;
 use tinta::mesh::Mesh;
-use tinta::plan::Plan;
 use tinta::scene::{Scene, SceneSettings};
 use tinta::styles::{Border, Cartoon, Filter, MapEncoding, Show, Style};
 
@@ -29,11 +29,8 @@ fn three_pass(border: Border) -> Style {
 
 /// Frames of the gear in two styles, the second's price.
 fn price(lab: &mut Lab<'_>, what: &'static str, styles: [Style; 2]) -> Result<Finding> {
-    let scene = lab.scene("builtin:gear")?;
-    let plans: Result<Vec<(Arc<Scene>, Plan)>> =
-        styles.iter().map(|style| Ok((scene.clone(), style.plan(&scene, Show::Final)?))).collect();
-    let slower = lab.slower_percent(plans?)?[1];
-    Ok(Finding::of(is_slower(slower), vec![Number::percent(what, slower)]))
+    let slower = lab.slower_percent("builtin:gear", &styles)?;
+    Ok(Finding::of_repeats(slower.is_positive(), vec![Number::percents(what, slower)]))
 }
 
 pub(super) fn mitchell_in_two(lab: &mut Lab<'_>) -> Result<Finding> {
@@ -48,95 +45,107 @@ pub(super) fn second_texture(lab: &mut Lab<'_>) -> Result<Finding> {
 
 pub(super) fn nine_reads(numbers: &Numbers) -> Finding {
     let [.., four, eight] = numbers.shaders.as_slice() else { return Finding::nowhere("no shader was timed") };
-    let longer = (eight.square_ms / four.square_ms - 1.0) * 100.0;
-    Finding::of(is_slower(longer), vec![Number::percent("longer with nine reads", longer)])
+    let longer = eight.against(&[four], |ratio| (ratio - 1.0) * 100.0);
+    Finding::of_repeats(longer.is_positive(), vec![Number::percents("longer with nine reads", longer)])
+}
+
+/// A rule on a rate or a percentage that the text measured on its graphics card: a program that draws decides nothing.
+fn on_a_card(numbers: &Numbers, holds: Option<bool>, measured: Vec<Number>) -> Finding {
+    match numbers.host.is_software {
+        true => Finding::undecided("the text's number is a graphics card's, and here a program draws", measured),
+        false => Finding::of_repeats(holds, measured),
+    }
 }
 
 pub(super) fn cheaper_filter(numbers: &Numbers) -> Finding {
     let Some(gain) = numbers.filter_gain_percent() else { return Finding::nowhere("no filter was timed") };
-    let printed = numbers.article.filter_gain_percent;
-    Finding::of(gain >= printed * FOUND_AGAIN, vec![Number::percent("more frames a second", gain)])
+    let limit = numbers.article.filter_gain_percent * FOUND_AGAIN;
+    on_a_card(numbers, gain.is_above(limit), vec![Number::percents("more frames a second", gain)])
 }
 
 pub(super) fn two_always_slower(numbers: &Numbers) -> Finding {
-    let of_two = numbers.frames.iter().filter(|row| row.passes == 2);
-    let gains: Vec<f64> = of_two
-        .filter_map(|row| {
-            let three = numbers.curve(row.tones, 3).find(|other| other.triangles == row.triangles)?;
-            Some(gain_percent(&row.series, &three.series))
-        })
-        .collect();
-    let count = |is: &dyn Fn(f64) -> bool| gains.iter().filter(|gain| is(**gain)).count();
-    let slower = count(&|gain| gain < -EQUAL_PERCENT);
-    Finding::of(
-        slower == gains.len(),
+    let gains = numbers.gains_of_two();
+    let are_slower: Vec<Option<bool>> =
+        gains.iter().map(|gain| gain.is_positive().map(|is_faster| !is_faster)).collect();
+    let count = |wanted: Option<bool>| are_slower.iter().filter(|is| **is == wanted).count();
+    let decided = if count(Some(false)) > 0 { Some(false) } else { (count(None) == 0).then_some(true) };
+    Finding::of_repeats(
+        decided,
         vec![
             Number::count("cases", gains.len()),
-            Number::count("slower", slower),
-            Number::count("faster", count(&|gain| gain > EQUAL_PERCENT)),
+            Number::percents("the fastest against three", extreme(&gains, f64::max)),
+            Number::percents("the slowest", extreme(&gains, f64::min)),
         ],
     )
 }
 
+/// The interval with the largest or the smallest median.
+fn extreme(intervals: &[Interval], choose: fn(f64, f64) -> f64) -> Interval {
+    let middle = intervals.iter().map(|interval| interval.middle).reduce(choose);
+    intervals.iter().copied().find(|interval| Some(interval.middle) == middle).unwrap_or(Interval::of(Vec::new()))
+}
+
 /// The gains of two passes without the square over three, from near to far.
-fn gains(numbers: &Numbers) -> Vec<f64> {
+fn gains(numbers: &Numbers) -> Vec<Interval> {
     numbers.backgrounds.iter().map(BackgroundRow::gain_percent).collect()
 }
 
 pub(super) fn without_square(numbers: &Numbers) -> Finding {
-    let best = gains(numbers).into_iter().fold(f64::NEG_INFINITY, f64::max);
-    let printed = numbers.article.background_gain_percent;
-    Finding::of(best >= printed * FOUND_AGAIN, vec![Number::percent("largest gain", best)])
+    let best = extreme(&gains(numbers), f64::max);
+    let limit = numbers.article.background_gain_percent * FOUND_AGAIN;
+    on_a_card(numbers, best.is_above(limit), vec![Number::percents("largest gain", best)])
 }
 
 pub(super) fn gain_varies(numbers: &Numbers) -> Finding {
     let gains = gains(numbers);
-    let [least, most] =
-        [gains.iter().copied().fold(f64::INFINITY, f64::min), gains.into_iter().fold(f64::NEG_INFINITY, f64::max)];
-    Finding::of(
-        most - least >= GREATLY,
-        vec![Number::percent("smallest gain", least), Number::percent("largest", most)],
+    let [least, most] = [extreme(&gains, f64::min), extreme(&gains, f64::max)];
+    let row = |of: Interval| numbers.backgrounds.iter().find(|row| row.gain_percent() == of);
+    let (Some(worst), Some(best)) = (row(least), row(most)) else {
+        return Finding::nowhere("no distance was measured");
+    };
+    Finding::of_repeats(
+        best.gains_more_than(worst).is_above(GREATLY),
+        vec![Number::percents("smallest gain", least), Number::percents("largest", most)],
     )
 }
 
-/// The gain in the row with this distance, relative to the distance at which the bust fills the picture.
-fn gain_at(numbers: &Numbers, distance: f64) -> Option<f64> {
-    let row = numbers.backgrounds.iter().find(|row| (row.distance - distance).abs() < 1e-9)?;
-    Some(row.gain_percent())
-}
-
-/// A gain against that of the bust that fills the picture.
-fn against_whole(numbers: &Numbers, other: Option<f64>, what: &'static str, sign: f64) -> Finding {
-    let (Some(whole), Some(other)) = (gain_at(numbers, 1.0), other) else {
+/// A gain against that of the bust that fills the picture; `sign` is 1 where it should be larger.
+fn against_whole(numbers: &Numbers, distance: f64, what: &'static str, sign: f64) -> Finding {
+    let row = |distance: f64| numbers.backgrounds.iter().find(|row| (row.distance - distance).abs() < 1e-9);
+    let (Some(whole), Some(other)) = (row(1.0), row(distance)) else {
         return Finding::nowhere("no such distance was measured");
     };
-    Finding::of(
-        (other - whole) * sign >= EQUAL_PERCENT,
-        vec![Number::percent(what, other), Number::percent("gain where the bust fills the picture", whole)],
+    let [more, less] = if sign > 0.0 { [other, whole] } else { [whole, other] };
+    Finding::of_repeats(
+        more.gains_more_than(less).is_positive(),
+        vec![
+            Number::percents(what, other.gain_percent()),
+            Number::percents("gain where the bust fills the picture", whole.gain_percent()),
+        ],
     )
 }
 
 pub(super) fn distant(numbers: &Numbers) -> Finding {
-    against_whole(numbers, gain_at(numbers, 3.0), "gain at three times the distance", 1.0)
+    against_whole(numbers, 3.0, "gain at three times the distance", 1.0)
 }
 
 pub(super) fn zoomed(numbers: &Numbers) -> Finding {
-    let nearest = numbers.backgrounds.iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
-    against_whole(numbers, nearest.map(BackgroundRow::gain_percent), "gain from the nearest place", -1.0)
+    let nearest = numbers.backgrounds.iter().map(|row| row.distance).fold(f64::INFINITY, f64::min);
+    against_whole(numbers, nearest, "gain from the nearest place", -1.0)
 }
 
 pub(super) fn throughput(numbers: &Numbers) -> Finding {
     let [_, tones, border, joint, ..] = numbers.shaders.as_slice() else {
         return Finding::nowhere("no shader was timed");
     };
-    let ratio = joint.square_ms / (tones.square_ms + border.square_ms);
+    let ratio = joint.against(&[tones, border], |ratio| ratio);
     // The same from the paper's millions of pixels a second.
-    let cost = |row: &crate::figures::ShaderRow| row.article_mpixels.map_or(f64::NAN, f64::recip);
+    let cost = |row: &ShaderRow| row.article_mpixels.map_or(f64::NAN, f64::recip);
     let printed = cost(joint) / (cost(tones) + cost(border));
-    Finding::of(
-        ratio > 1.0,
+    Finding::of_repeats(
+        ratio.is_above(1.0),
         vec![
-            Number::new("cost of the joint shader, both others together being 1", ratio, "", 2),
+            Number::repeated("cost of the joint shader, both others together being 1", ratio, "", 2),
             Number::new("in the paper's numbers", printed, "", 2),
         ],
     )
@@ -144,17 +153,18 @@ pub(super) fn throughput(numbers: &Numbers) -> Finding {
 
 pub(super) fn real_time(numbers: &Numbers) -> Finding {
     let slowest = |passes: u8| {
-        let rows = numbers.frames.iter().filter(|row| row.passes == passes);
-        rows.map(|row| row.series.frames_per_second()).fold(f64::INFINITY, f64::min)
+        let rows = numbers.frames.iter().filter(move |row| row.passes == passes);
+        let rates = rows.map(|row| Interval::of(row.series.frames_ms.iter().map(|ms| 1e3 / ms).collect()));
+        extreme(&rates.collect::<Vec<_>>(), f64::min)
     };
-    let [two, three] = [2, 3].map(slowest);
-    Finding::of(
-        two.min(three) >= REAL_TIME,
-        vec![
-            Number::new("frames a second of two passes in their slowest scene", two, "", 0),
-            Number::new("of three", three, "", 0),
-        ],
-    )
+    let rates = [2, 3].map(slowest);
+    let measured = vec![
+        Number::repeated("frames a second of two passes in their slowest scene", rates[0], "", 0),
+        Number::repeated("of three", rates[1], "", 0),
+    ];
+    let [two, three] = rates.map(|rate| rate.is_above(REAL_TIME));
+    let decided = if [two, three].contains(&Some(false)) { Some(false) } else { two.and(three) };
+    on_a_card(numbers, decided, measured)
 }
 
 /// How many busts stand in a row, and how far apart, of their width.
@@ -198,11 +208,15 @@ pub(super) fn hidden(lab: &mut Lab<'_>) -> Result<Finding> {
     }
     let series = lab.times(frames)?;
     let [beside, behind] = [0, 2].map(|first| gain_percent(&series[first], &series[first + 1]));
-    Ok(Finding::of(
-        behind - beside >= EQUAL_PERCENT,
+    let more =
+        Interval::of_turns([0, 1, 2, 3].map(|index| &series[index]), |[two_beside, three_beside, two, three]| {
+            (three / two - three_beside / two_beside) * 100.0
+        });
+    Ok(Finding::of_repeats(
+        more.is_positive(),
         vec![
-            Number::percent("gain one behind the other", behind),
-            Number::percent("side by side", beside),
+            Number::percents("gain one behind the other", behind),
+            Number::percents("side by side", beside),
             Number::share("covered by both", wanted),
         ],
     ))
