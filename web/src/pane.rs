@@ -3,6 +3,7 @@
 use crate::errors::{said, unreadable};
 use crate::model::{Model, asked};
 use serde_json::json;
+use tinta::camera::CameraSettings;
 use tinta::orbit::Orbit;
 use tinta::plan::Step;
 use tinta::recipe::Driver;
@@ -218,7 +219,10 @@ impl Pane {
             return Ok(settings);
         }
         let scene = self.scene.as_ref().ok_or_else(|| JsError::new("no model is shown yet"))?;
-        let camera = self.orbit.settings(scene, &settings).map_err(said)?;
+        // The lens is the scene's; a key changes the projection that it has.
+        let CameraSettings { fov_y_degrees, parallel, .. } = settings.camera;
+        let orbit = Orbit { fov_y_degrees, parallel: self.orbit.parallel != parallel, ..self.orbit.clone() };
+        let camera = orbit.settings(scene, &settings).map_err(said)?;
         Ok(SceneSettings { camera, ..settings })
     }
 
