@@ -193,7 +193,7 @@ fn link(arguments: &Arguments, request: &Request) -> String {
         put("model", name);
     }
     if let Some(lecture) = arguments.lecture {
-        put("lecture", lecture.name());
+        put("lecture", &lecture.to_string());
     }
     let is_alone = arguments.lecture.is_some() && arguments.right.is_none();
     put("divider", if is_alone { "100" } else { "50" });
@@ -232,7 +232,7 @@ const PLACE: &str = "<!-- lesson -->\n";
 /// The page with its lesson, and without other lectures; `None` if it has no place for one.
 fn with_lesson(page: &str, lecture: Option<Lecture>, link: &str, files: &[(String, Vec<u8>)]) -> Option<String> {
     let (before, after) = page.split_once(PLACE)?;
-    let wanted = lecture.map(|lecture| format!(" data-lecture=\"{}\"", lecture.name()));
+    let wanted = lecture.map(|lecture| format!(" data-lecture=\"{}\"", lecture.to_string()));
     let is_of_lesson = |line: &&str| {
         let is_of_lecture = line.starts_with("<script") && line.contains(" data-lecture=");
         !is_of_lecture || wanted.as_ref().is_some_and(|wanted| line.contains(wanted))
