@@ -15,13 +15,19 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use tinta::camera::View;
 use tinta::mesh::{Loaded, load};
+use tinta::page::NOT_OF_BROWSERS;
 use tinta::request::Request;
-use tinta::settings::{HasSettings, Kind, OptionValue, Setting, on_off};
+use tinta::settings::{HasSettings, Kind, OptionValue, Setting, names_of, on_off};
 use tinta::{Error, LoadOptions, Result, SceneSettings, Style, StyleName, TextTarget};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
     examples: &["tinta page cow.obj -o cow.html                  a page to turn it in a browser"],
+    offers: |option| match option {
+        "lecture" => names_of::<Lecture>(),
+        "right" => names_of::<StyleName>(),
+        _ => Vec::new(),
+    },
     ..Command::new("page", <Arguments as clap::Args>::augment_args, |matches, _| {
         run(&given::<Arguments>(matches)?).map(|()| Verdict::Good)
     })
@@ -71,7 +77,7 @@ pub(super) struct Arguments {
 
     /// Page that scripts/web built [default: page.html beside the program, in ../share/tinta, or in web/dist of a checkout]
     #[arg(long, hide_short_help = true, value_name = "FILE")]
-    page: Option<PathBuf>,
+    from: Option<PathBuf>,
 
     #[command(flatten)]
     look: NamedLook,
@@ -92,29 +98,32 @@ impl Selection for OfPage {
     fn has(setting: &Setting<Request>) -> bool {
         let name = setting.name;
         let is_shown = Style::table().has(name) || SceneSettings::table().has(name) || LoadOptions::table().has(name);
-        (is_shown || ["style", "show"].contains(&name)) && setting.kind != Kind::File && !NOT_OF_PAGE.contains(&name)
+        (is_shown || ["style", "show"].contains(&name))
+            && setting.kind != Kind::File
+            && !NOT_OF_BROWSERS.contains(&name)
     }
 }
-
-/// Options for other files, and for a camera that a page turns by hand.
-const NOT_OF_PAGE: [&str; 6] = ["allow-external", "eye", "height", "size", "target", "up"];
 
 /// Writes the page.
 fn run(arguments: &Arguments) -> Result<()> {
     if arguments.model == standard_input::DASH {
-        return Err(Error::model(standard_input::NAME, "a page needs the model's name; save it as a file and name that"));
+        return Err(Error::model(
+            standard_input::NAME,
+            "a page needs the model's name; save it as a file and name that",
+        ));
     }
     super::messages::check_output(&arguments.output)?;
     let target = TextTarget::check(&arguments.output)?;
-    super::inputs::Inputs::new(std::slice::from_ref(&arguments.model), &Default::default(), &[]).keep(&arguments.output)?;
+    super::inputs::Inputs::new(std::slice::from_ref(&arguments.model), &Default::default(), &[])
+        .keep(&arguments.output)?;
     let request = request(arguments)?;
     let loaded = load(&arguments.model, &request.read).map_err(|error| request.attributed(error))?;
     loaded.remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
     let files = files(&arguments.model, &loaded)?;
-    let page = built(arguments.page.as_deref())?;
+    let page = built(arguments.from.as_deref())?;
     let page = with_lesson(&page, arguments.lecture, &link(arguments, &request), &files);
     let page = page.ok_or_else(|| {
-        let name = arguments.page.clone().unwrap_or_default();
+        let name = arguments.from.clone().unwrap_or_default();
         Error::model(name, "this is no page that scripts/web built; name its web/dist/page.html")
     })?;
     target.write(&page)?;
@@ -130,7 +139,13 @@ fn request(arguments: &Arguments) -> Result<Request> {
     if let Some(lecture) = arguments.lecture.filter(|_| is_free) {
         options.options.insert("style".to_owned(), OptionValue::text(lecture.style().name()));
     }
-    let below = Below { look: look.look, preset: preset.preset.as_deref(), has_looks: true, command: "page", ..Below::default() };
+    let below = Below {
+        look: look.look,
+        preset: preset.preset.as_deref(),
+        has_looks: true,
+        command: "page",
+        ..Below::default()
+    };
     let (request, remarks) = options.request(std::slice::from_ref(&arguments.model), &below)?;
     remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
     Ok(request)
@@ -152,7 +167,9 @@ fn files(model: &str, loaded: &Loaded) -> Result<Vec<(String, Vec<u8>)>> {
             Ok(bytes) => files.push((name, bytes)),
             // The page says that a picture is missing, as the model's reader does.
             Err(_) if !files.is_empty() => {}
-            Err(error) => return Err(Error::model(path, format!("it cannot be read ({error}); check the file")).because(&error)),
+            Err(error) => {
+                return Err(Error::model(path, format!("it cannot be read ({error}); check the file")).because(&error));
+            }
         }
     }
     Ok(files)
@@ -161,8 +178,10 @@ fn files(model: &str, loaded: &Loaded) -> Result<Vec<(String, Vec<u8>)>> {
 /// The built page: the named one, or the one that came with the program.
 fn built(named: Option<&Path>) -> Result<String> {
     let read = |path: &Path| {
-        std::fs::read_to_string(path)
-            .map_err(|error| Error::model(path, format!("it cannot be read ({error}); name a page that scripts/web built")).because(&error))
+        std::fs::read_to_string(path).map_err(|error| {
+            Error::model(path, format!("it cannot be read ({error}); name a page that scripts/web built"))
+                .because(&error)
+        })
     };
     if let Some(path) = named {
         return read(path);
@@ -175,10 +194,10 @@ fn built(named: Option<&Path>) -> Result<String> {
     match beside.chain(share).chain(checkout).find(|path| path.is_file()) {
         Some(path) => read(&path),
         None => Err(Error::value(
-            "page",
+            "from",
             "page.html",
             "this program came without the page; take page.html from a release of tinta, or build it with scripts/web, and name it \
-             with --page FILE",
+             with --from FILE",
         )),
     }
 }
@@ -208,7 +227,7 @@ fn link(arguments: &Arguments, request: &Request) -> String {
         match name.as_str() {
             "style" | "view" => {}
             "show" => put("left.show", &value),
-            name if NOT_OF_PAGE.contains(&name) => {}
+            name if NOT_OF_BROWSERS.contains(&name) => {}
             name if SceneSettings::table().has(name) => put(&format!("scene:{name}"), &value),
             name if LoadOptions::table().has(name) => put(&format!("read:{name}"), &value),
             name => put(&format!("left:{name}"), &value),
@@ -223,7 +242,9 @@ fn link(arguments: &Arguments, request: &Request) -> String {
 /// A text as part of a link.
 fn encoded(text: &str) -> String {
     let is_plain = |byte: &u8| byte.is_ascii_alphanumeric() || b"-_.,:".contains(byte);
-    text.bytes().map(|byte| if is_plain(&byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") }).collect()
+    text.bytes()
+        .map(|byte| if is_plain(&byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") })
+        .collect()
 }
 
 /// Where the lesson stands in the built page.
@@ -246,7 +267,11 @@ fn with_lesson(page: &str, lecture: Option<Lecture>, link: &str, files: &[(Strin
     let _ = writeln!(whole, "<script type=\"application/json\" id=\"lesson\">{lesson}</script>");
     for (name, bytes) in files {
         let name = tinta::markup::escaped(name);
-        let _ = writeln!(whole, "<script type=\"text/plain\" data-file=\"model/{name}\">{}</script>", BASE64.encode(packed(bytes)));
+        let _ = writeln!(
+            whole,
+            "<script type=\"text/plain\" data-file=\"model/{name}\">{}</script>",
+            BASE64.encode(packed(bytes))
+        );
     }
     whole.push_str(after);
     Some(whole)
@@ -272,9 +297,11 @@ mod tests {
     #[test]
     fn a_page_has_its_lecture_alone_and_the_models_files() {
         let files = [("<cow>.obj".to_owned(), b"v 0 0 0".to_vec())];
-        for (lecture, [has_a, has_b]) in
-            [(None, [false, false]), (Some(Lecture::Evangelista), [true, false]), (Some(Lecture::Valente), [false, true])]
-        {
+        for (lecture, [has_a, has_b]) in [
+            (None, [false, false]),
+            (Some(Lecture::Evangelista), [true, false]),
+            (Some(Lecture::Valente), [false, true]),
+        ] {
             let page = with_lesson(PAGE, lecture, "left=ink&a=</script>", &files).unwrap();
             assert!(page.contains("main.js") && page.ends_with("<script>\n"), "{page}");
             assert_eq!([page.contains("a.md"), page.contains("b.md")], [has_a, has_b], "{lecture:?}");

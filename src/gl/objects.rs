@@ -248,7 +248,10 @@ impl Shader {
             if gl.glow.get_shader_compile_status(id) {
                 return Ok(shader);
             }
-            Err(Error::Shader { path: path.clone(), log: one_line(&source.explained(&gl.glow.get_shader_info_log(id))) })
+            Err(Error::Shader {
+                path: path.clone(),
+                log: one_line(&source.explained(&gl.glow.get_shader_info_log(id))),
+            })
         }
     }
 }

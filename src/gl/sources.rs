@@ -77,7 +77,8 @@ mod tests {
     #[test]
     fn a_browsers_log_names_the_shader_and_the_line() {
         let parts = vec!["a.frag".to_owned(), "b.frag".to_owned()];
-        let source = Source { kind: glow::FRAGMENT_SHADER, path: "a.frag + b.frag".to_owned(), text: String::new(), parts };
+        let source =
+            Source { kind: glow::FRAGMENT_SHADER, path: "a.frag + b.frag".to_owned(), text: String::new(), parts };
         let log = "ERROR: 1:4: 'foo' : undeclared identifier\nERROR: 0:12: 'x' : no such\nERROR: 7:1: none\n1 more\0";
         let expected = "b.frag:4: 'foo' : undeclared identifier\na.frag:12: 'x' : no such\nERROR: 7:1: none\n1 more";
         assert_eq!(source.explained(log), expected);

@@ -85,7 +85,10 @@ export function lectures(app, { shader, controls }) {
       const link = element("button", { type: "button", className: "code" });
       code.replaceWith(link);
       link.append(code);
-      link.addEventListener("click", () => shader(path));
+      link.addEventListener("click", () => {
+        shader(path);
+        at("listings").scrollIntoView({ block: "nearest" });
+      });
     }
     const [first] = named;
     if (first) shader(first);
@@ -99,7 +102,7 @@ export function lectures(app, { shader, controls }) {
       const { style } = LECTURES[article.dataset.name] ?? {};
       for (const { canvas, buffer } of buffers) {
         try {
-          const width = app.pane()?.draw(JSON.stringify({ ...app.sceneOptions(), style, size: "240x240" }), buffer);
+          const width = app.pane()?.draw(JSON.stringify({ ...app.sceneOptions(), style, size: "240x240" }), buffer, false);
           if (!width) return;
           const image = new ImageData(new Uint8ClampedArray(app.pane().pixels()), width);
           [canvas.width, canvas.height] = [image.width, image.height];

@@ -93,7 +93,7 @@ function drawSide(name) {
   }
   const start = performance.now();
   try {
-    const width = pane.draw(wanted, side.show);
+    const width = pane.draw(wanted, side.show, isCoarse && !Object.keys(state.shaders).length);
     const picture = new ImageData(new Uint8ClampedArray(pane.pixels()), width);
     if (canvas.width !== picture.width || canvas.height !== picture.height) {
       [canvas.width, canvas.height] = [picture.width, picture.height];

@@ -26,7 +26,7 @@ export function saving(app) {
     if (isOfLines || !app.pane()) return exact(isOfLines ? app.seen(side) : app.seen(), which);
     try {
       const all = JSON.stringify({ ...JSON.parse(app.seen(side)), ...(side.show === "final" ? {} : { show: side.show }) });
-      app.pane().draw(all, side.show);
+      app.pane().draw(all, side.show, false);
       const file = `${name()}-${side.style}${side.show === "final" ? "" : `-${side.show}`}.png`;
       hand(file, app.pane().png(all, app.shown().read), "image/png");
       const changed = Object.keys(app.state().shaders);

@@ -3,6 +3,7 @@
 import { listing } from "./tinta.js";
 import { lasts, sentence } from "./failures.js";
 import { element } from "./panel.js";
+import { styleOf } from "./state.js";
 
 const at = (id) => document.getElementById(id);
 
@@ -71,13 +72,28 @@ export function shaderEditor(app) {
     const path = at("shader").value;
     const all = { ...app.state().shaders, [path]: text };
     if (text === null || text === app.published(path)) delete all[path];
-    try {
-      app.pane()?.replace_shaders(JSON.stringify(all));
-    } catch (problem) {
-      return refuse(path, sentence(problem));
+    const problem = refusal(all);
+    if (problem) {
+      draw();
+      return refuse(path, problem);
     }
     app.changed(() => (app.state().shaders = all));
     list();
+    return undefined;
+  }
+
+  /** Why the browser refuses these shaders: it compiles them when it draws. */
+  function refusal(all) {
+    try {
+      app.pane()?.replace_shaders(JSON.stringify(all));
+      for (const name of app.visible()) {
+        const side = app.state().sides[name];
+        if (!styleOf(app.tables, side).draws_lines) app.pane()?.draw(JSON.stringify(app.sideOptions(side)), side.show, false);
+      }
+    } catch (problem) {
+      // A side may lack something else that its style needs.
+      return sentence(problem).includes("rejects the shader") ? sentence(problem) : undefined;
+    }
     return undefined;
   }
 

@@ -9,6 +9,12 @@ use wasm_bindgen::JsError;
 pub(crate) fn said(error: Error) -> JsError {
     JsError::new(&match error {
         Error::Shader { path, log } if !log.contains(&path) => format!("This browser rejects the shader {path}: {log}"),
+        Error::NoContext { attempts } => {
+            let tried = attempts.join(", ");
+            format!(
+                "The styles cannot be drawn ({tried}). Turn on graphics acceleration in the browser, or use another browser."
+            )
+        }
         Error::Shader { log, .. } => format!("This browser rejects the shader: {log}"),
         error => in_words(&error.to_string()),
     })

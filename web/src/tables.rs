@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use tinta::glsl::es::{Stage, transcribed};
 use tinta::keys::{action, sheet};
 use tinta::mesh::BUILTINS;
+use tinta::page::NOT_OF_BROWSERS;
 use tinta::preset::{LOOKS, Look, PREFIX, Preset, SHIPPED};
 use tinta::request::{Layer, Request};
 use tinta::settings::{HasSettings, Kind, OptionValue, Setting, on_off};
@@ -12,8 +13,10 @@ use tinta::{LoadOptions, SceneSettings, Style, StyleName};
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsError, JsValue};
 
-/// Options for files that a page cannot name, and for what it sets otherwise: the stage is the picture's size, a drag its view.
-const NOT_OF_PAGE: [&str; 7] = ["allow-external", "eye", "height", "size", "target", "up", "view"];
+/// Whether a setting has a control in the page; the mouse sets the view.
+fn is_of_page(name: &str) -> bool {
+    name != "view" && !NOT_OF_BROWSERS.contains(&name)
+}
 
 /// Every style with its settings, the looks and presets, the settings of the scene and of reading models, the built-in models, the
 /// sheet of keys: JSON.
@@ -47,7 +50,7 @@ pub fn tables() -> String {
 
 /// The controls of the page for this.
 fn controls<T: HasSettings + Clone + 'static>(of: &T) -> Vec<Value> {
-    let settings = T::table().of(Some(of)).into_iter().filter(|setting| !NOT_OF_PAGE.contains(&setting.name));
+    let settings = T::table().of(Some(of)).into_iter().filter(|setting| is_of_page(setting.name));
     settings.map(|setting| control(setting, of)).collect()
 }
 
@@ -68,7 +71,7 @@ pub fn look(name: &str) -> Result<String, JsError> {
         let options = request.options.iter().filter(|(name, _)| has(name.as_str()));
         options.map(|(name, value)| (name.clone(), text(value))).collect()
     };
-    let is_of_scene = |name: &str| !NOT_OF_PAGE.contains(&name) && SceneSettings::table().has(name);
+    let is_of_scene = |name: &str| is_of_page(name) && SceneSettings::table().has(name);
     let is_of_reading = |name: &str| LoadOptions::table().has(name);
     let settings = of(&|name| Style::table().has(name) && !is_of_scene(name) && !is_of_reading(name));
     let (mut scene, mut read) = (of(&is_of_scene), of(&is_of_reading));
@@ -83,7 +86,8 @@ pub fn look(name: &str) -> Result<String, JsError> {
         }
     }
     let view = request.options.get("view").map(text);
-    Ok(json!({ "style": request.style.name(), "settings": settings, "scene": scene, "read": read, "view": view }).to_string())
+    Ok(json!({ "style": request.style.name(), "settings": settings, "scene": scene, "read": read, "view": view })
+        .to_string())
 }
 
 /// A value as a control has it.

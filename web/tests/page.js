@@ -7,7 +7,7 @@ async function opened(width, height, link = "") {
   const frame = document.createElement("iframe");
   Object.assign(frame.style, { width: `${width}px`, height: `${height}px`, border: "0" });
   const problems = [];
-  frame.src = `index.html${link}`;
+  frame.src = link.startsWith("/") ? link : `index.html${link}`;
   document.body.append(frame);
   frame.contentWindow.addEventListener("error", (event) => problems.push(event.message));
   await new Promise((resolve) => frame.addEventListener("load", resolve));
@@ -168,7 +168,7 @@ export async function testPage(tables) {
     assert(differing(edited, picture(again.at("left")), 0) === 0, "the link carries the change");
     again.close();
     const lines = at("text").value.split("\n");
-    const number = lines.findIndex((line) => line.includes("gl_FragColor")) + 1;
+    const number = lines.findIndex((line) => line.includes("gl_FragColor=")) + 1;
     at("text").value = lines.with(number - 1, "foo;").join("\n");
     at("apply").click();
     await settled();
@@ -189,6 +189,8 @@ export async function testPage(tables) {
     assert(at("left-Style").value === "three-pass", at("left-Style").value);
     await change(at("left-Style"), "charcoal");
     assert(differing(looked, picture(at("left")), 8) > 0.005, "charcoal as published is another");
+    // The bust has no texture for sand.
+    await change(at("model"), "soldier");
     for (const { name } of tables.looks) {
       await change(at("left-Look"), name);
       assert(at("problem").hidden, `${name}: ${at("problem").textContent}`);
@@ -357,6 +359,24 @@ export async function testPage(tables) {
       sized.close();
     });
   }
+
+  const made = (...words) => opened(900, 700, `/made?${encodeURIComponent(JSON.stringify([...words, "made.html"]))}`);
+  await test("a page that is one file shows its model, its lecture and its lines, and asks for no other file", async () => {
+    const lesson = await made("models/pawn.obj", "--lecture", "valente");
+    assert(lesson.at("status").textContent.startsWith("pawn.obj: "), lesson.at("status").textContent);
+    assert(lesson.at("left-Style").value === "charcoal" && lesson.at("lecture").value === "valente", lesson.at("left-Style").value);
+    assert(lesson.at("lecture").options.length === 2, "it has its lecture alone");
+    await until(() => lesson.at("text-of-lecture").querySelector("h2"), "the text");
+    const look = await made("models/pawn.obj", "--tones", "2");
+    assert(look.at("left-Style").value === "ink" && look.page.tinta.state().sides.left.settings.tones === "2", "the look print, with two tones");
+    assert(look.at("lecture").parentElement.hidden, "and no lecture");
+    await until(() => look.at("left-side").querySelector(".cost").textContent.includes("line error"), "its worker");
+    for (const { page, problems, close } of [lesson, look]) {
+      const asked = page.performance.getEntriesByType("resource").filter(({ name }) => !name.startsWith("blob:"));
+      assert(asked.length === 0 && problems.length === 0, asked.map(({ name }) => name).concat(problems).join(" "));
+      close();
+    }
+  });
 
   await test("a side that the divider covers is not drawn, and a model opens in frame", async () => {
     const one = await opened(900, 700, "#model=bust&divider=100&left=phong&right=ink");

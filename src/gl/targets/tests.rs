@@ -3,8 +3,8 @@ use crate::gl::Backend;
 use crate::gl::context::Context;
 use crate::mesh::Mesh;
 use crate::plan::{Attachment, SettingValue};
-use crate::scene::{Scene, SceneSettings};
 use crate::renderer::Renderer;
+use crate::scene::{Scene, SceneSettings};
 use crate::styles::{Cartoon, CreaseBy, Ink, MapEncoding, MapTarget, Show, Style, StyleName};
 use std::sync::Arc;
 
@@ -86,7 +86,10 @@ fn depth_that_is_taken_draws_the_same_picture_as_depth_that_is_copied() {
                             .map(|style| renderer.render(&scene, &style).unwrap())
                     };
                     let (copied, taken) = (draw(true), draw(false));
-                    assert!(copied.iter().all(|picture| picture.pixels.iter().any(|byte| *byte < 64)), "{name} is drawn");
+                    assert!(
+                        copied.iter().all(|picture| picture.pixels.iter().any(|byte| *byte < 64)),
+                        "{name} is drawn"
+                    );
                     assert_eq!(copied, taken, "{name} {map_target:?} {tile:?}");
                     compared += 1;
                 }

@@ -118,7 +118,10 @@ fn each_item_of_linked_shaders_follows_its_line_and_ends_after_as_many_lines() {
         let (mut line, mut compared) = (None, 0);
         for written in linked.lines() {
             if let Some(rest) = written.strip_prefix("#line ") {
-                line = rest.split_once(' ').filter(|(_, part)| *part == "1").map(|(line, _)| line.parse::<usize>().unwrap());
+                line = rest
+                    .split_once(' ')
+                    .filter(|(_, part)| *part == "1")
+                    .map(|(line, _)| line.parse::<usize>().unwrap());
                 continue;
             }
             // A name that stands there unchanged stands in that line of the shader.
@@ -126,7 +129,11 @@ fn each_item_of_linked_shaders_follows_its_line_and_ends_after_as_many_lines() {
                 for word in tokens(written).iter().filter(|token| token.kind == Kind::Word) {
                     let is_old = text.contains(word.text) && !word.text.starts_with("tinta_");
                     if is_old && !["vec2", "for", "int", "if", "break", "texture2D"].contains(&word.text) {
-                        assert!(originals[number - 1].contains(word.text), "{path}:{number}: {} in {written}", word.text);
+                        assert!(
+                            originals[number - 1].contains(word.text),
+                            "{path}:{number}: {} in {written}",
+                            word.text
+                        );
                         compared += 1;
                     }
                 }
