@@ -28,12 +28,24 @@ def element(name, lecture=None):
     return f'<script type="text/plain" data-file="{name}"{of}>{packed}</script>\n'
 
 
+def pictures(text):
+    """The pictures of a document, but for those of buffers, which the page draws live: they stand under the option that shows them."""
+    found, heads = set(), None
+    for line in text.splitlines():
+        cells = line.split("|")
+        heads = (heads or cells) if line.startswith("|") else None
+        for head, cell in zip(heads or [""] * len(cells), cells):
+            if not head.strip().startswith("`--show "):
+                found.update(re.findall(r"pictures/[^)]*", cell))
+    return sorted(found)
+
+
 parts = [element(file.name) for file in sorted(dist.glob("*.js")) if file.name != "one-file.js"]
 parts += [element("tinta_bg.wasm"), element("licences.txt")]
 for document in sorted(dist.glob("how-*-works.md")):
     lecture = document.stem.split("-")[1]
     parts.append(element(document.name, lecture))
-    for picture in sorted(set(re.findall(r"pictures/[^)]*", document.read_text()))):
+    for picture in pictures(document.read_text()):
         parts.append(element(picture, lecture))
 
 page = (dist / "index.html").read_text()

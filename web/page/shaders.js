@@ -104,10 +104,14 @@ export function shaderEditor(app) {
     const rows = at("text").value.split("\n");
     const isLine = line >= 1 && line <= rows.length;
     at("shader-problem").textContent = isLine ? `Line ${line}, “${rows[line - 1].trim()}”: ${problem}` : problem;
-    if (!isLine) return;
-    const start = rows.slice(0, line - 1).join("\n").length + (line > 1 ? 1 : 0);
-    at("text").focus();
-    at("text").setSelectionRange(start, start + rows[line - 1].length);
+    if (isLine) {
+      const start = rows.slice(0, line - 1).join("\n").length + (line > 1 ? 1 : 0);
+      const field = at("text");
+      field.focus({ preventScroll: true });
+      field.setSelectionRange(start, start + rows[line - 1].length);
+      field.scrollTop = (field.scrollHeight * (line - 1)) / rows.length - field.clientHeight / 2;
+    }
+    at("shader-problem").scrollIntoView({ block: "nearest" });
   }
 
   at("shader").addEventListener("change", write);
