@@ -10,12 +10,12 @@ use crate::scene::Size;
 const DIVISOR: u32 = 2;
 
 /// The size that is drawn.
-pub(super) fn size(size: Size) -> Size {
+pub(in crate::window) fn size(size: Size) -> Size {
     Size { width: size.width.div_ceil(DIVISOR), height: size.height.div_ceil(DIVISOR) }
 }
 
 /// A picture of this size from the one that was drawn.
-pub(super) fn enlarged(picture: &Picture, size: Size) -> Picture {
+pub(in crate::window) fn enlarged(picture: &Picture, size: Size) -> Picture {
     let row_bytes = picture.size.width as usize * 4;
     let mut pixels = Vec::with_capacity(size.pixel_count() * 4);
     for y in 0..size.height {
