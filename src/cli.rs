@@ -23,6 +23,7 @@ pub mod messages;
 mod mistakes;
 pub mod models;
 pub mod options;
+mod page;
 pub mod progress;
 mod program;
 pub mod render;
@@ -47,6 +48,7 @@ const COMMANDS: &[Command] = &[
     #[cfg(feature = "window")]
     view::COMMAND,
     looks::COMMAND,
+    page::COMMAND,
     again::COMMAND,
     edges::COMMAND,
     why::COMMAND,

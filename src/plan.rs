@@ -100,7 +100,8 @@ pub enum Step {
     Draw(Draw),
     /// glCopyTexImage2D: the framebuffer becomes the texture [`Texture::BorderMap`], RGBA.
     CopyFramebuffer,
-    /// glCopyTexImage2D: the depth buffer becomes the texture [`Texture::DepthMap`].
+    /// glCopyTexImage2D: the depth buffer becomes the texture [`Texture::DepthMap`]. Clear the depth buffer before it is used again:
+    /// a browser takes the depth and leaves the target another buffer.
     CopyDepth,
 }
 

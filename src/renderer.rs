@@ -139,6 +139,12 @@ impl Renderer {
         probes(drawer.context.gl())
     }
 
+    /// Copies depth as OpenGL does, or takes it as a browser has to.
+    #[cfg(test)]
+    pub(crate) fn copy_depth(&mut self, copies_depth: bool) {
+        self.drawers.iter_mut().for_each(|drawer| drawer.resources.copy_depth(copies_depth));
+    }
+
     fn open(backend: Backend, fault: Option<Fault>) -> Result<Self> {
         let context = Context::open(backend, fault)?;
         Ok(Self { backend, fault, drawers: vec![Drawer::new(context)], used: 0, confined_to: None })

@@ -24,6 +24,7 @@
 mod border;
 mod cartoon;
 mod charcoal;
+mod coarse;
 mod dietrich;
 mod gradients;
 mod headings;
@@ -53,6 +54,7 @@ pub use charcoal::{
     CetCoordinate, CetFilter, Charcoal, CharcoalPictures, CharcoalRecipe, ContrastOperator, Improvements, Noise,
     TextureSource,
 };
+pub use coarse::coarse;
 pub use dietrich::Dietrich;
 pub use ignored::{is_ignored, is_of_lines_alone};
 pub use ink::{CreaseBy, Ink, Quality};

@@ -63,6 +63,7 @@ mod measure_smooth;
 mod mrt;
 mod output;
 mod output_killed;
+mod page_file;
 mod pdf;
 mod pipeline;
 mod pixel;

@@ -157,6 +157,12 @@ impl Resources {
         }
     }
 
+    /// Copies depth, or takes it as in a browser.
+    #[cfg(test)]
+    pub(crate) fn copy_depth(&mut self, copies_depth: bool) {
+        self.targets = Targets::copying_depth(copies_depth);
+    }
+
     fn draw(&mut self, scene: &Scene, draw: &Draw) -> Result<()> {
         let Tile { drawn, viewport, .. } = self.tile;
         // As far left and below as the tile lies right and above of the viewport's corner.

@@ -238,7 +238,7 @@ pub(super) struct Shader {
 impl Shader {
     /// Compiles a shader.
     pub(super) fn new(gl: &Rc<Gl>, source: &Source) -> Result<Self> {
-        let Source { kind, path, text } = source;
+        let Source { kind, path, text, .. } = source;
         // SAFETY: the context is current.
         unsafe {
             let id = gl.glow.create_shader(*kind).map_err(out_of_names)?;
@@ -248,7 +248,10 @@ impl Shader {
             if gl.glow.get_shader_compile_status(id) {
                 return Ok(shader);
             }
-            Err(Error::Shader { path: path.clone(), log: one_line(&gl.glow.get_shader_info_log(id)) })
+            Err(Error::Shader {
+                path: path.clone(),
+                log: one_line(&source.explained(&gl.glow.get_shader_info_log(id))),
+            })
         }
     }
 }

@@ -7,45 +7,86 @@ use super::context::ContextInfo;
 use super::objects::Texture;
 use super::{Gl, legacy};
 use crate::error::{Error, Result};
-use crate::plan::{Attachments, DEPTH_COPIES, Drawn, Format, Plan, Sampling, Step, Target};
+use crate::plan::{Attachment, Attachments, DEPTH_COPIES, Drawn, Format, Plan, Sampling, Step, Target};
 use crate::scene::{Rectangle, Size};
 pub(super) use framebuffer::clear_each;
-use framebuffer::{Framebuffer, Renderbuffer};
+use framebuffer::{DepthBuffer, Framebuffer, Renderbuffer};
 use glow::HasContext;
 use std::rc::Rc;
 
 /// The textures that connect passes.
-#[derive(Default)]
 pub(super) struct Targets {
     border_map: Option<Copied>,
     depth_map: Option<Copied>,
     drawn: Option<TextureTargets>,
+    /// Stands in for the framebuffer while depth is taken from it.
+    surface: Option<TextureTargets>,
+    takes_depth: bool,
+    /// The target of the current pass.
+    current: Target,
+    /// Whether depth is copied as in OpenGL. Otherwise a copy takes the target's depth texture and leaves it another, as in a browser.
+    copies_depth: bool,
 }
+
+impl Default for Targets {
+    fn default() -> Self {
+        Self::copying_depth(legacy::COPIES_DEPTH)
+    }
+}
+
+impl Targets {
+    /// Without textures, and with this way to have depth in one.
+    pub(super) fn copying_depth(copies_depth: bool) -> Self {
+        Self {
+            border_map: None,
+            depth_map: None,
+            drawn: None,
+            surface: None,
+            takes_depth: false,
+            current: Target::Framebuffer,
+            copies_depth,
+        }
+    }
+}
+
+/// A framebuffer as a framebuffer object.
+const SURFACE: Attachments = Attachments {
+    colors: &[Attachment { name: Drawn("Framebuffer"), format: Format::Unorm8 }],
+    has_depth: true,
+    asked_by: DEPTH_COPIES[0][0],
+    instead: DEPTH_COPIES[0][1],
+    instead_draws: None,
+};
 
 impl Targets {
     /// Makes the plan's targets, unless they exist at this size.
     pub(super) fn prepare(&mut self, gl: &Rc<Gl>, plan: &Plan, size: Size) -> Result<()> {
         check(&gl.info, plan)?;
-        if !legacy::COPIES_DEPTH && plan.steps().any(|(_, step)| *step == Step::CopyDepth) {
+        let takes_depth = !self.copies_depth && plan.steps().any(|(_, step)| *step == Step::CopyDepth);
+        if takes_depth && !gl.legacy.has_depth_textures() {
             let said = DEPTH_COPIES
                 .map(|[asked_by, instead]| format!("--{} {} for {}", instead.setting, instead.value, asked_by.value));
-            let problem = format!("{} copies no depth buffer; use {}", gl.info.renderer, said.join(", "));
+            let problem = format!("{} has no depth textures; use {}", gl.info.renderer, said.join(", "));
             return Err(Error::settings(&DEPTH_COPIES.map(|[asked_by, _]| asked_by.setting), problem));
         }
-        let attachments = plan.attachments();
-        let is_there = |drawn: &TextureTargets| drawn.size == size && drawn.attachments == attachments;
-        if !attachments.is_empty() && !self.drawn.as_ref().is_some_and(is_there) {
-            // Drop the old targets first: at the largest sizes the memory cannot hold both.
-            self.drawn = None;
-            self.drawn = Some(TextureTargets::new(gl, size, attachments)?);
+        self.takes_depth = takes_depth;
+        if takes_depth {
+            prepare(gl, &mut self.surface, size, vec![&SURFACE], true)?;
         }
-        Ok(())
+        let attachments = plan.attachments();
+        if attachments.is_empty() { Ok(()) } else { prepare(gl, &mut self.drawn, size, attachments, takes_depth) }
     }
 
     /// Makes the target current for the following draws.
-    pub(super) fn begin(&self, gl: &Gl, target: Target) -> Result<()> {
-        let framebuffer = match target {
-            Target::Framebuffer => None,
+    pub(super) fn begin(&mut self, gl: &Gl, target: Target) -> Result<()> {
+        self.current = target;
+        self.bind(gl)
+    }
+
+    fn bind(&self, gl: &Gl) -> Result<()> {
+        let framebuffer = match self.current {
+            Target::Framebuffer if !self.takes_depth => None,
+            Target::Framebuffer => self.surface.as_ref().and_then(|surface| surface.framebuffer(&SURFACE)),
             Target::Textures(attachments) => {
                 let drawn = self.drawn.as_ref().and_then(|drawn| drawn.framebuffer(attachments));
                 Some(drawn.ok_or_else(|| Error::gl("drawing", "a plan was carried out without being prepared"))?)
@@ -63,9 +104,20 @@ impl Targets {
         copy(gl, &mut self.border_map, legacy::RGBA, size, part)
     }
 
-    /// Copies the framebuffer's depth, all of it or this part.
+    /// Copies the target's depth, all of it or this part, or takes all of it.
     pub(super) fn copy_depth(&mut self, gl: &Rc<Gl>, size: Size, part: Option<Rectangle>) -> Result<()> {
-        copy(gl, &mut self.depth_map, glow::DEPTH_COMPONENT24, size, part)
+        if self.copies_depth {
+            return copy(gl, &mut self.depth_map, glow::DEPTH_COMPONENT24, size, part);
+        }
+        let of_target = match self.current {
+            Target::Framebuffer => &mut self.surface,
+            Target::Textures(_) => &mut self.drawn,
+        };
+        let spare = self.depth_map.take().filter(|(present, _)| *present == size).map(|(_, texture)| texture);
+        let spare = spare.map_or_else(|| depth_texture(gl, size), Ok)?;
+        let taken = of_target.as_mut().and_then(|targets| targets.take_depth(gl, spare));
+        self.depth_map = taken.map(|texture| (size, texture));
+        self.bind(gl)
     }
 
     /// The copy of the colour.
@@ -136,19 +188,40 @@ fn copy(gl: &Rc<Gl>, copied: &mut Option<Copied>, format: u32, size: Size, part:
     Ok(())
 }
 
+/// Makes targets with these attachments, unless they exist at this size.
+fn prepare(
+    gl: &Rc<Gl>,
+    targets: &mut Option<TextureTargets>,
+    size: Size,
+    attachments: Vec<&'static Attachments>,
+    reads_depth: bool,
+) -> Result<()> {
+    let is_there = |targets: &TextureTargets| {
+        targets.size == size && targets.attachments == attachments && targets.reads_depth == reads_depth
+    };
+    if targets.as_ref().is_some_and(is_there) {
+        return Ok(());
+    }
+    // Drop the old targets first: at the largest sizes the memory cannot hold both.
+    *targets = None;
+    *targets = Some(TextureTargets::new(gl, size, attachments, reads_depth)?);
+    Ok(())
+}
+
 /// The textures a plan's passes draw into, one per name, and the framebuffer objects that share them and a depth buffer.
 struct TextureTargets {
     size: Size,
     attachments: Vec<&'static Attachments>,
+    /// Whether their depth is a texture.
+    reads_depth: bool,
     /// One for each of `attachments`; dropped before the textures they draw into.
     framebuffers: Vec<Framebuffer>,
     textures: Vec<(Drawn, Format, Texture)>,
-    /// Kept for the framebuffers, which draw into it.
-    _depth: Option<Renderbuffer>,
+    depth: Option<DepthBuffer>,
 }
 
 impl TextureTargets {
-    fn new(gl: &Rc<Gl>, size: Size, attachments: Vec<&'static Attachments>) -> Result<Self> {
+    fn new(gl: &Rc<Gl>, size: Size, attachments: Vec<&'static Attachments>, reads_depth: bool) -> Result<Self> {
         let mut textures: Vec<(Drawn, Format, Texture)> = Vec::new();
         for color in attachments.iter().flat_map(|attachments| attachments.colors) {
             match textures.iter().find(|(name, ..)| *name == color.name) {
@@ -158,7 +231,11 @@ impl TextureTargets {
             }
         }
         let needs_depth = attachments.iter().any(|attachments| attachments.has_depth);
-        let depth = needs_depth.then(|| Renderbuffer::depth(gl, size)).transpose()?;
+        let depth = match (needs_depth, reads_depth) {
+            (false, _) => None,
+            (true, false) => Some(DepthBuffer::Unread(Renderbuffer::depth(gl, size)?)),
+            (true, true) => Some(DepthBuffer::Texture(depth_texture(gl, size)?)),
+        };
         let texture = |name| textures.iter().find(|(other, ..)| *other == name).map(|(.., texture)| texture);
         let mut framebuffers = Vec::new();
         for attachments in &attachments {
@@ -170,7 +247,20 @@ impl TextureTargets {
             }
             framebuffers.push(framebuffer);
         }
-        Ok(Self { size, attachments, framebuffers, textures, _depth: depth })
+        Ok(Self { size, attachments, reads_depth, framebuffers, textures, depth })
+    }
+
+    /// Gives the framebuffers another depth texture; returns the former one, with all that was drawn into it.
+    fn take_depth(&mut self, gl: &Gl, spare: Texture) -> Option<Texture> {
+        for (attachments, framebuffer) in self.attachments.iter().zip(&self.framebuffers) {
+            if attachments.has_depth {
+                framebuffer.attach_depth(gl, &spare);
+            }
+        }
+        match self.depth.replace(DepthBuffer::Texture(spare)) {
+            Some(DepthBuffer::Texture(taken)) => Some(taken),
+            _ => None,
+        }
     }
 
     fn framebuffer(&self, attachments: &Attachments) -> Option<&Framebuffer> {
@@ -193,6 +283,19 @@ fn empty_texture(gl: &Rc<Gl>, size: Size, format: Format) -> Result<Texture> {
         let none = glow::PixelUnpackData::Slice(None);
         let (target, format) = (glow::TEXTURE_2D, format as i32);
         gl.glow.tex_image_2d(target, 0, format, width, height, 0, glow::RGBA, kind, none);
+    }
+    Ok(texture)
+}
+
+/// An empty texture that is a depth buffer of 24 bits.
+fn depth_texture(gl: &Rc<Gl>, size: Size) -> Result<Texture> {
+    let texture = Texture::new(gl, glow::TEXTURE_2D, Sampling::NearestClamped)?;
+    let [internal, format, kind] = legacy::DEPTH_TEXELS;
+    let (width, height) = (size.width as i32, size.height as i32);
+    // SAFETY: the context is current, the texture just bound; the null pointer makes GL read no texels.
+    unsafe {
+        let none = glow::PixelUnpackData::Slice(None);
+        gl.glow.tex_image_2d(glow::TEXTURE_2D, 0, internal as i32, width, height, 0, format, kind, none);
     }
     Ok(texture)
 }

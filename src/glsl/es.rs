@@ -125,7 +125,8 @@ pub fn transcribed(stage: Stage, text: &str) -> Result<Vec<Piece>, String> {
     Ok(pieces)
 }
 
-/// Merges several shaders of a stage into one text without comments; shared declarations appear once.
+/// Merges several shaders of a stage into one text without comments; shared declarations appear once. Before each item `#line`
+/// tells its line and the place of its shader in `texts`, so that a compiler's log names them.
 ///
 /// # Errors
 ///
@@ -135,8 +136,8 @@ pub fn linked(stage: Stage, texts: &[&str]) -> Result<String, String> {
     let words: HashSet<&str> = all.iter().flat_map(|tokens| words(tokens)).collect();
     let mut out = head(stage, &words);
     let (mut known, mut constants) = (HashSet::new(), HashSet::new());
-    for tokens in &all {
-        for item in items(tokens, &rewritten(stage, tokens)?) {
+    for (number, tokens) in all.iter().enumerate() {
+        for (line, item) in items(tokens, &rewritten(stage, tokens)?) {
             if item.is_empty() || item.starts_with("#version") || !known.insert(item.clone()) {
                 continue;
             }
@@ -146,8 +147,7 @@ pub fn linked(stage: Stage, texts: &[&str]) -> Result<String, String> {
             {
                 return Err(format!("two shaders that are linked together declare {name} differently"));
             }
-            out.push_str(&item);
-            out.push('\n');
+            out.push_str(&format!("#line {line} {number}\n{item}\n"));
         }
     }
     if stage == Stage::Vertex {
@@ -356,18 +356,25 @@ fn closing(tokens: &[Token<'_>], places: &[usize], open: usize) -> Option<usize>
     (open + 1..places.len()).find(|place| depth(tokens, &places[open..=*place]) == 0)
 }
 
-/// Returns a shader's top-level items, each a text without comments: directives, declarations, functions.
-fn items(tokens: &[Token<'_>], texts: &[String]) -> Vec<String> {
+/// Returns a shader's top-level items: directives, declarations, functions. Each is its first line, counted from 1, and its text
+/// without comments, as many lines long as in the shader.
+fn items(tokens: &[Token<'_>], texts: &[String]) -> Vec<(usize, String)> {
     let (mut items, mut item, mut depth) = (Vec::new(), String::new(), 0);
     let mut was_directive = false;
-    let mut close = |item: &mut String| items.push(std::mem::take(item).trim().to_owned());
+    let (mut line, mut first) = (1, 1);
+    let mut close = |first: usize, item: &mut String| items.push((first, std::mem::take(item).trim().to_owned()));
     for (token, text) in tokens.iter().zip(texts) {
         if was_directive && !token.is_directive {
-            close(&mut item);
+            close(first, &mut item);
         }
         was_directive = token.is_directive;
+        let line_ends = token.text.matches('\n').count();
+        if token.kind != Kind::Between && item.trim().is_empty() {
+            first = line;
+        }
+        line += line_ends;
         let is_comment = token.kind == Kind::Between && token.text.starts_with('/');
-        item.push_str(if is_comment { " " } else { text });
+        item.push_str(&if is_comment { format!(" {}", "\n".repeat(line_ends)) } else { text.clone() });
         match token.text {
             "{" | "(" => depth += 1,
             "}" | ")" => depth -= 1,
@@ -375,10 +382,10 @@ fn items(tokens: &[Token<'_>], texts: &[String]) -> Vec<String> {
         }
         let ends = matches!(token.text, ";" | "}") && depth == 0 && !token.is_directive;
         if ends {
-            close(&mut item);
+            close(first, &mut item);
         }
     }
-    close(&mut item);
+    close(first, &mut item);
     items
 }
 

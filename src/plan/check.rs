@@ -183,6 +183,10 @@ impl Written {
             Step::CopyDepth => {
                 self.needs_depth(target, pass)?;
                 self.textures.push(Texture::DepthMap);
+                match target {
+                    Target::Framebuffer => self.framebuffer[1] = false,
+                    Target::Textures(_) => self.texture_depth = false,
+                }
             }
             Step::Draw(draw) => {
                 self.check_textures(plan, draw, target, pass)?;

@@ -6,10 +6,10 @@ import { key_action as actionOf } from "./tinta.js";
 /** Zoom factor of a notch of the wheel. */
 const NOTCH = 1.118;
 
-/** Connects a stage with the state it changes. */
-export function hand(stage, { state, pane, changed, tables, chooseStyle, shownOf, keys, save }) {
+/** Connects a stage with the app that it changes; returns which side is meant by keys: the one last touched. */
+export function hand(stage, { state, pane, changed, moved, settle, tables, visible }, { chooseStyle, side, keys, save }) {
   const pointers = new Map();
-  let active = "left";
+  let touched = "left";
   let divides = false;
 
   const share = (pixels) => pixels / stage.clientHeight;
@@ -23,7 +23,7 @@ export function hand(stage, { state, pane, changed, tables, chooseStyle, shownOf
     stage.setPointerCapture?.(event.pointerId);
     const reach = (event.pointerType === "touch" ? 22 : 8) / stage.clientWidth;
     divides = pointers.size === 0 && Math.abs(dividerAt(event) - state().divider) < reach * 100;
-    active = dividerAt(event) < state().divider ? "left" : "right";
+    touched = dividerAt(event) < state().divider ? "left" : "right";
     pointers.set(event.pointerId, place(event));
   });
   stage.addEventListener("pointermove", (event) => {
@@ -33,7 +33,7 @@ export function hand(stage, { state, pane, changed, tables, chooseStyle, shownOf
     const [right, down] = [now[0] - before[0], now[1] - before[1]];
     const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
     pointers.set(event.pointerId, now);
-    changed(() => {
+    moved(() => {
       if (divides) state().divider = Math.min(100, Math.max(0, dividerAt(event)));
       else if (other) {
         const apart = (point) => Math.hypot(point[0] - other[0], point[1] - other[1]);
@@ -43,13 +43,13 @@ export function hand(stage, { state, pane, changed, tables, chooseStyle, shownOf
       else pane()?.turn(share(right), share(down));
     });
   });
-  for (const end of ["pointerup", "pointercancel"]) stage.addEventListener(end, (event) => pointers.delete(event.pointerId));
+  for (const end of ["pointerup", "pointercancel"]) stage.addEventListener(end, (event) => pointers.delete(event.pointerId) && settle());
   stage.addEventListener("contextmenu", (event) => event.preventDefault());
   stage.addEventListener(
     "wheel",
     (event) => {
       event.preventDefault();
-      changed(() => pane()?.zoom(NOTCH ** -Math.sign(event.deltaY)));
+      moved(() => pane()?.zoom(NOTCH ** -Math.sign(event.deltaY)));
     },
     { passive: false },
   );
@@ -61,21 +61,21 @@ export function hand(stage, { state, pane, changed, tables, chooseStyle, shownOf
     zoom: (factor) => pane()?.zoom(factor),
     divide: (by) => (state().divider = Math.min(100, Math.max(0, state().divider + by * 100))),
     view: (name) => pane()?.look(name),
-    style: (number) => chooseStyle(active, tables.styles[number].name),
-    "other-side": () => (active = active === "left" ? "right" : "left"),
+    style: (number) => chooseStyle(active(), tables.styles[number].name),
+    "other-side": () => (touched = active() === "left" ? "right" : "left"),
     buffer: nextBuffer,
     reset: () => pane()?.reset(),
     projection: () => pane()?.project(),
-    "save-picture": () => save.png.click(),
-    "save-lines": () => save.svg.click(),
+    "save-picture": () => save.picture(active()),
+    "save-lines": () => save.lines(),
     "key-sheet": () => keys.showModal(),
   };
 
   function nextBuffer() {
-    const side = state().sides[active];
-    const { shows } = tables.styles.find((style) => style.name === side.style);
-    side.show = shows[(shows.indexOf(side.show) + 1) % shows.length];
-    shownOf(active);
+    const of = state().sides[active()];
+    const { shows } = tables.styles.find((style) => style.name === of.style);
+    of.show = shows[(shows.indexOf(of.show) + 1) % shows.length];
+    side(active());
   }
 
   keys.querySelector("dl").append(
@@ -97,5 +97,9 @@ export function hand(stage, { state, pane, changed, tables, chooseStyle, shownOf
     if (name.startsWith("save-")) actions[name]();
     else changed(() => actions[name](value));
   });
-  return () => active;
+  /** A side that is covered is not meant. */
+  function active() {
+    return visible().includes(touched) ? touched : visible()[0];
+  }
+  return active;
 }

@@ -1,109 +1,118 @@
-// A lecture: a document of docs/ beside its figure, live, and the shaders it speaks of.
+// Lectures: documents of docs/ beside the picture, their buffers live, the shaders that they name one click away.
 
-import init, { Model, Pane, listing, tables as tablesOf } from "./tinta.js";
+import { address, has, text as textOf } from "./files.js";
+import { say, sentence } from "./failures.js";
 import { blocks } from "./markdown.js";
 import { element } from "./panel.js";
 
-/** The document of each lecture, the style it is about, the model that shows it. */
+/** The document of each lecture, its title, the style that it is about. */
 const LECTURES = {
-  evangelista: { document: "how-evangelista-works.md", style: "three-pass", model: "bust" },
-  dachsbacher: { document: "how-dachsbacher-works.md", style: "inking", model: "bust" },
-  valente: { document: "how-valente-works.md", style: "charcoal", model: "bust" },
+  evangelista: { document: "how-evangelista-works.md", title: "Three passes", style: "three-pass" },
+  dachsbacher: { document: "how-dachsbacher-works.md", title: "Edges as ink", style: "inking" },
+  valente: { document: "how-valente-works.md", title: "Charcoal", style: "charcoal" },
 };
+
+/** Milliseconds without a change before the buffers in the text are drawn. */
+const IDLE = 300;
 
 const at = (id) => document.getElementById(id);
-const { document: file, style, model: name } = LECTURES[location.search.slice(1)] ?? LECTURES.evangelista;
-const fail = (problem) => (at("status").textContent = problem.message ?? String(problem));
 
-const [text] = await Promise.all([fetch(file).then((answer) => answer.text()), init()]);
-const shows = JSON.parse(tablesOf()).styles.find((other) => other.name === style).shows;
-const model = Model.builtin(name);
-let pane;
-let show = "final";
-
-/** A picture of the document: live where its column names a buffer, else the document's. */
-function picture(alternative, address, heading) {
-  const named = heading?.match(/^`--show (\w+)`/)?.[1];
-  if (!named || !pane) return element("img", { src: address, alt: alternative, loading: "lazy" });
-  const canvas = element("canvas", { className: "buffer", role: "img", ariaLabel: alternative });
-  draw(canvas, named, "240x240");
-  canvas.addEventListener("click", () => choose(named));
-  return canvas;
-}
-
-/** Draws a buffer of the style onto a canvas. */
-function draw(canvas, buffer, size) {
-  try {
-    const width = pane.draw(JSON.stringify({ style, size }), buffer);
-    const image = new ImageData(new Uint8ClampedArray(pane.pixels()), width);
-    [canvas.width, canvas.height] = [image.width, image.height];
-    canvas.getContext("2d").putImageData(image, 0, 0);
-  } catch (problem) {
-    fail(problem);
+/** Connects the lectures with the app; `shader` opens a listing, `controls` writes the controls anew. */
+export function lectures(app, { shader, controls }) {
+  const field = at("lecture");
+  const article = at("text-of-lecture");
+  let buffers = [];
+  let soon;
+  field.append(element("option", { value: "", textContent: "none" }));
+  for (const [name, { document, title }] of Object.entries(LECTURES)) {
+    if (has(document)) field.append(element("option", { value: name, textContent: title }));
   }
-}
+  field.parentElement.hidden = field.options.length === 1;
+  field.addEventListener("change", () => {
+    const state = app.state();
+    state.lecture = field.value;
+    const { style } = LECTURES[field.value] ?? {};
+    if (style && state.sides.left.style !== style) Object.assign(state.sides.left, { style, show: "final", settings: {} });
+    if (style) state.divider = 100;
+    controls();
+    show();
+    app.changed(() => {});
+  });
 
-function figure() {
-  if (!pane) return;
-  const side = Math.max(64, Math.round(at("figure").clientWidth * Math.min(devicePixelRatio, 2)));
-  draw(at("figure"), show, `${side}x${side}`);
-}
+  /** A picture of the document: live where its column names a buffer, else the document's. */
+  function picture(alternative, source, heading) {
+    const buffer = heading?.match(/^`--show (\w+)`/)?.[1];
+    if (!buffer || !app.pane()) return element("img", { src: address(source.replace(/^(\.\.\/)+/, "")) ?? "data:,", alt: alternative, loading: "lazy" });
+    const canvas = element("canvas", { className: "buffer", role: "img", ariaLabel: alternative });
+    canvas.addEventListener("click", () => {
+      app.state().sides.left.show = buffer;
+      controls();
+      app.changed(() => {});
+    });
+    buffers.push({ canvas, buffer });
+    return canvas;
+  }
 
-function choose(buffer) {
-  show = buffer;
-  for (const button of at("buffers").children) button.ariaPressed = String(button.textContent === buffer);
-  figure();
-}
+  /** Shows the lecture of the state, or none. */
+  async function show() {
+    const name = app.state().lecture;
+    const lecture = LECTURES[name];
+    field.value = lecture && has(lecture.document) ? name : "";
+    document.body.classList.toggle("has-lecture", Boolean(field.value));
+    if (article.dataset.name === field.value) return;
+    article.dataset.name = field.value;
+    article.hidden = !field.value;
+    buffers = [];
+    article.replaceChildren();
+    if (!field.value) return;
+    try {
+      const text = await textOf(lecture.document);
+      if (article.dataset.name !== name) return;
+      article.append(...blocks(text, picture));
+      nameShaders(text);
+      refresh();
+    } catch (problem) {
+      say(sentence(problem));
+    }
+  }
 
-function shader(path) {
-  at("shader").value = path;
-  const pieces = JSON.parse(listing(path));
-  at("listing").textContent = pieces.map(([original]) => original).join("");
-}
+  /** Makes the names of shaders in the text open their listings, the first at once. */
+  function nameShaders(text) {
+    const named = new Set([...text.matchAll(/`glsl\/([\w/-]+\.(?:vert|frag))`/g)].map((match) => match[1]));
+    for (const code of article.querySelectorAll("code")) {
+      const path = code.textContent.replace(/^glsl\//, "");
+      if (!named.has(path)) continue;
+      const link = element("button", { type: "button", className: "code" });
+      code.replaceWith(link);
+      link.append(code);
+      link.addEventListener("click", () => {
+        shader(path);
+        at("listings").scrollIntoView({ block: "nearest" });
+      });
+    }
+    const [first] = named;
+    if (first) shader(first);
+  }
 
-try {
-  pane = new Pane(document.createElement("canvas"));
-  pane.show(model);
-  at("status").textContent = "";
-} catch (problem) {
-  fail(problem);
-}
-at("text").append(...blocks(text, picture));
-document.title = `tinta: ${at("text").querySelector("h1").textContent}`;
+  /** Draws the buffers in the text, of the model that is shown now. */
+  function refresh() {
+    clearTimeout(soon);
+    if (!buffers.length) return;
+    soon = setTimeout(() => {
+      const { style } = LECTURES[article.dataset.name] ?? {};
+      for (const { canvas, buffer } of buffers) {
+        try {
+          const width = app.pane()?.draw(JSON.stringify({ ...app.sceneOptions(), style, size: "240x240" }), buffer, false);
+          if (!width) return;
+          const image = new ImageData(new Uint8ClampedArray(app.pane().pixels()), width);
+          [canvas.width, canvas.height] = [image.width, image.height];
+          canvas.getContext("2d").putImageData(image, 0, 0);
+        } catch (problem) {
+          say(sentence(problem));
+        }
+      }
+    }, IDLE);
+  }
 
-for (const buffer of shows) {
-  const button = element("button", { type: "button", textContent: buffer });
-  button.addEventListener("click", () => choose(buffer));
-  at("buffers").append(button);
+  return { show, refresh };
 }
-
-// The shaders that the document names, each a way to its listing.
-const named = [...new Set([...text.matchAll(/`glsl\/([\w/-]+\.(?:vert|frag))`/g)].map((match) => match[1]))];
-at("shader").append(...named.map((path) => element("option", { value: path, textContent: path })));
-at("shader").addEventListener("change", () => shader(at("shader").value));
-for (const code of at("text").querySelectorAll("code")) {
-  const path = code.textContent.replace(/^glsl\//, "");
-  if (!named.includes(path)) continue;
-  const link = element("button", { type: "button", className: "code" });
-  code.replaceWith(link);
-  link.append(code);
-  link.addEventListener("click", () => shader(path));
-}
-if (named.length) shader(named[0]);
-choose("final");
-
-const canvas = at("figure");
-const turned = (right, down) => {
-  pane?.turn(right, down);
-  requestAnimationFrame(figure);
-};
-canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
-canvas.addEventListener("pointermove", (event) => {
-  if (event.buttons) turned(event.movementX / canvas.clientHeight, event.movementY / canvas.clientHeight);
-});
-canvas.addEventListener("keydown", (event) => {
-  const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-  if (!step) return;
-  event.preventDefault();
-  turned(step[0] / 24, step[1] / 24);
-});

@@ -1,5 +1,7 @@
 // Exact lines, in a worker: they take longer than a picture. Ending the worker cancels an outdated search.
 
+import { address } from "./files.js";
+
 let module;
 let worker;
 let number = 0;
@@ -10,7 +12,7 @@ export const use = (compiled) => (module = compiled);
 
 function started() {
   if (worker) return worker;
-  worker = new Worker("worker.js", { type: "module" });
+  worker = new Worker(address("worker.js"), { type: "module" });
   worker.addEventListener("message", ({ data }) => {
     const asked = waiting.get(data.number);
     waiting.delete(data.number);

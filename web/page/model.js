@@ -13,14 +13,23 @@ export async function ofFiles(files) {
   return model && { ...model, beside: all.filter((file) => file !== model) };
 }
 
-/** Reads a requested model. */
-export function read({ name, bytes, beside }) {
-  if (!bytes) return Model.builtin(name);
+/** The model that stands in the page: the first of its files, with the others beside it. */
+export function ofLesson({ files }, bytes) {
+  const [model, ...beside] = files.map((name) => ({ name, bytes: bytes(`model/${name}`) }));
+  return { ...model, beside };
+}
+
+/** Reads a requested model with these options. */
+export function read({ name, bytes, beside }, options) {
+  if (!bytes) return Model.builtin(name, options);
   const files = new Files();
   try {
     for (const file of beside) files.add(file.name, file.bytes);
-    return Model.read(name, bytes, files);
+    return Model.read(name, bytes, files, options);
   } finally {
     files.free();
   }
 }
+
+/** The name of a file about a model, without its folder and ending. */
+export const stem = (name) => name.replace(/^.*[/\\:]/, "").replace(/\.[^.]*$/, "");

@@ -16,7 +16,7 @@ onmessage = async ({ data }) => {
     await ready;
     if (known?.key !== model.key) {
       known?.read.free();
-      known = { key: model.key, read: read(model) };
+      known = { key: model.key, read: read(model, options) };
     }
     const answer = kind === "svg" ? known.read.svg(options, Boolean(ink)) : known.read.error(options, ink);
     postMessage({ number, answer });

@@ -8,7 +8,7 @@ use tinta::mesh::{Loaded, load, read_bytes};
 use tinta::recipe::{Driver, FileRecord};
 use tinta::request::{Layer, Request};
 use tinta::settings::Options;
-use tinta::{DrawingSettings, LineSettings, LoadOptions, Mesh, Recipe, Scene, SceneSettings, Size, StyleName};
+use tinta::{DrawingSettings, LineSettings, Mesh, Recipe, Scene, SceneSettings, Size, StyleName};
 use tinta_lab::measure::{Ink, Reference};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -47,25 +47,26 @@ impl Files {
 
 #[wasm_bindgen]
 impl Model {
-    /// A built-in one, by its name.
+    /// A built-in one, by its name, read with these options.
     ///
     /// # Errors
     ///
-    /// If the name is unknown.
-    pub fn builtin(name: &str) -> Result<Model, JsError> {
+    /// If the name is unknown, or an option.
+    pub fn builtin(name: &str, options: &str) -> Result<Model, JsError> {
         let path = format!("builtin:{name}");
-        let loaded = load(&path, &LoadOptions::default()).map_err(said)?;
+        let loaded = load(&path, &asked(StyleName::ThreePass, options)?.read).map_err(said)?;
         Ok(Self::of(path, loaded, Vec::new()))
     }
 
-    /// One from a file's bytes, and the files that it may name: materials, data, pictures.
+    /// One from a file's bytes, read with these options, and the files that it may name: materials, data, pictures.
     ///
     /// # Errors
     ///
     /// Those of the library's readers, a sentence each.
-    pub fn read(name: &str, bytes: &[u8], files: &Files) -> Result<Model, JsError> {
+    pub fn read(name: &str, bytes: &[u8], files: &Files, options: &str) -> Result<Model, JsError> {
+        let how = asked(StyleName::ThreePass, options)?.read;
         let beside: Vec<(&str, &[u8])> = files.0.iter().map(|(name, bytes)| (name.as_str(), &bytes[..])).collect();
-        let loaded = read_bytes(bytes, name, &beside, &LoadOptions::default()).map_err(said)?;
+        let loaded = read_bytes(bytes, name, &beside, &how).map_err(said)?;
         let all = std::iter::once((name, bytes)).chain(beside.iter().copied());
         let records = all.map(|(name, bytes)| FileRecord::of_bytes(name, bytes)).collect();
         Ok(Self::of(name.to_owned(), loaded, records))

@@ -3,12 +3,14 @@
 use crate::errors::{said, unreadable};
 use crate::model::{Model, asked};
 use serde_json::json;
+use tinta::camera::CameraSettings;
 use tinta::orbit::Orbit;
 use tinta::plan::Step;
 use tinta::recipe::Driver;
 use tinta::renderer::Renderer;
 use tinta::request::Request;
 use tinta::settings::{HasSettings, Options};
+use tinta::styles::coarse;
 use tinta::{Picture, Scene, SceneSettings, StyleName, View};
 use tinta_lab::measure::Ink;
 use wasm_bindgen::JsError;
@@ -53,13 +55,17 @@ impl Pane {
         Ok(())
     }
 
-    /// Draws the scene with these options and keeps the picture; returns its width.
+    /// Draws the scene with these options, in the faster style of a moving model if it may be coarse, and keeps the picture; returns
+    /// its width.
     ///
     /// # Errors
     ///
     /// Those of the options, the style and the browser.
-    pub fn draw(&mut self, options: &str, show: &str) -> Result<u32, JsError> {
-        let request = picture_asked(options, show)?;
+    pub fn draw(&mut self, options: &str, show: &str, is_coarse: bool) -> Result<u32, JsError> {
+        let mut request = picture_asked(options, show)?;
+        if is_coarse && self.renderer.context().draw_buffers > 1 {
+            request.style = coarse(&request.style);
+        }
         let scene = self.seen(&request)?;
         let picture = request.picture_of(&scene, &mut self.renderer).map_err(said)?;
         let width = picture.size.width;
@@ -218,7 +224,10 @@ impl Pane {
             return Ok(settings);
         }
         let scene = self.scene.as_ref().ok_or_else(|| JsError::new("no model is shown yet"))?;
-        let camera = self.orbit.settings(scene, &settings).map_err(said)?;
+        // The lens is the scene's; a key changes the projection that it has.
+        let CameraSettings { fov_y_degrees, parallel, .. } = settings.camera;
+        let orbit = Orbit { fov_y_degrees, parallel: self.orbit.parallel != parallel, ..self.orbit.clone() };
+        let camera = orbit.settings(scene, &settings).map_err(said)?;
         Ok(SceneSettings { camera, ..settings })
     }
 

@@ -5,64 +5,89 @@ use serde_json::{Value, json};
 use tinta::glsl::es::{Stage, transcribed};
 use tinta::keys::{action, sheet};
 use tinta::mesh::BUILTINS;
-use tinta::preset::{LOOKS, Look};
+use tinta::page::NOT_OF_BROWSERS;
+use tinta::preset::{LOOKS, Look, PREFIX, Preset, SHIPPED};
 use tinta::request::{Layer, Request};
 use tinta::settings::{HasSettings, Kind, OptionValue, Setting, on_off};
-use tinta::{SceneSettings, Style, StyleName};
+use tinta::{LoadOptions, SceneSettings, Style, StyleName};
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsError, JsValue};
 
-/// Every style with its settings, those of the scene, the built-in models, the sheet of keys: JSON.
+/// Whether a setting has a control in the page; the mouse sets the view.
+fn is_of_page(name: &str) -> bool {
+    name != "view" && !NOT_OF_BROWSERS.contains(&name)
+}
+
+/// Every style with its settings, the looks and presets, the settings of the scene and of reading models, the built-in models, the
+/// sheet of keys: JSON.
 #[wasm_bindgen]
 pub fn tables() -> String {
-    let styles: Vec<Value> = StyleName::of_passes()
+    let styles: Vec<Value> = StyleName::ALL
+        .into_iter()
         .map(|(name, of)| {
             let style = Style::named(of);
-            let settings: Vec<Value> =
-                Style::table().of(Some(&style)).into_iter().map(|setting| control(setting, &style)).collect();
             let shows: Vec<Value> = of.info().shows.iter().map(|show| json!(show)).collect();
-            json!({ "name": name, "shows": shows, "settings": settings })
+            json!({ "name": name, "draws_lines": of.draws_lines(), "shows": shows, "settings": controls(&style) })
         })
         .collect();
-    let scene = SceneSettings::default();
-    let of_scene: Vec<Value> =
-        SceneSettings::table().of(Some(&scene)).into_iter().map(|setting| control(setting, &scene)).collect();
     // Meshes of surfaces are for measuring.
     let offered = BUILTINS.iter().filter(|model| model.closed_form().is_none());
     let models: Vec<Value> = offered.map(|model| json!({ "name": model.name, "what": model.what })).collect();
     let keys: Vec<Value> = sheet(true).map(|(keys, what)| json!({ "keys": keys, "what": what })).collect();
-    // The page saves vector lines but does not draw them.
-    let looks = LOOKS.iter().filter(|look| !look.draws_lines());
-    let looks: Vec<Value> = looks.map(|look| json!({ "name": look.name, "about": look.about })).collect();
-    json!({ "version": env!("CARGO_PKG_VERSION"), "styles": styles, "looks": looks, "scene": of_scene, "models": models, "keys": keys })
-        .to_string()
+    let looks = LOOKS.iter().map(|look| json!({ "name": look.name, "about": look.about }));
+    let presets = SHIPPED.iter().map(|(name, _)| json!({ "name": name, "about": "as the text prints it" }));
+    json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "styles": styles,
+        "looks": looks.chain(presets).collect::<Vec<_>>(),
+        "scene": controls(&SceneSettings::default()),
+        "read": controls(&LoadOptions::default()),
+        "models": models,
+        "keys": keys,
+    })
+    .to_string()
 }
 
-/// A look's effect on a side and on the scene: JSON, the style's name, its settings and the scene's, each a text by its name;
-/// `null` is the default.
+/// The controls of the page for this.
+fn controls<T: HasSettings + Clone + 'static>(of: &T) -> Vec<Value> {
+    let settings = T::table().of(Some(of)).into_iter().filter(|setting| is_of_page(setting.name));
+    settings.map(|setting| control(setting, of)).collect()
+}
+
+/// The effect of a look or a preset: JSON, the style's name, then by their names the settings of the style, of the scene and of
+/// reading, each a text; `null` is the default. `view` is the view that it draws from, if it has one.
 ///
 /// # Errors
 ///
-/// A sentence for an unknown look.
+/// A sentence for an unknown name.
 #[wasm_bindgen]
 pub fn look(name: &str) -> Result<String, JsError> {
-    let look = Look::of_name(name).map_err(|error| JsError::new(&format!("{error}")))?;
-    let (request, _) = Request::from_layers(&[Layer::Look(look)]).map_err(said)?;
-    let of = |is_of: &dyn Fn(&str) -> bool| -> serde_json::Map<String, Value> {
-        let mut options = request.options.iter().filter(|(name, _)| is_of(name.as_str()));
-        options.by_ref().map(|(name, value)| (name.clone(), text(value))).collect()
+    let layer = match name.strip_prefix(PREFIX) {
+        Some(_) => Layer::File(Preset::read(name).map_err(said)?),
+        None => Layer::Look(Look::of_name(name).map_err(|error| JsError::new(&format!("{error}")))?),
     };
-    let settings = of(&|name| Style::table().has(name));
-    // The page sets the picture's size, and the mouse its view.
-    let is_of_scene = |name: &str| !["size", "view"].contains(&name) && SceneSettings::table().has(name);
-    let mut scene = of(&is_of_scene);
+    let (request, _) = Request::from_layers(&[layer]).map_err(said)?;
+    let of = |has: &dyn Fn(&str) -> bool| -> serde_json::Map<String, Value> {
+        let options = request.options.iter().filter(|(name, _)| has(name.as_str()));
+        options.map(|(name, value)| (name.clone(), text(value))).collect()
+    };
+    let is_of_scene = |name: &str| is_of_page(name) && SceneSettings::table().has(name);
+    let is_of_reading = |name: &str| LoadOptions::table().has(name);
+    let settings = of(&|name| Style::table().has(name) && !is_of_scene(name) && !is_of_reading(name));
+    let (mut scene, mut read) = (of(&is_of_scene), of(&is_of_reading));
     // Settings of another look return to their defaults.
     for other in LOOKS {
-        for name in other.preset().map_err(said)?.options.into_keys().filter(|name| is_of_scene(name)) {
-            scene.entry(name).or_insert(Value::Null);
+        for name in other.preset().map_err(said)?.options.into_keys() {
+            if is_of_scene(&name) {
+                scene.entry(name).or_insert(Value::Null);
+            } else if is_of_reading(&name) {
+                read.entry(name).or_insert(Value::Null);
+            }
         }
     }
-    Ok(json!({ "style": request.style.name(), "settings": settings, "scene": scene }).to_string())
+    let view = request.options.get("view").map(text);
+    Ok(json!({ "style": request.style.name(), "settings": settings, "scene": scene, "read": read, "view": view })
+        .to_string())
 }
 
 /// A value as a control has it.

@@ -7,7 +7,7 @@ async function opened(width, height, link = "") {
   const frame = document.createElement("iframe");
   Object.assign(frame.style, { width: `${width}px`, height: `${height}px`, border: "0" });
   const problems = [];
-  frame.src = `index.html${link}`;
+  frame.src = link.startsWith("/") ? link : `index.html${link}`;
   document.body.append(frame);
   frame.contentWindow.addEventListener("error", (event) => problems.push(event.message));
   await new Promise((resolve) => frame.addEventListener("load", resolve));
@@ -17,7 +17,12 @@ async function opened(width, height, link = "") {
   page.addEventListener("unhandledrejection", (event) => problems.push(String(event.reason)));
   await until(() => page.tinta, "the page");
   const at = (id) => page.document.getElementById(id);
-  const settled = () => new Promise((resolve) => page.requestAnimationFrame(() => page.requestAnimationFrame(resolve)));
+  const frames = () => new Promise((resolve) => page.requestAnimationFrame(() => page.requestAnimationFrame(resolve)));
+  const settled = async () => {
+    await frames();
+    await until(() => !page.tinta.isMoving(), "rest");
+    await frames();
+  };
   await settled();
   await settled();
   return { frame, page, at, settled, problems, close: () => frame.remove() };
@@ -82,6 +87,7 @@ export async function testPage(tables) {
       assert(at("left-Style").value === style.name, `${at("left-Style").value} for ${style.name}`);
       const fields = [...at("left-side").querySelectorAll(".setting")];
       const named = style.settings.filter(({ kind }) => kind.is !== "file");
+      assert(!at("status").textContent.includes("bug"), at("status").textContent);
       assert(fields.length === named.length, `${style.name}: ${fields.length} fields for ${named.length} settings`);
       count += fields.length;
       for (const field of at("left-side").querySelectorAll(".setting :is(input, select)")) {
@@ -140,25 +146,34 @@ export async function testPage(tables) {
     const before = picture(at("left"));
     await change(at("left-Style"), "sand");
     assert(picture(at("left")).every((byte) => byte === 0), "nothing of the style before is left");
-    assert(/texture/.test(at("status").textContent), at("status").textContent);
+    assert(/texture/.test(at("problem").textContent) && !at("problem").hidden, at("problem").textContent);
+    assert(!at("problem").textContent.includes("--"), `in the page's words: ${at("problem").textContent}`);
     await change(at("left-Style"), "three-pass");
     assert(differing(before, picture(at("left")), 0) === 0, "it is drawn again");
-    assert(!/texture/.test(at("status").textContent), at("status").textContent);
+    assert(at("problem").hidden, at("problem").textContent);
   });
 
   await test("a constant that is changed in a listing is drawn with, and taken back", async () => {
     await change(at("left-Style"), "three-pass");
     const before = picture(at("left"));
+    at("listings").open = true;
     await change(at("shader"), "evangelista/border.frag");
     at("edit").click();
     at("text").value = at("text").value.replace("DETECTION_FACTOR 0.2f", "DETECTION_FACTOR 2.0f");
     at("apply").click();
     await settled();
     assert(differing(before, picture(at("left")), 8) > 0.005, "borders are darker");
-    at("text").value = "no shader";
+    const edited = picture(at("left"));
+    const again = await opened(1000, 900, page.tinta.link());
+    assert(differing(edited, picture(again.at("left")), 0) === 0, "the link carries the change");
+    again.close();
+    const lines = at("text").value.split("\n");
+    const number = lines.findIndex((line) => line.includes("gl_FragColor=")) + 1;
+    at("text").value = lines.with(number - 1, "foo;").join("\n");
     at("apply").click();
     await settled();
-    assert(/shader/i.test(at("status").textContent), at("status").textContent);
+    assert(at("shader-problem").textContent.startsWith(`Line ${number}, “foo;”`), at("shader-problem").textContent);
+    assert(differing(edited, picture(at("left")), 0) === 0, "the last shader that works draws on");
     at("published").click();
     await settled();
     assert(differing(before, picture(at("left")), 0) === 0, "as published again");
@@ -168,13 +183,25 @@ export async function testPage(tables) {
     await change(at("model"), "bust");
     await change(at("left-Look"), "charcoal");
     assert(at("left-Style").value === "charcoal", at("left-Style").value);
-    assert(!at("status").classList.contains("warning"), at("status").textContent);
+    assert(at("problem").hidden, at("problem").textContent);
     const looked = picture(at("left"));
     await change(at("left-Look"), "published");
     assert(at("left-Style").value === "three-pass", at("left-Style").value);
     await change(at("left-Style"), "charcoal");
     assert(differing(looked, picture(at("left")), 8) > 0.005, "charcoal as published is another");
-    assert(!at("left-Look").textContent.includes("technical"), "lines are saved, not drawn");
+    // The bust has no texture for sand.
+    await change(at("model"), "soldier");
+    for (const { name } of tables.looks) {
+      await change(at("left-Look"), name);
+      assert(at("problem").hidden, `${name}: ${at("problem").textContent}`);
+      const isOfLines = at("left-Style").value === "lines";
+      if (isOfLines) await until(() => at("left-lines").querySelector("svg") && !at("left-lines").hidden, `the lines of ${name}`);
+      else assert(new Set(new Uint32Array(picture(at("left")).buffer)).size > 3, name);
+    }
+    await change(at("left-Look"), "print");
+    assert(page.tinta.state().read.normals === "lasting", "a look sets how models are read");
+    await change(at("left-Look"), "published");
+    assert(!page.tinta.state().read.normals, "another look takes it back");
   });
 
   await test("a link shows the same again", async () => {
@@ -195,8 +222,8 @@ export async function testPage(tables) {
     const data = new page.DataTransfer();
     for (const [name, text] of Object.entries(files)) data.items.add(new page.File([text], name));
     stage.dispatchEvent(new page.DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
-    const before = at("status").textContent;
-    await until(() => at("status").textContent !== before, "a word about the file");
+    at("status").textContent = "";
+    await until(() => at("status").textContent, "a word about the file");
     await settled();
   };
 
@@ -245,7 +272,7 @@ export async function testPage(tables) {
     const expected = new TextDecoder().decode(await drawn("builtin:gear", "--size", size, "drawn.svg"));
     assert(text === expected, `${text.length} and ${expected.length} letters`);
     saved = undefined;
-    at("png").click();
+    at("left-save").click();
     await until(() => saved, "the picture");
     const png = new Uint8Array(await saved.arrayBuffer());
     assert(new TextDecoder("latin1").decode(png).includes("tinta-recipe"), "it carries its recipe");
@@ -263,12 +290,12 @@ export async function testPage(tables) {
     const before = picture(at("left"));
     const context = page.tinta.canvas.getContext("webgl").getExtension("WEBGL_lose_context");
     context.loseContext();
-    await until(() => at("status").textContent.includes("lost"), "the sentence");
+    await until(() => at("problem").textContent.includes("lost"), "the sentence");
     await until(() => !at("exact").hidden && at("exact").querySelector("svg"), "the exact lines");
     context.restoreContext();
     await until(() => at("status").textContent.includes("back"), "the context");
     await settled();
-    assert(at("exact").hidden && differing(before, picture(at("left")), 0) === 0, "the same picture again");
+    assert(at("problem").hidden && at("exact").hidden && differing(before, picture(at("left")), 0) === 0, "the same picture again");
   });
 
   await test("the page fits 320 pixels and follows a new size", async () => {
@@ -290,27 +317,76 @@ export async function testPage(tables) {
   close();
 
   for (const name of ["evangelista", "dachsbacher", "valente"]) {
-    await test(`the lecture on ${name} shows its figure live, its buffers and its shaders`, async () => {
-      const frame = document.createElement("iframe");
-      Object.assign(frame.style, { width: "360px", height: "900px", border: "0" });
-      frame.src = `lecture.html?${name}`;
-      document.body.append(frame);
-      await new Promise((resolve) => frame.addEventListener("load", resolve));
-      const { document: page } = frame.contentWindow;
-      await until(() => page.querySelector("#buffers button[aria-pressed=true]"), "the buffers");
-      const colors = new Set(new Uint32Array(picture(page.getElementById("figure")).buffer));
-      assert(colors.size > 20, `${colors.size} colours`);
-      assert(page.querySelectorAll("#text h2").length > 3, "its sections");
-      assert([...page.querySelectorAll("#text h2")].some((heading) => heading.textContent === "To try"), "a question");
-      assert(page.getElementById("listing").textContent.startsWith("#version 120"), "a shader");
-      const before = picture(page.getElementById("figure"));
-      page.querySelectorAll("#buffers button")[1].click();
-      assert(differing(before, picture(page.getElementById("figure")), 8) > 0.05, "another buffer");
-      const images = [...page.images].filter((image) => image.complete && !image.naturalWidth);
+    await test(`the lecture on ${name} shows its figure live, its buffers and its shaders, of any model`, async () => {
+      const lecture = await opened(390, 844, `#lecture=${name}&model=gear&divider=100`);
+      const { page, at, settled } = lecture;
+      const article = at("text-of-lecture");
+      await until(() => article.querySelectorAll("h2").length > 3, "its sections");
+      assert([...article.querySelectorAll("h2")].some((heading) => heading.textContent === "To try"), "a question");
+      assert(at("original").textContent.startsWith("#version 120"), "a shader");
+      const buffers = () => [...article.querySelectorAll("canvas.buffer")];
+      if (name !== "dachsbacher") {
+        await until(() => buffers().length > 1 && buffers().every((canvas) => new Set(new Uint32Array(picture(canvas).buffer)).size > 2), "live buffers");
+        const before = picture(at("left"));
+        buffers()[0].click();
+        await settled();
+        assert(differing(before, picture(at("left")), 8) > 0.02, "a buffer that is clicked is shown");
+      }
+      const images = [...page.document.images].filter((image) => image.complete && !image.naturalWidth);
       assert(images.length === 0, images.map((image) => image.src).join(" "));
-      const { scrollWidth, clientWidth } = page.documentElement;
+      const { scrollWidth, clientWidth } = page.document.documentElement;
       assert(scrollWidth <= clientWidth, `${scrollWidth} px in ${clientWidth}`);
-      frame.remove();
+      lecture.close();
     });
   }
+
+  for (const [width, height] of [[390, 844], [1366, 768]]) {
+    await test(`at ${width}x${height} the picture stays in view beside or above every control`, async () => {
+      const sized = await opened(width, height);
+      const { page, at, settled } = sized;
+      for (const details of page.document.querySelectorAll("#panel details")) details.open = true;
+      await settled();
+      const inView = () => {
+        const box = at("stage").getBoundingClientRect();
+        return Math.min(box.bottom, height) - Math.max(box.top, 0);
+      };
+      for (const field of page.document.querySelectorAll("#panel :is(select, input, button, summary)")) {
+        field.scrollIntoView({ block: "end" });
+        assert(inView() > height / 4, `${inView()} px of the picture are in view at ${field.id || field.name}`);
+        const { height: tall, width: wide } = field.getBoundingClientRect();
+        if (width < 700 && !field.hidden && !field.classList.contains("code") && tall) assert(tall >= 44 && wide >= 24, `${field.id || field.name}: ${wide}x${tall}`);
+      }
+      sized.close();
+    });
+  }
+
+  const made = (...words) => opened(900, 700, `/made?${encodeURIComponent(JSON.stringify([...words, "made.html"]))}`);
+  await test("a page that is one file shows its model, its lecture and its lines, and asks for no other file", async () => {
+    const lesson = await made("models/pawn.obj", "--lecture", "valente");
+    assert(lesson.at("status").textContent.startsWith("pawn.obj: "), lesson.at("status").textContent);
+    assert(lesson.at("left-Style").value === "charcoal" && lesson.at("lecture").value === "valente", lesson.at("left-Style").value);
+    assert(lesson.at("lecture").options.length === 2, "it has its lecture alone");
+    await until(() => lesson.at("text-of-lecture").querySelector("h2"), "the text");
+    const look = await made("models/pawn.obj", "--tones", "2");
+    assert(look.at("left-Style").value === "ink" && look.page.tinta.state().sides.left.settings.tones === "2", "the look print, with two tones");
+    assert(look.at("lecture").parentElement.hidden, "and no lecture");
+    await until(() => look.at("left-side").querySelector(".cost").textContent.includes("line error"), "its worker");
+    for (const { page, problems, close } of [lesson, look]) {
+      const asked = page.performance.getEntriesByType("resource").filter(({ name }) => !name.startsWith("blob:"));
+      assert(asked.length === 0 && problems.length === 0, asked.map(({ name }) => name).concat(problems).join(" "));
+      close();
+    }
+  });
+
+  await test("a side that the divider covers is not drawn, and a model opens in frame", async () => {
+    const one = await opened(900, 700, "#model=bust&divider=100&left=phong&right=ink");
+    assert(/ms a picture/.test(one.at("left-side").querySelector(".cost").textContent), "the left side is drawn");
+    assert(one.at("right-side").querySelector(".cost").textContent === "", "the right side is not");
+    one.page.tinta.pane().zoom(3);
+    one.at("model").value = "gear";
+    one.at("model").dispatchEvent(new one.page.Event("change"));
+    await one.settled();
+    assert(one.page.tinta.pane().orbit().split(",")[2] === "1", one.page.tinta.pane().orbit());
+    one.close();
+  });
 }

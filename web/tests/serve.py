@@ -3,7 +3,7 @@
 
 usage: serve.py BROWSER TINTA [PAGE]    BROWSER is Chromium, TINTA the command line that draws what the page is compared with, PAGE
 tests.html or times.html. Beside the page the server has what only the machine can do: /drawn?ARGUMENTS runs `tinta render ARGUMENTS`
-and answers the file, /models/NAME is a file of the folder TINTA_MODELS.
+and answers the file, /made?ARGUMENTS does so with `tinta page`, /models/NAME is a file of the folder TINTA_MODELS.
 """
 
 import http.server
@@ -19,6 +19,7 @@ import urllib.parse
 HERE = pathlib.Path(__file__).resolve().parent
 DIST = HERE.parent / "dist"
 SECONDS = 540
+COMMANDS = {"/drawn": ["render"], "/made": ["page", "--from", DIST / "page.html"]}
 
 browser, tinta, *rest = sys.argv[1:]
 page_name = rest[0] if rest else "tests.html"
@@ -41,15 +42,17 @@ class Handler(http.server.SimpleHTTPRequestHandler):
 
     def do_GET(self):
         address = urllib.parse.urlsplit(self.path)
-        if address.path != "/drawn":
+        if address.path not in COMMANDS:
             return super().do_GET()
         arguments = json.loads(urllib.parse.unquote(address.query))
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / arguments.pop()
-            ran = subprocess.run([tinta, "render", *arguments, "-o", file], capture_output=True, check=False)
+            ran = subprocess.run([tinta, *COMMANDS[address.path], *arguments, "-o", file], capture_output=True, check=False)
             body = file.read_bytes() if ran.returncode == 0 else ran.stderr
         self.send_response(200 if ran.returncode == 0 else 500)
         self.send_header("Content-Length", str(len(body)))
+        if address.path == "/made":
+            self.send_header("Content-Type", "text/html")
         self.end_headers()
         self.wfile.write(body)
 

@@ -2,6 +2,7 @@
 
 import init, { Files, Model, Pane, listing, shaders, tables as tablesOf } from "./tinta.js";
 import { assert, byteDifference, darkness, differing, drawn, finish, pixels, test, tones } from "./harness.js";
+import { program } from "./files.js";
 import { testPage } from "./page.js";
 
 const SIZE = "512x512";
@@ -21,8 +22,9 @@ const F1 = 0.003;
 /** Styles whose every grain turns over by the last bit of a texture's filter: their tone is compared, over squares of pixels. */
 const GRAINY = ["charcoal", "sand"];
 
-globalThis.program = await init();
+globalThis.program = await init({ module_or_path: await program() });
 const tables = JSON.parse(tablesOf());
+const ofPasses = tables.styles.filter((style) => !style.draws_lines);
 const pane = new Pane(document.createElement("canvas"));
 await test("WebGL has the bits that the styles need", () => {
   const { renderer, depth_bits, alpha_bits } = JSON.parse(pane.context());
@@ -37,9 +39,9 @@ await test("every shader is listed in pieces", () => {
 });
 
 for (const { name } of tables.models) {
-  const model = Model.builtin(name);
+  const model = Model.builtin(name, "{}");
   pane.show(model);
-  for (const style of tables.styles.filter((style) => style.name !== "sand" || name === "soldier")) {
+  for (const style of ofPasses.filter((style) => style.name !== "sand" || name === "soldier")) {
     await test(`${style.name} of ${name} is the command line's picture`, async () => {
       const options = { style: style.name, size: SIZE };
       pane.draw(JSON.stringify(options), "final");
@@ -76,12 +78,29 @@ for (const { name } of tables.models) {
   model.free();
 }
 
+for (const [style, option, value] of [
+  ["three-pass", "map-encoding", "depth-texture"],
+  ["ink", "crease-by", "normals"],
+]) {
+  await test(`${style} that reads the depth buffer is the command line's picture`, async () => {
+    const model = Model.builtin("gear", "{}");
+    pane.show(model);
+    for (const round of [1, 2]) {
+      pane.draw(JSON.stringify({ style, size: SIZE, [option]: value }), "final");
+      const words = ["--style", style, "--size", SIZE, "--backend", "egl", `--${option}`, value];
+      const share = differing(pane.pixels(), await pixels(await drawn("builtin:gear", ...words, "drawn.png")), 2);
+      assert(share <= MOST * TIMES[style], `${share * 100} % differ in picture ${round}`);
+    }
+    model.free();
+  });
+}
+
 await test("every choice of every setting of every style links and draws, or says why not", () => {
-  const model = Model.builtin("soldier");
+  const model = Model.builtin("soldier", "{}");
   pane.show(model);
   const refused = [];
   let count = 0;
-  for (const style of tables.styles) {
+  for (const style of ofPasses) {
     const drawWith = (settings, show) => {
       count += 1;
       try {
@@ -116,7 +135,7 @@ await test("what is no model is refused in a sentence", () => {
   for (const [name, data] of hostile) {
     let said;
     try {
-      Model.read(name, data, new Files()).free();
+      Model.read(name, data, new Files(), "{}").free();
     } catch (problem) {
       said = problem.message;
     }
@@ -126,7 +145,7 @@ await test("what is no model is refused in a sentence", () => {
 
 await test("memory and WebGL's objects stay as they are over 500 changes of the model", () => {
   const change = (number) => {
-    const model = Model.builtin(tables.models[number % tables.models.length].name);
+    const model = Model.builtin(tables.models[number % tables.models.length].name, "{}");
     pane.show(model);
     pane.draw(JSON.stringify({ style: "three-pass", size: "64x64" }), "final");
     model.free();

@@ -1,6 +1,7 @@
 // Times of the page on this machine: reported, never judged.
 
 import init, { Files, Model } from "./tinta.js";
+import { program } from "./files.js";
 import { finish, test } from "./harness.js";
 
 const median = (values) => values.toSorted((a, b) => a - b)[Math.floor(values.length / 2)];
@@ -56,10 +57,10 @@ await test("a turn of the bust by the pointer, one style in each pane", async ()
 });
 
 await test("the bunny's lines as SVG", async () => {
-  await init();
+  await init({ module_or_path: await program() });
   const answer = await fetch("/models/stanford-bunny.obj");
   if (!answer.ok) return "SKIPPED: TINTA_MODELS names no folder with stanford-bunny.obj";
-  const model = Model.read("stanford-bunny.obj", new Uint8Array(await answer.arrayBuffer()), new Files());
+  const model = Model.read("stanford-bunny.obj", new Uint8Array(await answer.arrayBuffer()), new Files(), "{}");
   const times = [];
   for (let round = 0; round < 5; round += 1) {
     const start = performance.now();

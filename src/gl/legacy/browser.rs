@@ -15,7 +15,7 @@ use web_sys::{WebGlRenderingContext, WebglDrawBuffers};
 /// The shaders in `glsl/fixed/` draw steps without a program.
 pub(in crate::gl) const HAS_PIPELINE: bool = false;
 
-/// Whether the depth buffer can be copied into a texture.
+/// Whether the depth buffer can be copied into a texture; a texture can be the depth buffer instead.
 pub(in crate::gl) const COPIES_DEPTH: bool = false;
 
 /// The texture target of a plan's tables: a picture one texel high.
@@ -39,6 +39,9 @@ pub(in crate::gl) const DRAWN_TEXELS: [(u32, u32); 3] =
 
 /// A depth buffer of 24 bits, and its attachment point: WebGL has them only with a stencil.
 pub(in crate::gl) const DEPTH_BUFFER: (u32, u32) = (glow::DEPTH_STENCIL, glow::DEPTH_STENCIL_ATTACHMENT);
+
+/// A depth texture: internal format, format and type.
+pub(in crate::gl) const DEPTH_TEXELS: [u32; 3] = [glow::DEPTH_STENCIL, glow::DEPTH_STENCIL, glow::UNSIGNED_INT_24_8];
 
 /// The attributes' locations, in the order of [`ATTRIBUTES`].
 const VERTEX: u32 = 0;
@@ -78,6 +81,11 @@ impl Legacy {
     /// Whether the context is lost.
     pub(in crate::gl) fn is_lost(&self) -> bool {
         self.raw.is_context_lost()
+    }
+
+    /// Whether textures can be depth buffers.
+    pub(in crate::gl) fn has_depth_textures(&self) -> bool {
+        matches!(self.raw.get_extension("WEBGL_depth_texture"), Ok(Some(_)))
     }
 
     /// The width and height of the current drawing surface, pixels.

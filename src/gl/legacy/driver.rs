@@ -29,6 +29,9 @@ pub(in crate::gl) const DRAWN_TEXELS: [(u32, u32); 3] =
 /// A depth buffer of 24 bits, and its attachment point.
 pub(in crate::gl) const DEPTH_BUFFER: (u32, u32) = (glow::DEPTH_COMPONENT24, glow::DEPTH_ATTACHMENT);
 
+/// A depth texture: internal format, format and type.
+pub(in crate::gl) const DEPTH_TEXELS: [u32; 3] = [glow::DEPTH_COMPONENT24, glow::DEPTH_COMPONENT, glow::UNSIGNED_INT];
+
 /// `GL_SMOOTH_LINE_WIDTH_RANGE`
 pub(in crate::gl) const SMOOTH_LINE_WIDTH_RANGE: u32 = 0x0B22;
 /// `GL_SMOOTH_POINT_SIZE_RANGE`
@@ -81,6 +84,11 @@ pub(in crate::gl) struct Legacy {
 }
 
 impl Legacy {
+    /// Every driver of OpenGL 2.1 has them.
+    pub(in crate::gl) fn has_depth_textures(&self) -> bool {
+        true
+    }
+
     /// Loads the table; the error names the first function the driver does not have.
     ///
     /// # Safety

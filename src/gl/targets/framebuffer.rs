@@ -50,7 +50,7 @@ fn draw_into_all(gl: &Gl, count: usize) {
 
 impl Framebuffer {
     /// Makes a framebuffer of these textures and this depth buffer, all of one size.
-    pub(super) fn new(gl: &Rc<Gl>, colors: &[&Texture], depth: Option<&Renderbuffer>) -> Result<Self> {
+    pub(super) fn new(gl: &Rc<Gl>, colors: &[&Texture], depth: Option<&DepthBuffer>) -> Result<Self> {
         // SAFETY: the context is current and has framebuffer objects, as `Targets::prepare` has checked.
         let id = unsafe { gl.glow.create_framebuffer() }.map_err(out_of_names)?;
         let framebuffer = Self { live: Live::new(gl), id };
@@ -62,16 +62,27 @@ impl Framebuffer {
                 let texture = Some(texture.id());
                 gl.glow.framebuffer_texture_2d(glow::FRAMEBUFFER, attachment, glow::TEXTURE_2D, texture, 0);
             }
-            if let Some(depth) = depth {
+            if let Some(DepthBuffer::Unread(depth)) = depth {
                 let (attachment, kind) = (legacy::DEPTH_BUFFER.1, glow::RENDERBUFFER);
                 gl.glow.framebuffer_renderbuffer(glow::FRAMEBUFFER, attachment, kind, Some(depth.id));
             }
+        }
+        if let Some(DepthBuffer::Texture(texture)) = depth {
+            framebuffer.attach_depth(gl, texture);
         }
         if colors.len() > 1 {
             draw_into_all(gl, colors.len());
         }
         bind(gl, None);
         Ok(framebuffer)
+    }
+
+    /// Draws depth into this texture from now on, and leaves the framebuffer bound.
+    pub(super) fn attach_depth(&self, gl: &Gl, texture: &Texture) {
+        bind(gl, Some(self));
+        let (attachment, id) = (legacy::DEPTH_BUFFER.1, Some(texture.id()));
+        // SAFETY: the context is current, this framebuffer and the texture are alive and of one size.
+        unsafe { gl.glow.framebuffer_texture_2d(glow::FRAMEBUFFER, attachment, glow::TEXTURE_2D, id, 0) };
     }
 
     /// Whether the driver can draw into these attachments.
@@ -92,6 +103,14 @@ impl Drop for Framebuffer {
         // SAFETY: the context is current and this framebuffer alive and ours.
         unsafe { self.live.gl().delete_framebuffer(self.id) }
     }
+}
+
+/// The depth buffer of framebuffer objects.
+pub(super) enum DepthBuffer {
+    /// Never read. Kept for the framebuffers, which draw into it.
+    Unread(Renderbuffer),
+    /// Read by later draws.
+    Texture(Texture),
 }
 
 /// A buffer for drawing that is never read as a texture.

@@ -3,8 +3,9 @@ use crate::gl::Backend;
 use crate::gl::context::Context;
 use crate::mesh::Mesh;
 use crate::plan::{Attachment, SettingValue};
+use crate::renderer::Renderer;
 use crate::scene::{Scene, SceneSettings};
-use crate::styles::{Cartoon, Ink, MapEncoding, MapTarget, Show, Style, StyleName};
+use crate::styles::{Cartoon, CreaseBy, Ink, MapEncoding, MapTarget, Show, Style, StyleName};
 use std::sync::Arc;
 
 fn plan(style: &Style) -> Plan {
@@ -63,4 +64,37 @@ fn one_texture_in_two_formats_is_an_error_and_leaves_nothing_behind() {
     let size = Size { width: 8, height: 8 };
     assert!(targets.prepare(context.gl(), &plan, size).is_err());
     assert_eq!(context.gl().live_objects.get(), 0);
+}
+
+#[test]
+fn depth_that_is_taken_draws_the_same_picture_as_depth_that_is_copied() {
+    let mut compared = 0;
+    for name in ["bust", "gear", "soldier"] {
+        let mesh = Arc::new(crate::mesh::load(&format!("builtin:{name}"), &Default::default()).unwrap().mesh);
+        let size = Size { width: 150, height: 110 };
+        let scene = Scene::new(vec![mesh], &SceneSettings { size, ..SceneSettings::default() }).unwrap();
+        for map_target in [MapTarget::Copy, MapTarget::Texture] {
+            let ink = Ink { crease_by: CreaseBy::Normals, map_target, ..Ink::default() };
+            for style in [Style::Ink(ink), cartoon(MapEncoding::DepthTexture, map_target)] {
+                for tile in [None, Some(Size { width: 90, height: 90 })] {
+                    let draw = |copies_depth| {
+                        let mut renderer = Renderer::new(Backend::Auto).unwrap_or_else(|error| panic!("{error}"));
+                        renderer.confine(tile);
+                        renderer.copy_depth(copies_depth);
+                        // Twice: the second picture takes the depth texture that the first left.
+                        [style.clone(), Style::named(StyleName::ThreePass), style.clone()]
+                            .map(|style| renderer.render(&scene, &style).unwrap())
+                    };
+                    let (copied, taken) = (draw(true), draw(false));
+                    assert!(
+                        copied.iter().all(|picture| picture.pixels.iter().any(|byte| *byte < 64)),
+                        "{name} is drawn"
+                    );
+                    assert_eq!(copied, taken, "{name} {map_target:?} {tile:?}");
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(compared, 24);
 }

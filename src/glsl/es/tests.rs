@@ -109,3 +109,40 @@ fn what_linked_shaders_share_is_declared_once() {
     let differently = ["#version 120\nconst float A = 1.0;", "#version 120\nconst float A = 2.0;"];
     assert!(linked(Stage::Fragment, &differently).unwrap_err().contains("declare A differently"));
 }
+
+#[test]
+fn each_item_of_linked_shaders_follows_its_line_and_ends_after_as_many_lines() {
+    for (path, text) in SOURCES {
+        let Ok(linked) = linked(Stage::of(path), &["#version 120\n", text]) else { panic!("{path}") };
+        let originals: Vec<&str> = text.lines().collect();
+        let (mut line, mut compared) = (None, 0);
+        for written in linked.lines() {
+            if let Some(rest) = written.strip_prefix("#line ") {
+                line = rest
+                    .split_once(' ')
+                    .filter(|(_, part)| *part == "1")
+                    .map(|(line, _)| line.parse::<usize>().unwrap());
+                continue;
+            }
+            // A name that stands there unchanged stands in that line of the shader.
+            if let Some(number) = line {
+                for word in tokens(written).iter().filter(|token| token.kind == Kind::Word) {
+                    let is_old = text.contains(word.text) && !word.text.starts_with("tinta_");
+                    if is_old && !["vec2", "for", "int", "if", "break", "texture2D"].contains(&word.text) {
+                        assert!(
+                            originals[number - 1].contains(word.text),
+                            "{path}:{number}: {} in {written}",
+                            word.text
+                        );
+                        compared += 1;
+                    }
+                }
+                line = Some(number + 1);
+            }
+            if written.starts_with("void main() {") && Stage::of(path) == Stage::Vertex {
+                line = None;
+            }
+        }
+        assert!(compared > 3, "{path}: {compared}");
+    }
+}

@@ -107,7 +107,7 @@ impl Drawer {
             let start = Instant::now();
             let picture = match job.is_coarse {
                 true => {
-                    let picture = self.draw_scene(&scene, &coarse::style(style), *show)?;
+                    let picture = self.draw_scene(&scene, &crate::styles::coarse(style), *show)?;
                     coarse::enlarged(&picture, job.settings.size)
                 }
                 false => self.draw_scene(&scene, style, *show)?,
