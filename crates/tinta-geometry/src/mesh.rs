@@ -42,7 +42,7 @@ mod vertices;
 mod weld;
 
 pub use defects::Defects;
-pub use format::is_model_name;
+pub use format::{is_model_name, is_read};
 pub use frame::ModelFrame;
 #[cfg(feature = "gltf")]
 pub use gltf::camera as gltf_camera;
