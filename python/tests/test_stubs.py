@@ -92,7 +92,7 @@ def test_calls_and_examples_have_no_wrong_types_but_the_one_made(checker, words)
     # In the examples, the other libraries' own types are not our business.
     wrong = [line for line in said.splitlines() if " error: " in line or " - error" in line]
     wrong = [line for line in wrong if "tinta" in line.split("error", 1)[1] or ours.name in line]
-    assert len(wrong) == 1 and ours.name in wrong[0] and "hiden" in wrong[0], said
+    assert len(wrong) == 1 and ours.name in wrong[0] and "hidn" in wrong[0], said
 
 
 CALLS = """
@@ -114,5 +114,5 @@ drawn.set_label("lines")
 rows = tinta_npr.measure(mesh, styles=["ink"])
 numbers = tinta_npr.compare(mesh, left="ink").numbers["only_left_px"]
 tinta_npr.pv.export_svg(object(), "a.svg", hidden="ghost", title="A")
-tinta_npr.lines(mesh, hiden="dashed")
+tinta_npr.lines(mesh, hidn="dashed")
 """

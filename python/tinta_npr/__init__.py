@@ -11,6 +11,7 @@ A mesh is a pair of arrays (vertices, faces), the path of a model file, or an ob
 """
 
 import atexit as _atexit
+import functools as _functools
 import inspect as _inspect
 
 from . import _native
@@ -271,6 +272,10 @@ def _reading(settings):
 _READING = frozenset(setting["name"] for setting in _native.settings("mesh"))
 
 
+# Several functions share a table.
+_settings_of, _documentation_of = map(_functools.cache, (_native.settings, _native.documentation))
+
+
 def _with_settings(function, name):
     """Gives a function the settings of `name` in its signature and its help, as editors show them."""
     signature = _inspect.signature(function)
@@ -278,12 +283,12 @@ def _with_settings(function, name):
     named = {one.name for one in own}
     settings = [
         _inspect.Parameter(setting["name"], _inspect.Parameter.KEYWORD_ONLY, default=None)
-        for setting in _native.settings(name) if setting["name"] not in named
+        for setting in _settings_of(name) if setting["name"] not in named
     ]
     function.__signature__ = signature.replace(parameters=own + settings)
     # Newer Pythons store a docstring without its indentation.
     if "\nSettings\n" in (document := _inspect.cleandoc(function.__doc__)):
-        function.__doc__ = document.rstrip() + "\n" + _native.documentation(name)
+        function.__doc__ = document.rstrip() + "\n" + _documentation_of(name)
 
 
 for _function in (mesh, lines, edges, silhouette, render, measure, compare):
