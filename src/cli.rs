@@ -38,6 +38,7 @@ mod why;
 
 pub use command::{Call, Command, Program, Task, Verdict, given};
 pub use messages::{json_text, make_folder, plain, print, print_json, say};
+use std::ffi::OsString;
 use std::process::ExitCode;
 use std::time::Instant;
 use tinta::{Error, Result};
@@ -67,16 +68,21 @@ impl Default for Program {
 
 /// Carries out the command line of the process, prints the error and chooses the exit code.
 pub fn main(program: &Program) -> ExitCode {
+    ExitCode::from(exit_code(program, std::env::args_os().collect()))
+}
+
+/// Carries out a command line whose first word names the program, prints the error and returns the exit code.
+pub fn exit_code(program: &Program, words: Vec<OsString>) -> u8 {
     outlive_the_limit_on_files();
-    match run(program) {
-        Ok(Verdict::Good) => ExitCode::SUCCESS,
-        Ok(Verdict::Different) => ExitCode::FAILURE,
+    match run(program, words) {
+        Ok(Verdict::Good) => 0,
+        Ok(Verdict::Different) => 1,
         // As a shell reports a program ended by a signal.
-        Ok(Verdict::Stopped { signal }) => ExitCode::from(128 + signal),
+        Ok(Verdict::Stopped { signal }) => 128 + signal,
         Err(error) => {
             say(&format!("tinta: {}", error.with_dashes()));
             // EX_TEMPFAIL of sysexits.h: the same will go later.
-            ExitCode::from(if matches!(error, Error::Busy { .. }) { 75 } else { 2 })
+            if matches!(error, Error::Busy { .. }) { 75 } else { 2 }
         }
     }
 }
@@ -89,9 +95,9 @@ fn outlive_the_limit_on_files() {
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
 }
 
-fn run(program: &Program) -> Result<Verdict> {
+fn run(program: &Program, words: Vec<OsString>) -> Result<Verdict> {
     let started = Instant::now();
-    let (words, picture) = bare::with_command(std::env::args_os().collect(), bare::has_window());
+    let (words, picture) = bare::with_command(words, bare::has_window());
     let verdict = program.carry_out(words, started)?;
     picture.map_or(Ok(()), |picture| print(&bare::said(&picture))).map(|()| verdict)
 }

@@ -23,10 +23,9 @@ def ring(centre, upright, around=72, across=36):
 # sorting whole surfaces by their depth cannot show.
 figure = plt.figure(figsize=(7, 3.4), layout="constrained")
 ax = figure.add_subplot(1, 2, 1, projection="3d")
-ax.set(xlim=(-2.6, 4.6), ylim=(-3, 3), zlim=(-3, 3), title="3-D axes")
-ax.set_aspect("equal")
 rings = [ring((0, 0, 0), upright=False), ring((2, 0, 0), upright=True)]
 tinta_npr.mpl.draw(ax, rings, hidden="dashed", line_width=1.2)
+ax.set(title="3-D axes", aspect="equal")
 
 # %% In 2-D axes, as a drawing.
 ax = figure.add_subplot(1, 2, 2)

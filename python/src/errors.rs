@@ -2,7 +2,8 @@
 
 use pyo3::PyErr;
 use pyo3::exceptions::{PyFileNotFoundError, PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyValueError};
-use tinta::{Error, FileKind};
+use tinta::settings::{HasSettings, Kind};
+use tinta::{Error, FileKind, Request};
 
 /// Returns the Python exception for an error.
 pub(crate) fn raised(error: Error) -> PyErr {
@@ -29,7 +30,8 @@ pub(crate) fn python_name(name: &str) -> String {
     name.replace('-', "_")
 }
 
-/// A sentence of the command line with its options as Python names them.
+/// A sentence of the command line as Python says it: `--page A4` is `page="A4"`, except at the beginning, where it names the setting
+/// and the value that are wrong; style lines is the function.
 pub(crate) fn in_python(sentence: &str) -> String {
     let mut parts = sentence.split("--");
     let mut text = parts.next().unwrap_or_default().to_owned();
@@ -37,11 +39,27 @@ pub(crate) fn in_python(sentence: &str) -> String {
         let is_of_name = |c: char| c.is_ascii_lowercase() || c == '-';
         let end = part.find(|c| !is_of_name(c)).unwrap_or(part.len());
         let (name, rest) = part.split_at(end);
-        match name.is_empty() {
-            true => text.push_str("--"),
-            false => text.push_str(&python_name(name)),
+        let value = rest.strip_prefix(' ').and_then(|rest| rest.split([' ', ',', ';', ':', ')']).next());
+        let value = value.filter(|_| !text.is_empty());
+        match value.and_then(|value| Some((value, python_value(name, value)?))) {
+            _ if name.is_empty() => text.push_str(&format!("--{rest}")),
+            Some((value, written)) => {
+                text.push_str(&format!("{}={written}{}", python_name(name), &rest[1 + value.len()..]));
+            }
+            None => text.push_str(&(python_name(name) + rest)),
         }
-        text.push_str(rest);
     }
-    text
+    text.replace("style lines", "lines()")
+}
+
+/// How Python writes the value of an option; `None` for a word that is no value of it.
+fn python_value(name: &str, word: &str) -> Option<String> {
+    let setting = Request::table().of(None).into_iter().find(|setting| setting.name == name)?;
+    match &setting.kind {
+        Kind::Switch | Kind::Flag => {
+            [("on", "True"), ("off", "False")].iter().find(|(text, _)| *text == word).map(|(_, of)| (*of).to_owned())
+        }
+        _ if word.parse::<f64>().is_ok() => Some(word.to_owned()),
+        kind => kind.offered().contains(&word).then(|| format!("\"{word}\"")),
+    }
 }

@@ -8,8 +8,10 @@
 //! All `unsafe` code comes from pyo3's macros `#[pyclass]` and `#[pyfunction]`.
 
 mod arrays;
+mod command;
 mod edges;
 mod errors;
+mod help;
 mod judging;
 mod lines;
 mod mesh;
@@ -24,21 +26,27 @@ mod work;
 #[pyo3::pymodule]
 mod _native {
     #[pymodule_export]
+    use super::command::command;
+    #[pymodule_export]
     use super::edges::{edges, silhouette};
+    #[pymodule_export]
+    use super::help::documentation;
     #[pymodule_export]
     use super::judging::{compare, measure};
     #[pymodule_export]
     use super::lines::{Lines, lines};
     #[pymodule_export]
-    use super::mesh::Mesh;
+    use super::mesh::{Mesh, is_read};
     #[pymodule_export]
     use super::picture::{Picture, png, render, save, write};
     #[pymodule_export]
     use super::request::reading;
     #[pymodule_export]
-    use super::settings::{camera_names, check, documentation, names, settings};
+    use super::settings::{camera_names, check, names, settings};
     #[pymodule_export]
     use super::studio::close;
+    #[pymodule_export]
+    use super::warnings::warn_of;
 
     /// The version of the package.
     #[pymodule_export]

@@ -7,10 +7,14 @@ use crate::request::{Asked, Basis};
 use crate::settings::options;
 use crate::warnings::warn;
 use crate::work::done;
+use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::sync::{Arc, OnceLock};
-use tinta::lines::{GHOST_OPACITY, LineSegment, Progress, drawn_layers, pdf, svg};
+use tinta::glam::DVec3;
+use tinta::lines::{GHOST_OPACITY, LineSegment, Progress, Raster, drawn_layers, pdf, raster, svg};
+use tinta::picture::Note;
+use tinta::recipe::KEYWORD;
 use tinta::record::lines_json;
 use tinta::{DrawingSettings, Recipe, Request, Result, Scene, VisibleLines};
 
@@ -20,7 +24,7 @@ pub(crate) struct Lines {
     lines: Arc<VisibleLines>,
     scene: Arc<Scene>,
     asked: Asked,
-    /// With hidden lines, on first access.
+    /// All pieces, hidden ones and outlines too, on first access.
     all: OnceLock<Arc<VisibleLines>>,
 }
 
@@ -48,29 +52,48 @@ pub(crate) fn lines(
     )?;
     if !lines.segments.iter().any(|segment| segment.is_visible) {
         let nothing = "no line of these classes is visible in this picture; see classes, eye and target";
-        warn(py, &[nothing.to_owned()], 2)?;
+        warn(py, &[nothing.to_owned()])?;
     }
     Ok(Lines { lines: Arc::new(lines), scene: Arc::new(scene), asked, all: OnceLock::new() })
 }
 
 /// The lines of another request: the existing ones, or new ones if it shows more of them.
-fn found(lines: Arc<VisibleLines>, scene: &Scene, before: &Request, now: &Request) -> Result<Arc<VisibleLines>> {
+fn found(
+    lines: Arc<VisibleLines>,
+    scene: &Scene,
+    [before, now]: [&Request; 2],
+    progress: &Progress,
+) -> Result<Arc<VisibleLines>> {
     match before.finds_all_for(now) {
         true => Ok(lines),
-        false => now.all_lines(scene, &Progress::default()).map(Arc::new),
+        false => now.all_lines(scene, progress).map(Arc::new),
     }
 }
 
 impl Lines {
-    /// All pieces, hidden ones too.
+    /// All pieces, as arrays and JSON have them: hidden ones too, those of the outline marked; short ones unless the drawing has
+    /// a least length.
     fn everything(&self, py: Python<'_>) -> PyResult<Arc<VisibleLines>> {
         if let Some(all) = self.all.get() {
             return Ok(all.clone());
         }
         let (lines, scene, before) = (self.lines.clone(), self.scene.clone(), self.asked.request.clone());
         let mut request = before.clone();
-        request.tells_hidden = true;
-        let all = done(py, || (), move || found(lines, &scene, &before, &request))?;
+        request.tells_all = true;
+        let progress = Arc::new(Progress::default());
+        let watched = progress.clone();
+        let all = done(
+            py,
+            || progress.cancel(),
+            move || {
+                let lines = found(lines, &scene, [&before, &request], &watched)?;
+                let drawing = request.line_style().unwrap_or_default().drawing;
+                match drawing.min_length {
+                    None => Ok(lines),
+                    Some(_) => lines.without_specks_with_progress(&drawing, &watched).map(Arc::new),
+                }
+            },
+        )?;
         // Another thread may have been here first: then both keep its result.
         Ok(self.all.get_or_init(|| all).clone())
     }
@@ -85,11 +108,13 @@ impl Lines {
     ) -> PyResult<T> {
         let asked = self.asked.with(options("Lines.svg", given)?).map_err(raised)?;
         let (lines, scene, before) = (self.lines.clone(), self.scene.clone(), self.asked.request.clone());
+        let progress = Arc::new(Progress::default());
+        let watched = progress.clone();
         done(
             py,
-            || (),
+            || progress.cancel(),
             move || {
-                let lines = found(lines, &scene, &before, &asked.request)?;
+                let lines = found(lines, &scene, [&before, &asked.request], &watched)?;
                 let recipe = file.as_ref().and_then(|_| asked.recipe(&scene, None));
                 let (name, title) = file.unwrap_or_default();
                 let settings = DrawingSettings {
@@ -157,23 +182,41 @@ impl Lines {
         Ok(PyBytes::new(py, &self.drawn(py, given, Some(("drawing.pdf", title)), pdf)?))
     }
 
+    /// The PNG file's bytes, as large as the lines' picture.
+    #[pyo3(signature = (given, title=None))]
+    fn png<'py>(
+        &self,
+        py: Python<'py>,
+        given: &Bound<'py, PyDict>,
+        title: Option<String>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = self.drawn(py, given, Some(("drawing.png", title)), |lines, settings| {
+            let Raster { size, pixels } = raster(lines, settings)?;
+            let recipe =
+                (!settings.recipe.is_empty()).then(|| Note { keyword: KEYWORD, text: settings.recipe.clone() });
+            tinta::Picture { size, pixels }.png_bytes(recipe.as_ref())
+        })?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
     /// The JSON file's text: all pieces and the camera.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        let (lines, scene, before) = (self.lines.clone(), self.scene.clone(), self.asked.request.clone());
-        done(
-            py,
-            || (),
-            move || {
-                let mut all = before.clone();
-                all.tells_all = true;
-                let lines = found(lines, &scene, &before, &all)?;
-                let drawing = all.line_style().unwrap_or_default().drawing;
-                match drawing.min_length {
-                    None => lines_json(&lines, &scene),
-                    Some(_) => lines_json(&lines.without_specks(&drawing)?, &scene),
-                }
-            },
-        )
+        let (all, scene) = (self.everything(py)?, self.scene.clone());
+        done(py, || (), move || lines_json(&all, &scene))
+    }
+
+    /// Where the camera shows points of the drawn scene: pixels, y down; NaN behind the eye.
+    fn projected<'py>(&self, py: Python<'py>, numbers: PyReadonlyArray2<'_, f64>) -> PyResult<Bound<'py, PyAny>> {
+        let (camera, size) = (&self.scene.camera, self.scene.size);
+        let [width, height] = [size.width, size.height].map(f64::from);
+        let clip_from_world = camera.clip_from_view(width / height) * camera.view_from_world();
+        let place = |point: [f64; 3]| {
+            let clip = clip_from_world * DVec3::from_array(point).extend(1.0);
+            let scale = if clip.w > 0.0 { 0.5 / clip.w } else { f64::NAN };
+            [(0.5 + clip.x * scale) * width, (0.5 - clip.y * scale) * height]
+        };
+        let rows = numbers.as_array();
+        pairs(py, &rows.rows().into_iter().map(|row| place([row[0], row[1], row[2]])).collect::<Vec<_>>())
     }
 
     /// The drawing as plain values: its layers from the lowest to the highest.

@@ -2,7 +2,7 @@
 
 use crate::arrays::shaped;
 use crate::errors::{in_python, raised, wrong};
-use crate::settings::options;
+use crate::settings::{options, python_options};
 use crate::warnings::warn;
 use crate::work::done;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
-use tinta::glam::DVec3;
+use tinta::glam::{DVec3, Vec3};
 use tinta::settings::{HasSettings, Options};
 use tinta::{LoadOptions, Result, Scene, SceneSettings, load};
 
@@ -28,6 +28,18 @@ pub(crate) struct Mesh {
     /// How it was seen first: its arrays and edges are shared by all later views.
     scene: OnceLock<Scene>,
 }
+
+/// Three numbers of an array.
+type ArrayRow<'a> = numpy::ndarray::ArrayView1<'a, f64>;
+
+/// Vertices and their numbers in the given mesh, triangles, normals and triangles of normals.
+type PickledArrays<'py> = (
+    PyReadonlyArray2<'py, f64>,
+    PyReadonlyArray1<'py, u32>,
+    PyReadonlyArray2<'py, u32>,
+    PyReadonlyArray2<'py, f32>,
+    PyReadonlyArray2<'py, u32>,
+);
 
 /// Faces as their corners one after the other.
 struct Corners {
@@ -120,6 +132,12 @@ impl Mesh {
         let mesh = made.map_err(|(argument, problem)| wrong(argument, problem))?;
         let remarks =
             if mesh.defects.is_empty() { Vec::new() } else { vec![format!("{}: {}", mesh.name, mesh.defects)] };
+        // Arrays of volumes have points inside, which is no defect of them.
+        let mut told = mesh.defects.clone();
+        told.unused_vertices = 0;
+        if !told.is_empty() {
+            warn(py, &remarks)?;
+        }
         Ok(Self::new(mesh, None, options, Vec::new(), remarks))
     }
 
@@ -198,8 +216,7 @@ impl Mesh {
         let options = options("mesh", given)?;
         let (of_mesh, file) = (options.clone(), path.clone());
         let loaded = done(py, || (), move || load(&file, &LoadOptions::from_options(&of_mesh)?))?;
-        // The level skips the two functions between the caller and this one.
-        warn(py, &loaded.remarks, 4)?;
+        warn(py, &loaded.remarks)?;
         Ok(Self::new(loaded.mesh, Some(path), options, loaded.files, loaded.remarks))
     }
 
@@ -236,6 +253,86 @@ impl Mesh {
         shaped(py, self.mesh.triangles.as_flattened().to_vec(), &[self.mesh.triangles.len(), 3])
     }
 
+    /// Vectors turned as reading with these settings turned the mesh: (N, 3).
+    fn turned<'py>(&self, py: Python<'py>, vectors: PyReadonlyArray2<'_, f64>) -> PyResult<Bound<'py, PyAny>> {
+        let up_axis = LoadOptions::from_options(&self.options).map_err(raised)?.up_axis;
+        let rows = vectors.as_array();
+        let turn = |row: ArrayRow<'_>| up_axis.to_y_up(DVec3::new(row[0], row[1], row[2])).to_array();
+        let numbers: Vec<f64> = rows.rows().into_iter().flat_map(turn).collect();
+        shaped(py, numbers, &[rows.nrows(), 3])
+    }
+
+    /// It never changes, so a copy is itself.
+    fn __copy__(this: Py<Self>) -> Py<Self> {
+        this
+    }
+
+    fn __deepcopy__(this: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        this
+    }
+
+    /// How a pickle makes it again: a file's from the file, another from its arrays.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let class = py.get_type::<Self>();
+        let options = python_options(py, &self.options)?;
+        if let Some(path) = &self.path {
+            return Ok((class.getattr("of_file")?, (path, options).into_pyobject(py)?.into_any()));
+        }
+        let normals: Vec<f32> = self.mesh.normals.iter().flat_map(|normal| normal.to_array()).collect();
+        let mesh = &self.mesh;
+        let arrays = (
+            self.vertices(py)?,
+            shaped(py, mesh.file_vertices.clone(), &[mesh.file_vertices.len()])?,
+            self.faces(py)?,
+            shaped(py, normals, &[mesh.normals.len(), 3])?,
+            shaped(py, mesh.triangle_normals.as_flattened().to_vec(), &[mesh.triangle_normals.len(), 3])?,
+        );
+        let arguments = (arrays, &mesh.name, options, &self.remarks).into_pyobject(py)?.into_any();
+        Ok((class.getattr("of_pickle")?, arguments))
+    }
+
+    /// The mesh of a pickle.
+    #[staticmethod]
+    fn of_pickle(
+        arrays: PickledArrays<'_>,
+        name: String,
+        given: &Bound<'_, PyDict>,
+        remarks: Vec<String>,
+    ) -> PyResult<Self> {
+        let options = options("mesh", given)?;
+        let (vertices, file_vertices, faces, normals, face_normals) = arrays;
+        let vectors = |array: PyReadonlyArray2<'_, f64>| -> Vec<f64> { array.as_array().iter().copied().collect() };
+        let corners = |array: PyReadonlyArray2<'_, u32>| -> Vec<[u32; 3]> {
+            array.as_array().iter().copied().collect::<Vec<_>>().as_chunks::<3>().0.to_vec()
+        };
+        let positions = checked_vertices(&vectors(vertices)).map_err(|problem| wrong("pickle", problem))?;
+        let normals: Vec<f32> = normals.as_array().iter().copied().collect();
+        let mesh = tinta::Mesh {
+            name,
+            file_vertices: file_vertices.as_array().to_vec(),
+            triangles: corners(faces),
+            normals: normals.as_chunks::<3>().0.iter().map(|row| Vec3::from_array(*row)).collect(),
+            triangle_normals: corners(face_normals),
+            positions,
+            position_colors: Vec::new(),
+            texture_coordinates: Vec::new(),
+            triangle_texture_coordinates: Vec::new(),
+            materials: Vec::new(),
+            triangle_materials: Vec::new(),
+            defects: tinta::mesh::Defects::default(),
+        };
+        let is_within = |rows: &[[u32; 3]], count: usize| rows.as_flattened().iter().all(|row| (*row as usize) < count);
+        let is_whole = mesh.file_vertices.len() == mesh.positions.len()
+            && mesh.triangle_normals.len() == mesh.triangles.len()
+            && !mesh.triangles.is_empty()
+            && is_within(&mesh.triangles, mesh.positions.len())
+            && is_within(&mesh.triangle_normals, mesh.normals.len());
+        match is_whole {
+            true => Ok(Self::new(mesh, None, options, Vec::new(), remarks)),
+            false => Err(wrong("pickle", "its arrays do not fit one another; pickle the mesh again")),
+        }
+    }
+
     fn __repr__(&self) -> String {
         let (vertices, faces) = (self.mesh.positions.len(), self.mesh.triangles.len());
         format!("<tinta_npr.Mesh {:?}: {vertices} vertices, {faces} triangles>", self.mesh.name)
@@ -252,6 +349,12 @@ impl Mesh {
     ) -> Self {
         Self { mesh: Arc::new(mesh), path, options, files, remarks, scene: OnceLock::new() }
     }
+}
+
+/// Whether a file of this name is read by tinta itself.
+#[pyfunction]
+pub(crate) fn is_read(name: &str) -> bool {
+    tinta::mesh::is_read(name)
 }
 
 /// Combines meshes under the settings into a drawable scene, while Python's other threads run.

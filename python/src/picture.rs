@@ -1,7 +1,7 @@
 //! Pictures: styles drawn by OpenGL, and PNG files of them.
 
 use crate::arrays::shaped;
-use crate::errors::{in_python, raised, wrong};
+use crate::errors::{python_name, raised, wrong};
 use crate::mesh::{Mesh, drawable};
 use crate::request::{Asked, Basis};
 use crate::studio::drawn;
@@ -42,7 +42,7 @@ pub(crate) fn render(
     backend: Option<&str>,
 ) -> PyResult<Picture> {
     let asked = Asked::new("render", &meshes, given, &Basis { style, look, preset, show, backend })?;
-    warn(py, &ignored(given, asked.request.style.name())?, 2)?;
+    warn(py, &ignored(given, asked.request.style.name())?)?;
     let scene = drawable(py, meshes, &asked.request.scene)?;
     let (picture, recipe, remarks) = drawn(py, asked.request.backend, move |renderer| {
         let request = &asked.request;
@@ -52,7 +52,7 @@ pub(crate) fn render(
         let recipe = asked.recipe(&scene, Some(renderer.context()));
         Ok((picture, recipe.as_ref().and_then(Recipe::json), remarks))
     })?;
-    warn(py, &remarks, 2)?;
+    warn(py, &remarks)?;
     let shape = [picture.size.height as usize, picture.size.width as usize, 4];
     Ok(Picture { pixels: shaped(py, picture.pixels, &shape)?.unbind(), recipe })
 }
@@ -120,8 +120,9 @@ pub(crate) fn picture_of(pixels: &PyReadonlyArray3<'_, u8>) -> PyResult<tinta::P
     Ok(tinta::Picture { size: Size { width, height }, pixels: array.iter().copied().collect() })
 }
 
-/// Settings in the command line's notation.
+/// Settings in the command line's notation, without its dashes.
 pub(crate) fn words(options: &Options) -> String {
     let words = options.iter().flat_map(|(name, value)| tinta::recipe::option_words(name, value));
-    in_python(&words.map(|word| tinta::shell::quoted(&word)).collect::<Vec<_>>().join(" "))
+    let plain = |word: String| word.strip_prefix("--").map_or_else(|| tinta::shell::quoted(&word), python_name);
+    words.map(plain).collect::<Vec<_>>().join(" ")
 }

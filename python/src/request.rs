@@ -1,9 +1,9 @@
 //! The request of a drawing: its settings over those of a look and a preset, the models' settings; and the recipe of the result,
 //! which is the command line's for models from files.
 
-use crate::errors::{python_name, raised};
+use crate::errors::raised;
 use crate::mesh::Mesh;
-use crate::settings::{draws_lines, entries, is_reading, options};
+use crate::settings::{draws_lines, entries, is_reading, options, python_options};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
@@ -102,22 +102,15 @@ pub(crate) fn reading<'py>(
     look: Option<&str>,
     preset: Option<&str>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let found = PyDict::new(py);
-    let request =
-        asked(function, Options::new(), &Basis { style, look, preset, ..Basis::default() }).map_err(raised)?;
-    for (name, value) in request.options.into_iter().filter(|(name, _)| is_reading(name)) {
-        match value {
-            OptionValue::Switch(is_on) => found.set_item(python_name(&name), is_on)?,
-            OptionValue::Text(text) => found.set_item(python_name(&name), text)?,
-            OptionValue::Texts(texts) => found.set_item(python_name(&name), texts)?,
-        }
-    }
-    Ok(found)
+    let basis = Basis { style, look, preset, ..Basis::default() };
+    let mut options = asked(function, Options::new(), &basis).map_err(raised)?.options;
+    options.retain(|name, _| is_reading(name));
+    python_options(py, &options)
 }
 
 /// The request of a function: its options over a preset and a look. The look is the named one, or the first for a picture without
 /// style or look.
-fn asked(function: &str, mut given: Options, basis: &Basis<'_>) -> Result<Request> {
+pub(crate) fn asked(function: &str, mut given: Options, basis: &Basis<'_>) -> Result<Request> {
     let named = [("style", basis.style), ("show", basis.show), ("backend", basis.backend)];
     given.extend(named.into_iter().filter_map(|(name, value)| Some((name.to_owned(), OptionValue::text(value?)))));
     let entries = entries(function);

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PySequence, PyString};
 use tinta::camera;
 use tinta::choice::{nearest, no_option};
+use tinta::preset::{LOOKS, Look};
 use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, names_of, refuse_exclusive};
 use tinta::styles::{StyleName, is_of_lines_alone};
 use tinta::{Backend, DrawingSettings, Error, LineSettings, LoadOptions, Request, SceneSettings, Show, Style};
@@ -45,8 +46,8 @@ const FUNCTIONS: [(&str, Taken); 8] = {
 /// A setting of a function.
 #[derive(Clone)]
 pub(crate) struct Entry {
-    setting: &'static Setting<Request>,
-    default: String,
+    pub setting: &'static Setting<Request>,
+    pub default: String,
 }
 
 impl Entry {
@@ -91,9 +92,12 @@ pub(crate) fn entries(function: &str) -> Vec<Entry> {
     let settings = table.of(taken.style.map(|_| &form));
     let mut all: Vec<_> = settings.into_iter().filter_map(|setting| Some((rank(setting.name)?, setting))).collect();
     all.sort_by_key(|(rank, _)| *rank);
+    // Said for several styles, lines among them, it is of another function's pictures.
+    let is_of_others = |said: &str| taken.style.is_some() && said.contains("style lines:");
     let default = |setting: &Setting<Request>| match (setting.said_default, setting.value(&form)) {
-        (Some(said), _) => said.to_owned(),
-        (None, Some(value)) => value,
+        (Some(said), None) => said.to_owned(),
+        (Some(said), Some(_)) if !is_of_others(said) => said.to_owned(),
+        (_, Some(value)) => value,
         (None, None) => table.default_of(setting),
     };
     all.into_iter().map(|(_, setting)| Entry { setting, default: default(setting) }).collect()
@@ -115,7 +119,7 @@ pub(crate) fn options(function: &str, given: &Bound<'_, PyDict>) -> PyResult<Opt
         let key: String = key.extract()?;
         let name = key.replace('_', "-");
         let Some(entry) = entries.iter().find(|entry| entry.name() == name) else {
-            return Err(PyValueError::new_err(unknown(given.py(), function, &key, &entries)));
+            return Err(PyValueError::new_err(unknown(given.py(), function, &key)));
         };
         let Some(value) = value_of(&key, entry, &given_value)? else { continue };
         if let OptionValue::Text(text) = &value {
@@ -146,23 +150,37 @@ pub(crate) fn check(function: &str, given: &Bound<'_, PyDict>) -> PyResult<()> {
 }
 
 /// The error about an unknown setting of a function.
-fn unknown(py: Python<'_>, function: &str, key: &str, entries: &[Entry]) -> String {
-    let own = own_names(py, function).unwrap_or_default();
-    let settings: Vec<String> = entries.iter().map(|entry| python_name(entry.name())).collect();
-    let names: Vec<&str> = own.iter().chain(&settings).map(String::as_str).collect();
+fn unknown(py: Python<'_>, function: &str, key: &str) -> String {
+    let names = argument_names(py, function).unwrap_or_default();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
     match nearest(key, &names) {
         Some(meant) => no_option(function, key, Some(meant)),
         None => format!("{}; see help(tinta_npr.{function})", no_option(function, key, None)),
     }
 }
 
-/// A function's arguments other than settings, by the names in its signature.
-fn own_names(py: Python<'_>, function: &str) -> PyResult<Vec<String>> {
+/// A function's arguments, settings among them, by the names in its signature.
+fn argument_names(py: Python<'_>, function: &str) -> PyResult<Vec<String>> {
     let package = py.import("tinta_npr")?.into_any();
     let of_python = function.split('.').try_fold(package, |within, name| within.getattr(name))?;
     let parameters = py.import("inspect")?.call_method1("signature", (of_python,))?.getattr("parameters")?;
     let names: Vec<String> = parameters.try_iter()?.map(|name| name?.extract()).collect::<PyResult<_>>()?;
-    Ok(names.into_iter().filter(|name| name != "settings" && name != "self").collect())
+    Ok(names.into_iter().filter(|name| name != "self").collect())
+}
+
+/// Options as Python's keyword arguments.
+pub(crate) fn python_options<'py>(py: Python<'py>, options: &Options) -> PyResult<Bound<'py, PyDict>> {
+    let given = PyDict::new(py);
+    for (name, value) in options {
+        let name = python_name(name);
+        match value {
+            OptionValue::Switch(is_on) => given.set_item(name, is_on)?,
+            OptionValue::Text(text) if text == "on" || text == "off" => given.set_item(name, text == "on")?,
+            OptionValue::Text(text) => given.set_item(name, text)?,
+            OptionValue::Texts(texts) => given.set_item(name, texts)?,
+        }
+    }
+    Ok(given)
 }
 
 /// A value as recipes and presets keep it, as the command line does; `None` for a switch that is off.
@@ -180,9 +198,15 @@ fn value_of(key: &str, entry: &Entry, value: &Bound<'_, PyAny>) -> PyResult<Opti
         return Ok(None);
     }
     if let Some(is_on) = switch(value) {
-        return Ok(Some(OptionValue::Switch(is_on)));
+        let choices = match &entry.setting.kind {
+            Kind::Choice(names) | Kind::Several(names) if !names.contains(&"on") => names.join(", "),
+            Kind::Numbers { .. } | Kind::Color | Kind::Colors { .. } => entry.setting.value_name.to_owned(),
+            _ => return Ok(Some(OptionValue::Switch(is_on))),
+        };
+        let truth = if is_on { "True" } else { "False" };
+        return Err(PyValueError::new_err(format!("{key}: give {choices}, not {truth}")));
     }
-    let text = match text_of(value, &entry.setting.kind)? {
+    let text = match text_of(key, value, &entry.setting.kind)? {
         Some(text) => text,
         None => {
             let given = value.get_type().name()?;
@@ -200,18 +224,18 @@ fn switch(value: &Bound<'_, PyAny>) -> Option<bool> {
 }
 
 /// The text of a value: numbers and texts unchanged, several joined by commas, pairs as `NAME=VALUE`, a colour's numbers as
-/// shares of full red, green and blue.
-fn text_of(value: &Bound<'_, PyAny>, kind: &Kind) -> PyResult<Option<String>> {
+/// shares of full red, green and blue, which the sentence about wrong ones names by `key`.
+fn text_of(key: &str, value: &Bound<'_, PyAny>, kind: &Kind) -> PyResult<Option<String>> {
     if let Some(text) = scalar(value)? {
         return Ok(Some(text));
     }
     if let Ok(pairs) = value.cast::<PyMapping>() {
         let mut texts = Vec::new();
         for pair in pairs.items()? {
-            let (key, value): (String, Bound<'_, PyAny>) = pair.extract()?;
+            let (name, value): (String, Bound<'_, PyAny>) = pair.extract()?;
             // Colours are the only named values of several numbers.
-            let Some(value) = text_of(&value, &Kind::Color)? else { return Ok(None) };
-            texts.push(format!("{}={value}", key.replace('_', "-")));
+            let Some(value) = text_of(&format!("{key} {name}"), &value, &Kind::Color)? else { return Ok(None) };
+            texts.push(format!("{}={value}", name.replace('_', "-")));
         }
         return Ok(Some(texts.join(",")));
     }
@@ -224,6 +248,10 @@ fn text_of(value: &Bound<'_, PyAny>, kind: &Kind) -> PyResult<Option<String>> {
     let numbers: Result<Vec<f64>, _> = texts.iter().map(|text| text.parse::<f64>()).collect();
     Ok(Some(match (kind, numbers) {
         (Kind::Color, Ok(numbers)) if numbers.len() == 3 || numbers.len() == 4 => {
+            if !numbers.iter().all(|number| (0.0..=1.0).contains(number)) {
+                let problem = "the numbers of a colour are from 0 to 1; divide those from 0 to 255 by 255";
+                return Err(PyValueError::new_err(format!("{key} ({}): {problem}", texts.join(", "))));
+            }
             let [red, green, blue] = [0, 1, 2].map(|channel| numbers[channel] * 255.0);
             let alpha = numbers.get(3).map_or(String::new(), |alpha| format!(" / {alpha}"));
             format!("rgb({red} {green} {blue}{alpha})")
@@ -264,7 +292,7 @@ fn several<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Vec<Bound<'py, PyA
     }
 }
 
-/// The settings of a function as plain values, for its signature in the stubs.
+/// The settings of a function as plain values, for its signature.
 #[pyfunction]
 pub(crate) fn settings<'py>(py: Python<'py>, function: &str) -> PyResult<Vec<Bound<'py, PyDict>>> {
     let described = |Entry { setting, default }: Entry| -> PyResult<Bound<'py, PyDict>> {
@@ -285,30 +313,15 @@ pub(crate) fn settings<'py>(py: Python<'py>, function: &str) -> PyResult<Vec<Bou
         of_it.set_item("value_name", setting.value_name)?;
         of_it.set_item("heading", in_python(setting.heading))?;
         of_it.set_item("help", in_python(setting.help))?;
-        of_it.set_item("default", default)?;
+        of_it.set_item("default", in_python(&default))?;
         Ok(of_it)
     };
     entries(function).into_iter().map(described).collect()
 }
 
-/// The settings of a function as its help lists them.
-#[pyfunction]
-pub(crate) fn documentation(function: &str) -> String {
-    let mut text = String::new();
-    let mut heading = "";
-    for Entry { setting, default } in entries(function) {
-        if setting.heading != heading {
-            heading = setting.heading;
-            text.push_str(&format!("\n{}\n", in_python(heading)));
-        }
-        let value = match setting.kind {
-            Kind::Switch | Kind::Flag => "True or False".to_owned(),
-            _ => setting.value_name.to_owned(),
-        };
-        text.push_str(&format!("  {} : {value}\n", python_name(setting.name)));
-        text.push_str(&format!("      {} [default: {default}]\n", in_python(setting.help)));
-    }
-    text
+/// Looks of a kind, and those without settings, which are of every kind.
+fn looks(is_wanted: impl Fn(&Look) -> bool) -> Vec<&'static str> {
+    LOOKS.iter().filter(|look| is_wanted(look) || !look.has_settings()).map(|look| look.name).collect()
 }
 
 /// The names that there are of something: styles, looks, shows, backends, classes.
@@ -319,7 +332,9 @@ pub(crate) fn names(of: &str) -> Vec<&'static str> {
         "show" => names_of::<Show>(),
         "backend" => names_of::<Backend>(),
         "class" => names_of::<tinta::edges::Class>(),
-        "look" => tinta::preset::LOOKS.map(|look| look.name).to_vec(),
+        "look" => LOOKS.map(|look| look.name).to_vec(),
+        "look of lines" => looks(|look| look.draws_lines()),
+        "look of pictures" => looks(|look| !look.draws_lines()),
         "function" => FUNCTIONS.map(|(name, _)| name).to_vec(),
         _ => Vec::new(),
     }

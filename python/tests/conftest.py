@@ -1,21 +1,20 @@
 """Shared by the tests: the command line's program, which they compare the package with."""
 
 import os
-import shutil
 import subprocess
+import sys
 
 import pytest
 
 
 @pytest.fixture(scope="session")
 def tinta():
-    """Runs the program: `tinta("render", "builtin:gear", "-o", "gear.svg")`; returns its exit code and error."""
-    program = os.environ.get("TINTA") or shutil.which("tinta")
-    if not program:
-        pytest.fail("TINTA names no program; run scripts/python, which builds it")
+    """Runs the program that the package brings, or TINTA: `tinta("render", "builtin:gear", "-o", "gear.svg")`; returns its exit code
+    and error."""
+    program = [os.environ["TINTA"]] if "TINTA" in os.environ else [sys.executable, "-m", "tinta_npr"]
 
     def run(*words):
-        done = subprocess.run([program, *map(str, words)], capture_output=True, text=True)
+        done = subprocess.run([*program, *map(str, words)], capture_output=True, text=True)
         return done.returncode, done.stderr.strip()
 
     return run

@@ -1,6 +1,9 @@
 """The package is the command line's twin: the same bytes, the same sentences."""
 
+import json
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -43,8 +46,47 @@ def test_pdf_and_json_are_too(tinta):
     with open("drawing.pdf", "rb") as file:
         assert lines.pdf() == file.read()
     with open("drawing.json") as theirs:
-        # The program finds outlines for every JSON file, which cuts lines where they begin and end.
-        assert tn.lines("builtin:open-box", class_widths="outline=2").json() == theirs.read()
+        assert lines.json() == theirs.read()
+
+
+@pytest.mark.parametrize("model", ["builtin:bust", "builtin:gear", "builtin:open-box", "builtin:ant"])
+@pytest.mark.parametrize("settings", [{}, {"hidden": "dashed"}, {"min_length": 6}, {"classes": "all", "class_widths": "outline=3"}])
+def test_arrays_have_the_pieces_of_json(model, settings):
+    lines = tn.lines(model, view="iso", **settings)
+    pieces = json.loads(lines.json())["segments"]
+    assert [piece["class"] for piece in pieces] == lines.cls.tolist()
+    for array, key in [(lines.visible, "visible"), (lines.outline, "outline")]:
+        assert [piece[key] for piece in pieces] == array.tolist(), key
+    assert lines.outline.any() and not (lines.outline & ~lines.visible).any()
+
+
+@pytest.mark.parametrize("words, settings", [((), {}), (("--look", "technical"), {"look": "technical"})])
+def test_png_of_lines_is_too(tinta, words, settings):
+    assert tinta("render", "builtin:gear", "-o", "drawing.png", "--style", "lines", "--size", "200x150", *words)[0] == 0
+    lines = tn.lines("builtin:gear", size=(200, 150), **settings)
+    lines.save("ours.png")
+    pictures = []
+    for name in ("drawing.png", "ours.png"):
+        with open(name, "rb") as file:
+            content = file.read()
+        # The recipes differ: only the program was told the style.
+        assert b"tinta-recipe" in content
+        pictures.append(content[content.index(b"IDAT"):])
+    assert pictures[0] == pictures[1]
+
+
+def test_the_wheel_brings_the_program():
+    def run(*words):
+        return subprocess.run([sys.executable, "-m", "tinta_npr", *words], capture_output=True, text=True)
+
+    tn.lines("builtin:gear", hidden="dashed").save("gear.svg")
+    assert run("again", "gear.svg", "-o", "again.svg").returncode == 0
+    with open("gear.svg") as first, open("again.svg") as again:
+        assert first.read() == again.read()
+    assert run("--version").stdout.split() == ["tinta", tn.__version__]
+    wrong = run("render", "builtin:gear", "-o", "a.svg", "--crease-angel", "3")
+    assert wrong.returncode == 2 and "--crease-angle" in wrong.stderr
+    assert run("compare", "builtin:gear", "--left", "ink", "--right", "inking", "--size", "64", "-o", "c.png").returncode in (0, 1)
 
 
 @pytest.mark.parametrize(
@@ -95,7 +137,9 @@ def test_arrays_are_drawn_as_the_file_of_them(tinta, cube):
 
 def in_python(sentence):
     """A sentence of the program as the package says it."""
-    return re.sub(r"--([a-z][a-z-]*)", lambda name: name[1].replace("-", "_"), sentence).removeprefix("tinta: ")
+    sentence = re.sub(r"--([a-z-]+) (A4|inking)\b", r'--\1="\2"', sentence)
+    sentence = re.sub(r"--([a-z][a-z-]*)", lambda name: name[1].replace("-", "_"), sentence)
+    return sentence.replace("style lines", "lines()").removeprefix("tinta: ")
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,9 @@
 """Lines whose places, classes and visibility are known otherwise."""
 
+import copy
+import io
 import itertools
+import pickle
 
 import numpy as np
 import pytest
@@ -137,6 +140,76 @@ def test_several_meshes_are_one_scene(cube):
     lines = tn.lines([near, far], view="front", parallel=True)
     assert set(lines.object.tolist()) == {0, 1}
     assert lines.visible[lines.object == 0].any() and not lines.visible[lines.object == 1].any(), "behind the other"
+
+
+def test_a_pair_is_a_mesh_alone_and_in_a_list(cube):
+    vertices, faces = cube
+    assert tn.lines((vertices, faces)).svg() == tn.lines([vertices.tolist(), faces.tolist()]).svg() == tn.lines(*cube).svg()
+    both = tn.lines([(vertices, faces), (vertices + 2, faces[:3])])
+    assert set(both.object.tolist()) == {0, 1}
+    assert both.svg() == tn.lines([tn.mesh(vertices, faces), tn.mesh(vertices + 2, faces[:3])]).svg()
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [{}, {"fov": 20, "view": "iso"}, {"parallel": True}, {"up_axis": "z", "view": "top"}, {"up_axis": "-x", "framing": "outline"}],
+)
+@pytest.mark.parametrize("is_read_first", [False, True])
+def test_points_are_projected_to_the_ends_of_their_lines(cube, settings, is_read_first):
+    vertices, faces = cube
+    settings = dict(settings)
+    mesh = (vertices * (3, 2, 1), faces)
+    if is_read_first:
+        mesh = tn.mesh(*mesh, up_axis=settings.pop("up_axis", None))
+    lines = tn.lines(mesh, size=(400, 300), **settings)
+    places = lines.project(vertices * (3, 2, 1))
+    for edge, ends in zip(lines.edge, lines.segments):
+        inside = places[edge]
+        along = inside[1] - inside[0]
+        across = (ends - inside[0]) @ (along[1], -along[0]) / np.linalg.norm(along)
+        assert np.abs(across).max() < 1e-6, "the pieces of an edge lie between its projected ends"
+    assert (lines.project(vertices[0]) == places[0]).all() and lines.project(vertices[0]).shape == (2,)
+    behind = 2 * np.array(lines.camera["eye"]) - lines.camera["target"]
+    assert np.isnan(tn.lines(*cube, camera={**lines.camera}).project(behind)).all() == ("fov" in lines.camera)
+
+
+def test_results_are_copied_and_pickled(cube):
+    vertices, faces = cube
+    mesh = tn.mesh(vertices, faces.tolist(), name="cube", up_axis="z")
+    lines = tn.lines(mesh, hidden="dashed", class_colors={"crease": (0, 0.5, 1)}, camera=(12, 34))
+    moved = tn.lines(mesh=(vertices, faces), camera=[[3, 0.1, 1, 90], [0, 2, 1, 80], [0, 0, 0.01, 1]], size=200)
+    for copied in (copy.copy, copy.deepcopy, lambda value: pickle.loads(pickle.dumps(value))):
+        again = copied(mesh)
+        assert repr(again) == repr(mesh) and again.was_read_with({"up_axis": "z"})
+        assert tn.lines(again).svg() == tn.lines(mesh).svg()
+        assert (tn.silhouette(again, (3, 4, 5)) == tn.silhouette(mesh, (3, 4, 5))).all(), "by the given vertices' numbers"
+        assert (tn.render(again, size=48, style="phong") == tn.render(mesh, size=48, style="phong")).all()
+        for found in (lines, moved):
+            other = copied(found)
+            assert (other.segments == found.segments).all() and (other.cls == found.cls).all() and other.camera == found.camera
+            assert other.svg() == found.svg() and (other.project(vertices) == found.project(vertices)).all()
+        gear = copied(tn.mesh("builtin:gear"))
+        assert tn.lines(gear).svg() == tn.lines("builtin:gear").svg()
+        picture = tn.render("builtin:gear", size=32)
+        assert copied(picture).png() == picture.png() and copied(picture).recipe == picture.recipe is not None
+        edges = tn.edges(mesh)
+        assert (copied(edges).vertices == edges.vertices).all()
+        comparison = tn.compare(mesh, size=32)
+        assert copied(comparison).numbers == comparison.numbers
+    deep = copy.deepcopy(lines)
+    deep.segments[:] = 0
+    assert lines.segments.any()
+
+
+def test_lines_are_saved_to_paths_and_open_files(cube, tmp_path):
+    lines = tn.lines(*cube)
+    for format, begin in [("svg", b"<?xml"), ("pdf", b"%PDF"), ("png", b"\x89PNG"), ("json", b"{")]:
+        opened = io.BytesIO()
+        lines.save(opened, format=format)
+        lines.save(tmp_path / f"cube.{format}")
+        assert opened.getvalue().startswith(begin) and (tmp_path / f"cube.{format}").read_bytes() == opened.getvalue()
+    lines.save(tmp_path / "cube", format="svg", title="A cube")
+    assert b"<title>A cube" in (tmp_path / "cube").read_bytes()
 
 
 def test_edges_have_their_classes_and_faces(cube):

@@ -28,6 +28,40 @@ class TestTrimesh:
         assert lines.camera["fov"] == pytest.approx(scene.camera.fov[1])
 
 
+class TestOpen3D:
+    def test_a_mesh_is_its_arrays(self, cube):
+        vertices, faces = cube
+        triangles = np.concatenate([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
+
+        class TriangleMesh:
+            """As Open3D's: lists of vectors with these names, and more besides."""
+
+        mesh = TriangleMesh()
+        mesh.vertices, mesh.triangles, mesh.triangle_normals = vertices.tolist(), triangles.tolist(), []
+        assert tn.lines(mesh).svg() == tn.lines(vertices, triangles).svg()
+
+    def test_the_real_class(self, cube):
+        open3d = pytest.importorskip("open3d")
+        box = open3d.geometry.TriangleMesh.create_box()
+        assert tn.lines(box).svg() == tn.lines(np.asarray(box.vertices), np.asarray(box.triangles)).svg()
+        assert tn.lines(open3d.t.geometry.TriangleMesh.from_legacy(box)).svg()
+
+
+class TestFiles:
+    @pytest.mark.parametrize("name, module", [("cube.vtk", "meshio"), ("cube.off", "trimesh"), ("cube.msh", "meshio")])
+    def test_other_libraries_formats_are_read_by_them(self, cube, name, module):
+        library = pytest.importorskip(module)
+        vertices, faces = cube
+        triangles = np.concatenate([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
+        if module == "meshio":
+            library.Mesh(vertices, [("triangle", triangles)]).write(name)
+        else:
+            library.Trimesh(vertices, triangles).export(name)
+        mesh = tn.mesh(name)
+        assert mesh.name == name and len(mesh.faces) == 12
+        assert tn.lines(name).svg(title="") == tn.lines(vertices, triangles).svg(title="")
+
+
 class TestMeshio:
     meshio = pytest.importorskip("meshio")
 
@@ -120,6 +154,48 @@ class TestPyVista:
         assert text.count("<g id=") >= 3 and 'width="320"' in text
         plotter.close()
 
+    def test_vtks_own_classes_are_pyvistas(self):
+        import vtk
+
+        for source, mine in [(vtk.vtkConeSource(), None), (vtk.vtkCubeSource(), None)]:
+            source.Update()
+            raw = source.GetOutput()
+            assert type(raw) is vtk.vtkPolyData
+            assert tn.lines(raw).svg() == tn.lines(self.pv.wrap(raw)).svg()
+        raw = vtk.vtkUnstructuredGrid()
+        raw.DeepCopy(self.pv.ImageData(dimensions=(3, 3, 3)).cast_to_unstructured_grid())
+        assert len(tn.mesh(raw).faces) == 6 * 4 * 2
+        with pytest.raises(ValueError, match="cells: none of them has a face"):
+            tn.mesh(vtk.vtkPolyData())
+
+    def test_what_is_left_out_of_a_scene_is_said(self):
+        plotter = self.pv.Plotter(off_screen=True, window_size=(320, 240))
+        plotter.add_mesh(self.pv.Cube(), opacity=0.5)
+        plotter.add_mesh(self.pv.Line())
+        plotter.add_points(np.eye(3))
+        plotter.add_text("a cube")
+        for draw in (tn.pv.lines, lambda plotter: tn.pv.export_svg(plotter, "scene.svg")):
+            with pytest.warns(UserWarning) as warnings:
+                draw(plotter)
+            said = sorted(str(warning.message) for warning in warnings)
+            assert said == [
+                "plotter: 2 actors show points or curves, which are left out",
+                "plotter: an actor is transparent, but hides lines like an opaque one",
+            ]
+            assert all(warning.filename == __file__ for warning in warnings)
+        plotter.close()
+
+    def test_of_subplots_the_active_one_is_drawn_at_its_size(self):
+        plotter = self.pv.Plotter(off_screen=True, window_size=(400, 300), shape=(1, 2))
+        for column, mesh in enumerate([self.pv.Cube(), self.pv.Sphere()]):
+            plotter.subplot(0, column)
+            plotter.add_mesh(mesh)
+        assert tn.pv.lines(plotter).size == (200, 300) and tn.pv.lines(plotter).counts["crease"] == 0
+        plotter.subplot(0, 0)
+        assert tn.pv.lines(plotter).counts["silhouette"] == 6
+        assert tn.pv.lines(plotter, size=64).size == (64, 64)
+        plotter.close()
+
     def test_a_plotter_that_was_never_shown_is_seen_as_when_it_will_be(self):
         plotter = self.pv.Plotter(off_screen=True, window_size=(300, 300))
         plotter.add_mesh(self.pv.Cube(x_length=3))
@@ -185,6 +261,48 @@ class TestMatplotlib:
             assert seen.sum() == 7, "all corners but the one behind"
             assert (bounds(ends) - bounds(np.column_stack([x, y])) < 1e-6).all()
         assert not self.vectors("cube3d.pdf")[1]
+
+    def test_3d_axes_scale_to_their_meshes_unless_limits_are_set(self, cube):
+        vertices, faces = cube
+        ax = self.plt.figure().add_subplot(projection="3d")
+        ax.set_zlim(-5, 30)
+        tn.mpl.draw(ax, vertices * 20, faces)
+        limits = np.array([ax.get_xlim(), ax.get_ylim()])
+        assert (limits[:, 0] <= 0).all() and (limits[:, 0] > -2).all() and (limits[:, 1] >= 20).all() and (limits[:, 1] < 22).all()
+        assert ax.get_zlim() == (-5, 30)
+        drawn = tn.mpl.draw(ax, [(vertices - 10, faces)])
+        assert ax.get_xlim()[0] <= -10 and ax.get_xlim()[1] >= 20 and len(drawn.get_paths())
+        ax.set_zlim(0, 3)
+        with pytest.warns(UserWarning, match="the mesh reaches beyond the limits of the axes"):
+            ax.figure.canvas.draw()
+
+    def test_colours_are_matplotlibs(self, cube):
+        from matplotlib.colors import to_rgba
+
+        figure, (ax, other) = self.plt.subplots(1, 2)
+        for short in ("C0", "k", "0.5", "tab:blue", (0.2, 0.4, 0.6)):
+            drawn = tn.mpl.draw(ax, *cube, camera="iso", color=short, class_colors={"crease": "r"})
+            expected = {tuple(round(255 * part) for part in to_rgba(color)) for color in (short, "r")}
+            assert {tuple(round(255 * part) for part in color) for color in drawn.get_colors()} == expected
+
+    def test_lines_that_are_found_are_drawn_with_labels_at_their_points(self, cube):
+        vertices, faces = cube
+        lines = tn.lines(vertices, faces, view="iso", size=(300, 200))
+        figure, ax = self.plt.subplots()
+        drawn = tn.mpl.draw(ax, lines, hidden="dashed")
+        ends = np.concatenate([path.vertices for path in drawn.get_paths()])
+        places = lines.project(vertices) * (1, -1) + (0, 200)
+        assert np.linalg.norm(ends[None] - places[:, None], axis=2).min(axis=1).max() < 0.01
+
+    def test_a_figure_pickles_with_its_lines(self, cube):
+        import pickle
+
+        ax = self.plt.figure().add_subplot(projection="3d")
+        tn.mpl.draw(ax, tn.mesh(*cube))
+        again = pickle.loads(pickle.dumps(ax.figure))
+        again.axes[0].view_init(elev=10, azim=20)
+        again.savefig("again.pdf")
+        assert self.vectors("again.pdf")[0] > 9
 
     def test_a_camera_is_the_axes_own(self, cube):
         figure = self.plt.figure()

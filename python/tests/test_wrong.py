@@ -27,7 +27,7 @@ WRONG = [
     (lambda: tn.lines(V, [[0, 1, 2], [0, 1, 4]]), ValueError, r"faces: row 1 names vertex 4, but vertices are numbered 0 to 3"),
     (lambda: tn.lines(V, [[0, 1, 2], [-1, 1, 2]]), ValueError, r"faces: row 1 names vertex -1"),
     (lambda: tn.lines(V, [[0, 1, 2], [0, 1, 2**40]]), ValueError, r"faces: row 1 names vertex 1099511627776"),
-    (lambda: tn.lines(V, np.array([[0, 1, 2**64 - 1]], dtype=np.uint64)), ValueError, r"faces: row 0 names vertex -1"),
+    (lambda: tn.lines(V, np.array([[0, 1, 2**64 - 1]], dtype=np.uint64)), ValueError, r"faces: row 0 names vertex 18446744073709551615"),
     (lambda: tn.lines(V, [[0, 1, 2], [0, 1, 3, 9]]), ValueError, r"faces: row 1 names vertex 9"),
     (lambda: tn.lines(V, [[0, 1, 2], [0, 1]]), ValueError, r"faces: row 1 has 2 corners; a face has 3 or more"),
     (lambda: tn.lines(V, [[0.0, 1, 2]]), TypeError, r"faces: these are of type float64; give whole numbers"),
@@ -49,7 +49,12 @@ WRONG = [
     (lambda: tn.lines(V, F, classes=[]), ValueError, r"classes"),
     (lambda: tn.lines(V, F, classes=["crease", 3]), ValueError, r"classes crease,3"),
     (lambda: tn.lines(V, F, parallel="yes"), ValueError, r"parallel: give True or False"),
-    (lambda: tn.lines(V, F, fov=True), ValueError, r"fov: this takes a value"),
+    (lambda: tn.lines(V, F, fov=True), ValueError, r"fov: give DEGREES, not True"),
+    (lambda: tn.lines(V, F, hidden=True), ValueError, r"hidden: give none, dashed, ghost, not True"),
+    (lambda: tn.lines(V, F, class_colors={"crease": (128, 64, 0)}), ValueError, r"class_colors crease \(128, 64, 0\): .* from 0 to 1; divide"),
+    (lambda: tn.lines(V, F, background=(-0.5, 0, 1)), ValueError, r"background \(-0.5, 0, 1\): the numbers of a colour"),
+    (lambda: tn.lines(V, F, line_width="1mm"), ValueError, r"add page=\"A4\", width_mm or dpi"),
+    (lambda: tn.lines(V, F).project([[1, 2]]), ValueError, r"points: the shape is \(1, 2\); give \(N, 3\)"),
     (lambda: tn.lines(V, F, transparent=True, background="red"), ValueError, r"transparent and background"),
     (lambda: tn.lines(V, F, style="ink"), ValueError, r"lines has no option style"),
     (lambda: tn.lines(V, F, look="charcoal"), ValueError, r"look charcoal: this look is of pictures"),
@@ -61,7 +66,8 @@ WRONG = [
     (lambda: tn.lines(V, F, camera=np.zeros((3, 4))), ValueError, r"camera: this matrix shows everything at one point"),
     (lambda: tn.lines(V, F, camera=np.full((4, 4), np.nan)), ValueError, r"camera: a number of it is not finite"),
     (lambda: tn.lines(V, F, camera=np.eye(4)), ValueError, r"camera: this matrix mirrors"),
-    (lambda: tn.lines(V, F).save("a.png"), ValueError, r"path: lines are written as .svg, .pdf or .json, not as .png"),
+    (lambda: tn.lines(V, F).save("a.gif"), ValueError, r"file: lines are written as .svg, .pdf, .png or .json, not as .gif"),
+    (lambda: tn.lines(V, F).save("a.png", page="A4"), ValueError, r"page"),
     (lambda: tn.lines(V, F).save("no/such/a.svg"), OSError, r"no/such"),
     (lambda: tn.lines(V, F).svg(marginn=3), ValueError, r"Lines.svg has no option marginn; did you mean margin"),
     (lambda: tn.silhouette(V, (1, 2), F), ValueError, r"eye: the shape is \(2,\)"),
@@ -95,6 +101,12 @@ def test_it_is_refused(number):
 
 def test_there_are_thirty_kinds_and_more():
     assert len({sentence for _, _, sentence in WRONG}) == len(WRONG) > 30
+
+
+def test_what_is_left_out_of_arrays_is_said():
+    with pytest.warns(UserWarning, match="mesh: 1 degenerate triangle") as warnings:
+        tn.lines(V, [*F, [1, 1, 2]])
+    assert warnings[0].filename == __file__
 
 
 def test_settings_without_effect_are_said():

@@ -7,10 +7,12 @@
     tinta_npr.pv.export_svg(plotter, "scene.svg")   # the scene of a PyVista plotter
     tinta_npr.mpl.draw(ax, mesh)                    # into matplotlib's axes, as vectors
 
-A mesh is a pair of arrays (vertices, faces), the path of a model file, or an object of trimesh, PyVista or meshio.
+A mesh is a pair of arrays (vertices, faces), the path of a model file, or an object of trimesh, PyVista, VTK, meshio or Open3D.
 """
 
 import atexit as _atexit
+import functools as _functools
+import inspect as _inspect
 
 from . import _native
 from ._camera import settings_of as _camera_settings
@@ -43,9 +45,10 @@ def mesh(mesh, faces=None, *, name=None, **settings):
 
     Parameters
     ----------
-    mesh : array_like (N, 3), path or object
-        Vertices in units of your choice; or a model file (OBJ, PLY, STL, MD2, 3DS, glTF) or ``"builtin:bust"``; or an object
-        with ``vertices`` and ``faces`` (trimesh), or with ``points`` and cells (PyVista, meshio).
+    mesh : array_like (N, 3), (vertices, faces), path or object
+        Vertices in units of your choice; or a model file (OBJ, PLY, STL, MD2, 3DS, glTF, and those that an installed meshio or
+        trimesh reads) or ``"builtin:bust"``; or an object with ``vertices`` and ``faces`` (trimesh) or ``triangles`` (Open3D),
+        or with ``points`` and cells (PyVista, meshio), or a data set of VTK.
     faces : array_like (M, k) of int, or a list of lists, optional
         With `mesh` as vertices: each face's corners, counter-clockwise seen from outside; 3 or more.
     name : str, optional
@@ -95,14 +98,15 @@ def lines(
     Returns
     -------
     Lines
-        With ``segments``, ``cls``, ``visible`` and other arrays, ``labels``, ``svg()``, ``pdf()`` and ``save()``.
+        With ``segments``, ``cls``, ``visible`` and other arrays, ``labels``, ``svg()``, ``pdf()``, ``png()``, ``save()``, and
+        ``project()`` for labels of your own.
 
     Settings
     --------
     """
     free = (curves, points, labels)
-    meshes, settings = _drawn("lines", mesh, faces, name, camera, settings, (None, look, preset), free)
-    return Lines(_native.lines(meshes, settings, look, preset), CLASSES)
+    meshes, settings, moved = _drawn("lines", mesh, faces, name, camera, settings, (None, look, preset), free)
+    return Lines(meshes, settings, look, preset, moved, CLASSES)
 
 
 def edges(mesh, faces=None, *, name=None, **settings):
@@ -179,7 +183,7 @@ def render(
     --------
     """
     basis = (style, look, preset)
-    meshes, settings = _drawn("render", mesh, faces, name, camera, settings, basis)
+    meshes, settings, _ = _drawn("render", mesh, faces, name, camera, settings, basis)
     drawn = _native.render(meshes, settings, style, look, preset, show, backend)
     return Picture(drawn.pixels, drawn.recipe)
 
@@ -206,7 +210,7 @@ def measure(mesh, faces=None, *, styles=(), frames=21, tolerance=2.0, camera=Non
     Settings
     --------
     """
-    meshes, settings = _drawn("measure", mesh, faces, name, camera, settings, ("three-pass", None, None))
+    meshes, settings, _ = _drawn("measure", mesh, faces, name, camera, settings, ("three-pass", None, None))
     if isinstance(styles, (str, dict)):
         styles = [styles]
     asked = [{"style": style} if isinstance(style, str) else dict(style) for style in styles]
@@ -236,7 +240,7 @@ def compare(
     Settings
     --------
     """
-    meshes, settings = _drawn("compare", mesh, faces, name, camera, settings, (left, None, None))
+    meshes, settings, _ = _drawn("compare", mesh, faces, name, camera, settings, (left, None, None))
     return Comparison(*_native.compare(meshes, settings, left, right, int(tolerance), backend))
 
 
@@ -251,7 +255,7 @@ def _one(mesh, faces, name, settings, function):
 
 
 def _drawn(function, mesh, faces, name, camera, settings, basis, free=(None, None, None)):
-    """The meshes of a drawing, and its settings with the camera's among them."""
+    """The meshes of a drawing, its settings with the camera's among them, and the matrix that moved the meshes, if any."""
     settings = dict(settings)
     camera, matrix = _camera_settings(camera, settings, is_exact=function != "lines")
     for key in camera:
@@ -266,12 +270,13 @@ def _drawn(function, mesh, faces, name, camera, settings, basis, free=(None, Non
         raise TypeError("mesh: it is missing; give a mesh, curves or points")
     meshes = [] if mesh is None else _meshes_of(mesh, faces, name, reading, tuple(asked))
     meshes = meshes + ([] if of_curves is None else [of_curves])
-    if matrix is not None:
-        if reading.get("up_axis") not in (None, "auto", "y"):
-            raise ValueError("up_axis: a camera's matrix is in the mesh's own coordinates; leave one of them out")
-        meshes, camera = matrix.of_meshes(meshes, reading)
-        settings.update(camera)
-    return meshes, settings
+    if matrix is None:
+        return meshes, settings, None
+    if reading.get("up_axis") not in (None, "auto", "y"):
+        raise ValueError("up_axis: a camera's matrix is in the mesh's own coordinates; leave one of them out")
+    meshes, camera, moved_from_mesh = matrix.of_meshes(meshes, reading)
+    settings.update(camera)
+    return meshes, settings, moved_from_mesh
 
 
 def _reading(settings):
@@ -283,19 +288,29 @@ def _reading(settings):
 _READING = frozenset(setting["name"] for setting in _native.settings("mesh"))
 
 
+# Several functions share a table.
+_settings_of, _documentation_of = map(_functools.cache, (_native.settings, _native.documentation))
 
-def _document(function, name):
-    """Adds its settings to a function's help, which newer Pythons store without its indentation."""
-    lines = function.__doc__.splitlines()
-    margin = min((len(line) - len(line.lstrip()) for line in lines[1:] if line.strip()), default=0)
-    plain = "\n".join([lines[0]] + [line[margin:] for line in lines[1:]])
-    function.__doc__ = plain.rstrip() + "\n" + _native.documentation(name)
+
+def _with_settings(function, name):
+    """Gives a function the settings of `name` in its signature and its help, as editors show them."""
+    signature = _inspect.signature(function)
+    own = [one for one in signature.parameters.values() if one.kind is not one.VAR_KEYWORD]
+    named = {one.name for one in own}
+    settings = [
+        _inspect.Parameter(setting["name"], _inspect.Parameter.KEYWORD_ONLY, default=None)
+        for setting in _settings_of(name) if setting["name"] not in named
+    ]
+    function.__signature__ = signature.replace(parameters=own + settings)
+    # Newer Pythons store a docstring without its indentation.
+    if "\nSettings\n" in (document := _inspect.cleandoc(function.__doc__)):
+        function.__doc__ = document.rstrip() + "\n" + _documentation_of(name)
 
 
 for _function in (mesh, lines, edges, silhouette, render, measure, compare):
-    _document(_function, _function.__name__)
-for _name in ("svg", "pdf", "save", "layers"):
-    _document(getattr(Lines, _name), "Lines.svg")
+    _with_settings(_function, _function.__name__)
+for _name in ("svg", "pdf", "png", "save", "layers"):
+    _with_settings(getattr(Lines, _name), "Lines.svg")
 
 
 def __getattr__(name):
@@ -305,3 +320,7 @@ def __getattr__(name):
 
         return importlib.import_module(f".{name}", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__():
+    return sorted({*globals(), "mpl", "pv"})

@@ -42,6 +42,9 @@ def corners(values):
         raise TypeError(f"faces: these are of type {array.dtype}; give whole numbers")
     if array.ndim != 2 or array.shape[1] < 3:
         raise ValueError(f"faces: the shape is {array.shape}; give (M, 3), or more corners a row")
+    if array.dtype == np.uint64 and array.max() > np.iinfo(np.int64).max:
+        row = int(np.argmax(array.max(axis=1)))
+        raise ValueError(f"faces: row {row} names vertex {array[row].max()}; no mesh has so many")
     sizes = None if array.shape[1] == 3 else np.full(len(array), array.shape[1], dtype=np.int64)
     return np.ascontiguousarray(array, dtype=np.int64).reshape(-1), sizes
 

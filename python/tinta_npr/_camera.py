@@ -116,7 +116,7 @@ class Matrix:
             raise ValueError("camera: this matrix shows everything at one point")
 
     def of_meshes(self, meshes, reading):
-        """The meshes to draw and their settings: meshes unchanged, or moved to give tinta's camera the same view."""
+        """The meshes to draw, their settings, and the matrix (3, 4) that moved them to give tinta's camera the same view."""
         corners = np.concatenate([_box(np.concatenate([mesh.vertices, mesh.free])) for mesh in meshes])
         far = np.abs(corners).max()
         is_parallel = np.abs(self._matrix[2, :3]).max() * far <= _NOTHING * abs(self._matrix[2, 3])
@@ -127,7 +127,8 @@ class Matrix:
         settings = {"parallel": True, "height": height} if is_parallel else {"fov": math.degrees(2 * math.atan(height / 2))}
         if np.abs(moved - np.eye(3)).max() <= 1e3 * _NOTHING:
             target = eye + rotation[2] * max(np.abs(corners - eye).max(), far)
-            return meshes, {**settings, "eye": eye.tolist(), "target": target.tolist(), "up": (-rotation[1]).tolist()}
+            settings.update(eye=eye.tolist(), target=target.tolist(), up=(-rotation[1]).tolist())
+            return meshes, settings, None
         if self._is_exact:
             raise ValueError(
                 "camera: pictures are drawn with square pixels and the principal point in the middle, which this matrix has not; "
@@ -144,7 +145,8 @@ class Matrix:
             return surface.with_curves_of(mesh, np.ascontiguousarray((mesh.free - eye) @ through.T)) if len(mesh.free) else surface
 
         meshes = [in_view(mesh) for mesh in meshes]
-        return meshes, {**settings, "eye": (0, 0, 0), "target": (0, 0, 1), "up": (0, -1, 0)}
+        moved_from_mesh = np.column_stack([through, -through @ eye])
+        return meshes, {**settings, "eye": (0, 0, 0), "target": (0, 0, 1), "up": (0, -1, 0)}, moved_from_mesh
 
 
 def _box(points):

@@ -25,11 +25,16 @@ def meshes_of(mesh, faces, name, reading, asked=()):
                 raise ValueError(f"{setting}: this Mesh has been read already; give it to tinta_npr.mesh()")
         return [mesh]
     if isinstance(mesh, (str, os.PathLike)):
+        other = _read_by_others(os.fspath(mesh))
+        if other is not None:
+            return meshes_of(other, None, name or os.path.basename(os.fspath(mesh)), reading)
         return [_native.Mesh.of_file(os.fspath(mesh), reading)]
     if isinstance(mesh, (list, tuple)):
         if not mesh:
             raise ValueError("mesh: the list is empty; give at least one")
-        if not any(_is_mesh(one) for one in mesh):
+        if _is_pair(mesh):
+            return [of_arrays(*mesh, name, reading)]
+        if not any(_is_mesh(one) or _is_pair(one) for one in mesh):
             raise TypeError("mesh: these are vertices without faces; give lines(vertices, faces)")
         return [one for each in mesh for one in meshes_of(each, None, name, reading, asked)]
     if isinstance(mesh, np.ndarray):
@@ -40,6 +45,11 @@ def meshes_of(mesh, faces, name, reading, asked=()):
         return meshes_of(list(parts), None, name, reading)
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         return [of_arrays(mesh.vertices, mesh.faces, name, reading)]
+    # Open3D's; its newer class turns into the older one.
+    if hasattr(mesh, "triangle") and hasattr(mesh, "to_legacy"):
+        mesh = mesh.to_legacy()
+    if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):
+        return [of_arrays(np.asarray(mesh.vertices), np.asarray(mesh.triangles), name, reading)]
     if hasattr(mesh, "points") and hasattr(mesh, "cells") and hasattr(mesh, "cell_data") and _is_blocks(mesh.cells):
         return [_of_cells(mesh, name, reading)]
     if hasattr(mesh, "points") and hasattr(mesh, "faces"):
@@ -49,8 +59,10 @@ def meshes_of(mesh, faces, name, reading, asked=()):
         return meshes_of([block for block in mesh if block is not None], None, name, reading)
     if hasattr(mesh, "extract_surface"):
         return [_of_poly_data(_surface(mesh), name, reading)]
+    if hasattr(mesh, "IsA") and mesh.IsA("vtkDataSet"):
+        return [_of_vtk(mesh, name, reading)]
     kind = type(mesh).__name__
-    raise TypeError(f"mesh: give vertices and faces, a path, or a mesh of trimesh, PyVista or meshio, not {kind}")
+    raise TypeError(f"mesh: give vertices and faces, a path, or a mesh of trimesh, PyVista, VTK, meshio or Open3D, not {kind}")
 
 
 def of_arrays(vertices, faces, name, reading):
@@ -61,7 +73,58 @@ def of_arrays(vertices, faces, name, reading):
 
 def _is_mesh(one):
     is_named = isinstance(one, (str, os.PathLike, _native.Mesh))
-    return is_named or any(hasattr(one, name) for name in ("vertices", "points", "geometry", "n_blocks"))
+    return is_named or any(hasattr(one, name) for name in ("vertices", "points", "geometry", "n_blocks", "IsA"))
+
+
+def _is_pair(one):
+    """Whether this is (vertices, faces): two tables, not two meshes."""
+    if not isinstance(one, (list, tuple)) or len(one) != 2 or any(_is_mesh(table) for table in one):
+        return False
+    vertices, faces = one
+    try:
+        is_table = np.ndim(vertices) == 2 and np.shape(vertices)[1] == 3
+    except ValueError:
+        return False
+    return is_table and hasattr(faces, "__len__") and len(faces) > 0 and hasattr(faces[0], "__len__")
+
+
+def _read_by_others(path):
+    """The mesh of a file that tinta does not read, by meshio or trimesh if one of them does and is installed; else `None`."""
+    if path.startswith("builtin:") or _native.is_read(path) or not os.path.isfile(path):
+        return None
+    ending = os.path.splitext(path)[1].lower()
+    try:
+        import meshio
+    except ImportError:
+        pass
+    else:
+        if ending in meshio.extension_to_filetypes:
+            return meshio.read(path)
+    try:
+        import trimesh
+    except ImportError:
+        return None
+    return trimesh.load(path) if ending[1:] in trimesh.available_formats() else None
+
+
+def _of_vtk(mesh, name, reading):
+    """Makes a `Mesh` of a data set of VTK's own classes: its surface, faces undivided."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    if not mesh.IsA("vtkPolyData") or mesh.GetNumberOfStrips():
+        from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
+
+        outside = vtkGeometryFilter()
+        outside.SetInputData(mesh)
+        outside.Update()
+        mesh = outside.GetOutput()
+    if not mesh.GetNumberOfPolys():
+        raise ValueError("cells: none of them has a face; give triangles, polygons or volumes")
+    polygons = mesh.GetPolys()
+    corners = vtk_to_numpy(polygons.GetConnectivityArray()).astype(np.int64)
+    sizes = np.diff(vtk_to_numpy(polygons.GetOffsetsArray())).astype(np.int64)
+    points = _arrays.rows("points", vtk_to_numpy(mesh.GetPoints().GetData()), 3)
+    return _native.Mesh.of_arrays(points, corners, None if (sizes == 3).all() else sizes, name or "mesh", reading)
 
 
 def _is_blocks(cells):

@@ -5,6 +5,7 @@ import os
 import numpy as np
 
 from . import _native
+from ._arrays import rows as _rows
 
 
 _ARRAYS = frozenset(["segments", "visible", "_code", "edge", "angle", "object", "outline", "covered"])
@@ -28,9 +29,9 @@ class Lines:
     object : ndarray (N,) of uint32
         The number of its mesh in the given list; curves and points follow the last.
     outline : ndarray (N,) of bool
-        Whether it has only background on one side; all False unless ``outline`` has a width or colour.
+        Whether it is visible and has only background on one side.
     covered : ndarray (N,) of bool
-        Whether it is hidden and left out of drawings because another line overlaps it in the picture.
+        Whether it is hidden and left out of drawings because another line is drawn in the same place.
     size : (width, height)
         The size of the picture, pixels.
     counts : dict
@@ -41,21 +42,43 @@ class Lines:
         The labels of points in the picture: ``text``, ``at`` (pixels), ``visible``, ``object``.
     """
 
-    def __init__(self, found, classes):
-        self._found = found
+    def __init__(self, meshes, settings, look, preset, moved_from_mesh, classes):
+        self._asked = meshes, settings, look, preset
+        self._moved_from_mesh = moved_from_mesh
         self._classes = classes
-        self.size = found.size
-        self.counts = found.counts()
-        self.camera = found.camera()
-        self.labels = found.labels()
+        self.size = self._found.size
+        self.counts = self._found.counts()
+        self.camera = self._found.camera()
+        self.labels = self._found.labels()
 
     def __getattr__(self, name):
+        if name == "_found":
+            self._found = _native.lines(*self._asked)
+            return self._found
         # A drawing needs no hidden pieces: they are found on the first access to the arrays.
         if name not in _ARRAYS:
             raise AttributeError(f"{type(self).__name__} has no attribute {name}")
         for array, value in self._found.arrays().items():
             setattr(self, array if array != "code" else "_code", value)
         return getattr(self, name)
+
+    def __getstate__(self):
+        """A pickle holds the meshes and the arrays; a drawing of it finds the lines again, the same ones."""
+        self.segments
+        return {name: value for name, value in self.__dict__.items() if name != "_found"}
+
+    def __copy__(self):
+        copy = object.__new__(type(self))
+        copy.__dict__.update(self.__dict__)
+        return copy
+
+    def __deepcopy__(self, memo):
+        # Meshes and the compiled part never change; arrays, counts and camera may.
+        copy = self.__copy__()
+        for name, value in self.__dict__.items():
+            if isinstance(value, (np.ndarray, dict)):
+                setattr(copy, name, value.copy())
+        return copy
 
     @property
     def cls(self):
@@ -106,29 +129,66 @@ class Lines:
         """
         return self._found.pdf(settings, title)
 
-    def json(self):
-        """All pieces and the camera as JSON: a str."""
-        return self._found.json()
-
-    def save(self, path, *, title=None, **settings):
-        """Write a file: .svg, .pdf or .json. It appears whole or not at all. Settings as in `svg`.
+    def png(self, **settings):
+        """The drawing as PNG, as large as `size`: bytes. Settings as in `svg`, without a page.
 
         Settings
         --------
         """
-        path = os.fspath(path)
-        ending = os.path.splitext(path)[1].lower()
-        if ending == ".svg":
+        return self._found.png(settings)
+
+    def json(self):
+        """All pieces and the camera as JSON: a str."""
+        return self._found.json()
+
+    def project(self, points):
+        """Where points of the mesh's space are in the picture, for labels.
+
+        Parameters
+        ----------
+        points : array_like (3,) or (N, 3)
+            In the coordinates of the given vertices; for a model file in those of ``tinta_npr.mesh(file).vertices``, y up.
+
+        Returns
+        -------
+        ndarray (2,) or (N, 2) of float64
+            Pixels as in ``segments``, y down; NaN behind the eye. In 2-D axes of matplotlib, y is ``size[1] - y``.
+        """
+        given = np.asarray(points, dtype=np.float64)
+        rows = np.ascontiguousarray(given.reshape(1, 3) if given.shape == (3,) else _rows("points", given, 3))
+        rows = self._asked[0][0].turned(rows)
+        if self._moved_from_mesh is not None:
+            rows = np.ascontiguousarray(rows @ self._moved_from_mesh[:, :3].T + self._moved_from_mesh[:, 3])
+        found = self._found.projected(rows)
+        return found[0] if given.shape == (3,) else found
+
+    def save(self, file, *, format=None, title=None, **settings):
+        """Write a file: .svg, .pdf, .png or .json. Settings as in `svg`.
+
+        `file` is a path, whose file appears whole or not at all, or an object with ``write``, opened for bytes. `format` is
+        ``"svg"``, ``"pdf"``, ``"png"`` or ``"json"``; by default a path's ending, and SVG for an object.
+
+        Settings
+        --------
+        """
+        is_path = not hasattr(file, "write")
+        path = os.fspath(file) if is_path else ""
+        format = (format or (os.path.splitext(path)[1] if is_path else "svg")).lower().removeprefix(".")
+        if format == "svg":
             content = self.svg(title=title, **settings).encode()
-        elif ending == ".pdf":
+        elif format == "pdf":
             content = self.pdf(title=title, **settings)
-        elif ending == ".json" and not settings:
+        elif format == "png":
+            content = self.png(**settings)
+        elif format == "json" and not settings:
             content = self.json().encode()
-        elif ending == ".json":
+        elif format == "json":
             raise ValueError(f"{next(iter(settings))}: a .json file holds all lines but no appearance; leave it out")
         else:
-            raise ValueError(f"path: lines are written as .svg, .pdf or .json, not as {ending or 'a file without ending'}")
-        _native.write(path, content)
+            raise ValueError(
+                f"file: lines are written as .svg, .pdf, .png or .json, not as {'.' + format if format else 'a file without ending'}"
+            )
+        _native.write(path, content) if is_path else file.write(content)
 
     def layers(self, **settings):
         """The drawing as plain values, from the lowest layer to the highest, as in the SVG.
@@ -170,6 +230,21 @@ class Picture(np.ndarray):
     def __array_finalize__(self, source):
         # An array derived from a picture, such as a part of it, does not match the recipe.
         self.recipe = None
+
+    def __reduce__(self):
+        make, arguments, state = super().__reduce__()
+        return make, arguments, (state, self.recipe)
+
+    def __setstate__(self, state):
+        state, recipe = state
+        super().__setstate__(state)
+        self.recipe = recipe
+
+    def __copy__(self):
+        return Picture(np.array(self), self.recipe)
+
+    def __deepcopy__(self, memo):
+        return self.__copy__()
 
     def png(self):
         """The PNG file: bytes. For a mesh from a file it holds the recipe, from which `tinta again` redraws it."""

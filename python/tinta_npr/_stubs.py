@@ -1,9 +1,11 @@
-"""Prints the types that editors read: scripts/python puts the output of `python -m tinta_npr._stubs` into the wheel.
+"""Writes the types that editors read: `python -m tinta_npr._stubs FOLDER`, which scripts/python puts into the wheel.
 
 The settings come from the same tables as the functions' own help.
 """
 
 import inspect
+import pathlib
+import sys
 
 import tinta_npr
 from tinta_npr import _native
@@ -12,12 +14,12 @@ _HEAD = '''"""{doc}"""
 
 from collections.abc import Mapping, Sequence
 from os import PathLike
-from typing import Any, Literal, overload
+from typing import Any, BinaryIO, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _native as _native, mpl as mpl, pv as pv
+from . import mpl as mpl, pv as pv
 
 __version__: str
 CLASSES: tuple[str, ...]
@@ -33,6 +35,43 @@ _Text = str | float | Sequence[Any] | NDArray[Any] | Mapping[str, Any]
 _Camera = str | Sequence[float] | Mapping[str, Any] | NDArray[Any] | Any
 '''
 
+#: The modules of other packages' scenes: their first lines, and their functions with what they return.
+_MODULES = {
+    "mpl": (
+        '''"""{doc}"""
+
+from collections.abc import Sequence
+from typing import Any, Literal
+
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from numpy.typing import ArrayLike
+
+from . import _Color, _Camera, _Number, _Numbers, _Path, _Text
+
+__all__: list[str]
+
+class ExactLines(LineCollection):
+    def do_3d_projection(self) -> float: ...
+
+''',
+        {"draw": "LineCollection"},
+    ),
+    "pv": (
+        '''"""{doc}"""
+
+from collections.abc import Sequence
+from typing import Any, BinaryIO, Literal
+
+from . import Lines, _Color, _Number, _Numbers, _Path, _Text
+
+__all__: list[str]
+
+''',
+        {"lines": "Lines", "export_svg": "None"},
+    ),
+}
+
 #: Types of the arguments other than settings; all others are `Any`.
 _ARGUMENTS = {
     "faces": "ArrayLike | Sequence[Sequence[int]] | None",
@@ -44,7 +83,13 @@ _ARGUMENTS = {
     "direction": "bool",
     "frames": "int",
     "tolerance": "float",
-    "path": "_Path",
+    "file": "_Path | BinaryIO",
+    "format": 'Literal["svg", "pdf", "png", "json"] | None',
+    "points": "ArrayLike",
+    "ax": "Axes",
+    "extent": "Sequence[float] | None",
+    "zorder": "float",
+    "color": "_Color | None",
     "styles": "Sequence[str | Mapping[str, Any]]",
 }
 _CHOICES = {"style": "style", "look": "look", "show": "show", "backend": "backend", "left": "style", "right": "style"}
@@ -58,6 +103,7 @@ _RETURNS = {
     "compare": "Comparison",
     "svg": "str",
     "pdf": "bytes",
+    "png": "bytes",
     "save": "None",
     "layers": "list[dict[str, Any]]",
 }
@@ -82,12 +128,14 @@ class Picture(NDArray[np.uint8]):
     recipe: str | None
     def png(self) -> bytes: ...
     def save(self, path: _Path) -> None: ...
+    def _repr_png_(self) -> bytes | None: ...
 
 class Comparison:
     numbers: dict[str, Any]
     left: Picture
     right: Picture
     lines: Picture
+    def _repr_png_(self) -> bytes: ...
 
 class Lines:
     segments: NDArray[np.float64]
@@ -108,6 +156,8 @@ class Lines:
     def __len__(self) -> int: ...
     def select(self, *names: str, visible: bool | None = True) -> NDArray[np.float64]: ...
     def json(self) -> str: ...
+    def project(self, points: ArrayLike) -> NDArray[np.float64]: ...
+    def _repr_svg_(self) -> str: ...
 '''
 
 
@@ -128,10 +178,19 @@ def _type(setting):
     }[setting["kind"]]
 
 
-def _argument(parameter):
-    kind = _ARGUMENTS.get(parameter.name, "Any")
-    if parameter.name in _CHOICES:
-        kind = _literal(_native.names(_CHOICES[parameter.name])) + (" | None" if parameter.default is None else "")
+def _argument(parameter, function, settings):
+    # Some of a function's own arguments are named like a setting.
+    code = function.__code__
+    is_own = parameter.name in code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+    names = _CHOICES.get(parameter.name)
+    if not is_own:
+        kind = f"{_type(settings[parameter.name])} | None"
+    elif names:
+        of_lines = function.__name__ != "render"
+        kind = _literal(_native.names(("look of lines" if of_lines else "look of pictures") if names == "look" else names))
+        kind += " | None" if parameter.default is None else ""
+    else:
+        kind = _ARGUMENTS.get(parameter.name, "Any")
     default = "" if parameter.default is parameter.empty else f" = {_default(parameter.default)}"
     return f"    {parameter.name}: {kind}{default},\n"
 
@@ -140,35 +199,37 @@ def _default(value):
     return f'"{value}"' if isinstance(value, str) else repr(value)
 
 
-def _signature(function, name, is_method):
+def _signature(function, table, returns, is_method=False):
     text = f"def {function.__name__}(\n"
     is_keyword = False
+    settings = {setting["name"]: setting for setting in _native.settings(table)}
     for parameter in inspect.signature(function).parameters.values():
         if parameter.name == "self":
             text += "    self,\n"
-        elif parameter.kind is parameter.VAR_KEYWORD:
-            if not is_keyword:
-                text += "    *,\n"
-            for setting in _native.settings(name):
-                text += f"    {setting['name']}: {_type(setting)} | None = None,\n"
-        else:
-            if parameter.kind is parameter.KEYWORD_ONLY and not is_keyword:
-                text += "    *,\n"
-                is_keyword = True
-            text += _argument(parameter)
-    text += f") -> {_RETURNS[function.__name__]}: ...\n"
+            continue
+        if parameter.kind is parameter.KEYWORD_ONLY and not is_keyword:
+            text += "    *,\n"
+            is_keyword = True
+        text += _argument(parameter, function, settings)
+    text += f") -> {returns}: ...\n"
     return "".join(f"    {line}\n" for line in text.splitlines()) if is_method else text
 
 
 def stubs():
-    """The text of the file."""
-    methods = [getattr(tinta_npr.Lines, name) for name in ("svg", "pdf", "save", "layers")]
+    """The texts of the files by their modules' names."""
+    methods = [getattr(tinta_npr.Lines, name) for name in ("svg", "pdf", "png", "save", "layers")]
     functions = [getattr(tinta_npr, name) for name in _native.names("function") if "." not in name]
-    parts = [_HEAD.format(doc=tinta_npr.__doc__.splitlines()[0]).replace(", overload", ""), _CLASSES]
-    parts += [_signature(method, "Lines.svg", True) for method in methods]
-    parts += ["\n" + _signature(function, function.__name__, False) for function in functions]
-    return "".join(parts)
+    parts = [_HEAD.format(doc=tinta_npr.__doc__.splitlines()[0]), _CLASSES]
+    parts += [_signature(method, "Lines.svg", _RETURNS[method.__name__], True) for method in methods]
+    parts += ["\n" + _signature(function, function.__name__, _RETURNS[function.__name__]) for function in functions]
+    texts = {"__init__": "".join(parts)}
+    for name, (head, returned) in _MODULES.items():
+        module = getattr(tinta_npr, name)
+        drawn = [_signature(getattr(module, function), "lines", returns) for function, returns in returned.items()]
+        texts[name] = head.format(doc=module.__doc__.splitlines()[0]) + "\n".join(drawn)
+    return texts
 
 
 if __name__ == "__main__":
-    print(stubs(), end="")
+    for _module, _text in stubs().items():
+        pathlib.Path(sys.argv[1], f"{_module}.pyi").write_text(_text)

@@ -44,7 +44,7 @@ mod weld;
 
 pub use curves::Curves;
 pub use defects::Defects;
-pub use format::is_model_name;
+pub use format::{is_model_name, is_read};
 pub use frame::ModelFrame;
 #[cfg(feature = "gltf")]
 pub use gltf::camera as gltf_camera;

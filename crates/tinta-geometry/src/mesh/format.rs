@@ -51,9 +51,14 @@ pub(super) fn unread(path: &str) -> Option<&'static str> {
     })
 }
 
+/// Whether the file name's ending is that of a format read here.
+pub fn is_read(name: &str) -> bool {
+    Format::by_name(name).is_some()
+}
+
 /// Whether the file name's ending is that of a model format, supported or not.
 pub fn is_model_name(name: &str) -> bool {
-    Format::by_name(name).is_some() || unread(name).is_some()
+    is_read(name) || unread(name).is_some()
 }
 
 impl Format {
