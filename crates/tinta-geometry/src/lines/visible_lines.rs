@@ -58,6 +58,7 @@ impl VisibleLines {
         Self {
             size,
             segments: Vec::new(),
+            labels: Vec::new(),
             edges: ClassCounts::default(),
             covered_triangles: 0,
             changes: None,
