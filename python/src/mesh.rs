@@ -41,6 +41,9 @@ type PickledArrays<'py> = (
     PyReadonlyArray2<'py, u32>,
 );
 
+/// Curves and points: their positions, these positions' numbers in the given ones, segments, points, and labels of points.
+type PickledCurves<'py> = (PyReadonlyArray2<'py, f64>, Vec<u32>, Vec<[u32; 2]>, Vec<u32>, Vec<(u32, String)>);
+
 /// Faces as their corners one after the other.
 struct Corners {
     indices: Vec<i64>,
@@ -207,7 +210,7 @@ impl Mesh {
         }
         let curves = tinta::mesh::Curves { positions, ..other.mesh.curves.clone() };
         let mesh = tinta::Mesh { curves, ..(*self.mesh).clone() };
-        Ok(Self::new(mesh, self.path.clone(), self.options.clone(), self.files.clone(), self.remarks.clone()))
+        Ok(Self::new(mesh, None, self.options.clone(), self.files.clone(), self.remarks.clone()))
     }
 
     /// Reads a mesh from a file.
@@ -287,7 +290,9 @@ impl Mesh {
             shaped(py, normals, &[mesh.normals.len(), 3])?,
             shaped(py, mesh.triangle_normals.as_flattened().to_vec(), &[mesh.triangle_normals.len(), 3])?,
         );
-        let arguments = (arrays, &mesh.name, options, &self.remarks).into_pyobject(py)?.into_any();
+        let free = &mesh.curves;
+        let curves = (self.free(py)?, &free.file_vertices, &free.segments, &free.points, &free.labels);
+        let arguments = (arrays, curves, &mesh.name, options, &self.remarks).into_pyobject(py)?.into_any();
         Ok((class.getattr("of_pickle")?, arguments))
     }
 
@@ -295,6 +300,7 @@ impl Mesh {
     #[staticmethod]
     fn of_pickle(
         arrays: PickledArrays<'_>,
+        curves: PickledCurves<'_>,
         name: String,
         given: &Bound<'_, PyDict>,
         remarks: Vec<String>,
@@ -305,9 +311,14 @@ impl Mesh {
         let corners = |array: PyReadonlyArray2<'_, u32>| -> Vec<[u32; 3]> {
             array.as_array().iter().copied().collect::<Vec<_>>().as_chunks::<3>().0.to_vec()
         };
-        let positions = checked_vertices(&vectors(vertices)).map_err(|problem| wrong("pickle", problem))?;
+        let points_of = |array| checked_vertices(&vectors(array)).map_err(|problem| wrong("pickle", problem));
+        let positions = points_of(vertices)?;
         let normals: Vec<f32> = normals.as_array().iter().copied().collect();
+        let (free, free_vertices, segments, points, labels) = curves;
+        let curves = tinta::mesh::Curves { positions: points_of(free)?, file_vertices: free_vertices, segments, points, labels };
         let mesh = tinta::Mesh {
+            curves,
+            marked: Vec::new(),
             name,
             file_vertices: file_vertices.as_array().to_vec(),
             triangles: corners(faces),
@@ -322,9 +333,13 @@ impl Mesh {
             defects: tinta::mesh::Defects::default(),
         };
         let is_within = |rows: &[[u32; 3]], count: usize| rows.as_flattened().iter().all(|row| (*row as usize) < count);
+        let free = &mesh.curves;
         let is_whole = mesh.file_vertices.len() == mesh.positions.len()
+            && free.file_vertices.len() == free.positions.len()
+            && free.segments.as_flattened().iter().chain(&free.points).all(|end| (*end as usize) < free.positions.len())
+            && free.labels.iter().all(|(point, _)| (*point as usize) < free.points.len())
             && mesh.triangle_normals.len() == mesh.triangles.len()
-            && !mesh.triangles.is_empty()
+            && !(mesh.triangles.is_empty() && free.is_empty())
             && is_within(&mesh.triangles, mesh.positions.len())
             && is_within(&mesh.triangle_normals, mesh.normals.len());
         match is_whole {
