@@ -178,13 +178,14 @@ def test_results_are_copied_and_pickled(cube):
     mesh = tn.mesh(vertices, faces.tolist(), name="cube", up_axis="z")
     lines = tn.lines(mesh, hidden="dashed", class_colors={"crease": (0, 0.5, 1)}, camera=(12, 34))
     moved = tn.lines(mesh=(vertices, faces), camera=[[3, 0.1, 1, 90], [0, 2, 1, 80], [0, 0, 0.01, 1]], size=200)
+    around = tn.lines(mesh, curves=[[(-2, 0, 0), (2, 0, 0)]], points=[(1, 1, 1)], labels=["corner"])
     for copied in (copy.copy, copy.deepcopy, lambda value: pickle.loads(pickle.dumps(value))):
         again = copied(mesh)
         assert repr(again) == repr(mesh) and again.was_read_with({"up_axis": "z"})
         assert tn.lines(again).svg() == tn.lines(mesh).svg()
         assert (tn.silhouette(again, (3, 4, 5)) == tn.silhouette(mesh, (3, 4, 5))).all(), "by the given vertices' numbers"
         assert (tn.render(again, size=48, style="phong") == tn.render(mesh, size=48, style="phong")).all()
-        for found in (lines, moved):
+        for found in (lines, moved, around):
             other = copied(found)
             assert (other.segments == found.segments).all() and (other.cls == found.cls).all() and other.camera == found.camera
             assert other.svg() == found.svg() and (other.project(vertices) == found.project(vertices)).all()
