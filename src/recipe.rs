@@ -235,7 +235,7 @@ impl Recipe {
             true => png_text::find(head, KEYWORD)?,
             false => in_svg(head)?,
         };
-        let none = "it carries no recipe; draw it without --no-recipe as .png or .svg with tinta";
+        let none = "it carries no recipe; single .png and .svg pictures that tinta draws without --no-recipe do";
         let json = json.ok_or_else(|| none.to_owned())?;
         if json.len() > LARGEST_BYTES {
             return Err(format!("its recipe is longer than {LARGEST_BYTES} bytes, the limit for one"));

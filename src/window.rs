@@ -4,12 +4,11 @@
 //! [`crate::Renderer`], drawn on separate threads and shown as textures: the same bytes as `tinta render` writes.
 //! [`ViewerState`], a plain value that events change, decides what the window shows; only this module uses winit and egui.
 //!
-//! | file | what |
+//! | in | what |
 //! |---|---|
-//! | `state.rs`, `event.rs`, `line_style.rs`, `controls.rs`, `buffer.rs`, `paint.rs`, `compose.rs` | values: what is shown, what happens, how it changes |
-//! | `viewer.rs` | the state with the threads that work for it |
-//! | `draw.rs`, `coarse.rs`, `render_threads.rs`, `exact.rs`, `load.rs`, `watch.rs`, `cost.rs`, `line_measure.rs`, `save.rs`, `dialogue.rs`, `report.rs` | the threads and what they tell |
-//! | `ui.rs`, `panel.rs`, `widget.rs`, `plot.rs`, `label.rs`, `keys.rs` | widgets: they read the state and make events |
+//! | `values/` | what is shown, what happens, how it changes |
+//! | `threads/` | the threads and what they report; `viewer.rs` joins them with the state |
+//! | `widgets/` | widgets: they read the state and make events |
 //! | `app.rs`, `replay.rs`, `player.rs` | the window itself, and recordings played in it |
 //!
 //! ```
@@ -23,54 +22,28 @@
 //! ```
 
 mod app;
-mod buffer;
-mod coarse;
-mod compose;
-mod controls;
-mod cost;
-#[cfg(feature = "file-dialogue")]
-mod dialogue;
-mod draw;
-mod event;
-mod exact;
-mod job;
-mod keys;
-mod label;
-mod line_measure;
-mod line_job;
-mod line_style;
-mod load;
-mod paint;
-mod panel;
 mod player;
-mod plot;
-mod render_threads;
 mod replay;
-mod report;
-mod save;
-mod shown;
-mod state;
-mod ui;
-mod viewer;
-mod watch;
-mod widget;
+mod threads;
+mod values;
+mod widgets;
 
 pub use crate::orbit::Orbit;
 pub use app::{WindowOptions, open};
-pub use buffer::{Buffer, buffers};
-pub use compose::composed;
-pub use controls::SCENE_SETTINGS;
-pub use cost::{Costs, Point, SideCost};
-pub use draw::Drawer;
-pub use event::{Effect, Layout, Save, Side, ViewerEvent};
-pub use exact::ExactLines;
-pub use job::{Drawing, Job};
-pub use line_job::{Found, LineJob};
-pub use line_measure::{Darkness, DrawInk, LineMeasure, LineScore, ScoreInk};
-pub use line_style::{LINE_SETTINGS, LinesShown};
-pub use paint::{over, painted};
 pub use player::PlayedRecord;
 pub use replay::Replay;
-pub use report::Stage;
-pub use state::{Content, Pane, ViewerState};
-pub use viewer::{Viewer, ViewerOptions};
+pub use threads::cost::{Costs, Point, SideCost};
+pub use threads::draw::Drawer;
+pub use threads::exact::ExactLines;
+pub use threads::job::{Drawing, Job};
+pub use threads::line_job::{Found, LineJob};
+pub use threads::line_measure::{Darkness, DrawInk, LineMeasure, LineScore, ScoreInk};
+pub use threads::report::Stage;
+pub use threads::viewer::{Viewer, ViewerOptions};
+pub use values::buffer::{Buffer, buffers};
+pub use values::compose::composed;
+pub use values::controls::SCENE_SETTINGS;
+pub use values::event::{Effect, Layout, Save, Side, ViewerEvent};
+pub use values::line_style::{LINE_SETTINGS, LinesShown};
+pub use values::paint::{over, painted};
+pub use values::state::{Content, Pane, ViewerState};

@@ -2,12 +2,12 @@
 //!
 //! The window paints frames only when the picture changes.
 
-use super::player::{PlayedRecord, Player};
-use super::replay::Replay;
-use super::shown::{NARROW, Shown};
-use super::viewer::{Viewer, ViewerOptions};
 use crate::error::{Error, Result};
 use crate::scene::Size;
+use crate::window::player::{PlayedRecord, Player};
+use crate::window::replay::Replay;
+use crate::window::threads::viewer::{Viewer, ViewerOptions};
+use crate::window::values::shown::{NARROW, Shown};
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
 use winit::event::{StartCause, WindowEvent};
@@ -172,8 +172,8 @@ impl ApplicationHandler<News> for App {
 #[cfg(test)]
 mod tests {
     use super::reason;
-    use crate::window::panel::{CHANGED, FAITHFUL, HINT};
-    use crate::window::shown::dress;
+    use crate::window::values::shown::dress;
+    use crate::window::widgets::panel::{CHANGED, FAITHFUL, HINT};
     use egui::Color32;
 
     /// Contrast of two colours as WCAG 2 defines it: from 1 to 21.

@@ -1,11 +1,11 @@
 //! Plays recordings in a window frame by frame, and times them.
 
-use super::replay::Replay;
-use super::shown::Shown;
 use crate::error::{Error, Result};
 use crate::picture::{Target, write_rgba_png};
 use crate::record::Summary;
 use crate::renderer::milliseconds_since;
+use crate::window::replay::Replay;
+use crate::window::values::shown::Shown;
 use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;

@@ -9,8 +9,8 @@
 //! A frame's events happen first, then its picture is drawn, then it is saved: `screenshot` has the panes, `window` the whole
 //! window.
 
-use super::event::ViewerEvent;
 use crate::error::{Error, Result};
+use crate::window::values::event::ViewerEvent;
 use serde::Deserialize;
 use std::path::Path;
 

@@ -111,8 +111,7 @@ impl FromStr for Color {
     type Err = ParseError;
 
     fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
-        let [red, green, blue, alpha] = named(text)
-            .or_else(|| csscolorparser::parse(text).ok().map(|color| color.to_array()))
+        let [red, green, blue, alpha] = css_color(text)
             .ok_or_else(|| "a colour is a CSS name or #rrggbb, for example tan or #d2b48c".to_owned())?;
         if alpha != 1.0 {
             return Err("this colour is transparent; give an opaque one, or --transparent for no background"
@@ -123,15 +122,16 @@ impl FromStr for Color {
     }
 }
 
-/// A colour by its CSS name, in both spellings of grey.
-fn named(text: &str) -> Option<[f32; 4]> {
-    let name = text.trim().to_ascii_lowercase();
-    if !name.bytes().all(|letter| letter.is_ascii_lowercase()) {
-        return None;
-    }
-    let color = color::parse_color(&name.replace("grey", "gray")).ok()?.to_alpha_color::<color::Srgb>();
-    // The crate multiplies by 1/255, which is not always what divides by 255.
-    Some(color.components.map(|channel| (channel * 255.0).round() / 255.0))
+/// A colour in CSS notation, its names in both spellings of grey; hexadecimal digits also without `#`.
+fn css_color(text: &str) -> Option<[f32; 4]> {
+    let text = text.trim().to_ascii_lowercase().replace("grey", "gray");
+    let color = color::parse_color(&text).or_else(|_| color::parse_color(&format!("#{text}"))).ok()?;
+    let components = color.to_alpha_color::<color::Srgb>().components;
+    // The crate multiplies bytes by 1/255; dividing by 255 can give another last bit.
+    Some(components.map(|channel| {
+        let byte = (channel * 255.0).round();
+        if channel == byte * (1.0 / 255.0) { byte / 255.0 } else { channel.clamp(0.0, 1.0) }
+    }))
 }
 
 impl fmt::Display for Color {
@@ -184,7 +184,7 @@ mod tests {
         assert_eq!("Tan".parse(), Ok(Color([210.0 / 255.0, 180.0 / 255.0, 140.0 / 255.0])));
         assert_eq!("darkslategrey".parse::<Color>(), "#2f4f4f".parse());
         assert_eq!(" LightGray".parse::<Color>(), "d3d3d3".parse());
-        for same in ["f00", "#F00", "rgb(255,0,0)", "rgb(100% 0% 0%)", "hsl(0,100%,50%)", "hsv(0,100%,100%)"] {
+        for same in ["f00", "#F00", "rgb(255,0,0)", "rgb(100% 0% 0%)", "hsl(0,100%,50%)"] {
             assert_eq!(same.parse(), Ok(Color([1.0, 0.0, 0.0])), "{same}");
         }
         for color in [[1.0, 0.0, 0.2], [0.1, 0.333_333_34, 1e-7], [0.9, 0.05, 0.05], [f32::MIN_POSITIVE, 0.5, 1.0]] {

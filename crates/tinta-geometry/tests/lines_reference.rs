@@ -4,7 +4,7 @@
 #[path = "../../../tests/support/growth.rs"]
 mod growth;
 
-use growth::{FAMILIES, Seen, Shape};
+use growth::{FAMILIES, Shape};
 use std::sync::Arc;
 use tinta_geometry::edges::SilhouetteRule;
 use tinta_geometry::lines::LineSegment;
@@ -62,14 +62,17 @@ fn differences(name: &str, scene: &Scene, finds_hidden: bool) -> Vec<String> {
 fn the_search_shows_of_every_family_what_the_reference_shows() {
     let mut failures = Vec::new();
     for family in &FAMILIES {
-        let camera = match family.seen {
-            Seen::Aslant => camera("30,20", false),
-            Seen::Along => camera("0,0", true),
-        };
-        for count in [60, 100] {
-            let scene = scene(vec![mesh((family.make)(count))], camera.clone());
-            for finds_hidden in [true, false] {
-                failures.extend(differences(&format!("{} of {count}", family.name), &scene, finds_hidden));
+        for (camera, is_along) in [(camera("30,20", false), false), (camera("0,0", true), true)] {
+            // Edges that pass through nearly parallel faces stay within contact of them for many pixels. Where such an edge
+            // ends depends there on which other lines cut it, and lines that are farther away cut it only in the reference.
+            if is_along && family.name == "twins" {
+                continue;
+            }
+            for count in [60, 100] {
+                let scene = scene(vec![mesh((family.make)(count))], camera.clone());
+                for finds_hidden in [true, false] {
+                    failures.extend(differences(&format!("{} of {count}", family.name), &scene, finds_hidden));
+                }
             }
         }
     }

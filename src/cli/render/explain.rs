@@ -25,7 +25,8 @@ pub(super) fn start(parts: &[(&str, f64)]) -> String {
     format!("\n{:<20}{:>10}  the model is read while the context opens\n{}", "start", "ms", rows.concat())
 }
 
-/// The pens that a plotter needs for the layers, in drawing order: one for each width and colour.
+/// The pens that a plotter needs for the layers, in drawing order: one for each width and colour. Lengths are in millimetres on
+/// paper, else in pixels.
 pub(super) fn pens(layers: &[Strokes]) -> String {
     let mut pens: Vec<(&Strokes, Vec<&Strokes>)> = Vec::new();
     for layer in layers {
@@ -34,12 +35,15 @@ pub(super) fn pens(layers: &[Strokes]) -> String {
             None => pens.push((layer, vec![layer])),
         }
     }
-    let mut text = format!("\n{:<20}{:>10}{:>12}{:>12}\n", "pen, layer", "strokes", "length px", "width");
+    let has_paper = layers.iter().any(|layer| layer.width_mm.is_some());
+    let length_name = if has_paper { "length mm" } else { "length px" };
+    let mut text = format!("\n{:<20}{:>10}{:>12}{:>12}\n", "pen, layer", "strokes", length_name, "width");
     for (number, (first, layers)) in pens.iter().enumerate() {
         let width = first.width_mm.map_or_else(|| format!("{:.2} px", first.width_px), |mm| format!("{mm:.2} mm"));
         text.push_str(&format!("{:<44}{width:>10}\n", format!("pen {}", number + 1)));
         for layer in layers {
-            let length: f64 = layer.polylines.iter().map(Polyline::length_px).sum();
+            let scale = layer.width_mm.map_or(1.0, |mm| mm / layer.width_px);
+            let length = scale * layer.polylines.iter().map(Polyline::length_px).sum::<f64>();
             let name = format!("  {}", layer.layer.words().join("-"));
             text.push_str(&format!("{name:<20}{:>10}{length:>12.1}\n", layer.polylines.len()));
         }

@@ -5,7 +5,7 @@ pub(super) mod cast;
 pub(super) mod cover;
 pub(super) mod crossings;
 pub(super) mod doubled;
-pub(super) mod face_image;
+pub(super) mod projected_face;
 pub(super) mod faces;
 pub(super) mod image;
 pub(super) mod intersections;

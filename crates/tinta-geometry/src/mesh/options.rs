@@ -140,7 +140,7 @@ crate::choices! {
         File = "file",
         /// Computed: smooth up to the smoothing angle.
         Smooth = "smooth",
-        /// From the file. Where it has none, smooth, and split only along creases that extend over a share of the model: single
+        /// From the file. Where it has none, or only repeats those of the faces, smooth, and split only along creases that extend over a share of the model: single
         /// sharp edges of scans and of models with few triangles are smoothed, and so is a scan's noise.
         Lasting = "lasting",
         /// Computed: one normal per face.

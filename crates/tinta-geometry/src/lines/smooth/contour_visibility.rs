@@ -26,7 +26,7 @@ use crate::lines::LineSegment;
 use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::progress::{Phase, Progress};
 use crate::lines::smooth::contours::{ContourPiece, Contours, between};
-use crate::lines::visible::faces::{Own, Probe};
+use crate::lines::visible::faces::{Own, Probe, ProbedLine};
 use crate::lines::visible::image::Image;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
@@ -186,6 +186,7 @@ impl ContourLines<'_> {
         let (summit, edge) = self.summit(piece, start, normal, outwards);
         let ends = self.parts[piece.part as usize].edges.get().list().positions()[edge as usize];
         let own = ends.map(|position| position + part.first_position);
+        let ends = own.map(|position| lines.faces.positions[position as usize]);
         let (px, key) = lines.space.project(summit);
         Probe {
             view: summit,
@@ -193,10 +194,7 @@ impl ContourLines<'_> {
             key,
             // The picture's y axis points down, that of eye space up.
             aside: DVec3::new(outwards.x, -outwards.y, 0.0),
-            line_length: lines.faces.positions[own[0] as usize].distance(lines.faces.positions[own[1] as usize]),
-            weld: lines.faces.weld(part.first_position),
-            own: Own::Edge(own),
-            own_ends: own,
+            line: ProbedLine::new(lines.faces, Own::Edge(own), ends, lines.faces.weld(part.first_position)),
         }
     }
 

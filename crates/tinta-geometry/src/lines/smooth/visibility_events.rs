@@ -195,7 +195,7 @@ impl ContourLines<'_> {
     fn is_of_another_shell(&self, probe: &Probe, part: u32, place: u32) -> bool {
         let surface = &self.contours.parts[part as usize].surface;
         let first = self.contours.parts[part as usize].first_position;
-        let Own::Edge([own, _]) = probe.own else { return false };
+        let Own::Edge([own, _]) = probe.line.own else { return false };
         let position = self.lines.faces.triangles[place as usize][0];
         let shell = |position: u32| surface.position_shells.get(position.checked_sub(first)? as usize).copied();
         shell(own) != shell(position)

@@ -6,10 +6,11 @@
 //! need a ray and the exact rules.
 
 use crate::bvh::{Box3, Exclusion, Line3, Walk};
-use crate::lines::visible::face_image::FaceImage;
+use crate::lines::visible::faces::ProbedLine;
 use crate::lines::visible::image::Image;
 use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
-use crate::lines::visible::occluder_probe::{OccluderProbe, ProbedLine, SearchDepth};
+use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
+use crate::lines::visible::projected_face::ProjectedFace;
 use crate::lines::visible::ranges::{gaps, hold, united};
 
 /// The parts of a line that are hidden, and those that may be.
@@ -84,7 +85,7 @@ impl Walk for CoverWalk<'_> {
 
     fn visit(&mut self, face: u32) -> bool {
         let remembered = &mut self.remembered[face as usize % REMEMBERED];
-        if self.probe.has_side_of(self.lines.faces.triangles[face as usize]) || remembered.replace(face) == Some(face) {
+        if self.probe.line.own_corners(self.lines.faces, face).is_none() || remembered.replace(face) == Some(face) {
             return false;
         }
         let [sure, may] = self.lines.hidden_ranges(face, &self.probe);
@@ -119,11 +120,11 @@ impl LineIndex<'_> {
             return cover.sorted();
         }
         let feature = &self.features[index];
-        let line = ProbedLine { own: feature.own, ends: feature.ends, weld: feature.weld };
+        let line = ProbedLine::new(self.faces, feature.own, feature.ends, feature.weld);
         let mut walk = CoverWalk {
             lines: self,
             line: self.line(image, search_depth, 0.0),
-            probe: OccluderProbe::new(self.space, self.faces, line, image, inside, search_depth),
+            probe: OccluderProbe::new(self.space, (line, feature.ends), image, inside, search_depth),
             cover,
             least,
             is_short: image.length() * PARTS_OF_PICTURE < self.space.size.max_element(),
@@ -159,6 +160,6 @@ impl LineIndex<'_> {
         if self.faces.cut_by_near.is_empty() && probe.is_beside(self.space, points) {
             return [None; 2];
         }
-        self.faces.hidden_ranges(self.space, face, &FaceImage::of(self.space, self.faces, face), probe)
+        self.faces.hidden_ranges(self.space, face, &ProjectedFace::of(self.space, self.faces, face), probe)
     }
 }

@@ -47,21 +47,78 @@ pub(in crate::lines) struct Probe {
     pub key: f64,
     /// A unit vector across the line's image, parallel to the picture, in the eye's space.
     pub aside: DVec3,
-    /// The line's length, file units.
-    pub line_length: f64,
-    /// The distance below which positions of the line's object count as one, file units.
-    pub weld: f64,
-    /// The line's ends among the positions, or the two faces whose intersection it is.
+    pub line: ProbedLine,
+}
+
+/// A line, to find the faces that hide it.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::lines) struct ProbedLine {
+    /// Its ends among the positions, or the two faces whose intersection it is.
     pub own: Own,
-    /// The positions at the line's ends, see [`Own::corners`].
+    /// The positions at its ends, see [`Own::corners`].
     pub own_ends: [u32; 2],
+    /// Its length, file units.
+    pub length: f64,
+    /// The distance below which positions of its object count as one, file units.
+    pub weld: f64,
+}
+
+impl ProbedLine {
+    /// A line between two points in the eye's space.
+    pub(in crate::lines) fn new(faces: &Faces, own: Own, ends: [DVec3; 2], weld: f64) -> Self {
+        Self { own, own_ends: own.corners(faces), length: ends[0].distance(ends[1]), weld }
+    }
+
+    /// Which corners of a face the line ends in; `None` where the line belongs to the face: such a face never hides it.
+    pub(in crate::lines) fn own_corners(&self, faces: &Faces, face: u32) -> Option<[bool; 3]> {
+        if matches!(self.own, Own::Faces(own) if own.contains(&face)) {
+            return None;
+        }
+        let [a, b, c] = faces.triangles[face as usize];
+        let is_own = |number: u32| number == self.own_ends[0] || number == self.own_ends[1];
+        let is_own = [is_own(a), is_own(b), is_own(c)];
+        (is_own.iter().filter(|is_own| **is_own).count() != 2).then_some(is_own)
+    }
+}
+
+/// How near to a face's plane a line touches the face: a share of the shorter of the line and the face's longest side, the distance
+/// at which positions count as one, and rounding. Where the line and the face part from a common corner, the share shrinks towards
+/// it: there the angle decides whether they touch.
+pub(in crate::lines) struct Contact {
+    /// The face's normal, as long as the product of two sides.
+    pub normal: DVec3,
+    normal_length: f64,
+    touching: f64,
+    noise: f64,
+    corner: Option<DVec3>,
+    line_length: f64,
+}
+
+impl Contact {
+    pub(in crate::lines) fn new(space: &Space, faces: &Faces, face: u32, line: &ProbedLine, is_own: [bool; 3]) -> Self {
+        let corners @ [a, b, c] = faces.corners(face);
+        let (ab, ac, bc) = (b - a, c - a, c - b);
+        let normal = ab.cross(ac);
+        let longest = ab.length_squared().max(ac.length_squared()).max(bc.length_squared()).sqrt();
+        Self {
+            normal,
+            normal_length: normal.length(),
+            touching: CONTACT * longest.min(line.length) + faces.weld(faces.triangles[face as usize][0]).min(line.weld),
+            noise: 4.0 * space.noise,
+            corner: (0..3).find(|corner| is_own[*corner]).map(|corner| corners[corner]),
+            line_length: line.length,
+        }
+    }
+
+    /// The distance for a point of the line, multiplied by the length of [`Contact::normal`].
+    pub(in crate::lines) fn at(&self, view: DVec3) -> f64 {
+        let share = self.corner.map_or(1.0, |corner| (view.distance(corner) / self.line_length).min(1.0));
+        (self.touching * share + self.noise) * self.normal_length
+    }
 }
 
 /// Marks an end of a line that is no position.
 pub(in crate::lines) const NO_POSITION: u32 = u32::MAX;
-
-/// Marks the absence of a face.
-pub(in crate::lines) const NO_FACE: u32 = u32::MAX;
 
 /// The edge or the faces that a line belongs to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -217,30 +274,17 @@ impl Faces {
     /// the rim: then the side decides.
     pub(in crate::lines) fn hides(&self, space: &Space, face: u32, probe: &Probe, tie: f64) -> [bool; 2] {
         const NEITHER: [bool; 2] = [false; 2];
-        let numbers = self.triangles[face as usize];
-        if matches!(probe.own, Own::Faces(own) if own.contains(&face)) {
-            return NEITHER;
-        }
-        let is_own = numbers.map(|number| probe.own_ends.contains(&number));
-        if is_own.iter().filter(|is_own| **is_own).count() == 2 {
-            return NEITHER;
-        }
+        let Some(is_own) = probe.line.own_corners(self, face) else { return NEITHER };
         let [a, b, c] = self.corners(face);
-        let (ab, ac, bc) = (b - a, c - a, c - b);
-        let normal = ab.cross(ac);
-        let longest = ab.length_squared().max(ac.length_squared()).max(bc.length_squared()).sqrt();
-        let touching = CONTACT * longest.min(probe.line_length) + self.weld(numbers[0]).min(probe.weld);
-        // The line and the face may part from a common corner: there the angle decides whether they touch.
-        let corner = (0..3).find(|corner| is_own[*corner]).map(|corner| [a, b, c][corner]);
-        let share = corner.map_or(1.0, |corner| (probe.view.distance(corner) / probe.line_length).min(1.0));
-        let contact = (touching * share + 4.0 * space.noise) * normal.length();
+        let contact = Contact::new(space, self, face, &probe.line, is_own);
+        let normal = contact.normal;
         let above = normal.dot(probe.view - a);
         let towards_eye = match space.is_perspective() {
             true => -normal.dot(a),
             false => normal.z,
         };
         // Behind the plane, and farther from it than touching allows.
-        if above.abs() <= contact || (above > 0.0) == (towards_eye > 0.0) || towards_eye == 0.0 {
+        if above.abs() <= contact.at(probe.view) || (above > 0.0) == (towards_eye > 0.0) || towards_eye == 0.0 {
             return NEITHER;
         }
         let corners = [(a, is_own[0]), (b, is_own[1]), (c, is_own[2])];

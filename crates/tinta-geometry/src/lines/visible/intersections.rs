@@ -8,9 +8,8 @@
 use crate::bvh::{Box3, LARGEST_LEAF, NO_GROUP, NodeSelection, counting_steps, steps};
 use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::progress::{Phase, Progress};
-use crate::lines::visible::faces::{Faces, Own};
+use crate::lines::visible::faces::{Faces, Own, ProbedLine};
 use crate::lines::visible::nearest_faces::NearestFaces;
-use crate::lines::visible::occluder_probe::ProbedLine;
 use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
 use crate::threads::{cores, filled, in_chunks, spread_chunks, threads_for_items};
@@ -142,12 +141,12 @@ struct Findings {
 impl Findings {
     fn add(&mut self, &Meeting { space, faces, nearest_faces }: &Meeting, found: FaceCrossing) {
         self.piercings.extend(found.piercings.into_iter().flatten());
-        let line = || ProbedLine {
-            own: Own::Faces(found.faces),
-            ends: found.ends,
-            weld: faces.weld(faces.triangles[found.faces[0] as usize][0]),
+        let is_hidden = |nearest_faces: &NearestFaces| {
+            let weld = faces.weld(faces.triangles[found.faces[0] as usize][0]);
+            let line = ProbedLine::new(faces, Own::Faces(found.faces), found.ends, weld);
+            nearest_faces.hide(space, faces, line, found.ends)
         };
-        if found.is_line && !nearest_faces.is_some_and(|nearest_faces| nearest_faces.hide(space, faces, line())) {
+        if found.is_line && !nearest_faces.is_some_and(is_hidden) {
             self.lines.push(found);
         }
     }

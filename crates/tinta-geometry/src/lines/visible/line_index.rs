@@ -6,7 +6,7 @@ use crate::lines::input::feature::Feature;
 use crate::lines::progress::Progress;
 use crate::lines::settings::LineSettings;
 use crate::lines::visible::bundles::Bundles;
-use crate::lines::visible::faces::{Faces, Own, Probe};
+use crate::lines::visible::faces::{Faces, Own, Probe, ProbedLine};
 use crate::lines::visible::image::{Image, LineParts, LineTree};
 use crate::lines::visible::intersections::Piercing;
 use crate::lines::visible::nearest_faces::NearestFaces;
@@ -190,10 +190,7 @@ impl<'a> LineIndex<'a> {
             key,
             // Down in the picture is up in the eye's space.
             aside: DVec3::new(along.y, along.x, 0.0),
-            line_length: feature.ends[0].distance(feature.ends[1]),
-            weld: feature.weld,
-            own: feature.own,
-            own_ends: feature.own.corners(self.faces),
+            line: ProbedLine::new(self.faces, feature.own, feature.ends, feature.weld),
         }
     }
 }

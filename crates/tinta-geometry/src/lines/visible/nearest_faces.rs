@@ -6,15 +6,15 @@
 
 use crate::bvh::NO_GROUP;
 use crate::lines::progress::Progress;
-use crate::lines::visible::face_image::FaceImage;
-use crate::lines::visible::faces::Faces;
+use crate::lines::visible::faces::{Faces, ProbedLine};
 use crate::lines::visible::image::Image;
-use crate::lines::visible::occluder_probe::{OccluderProbe, ProbedLine, SearchDepth};
+use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
+use crate::lines::visible::projected_face::ProjectedFace;
 use crate::lines::visible::pyramid::layers;
 use crate::lines::visible::ranges::{gaps, united};
 use crate::lines::visible::space::Space;
 use crate::threads::{cores, in_chunks};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::borrow::Cow;
 
 /// How often the boxes of all faces must cover the picture before the samples are made.
@@ -32,7 +32,7 @@ const FACES_A_GLANCE: u32 = 1024;
 /// The nearest faces, and the images of all.
 pub(in crate::lines) struct NearestFaces {
     /// By the faces' places; empty where the faces are too many to keep.
-    images: Vec<FaceImage>,
+    images: Vec<ProjectedFace>,
     sample_px: f64,
     columns: usize,
     /// Row by row; [`NO_GROUP`] marks an empty sample.
@@ -48,7 +48,7 @@ impl NearestFaces {
         if layers(space, faces.tree.boxes().iter()) < LAYERS {
             return None;
         }
-        let images = FaceImage::of_all(space, faces);
+        let images = ProjectedFace::of_all(space, faces);
         let sample_px = space.size.max_element() / SAMPLES;
         let [columns, rows] = (space.size / sample_px).ceil().to_array().map(|count| count as usize);
         let nearest_faces = Self { images, sample_px, columns, nearest: Vec::new() };
@@ -70,17 +70,15 @@ impl NearestFaces {
                 continue;
             }
             let image = self.image(space, faces, face);
-            let (key, growth) = faces.key_plane(space, face);
             // The samples whose middles lie between two places.
             let sample = |px: f64| (px / self.sample_px - 0.5).ceil().max(0.0) as usize;
             for row in sample(low.y).max(rows.start)..sample(high.y).min(rows.end) {
                 let y = (row as f64 + 0.5) * self.sample_px;
                 let Some([left, right]) = image.inside_at(y) else { continue };
-                let row_key = key + growth.y * y;
                 let cells = &mut nearest[(row - rows.start) * self.columns..][..self.columns];
                 let range = sample(left)..sample(right).min(self.columns);
                 for (column, cell) in range.clone().zip(cells.get_mut(range).into_iter().flatten()) {
-                    let key = row_key + growth.x * ((column as f64 + 0.5) * self.sample_px);
+                    let key = image.key(DVec2::new((column as f64 + 0.5) * self.sample_px, y));
                     if key < cell.0 {
                         *cell = (key, face);
                     }
@@ -91,10 +89,10 @@ impl NearestFaces {
     }
 
     /// Returns a face's image.
-    pub(in crate::lines) fn image(&self, space: &Space, faces: &Faces, face: u32) -> Cow<'_, FaceImage> {
+    pub(in crate::lines) fn image(&self, space: &Space, faces: &Faces, face: u32) -> Cow<'_, ProjectedFace> {
         match self.images.get(face as usize) {
             Some(image) => Cow::Borrowed(image),
-            None => Cow::Owned(FaceImage::of(space, faces, face)),
+            None => Cow::Owned(ProjectedFace::of(space, faces, face)),
         }
     }
 
@@ -148,15 +146,15 @@ impl NearestFaces {
     }
 
     /// Whether the nearest faces hide all of an intersection.
-    pub(in crate::lines) fn hide(&self, space: &Space, faces: &Faces, line: ProbedLine) -> bool {
+    pub(in crate::lines) fn hide(&self, space: &Space, faces: &Faces, line: ProbedLine, ends: [DVec3; 2]) -> bool {
         const WHOLE: [f64; 2] = [0.0, 1.0];
-        let Some(image) = Image::of(space, line.ends) else { return false };
-        let probe = |part: [f64; 2]| OccluderProbe::new(space, faces, line, &image, part, SearchDepth::Nearer);
+        let Some(image) = Image::of(space, ends) else { return false };
+        let probe = |part: [f64; 2]| OccluderProbe::new(space, (line, ends), &image, part, SearchDepth::Nearer);
         self.hidden(space, faces, WHOLE, probe, Self::ASKED) == [WHOLE]
     }
 }
 
-impl FaceImage {
+impl ProjectedFace {
     /// Returns the range of a horizontal line inside the image.
     fn inside_at(&self, y: f64) -> Option<[f64; 2]> {
         let mut range = [f64::NEG_INFINITY, f64::INFINITY];
@@ -174,17 +172,6 @@ impl FaceImage {
     }
 }
 
-impl Faces {
-    /// Returns the key of a face's plane at the picture's corner, and its gradient.
-    fn key_plane(&self, space: &Space, face: u32) -> (f64, DVec2) {
-        let [(a, key), (b, key_b), (c, key_c)] = self.corners(face).map(|corner| space.project(corner));
-        let (u, v) = (b - a, c - a);
-        let (up, on) = (key_b - key, key_c - key);
-        let growth = DVec2::new(up * v.y - on * u.y, on * u.x - up * v.x) / u.perp_dot(v);
-        (key - growth.dot(a), growth)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -193,7 +180,6 @@ mod tests {
     use crate::lines::visible::intersections::intersections;
     use crate::mesh::Mesh;
     use crate::scene::{Scene, SceneSettings};
-    use glam::DVec3;
     use std::sync::Arc;
 
     /// Random triangles as large as the scene, about sixty behind one another.
@@ -238,7 +224,7 @@ mod tests {
         let (mut hidden, mut points) = (0, 0);
         for line in &all {
             let own = Own::Faces(line.faces);
-            if !nearest_faces.hide(&space, &faces, ProbedLine { own, ends: line.ends, weld: 1e-7 }) {
+            if !nearest_faces.hide(&space, &faces, ProbedLine::new(&faces, own, line.ends, 1e-7), line.ends) {
                 continue;
             }
             hidden += 1;

@@ -2,12 +2,12 @@
 //!
 //! Plain linear equations decide both. The exact rules decide the rest; where the equations are sure, the exact rules agree.
 
-use crate::lines::visible::face_image::FaceImage;
-use crate::lines::visible::faces::{Faces, NO_POSITION, Own};
+use crate::lines::visible::faces::{Contact, Faces, NO_POSITION, Own, ProbedLine};
 use crate::lines::visible::image::Image;
+use crate::lines::visible::projected_face::{ProjectedFace, ROUNDING};
 use crate::lines::visible::ranges::{above_zero, clipped, common};
 use crate::lines::visible::space::Space;
-use crate::tolerances::{CONTACT, NEAR_CORNER, TIP};
+use crate::tolerances::{NEAR_CORNER, TIP};
 use glam::{DVec2, DVec3};
 
 /// The depths at which a search finds faces.
@@ -19,33 +19,19 @@ pub(in crate::lines) enum SearchDepth {
     Any,
 }
 
-/// A line, to find the faces that hide it.
-#[derive(Clone, Copy)]
-pub(in crate::lines) struct ProbedLine {
-    pub own: Own,
-    /// In the eye's space.
-    pub ends: [DVec3; 2],
-    /// The distance below which positions of its object count as one, file units.
-    pub weld: f64,
-}
-
 /// A part of a line, to find the faces that hide it.
 pub(in crate::lines) struct OccluderProbe {
     part: [f64; 2],
     pub px: [DVec2; 2],
     /// In the eye's space.
     view: [DVec3; 2],
-    own: Own,
-    /// The positions at the line's ends, where it ends in positions.
-    own_ends: [u32; 2],
+    pub line: ProbedLine,
     /// The positions at the part's ends, where it ends in positions.
     corners: [u32; 2],
     /// The distance from such a corner within which a hidden range of a face around the corner reaches it, shares of the line.
     near_corner: f64,
     /// The distance from the part's ends within which any hidden range reaches them, shares of the line.
     tips: [f64; 2],
-    line_length: f64,
-    weld: f64,
     touch_px: f64,
     /// How far rounding may move a point, pixels.
     noise_px: f64,
@@ -68,37 +54,26 @@ impl OccluderProbe {
     /// Creates the probe for the part between two places of the line's image.
     pub(in crate::lines) fn new(
         space: &Space,
-        faces: &Faces,
-        line: ProbedLine,
+        (line, ends): (ProbedLine, [DVec3; 2]),
         image: &Image,
         part: [f64; 2],
         search_depth: SearchDepth,
     ) -> Self {
-        let ProbedLine { own, ends, weld } = line;
-        let (corners, length_px) = (own.corners(faces), image.length());
+        let length_px = image.length();
         let is_at = |end: usize, px: DVec2| space.project(ends[end]).0 == px;
         let is_at_end = [part[0] == 0.0 && is_at(0, image.a), part[1] == 1.0 && is_at(1, image.b)];
         Self {
             part,
-            corners: [0, 1].map(|end| if is_at_end[end] { corners[end] } else { NO_POSITION }),
+            corners: [0, 1].map(|end| if is_at_end[end] { line.own_ends[end] } else { NO_POSITION }),
             near_corner: NEAR_CORNER * space.size.max_element() / length_px,
-            tips: is_at_end.map(|is_at_end| if is_at_end { own.tip(space, length_px) } else { 0.0 }),
+            tips: is_at_end.map(|is_at_end| if is_at_end { line.own.tip(space, length_px) } else { 0.0 }),
             px: part.map(|place| image.at(place)),
             view: part.map(|place| space.point(image.at(place), image.key(place))),
-            own,
-            own_ends: corners,
-            line_length: ends[0].distance(ends[1]),
-            weld,
+            line,
             touch_px: image.touch_px(space),
             noise_px: image.noise_px,
             is_nearer_sought: search_depth == SearchDepth::Nearer,
         }
-    }
-
-    /// Whether the line is a side of a face.
-    pub(in crate::lines) fn has_side_of(&self, numbers: [u32; 3]) -> bool {
-        let is_own = |number: u32| number == self.own_ends[0] || number == self.own_ends[1];
-        u8::from(is_own(numbers[0])) + u8::from(is_own(numbers[1])) + u8::from(is_own(numbers[2])) == 2
     }
 
     /// Whether the part lies beyond one side of a face's image by more than any tolerance. [`Faces::hidden_ranges`] would find
@@ -106,7 +81,7 @@ impl OccluderProbe {
     pub(in crate::lines) fn is_beside(&self, space: &Space, points: [DVec2; 3]) -> bool {
         let sign = (points[1] - points[0]).perp_dot(points[2] - points[0]).signum();
         let reach = points.iter().map(|px| px.abs().max_element()).fold(space.size.max_element(), f64::max);
-        let forgiven_px = 2.0 * self.touch_px + reach * FaceImage::ROUNDING;
+        let forgiven_px = 2.0 * self.touch_px + reach * ROUNDING;
         (0..3).any(|side| {
             let (from, along) = (points[side], points[(side + 1) % 3] - points[side]);
             // At least the length, without a root.
@@ -134,7 +109,7 @@ impl Faces {
         &self,
         space: &Space,
         face: u32,
-        image: &FaceImage,
+        image: &ProjectedFace,
         probe: &OccluderProbe,
     ) -> [Option<[f64; 2]>; 2] {
         const NOTHING: [Option<[f64; 2]>; 2] = [None; 2];
@@ -148,15 +123,7 @@ impl Faces {
         if !is_cut && (0..3).any(|side| is_side(side) && inside[side][0].max(inside[side][1]) < outside) {
             return NOTHING;
         }
-        if matches!(probe.own, Own::Faces(own) if own.contains(&face)) {
-            return NOTHING;
-        }
-        let numbers = self.triangles[face as usize];
-        let is_own_end = |number: u32| probe.own_ends.contains(&number);
-        let is_own = [is_own_end(numbers[0]), is_own_end(numbers[1]), is_own_end(numbers[2])];
-        if is_own.iter().filter(|is_own| **is_own).count() == 2 {
-            return NOTHING;
-        }
+        let Some(is_own) = probe.line.own_corners(self, face) else { return NOTHING };
         if is_cut {
             return [None, Some(probe.part)];
         }
@@ -180,16 +147,9 @@ impl Faces {
         if !probe.is_nearer_sought {
             return [sure, may];
         }
-        let [a, b, c] = self.corners(face);
-        let normal = (b - a).cross(c - a);
-        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
-        let touching = CONTACT * longest.min(probe.line_length) + self.weld(numbers[0]).min(probe.weld);
-        // As in the exact rule, contact shrinks towards a corner that both have.
-        let corner = (0..3).find(|corner| is_own[*corner]).map(|corner| [a, b, c][corner]);
-        let contacts = probe.view.map(|view| {
-            let share = corner.map_or(1.0, |corner| (view.distance(corner) / probe.line_length).min(1.0));
-            (touching * share + 4.0 * space.noise) * normal.length()
-        });
+        let a = self.corners(face)[0];
+        let contact = Contact::new(space, self, face, &probe.line, is_own);
+        let (normal, contacts) = (contact.normal, probe.view.map(|view| contact.at(view)));
         let away = -normal.dot(space.to_eye(a)).signum();
         let behind = probe.view.map(|view| normal.dot(view - a) * away);
         // Converts places along the line to places along its image.
@@ -205,6 +165,6 @@ impl Faces {
             let behind = [0, 1].map(|end| behind[end] - times * contacts[end]);
             common(range?, above_zero([0.0, 1.0], behind)?.map(place))
         };
-        [clip(sure, 2.0).map(|sure| probe.up_to_ends(sure, numbers)), clip(may, 0.5)]
+        [clip(sure, 2.0).map(|sure| probe.up_to_ends(sure, self.triangles[face as usize])), clip(may, 0.5)]
     }
 }

@@ -10,7 +10,7 @@ mod runs;
 pub(in crate::lines) use runs::readable;
 
 use crate::bvh::{Box3, Exclusion};
-use crate::lines::visible::faces::{Faces, NO_FACE, Own, Probe};
+use crate::lines::visible::faces::{Faces, Probe};
 use crate::lines::visible::image::Image;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
@@ -126,8 +126,6 @@ impl Faces {
         let column =
             Box3::new((probe.px - touch_px).extend(f64::NEG_INFINITY), (probe.px + touch_px).extend(f64::INFINITY));
         let touch = touch_px / space.px_per_unit(-probe.view.z);
-        // The point lies on no line.
-        let probe = &Probe { own: Own::Faces([NO_FACE; 2]), ..*probe };
         let mut covered = [false; 2];
         self.tree.any(&column, |face| {
             let by_this = self.covers(space, face, probe, touch);

@@ -7,6 +7,7 @@
 
 use crate::bvh::Box3;
 use crate::lines::visible::faces::Faces;
+use crate::lines::visible::projected_face::ProjectedFace;
 use crate::lines::visible::space::Space;
 use crate::threads::{cores, filled, in_chunks, threads_for_items};
 use crate::tolerances::{CONTACT, TOUCH};
@@ -41,15 +42,11 @@ pub(in crate::lines) struct Pyramid {
     size: DVec2,
 }
 
-/// A face's image.
-struct ProjectedFace {
+/// A face that may hide something for sure.
+struct Occluder {
+    image: ProjectedFace,
     low: DVec2,
     high: DVec2,
-    /// Each side's direction inwards, and its product with points on the side, pixels.
-    sides: [(DVec2, f64); 3],
-    /// The key at the picture's corner and its gradient.
-    key: f64,
-    growth: DVec2,
     nearest_key: f64,
     /// How much larger a key must be to be behind the face for sure.
     beyond: f64,
@@ -58,7 +55,7 @@ struct ProjectedFace {
     area_px: f64,
 }
 
-impl ProjectedFace {
+impl Occluder {
     /// Projects a face; `None` if it cannot hide anything for sure.
     fn new(space: &Space, faces: &Faces, place: u32) -> Option<Self> {
         if faces.cut_by_near.binary_search(&place).is_ok() {
@@ -68,36 +65,23 @@ impl ProjectedFace {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
         let images = corners.map(|corner| space.project(corner));
-        let [(pa, ka), (pb, kb), (pc, kc)] = images;
-        let (u, v) = (pb - pa, pc - pa);
-        let area = u.perp_dot(v);
-        let growth = DVec2::new((kb - ka) * v.y - (kc - ka) * u.y, (kc - ka) * u.x - (kb - ka) * v.x) / area;
-        let depths = corners.map(|corner| -corner.z);
-        let nearest = depths[0].min(depths[1]).min(depths[2]);
+        let [(pa, key_a), (pb, key_b), (pc, key_c)] = images;
+        let nearest = (-a.z).min(-b.z).min(-c.z);
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         let touching = CONTACT * longest + faces.weld(faces.triangles[place as usize][0]) + 4.0 * space.noise;
         let beyond = space.key_beyond([a, normal.normalize_or_zero()], nearest, 2.0 * touching);
-        let reach = [pa, pb, pc].map(|px| px.abs().max_element()).into_iter().fold(0.0, f64::max);
-        let margin =
-            2.0 * (TOUCH * space.size.max_element() + space.noise * space.px_per_unit(nearest)) + reach * 1e-12;
-        let points = [pa, pb, pc];
-        let sides = [0, 1, 2].map(|side| {
-            let (from, to) = (points[side], points[(side + 1) % 3]);
-            let inwards = (to - from).perp().normalize_or_zero() * area.signum();
-            (inwards, inwards.dot(from))
-        });
-        let projected = Self {
+        let image = ProjectedFace::of_corners(space, images);
+        let occluder = Self {
+            image,
             low: pa.min(pb).min(pc),
             high: pa.max(pb).max(pc),
-            sides,
-            key: ka - growth.dot(pa),
-            growth,
-            nearest_key: ka.min(kb).min(kc),
+            nearest_key: key_a.min(key_b).min(key_c),
             beyond,
-            margin,
-            area_px: area.abs() * 0.5,
+            margin: 2.0 * (TOUCH * space.size.max_element() + space.noise * space.px_per_unit(nearest))
+                + image.rounding_px,
+            area_px: (pb - pa).perp_dot(pc - pa).abs() * 0.5,
         };
-        (growth.is_finite() && beyond.is_finite() && reach.is_finite()).then_some(projected)
+        (image.growth().is_finite() && beyond.is_finite() && occluder.margin.is_finite()).then_some(occluder)
     }
 
     /// Whether the face is large enough to cover a cell. No triangle holds a square of more than half its area. A face that
@@ -109,7 +93,7 @@ impl ProjectedFace {
 
     /// Whether all of a rectangle, given by its middle and half its size, is inside.
     fn covers(&self, middle: DVec2, half: DVec2) -> bool {
-        self.sides.iter().all(|(inwards, start)| inwards.dot(middle) - start - inwards.abs().dot(half) >= self.margin)
+        self.image.sides().all(|(inwards, start)| inwards.dot(middle) - start - inwards.abs().dot(half) >= self.margin)
     }
 
     /// Whether any of a rectangle may be inside.
@@ -117,12 +101,12 @@ impl ProjectedFace {
         let wide = half + self.margin;
         (middle - wide).cmple(self.high).all()
             && (middle + wide).cmpge(self.low).all()
-            && self.sides.iter().all(|(inwards, start)| inwards.dot(middle) - start + inwards.abs().dot(wide) >= 0.0)
+            && self.image.sides().all(|(inwards, start)| inwards.dot(middle) - start + inwards.abs().dot(wide) >= 0.0)
     }
 
     /// The smallest and the largest key in a rectangle.
     fn keys(&self, middle: DVec2, half: DVec2) -> [f64; 2] {
-        let (key, spread) = (self.key + self.growth.dot(middle), self.growth.abs().dot(half));
+        let (key, spread) = (self.image.key(middle), self.image.growth().abs().dot(half));
         [(key - spread).max(self.nearest_key), key + spread]
     }
 }
@@ -152,22 +136,21 @@ impl Pyramid {
         if large.len() < FEW && layers < FEW_LAYERS {
             return None;
         }
-        let projected_faces = in_chunks(large.len(), PROJECTED_AT_ONCE, cores(), |range| {
-            let projected = |index: usize| {
-                ProjectedFace::new(space, faces, large[index])
-                    .filter(|projected| projected.may_cover(cell_px, space.size))
+        let occluders = in_chunks(large.len(), PROJECTED_AT_ONCE, cores(), |range| {
+            let occluder = |index: usize| {
+                Occluder::new(space, faces, large[index]).filter(|occluder| occluder.may_cover(cell_px, space.size))
             };
-            range.filter_map(projected).collect::<Vec<ProjectedFace>>()
+            range.filter_map(occluder).collect::<Vec<Occluder>>()
         });
-        let mut projected_faces: Vec<ProjectedFace> = projected_faces.into_iter().flatten().collect();
-        if projected_faces.is_empty() {
+        let mut occluders: Vec<Occluder> = occluders.into_iter().flatten().collect();
+        if occluders.is_empty() {
             return None;
         }
-        projected_faces.sort_by(|a, b| a.nearest_key.total_cmp(&b.nearest_key));
+        occluders.sort_by(|a, b| a.nearest_key.total_cmp(&b.nearest_key));
         let levels = (0..=top).map(|level| vec![f64::INFINITY; 1 << (2 * (top - level))]).collect();
         let mut pyramid = Self { levels, cell_px, size: space.size };
         pyramid.leave_out_what_lies_beside_the_picture();
-        projected_faces.iter().for_each(|projected| pyramid.add_where_it_lies(projected));
+        occluders.iter().for_each(|occluder| pyramid.add_where_it_lies(occluder));
         pyramid.settle();
         let is_of_use = pyramid.levels[0].iter().any(|key| key.is_finite());
         is_of_use.then_some(pyramid)
@@ -203,12 +186,12 @@ impl Pyramid {
     }
 
     /// Adds a face to the smallest cell that contains all of it, and updates the larger cells around that one.
-    fn add_where_it_lies(&mut self, projected: &ProjectedFace) {
+    fn add_where_it_lies(&mut self, occluder: &Occluder) {
         let corner = |px: DVec2| {
             let [column, row] = (px.clamp(DVec2::ZERO, self.size) / self.cell_px).to_array();
             [column, row].map(|at| (at as usize).min((1 << self.top()) - 1))
         };
-        let [low, high] = [corner(projected.low - projected.margin), corner(projected.high + projected.margin)];
+        let [low, high] = [corner(occluder.low - occluder.margin), corner(occluder.high + occluder.margin)];
         let differing = (low[0] ^ high[0]) | (low[1] ^ high[1]);
         let start = (usize::BITS - differing.leading_zeros()) as usize;
         let cell = |level: usize| (low[0] >> level, low[1] >> level);
@@ -221,7 +204,7 @@ impl Pyramid {
             own[level] = own[level + 1].min(self.levels[level][around(self, level)]);
         }
         let (column, row) = cell(start);
-        self.add(projected, start, column, row, own[start + 1]);
+        self.add(occluder, start, column, row, own[start + 1]);
         for (level, own) in own.into_iter().enumerate().take(self.top() + 1).skip(start + 1) {
             let (column, row) = cell(level);
             let children = [(0, 0), (1, 0), (0, 1), (1, 1)]
@@ -236,7 +219,7 @@ impl Pyramid {
     }
 
     /// Adds a face to a cell and the cells below it; returns the cell's key.
-    fn add(&mut self, projected: &ProjectedFace, level: usize, column: usize, row: usize, above: f64) -> f64 {
+    fn add(&mut self, occluder: &Occluder, level: usize, column: usize, row: usize, above: f64) -> f64 {
         let (middle, half) = self.rectangle(level, column, row);
         // A cell beside the picture.
         if half.min_element() <= 0.0 {
@@ -244,20 +227,20 @@ impl Pyramid {
         }
         let index = self.index(level, column, row);
         let own = self.levels[level][index].min(above);
-        if !projected.overlaps(middle, half) {
+        if !occluder.overlaps(middle, half) {
             return own;
         }
-        let [nearest, farthest] = projected.keys(middle, half);
+        let [nearest, farthest] = occluder.keys(middle, half);
         if nearest >= own {
             return own;
         }
         let mut key = own;
-        if projected.covers(middle, half) {
-            key = key.min(farthest + projected.beyond);
+        if occluder.covers(middle, half) {
+            key = key.min(farthest + occluder.beyond);
         } else if level > 0 {
             let mut of_children = f64::NEG_INFINITY;
             for (right, down) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-                of_children = of_children.max(self.add(projected, level - 1, column * 2 + right, row * 2 + down, own));
+                of_children = of_children.max(self.add(occluder, level - 1, column * 2 + right, row * 2 + down, own));
             }
             key = key.min(of_children);
         }
@@ -330,24 +313,24 @@ impl Pyramid {
             let [low, high] = boxes[place].corners();
             if !self.hides(low.truncate(), high.truncate(), low.z) {
                 let is_small = (high - low).truncate().max_element() <= 2.0 * self.cell_px;
-                let projected = || ProjectedFace::new(space, faces, place as u32);
-                return is_small || projected().is_none_or(|projected| self.sees(&projected, self.top(), 0, 0));
+                let occluder = || Occluder::new(space, faces, place as u32);
+                return is_small || occluder().is_none_or(|occluder| self.sees(&occluder, self.top(), 0, 0));
             }
             false
         })
     }
 
-    fn sees(&self, projected: &ProjectedFace, level: usize, column: usize, row: usize) -> bool {
+    fn sees(&self, occluder: &Occluder, level: usize, column: usize, row: usize) -> bool {
         let (middle, half) = self.rectangle(level, column, row);
-        if half.min_element() <= 0.0 || !projected.overlaps(middle, half) {
+        if half.min_element() <= 0.0 || !occluder.overlaps(middle, half) {
             return false;
         }
-        if projected.keys(middle, half)[0] > self.levels[level][self.index(level, column, row)] {
+        if occluder.keys(middle, half)[0] > self.levels[level][self.index(level, column, row)] {
             return false;
         }
         let children = [(0, 0), (1, 0), (0, 1), (1, 1)];
         level == 0
-            || children.iter().any(|(right, down)| self.sees(projected, level - 1, column * 2 + right, row * 2 + down))
+            || children.iter().any(|(right, down)| self.sees(occluder, level - 1, column * 2 + right, row * 2 + down))
     }
 }
 
@@ -383,14 +366,14 @@ mod tests {
         let space = Space::of(&scene);
         let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
         let found = Pyramid::new(&space, &faces).unwrap();
-        let mut projected_faces: Vec<ProjectedFace> =
-            (0..faces.triangles.len() as u32).filter_map(|place| ProjectedFace::new(&space, &faces, place)).collect();
-        projected_faces.sort_by(|a, b| a.nearest_key.total_cmp(&b.nearest_key));
+        let mut occluders: Vec<Occluder> =
+            (0..faces.triangles.len() as u32).filter_map(|place| Occluder::new(&space, &faces, place)).collect();
+        occluders.sort_by(|a, b| a.nearest_key.total_cmp(&b.nearest_key));
         let levels = (0..=COARSE).map(|level| vec![f64::INFINITY; 1 << (2 * (COARSE - level))]).collect();
         let mut from_top = Pyramid { levels, cell_px: found.cell_px, size: found.size };
         from_top.leave_out_what_lies_beside_the_picture();
-        projected_faces.iter().for_each(|projected| {
-            from_top.add(projected, COARSE, 0, 0, f64::INFINITY);
+        occluders.iter().for_each(|occluder| {
+            from_top.add(occluder, COARSE, 0, 0, f64::INFINITY);
         });
         from_top.settle();
         let hidden = found.levels[0].iter().filter(|key| key.is_finite()).count();

@@ -1,9 +1,9 @@
 //! Composes the panes into one picture, for screenshots.
 
-use super::event::Side;
-use super::state::{Content, ViewerState};
 use crate::picture::Picture;
 use crate::scene::Size;
+use crate::window::values::event::Side;
+use crate::window::values::state::{Content, ViewerState};
 
 /// The colour between panes.
 const GAP: [u8; 4] = [128, 128, 128, 255];
@@ -53,7 +53,7 @@ fn cut(left: &Picture, right: &Picture, column: u32) -> Picture {
 }
 
 /// White where both are the same, darker in a channel the more it differs.
-pub(super) fn difference(left: &Picture, right: &Picture) -> Picture {
+pub(in crate::window) fn difference(left: &Picture, right: &Picture) -> Picture {
     // While the size changes one may be there before the other.
     if left.size != right.size {
         return left.clone();
@@ -69,7 +69,7 @@ pub(super) fn difference(left: &Picture, right: &Picture) -> Picture {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::window::event::{Layout, ViewerEvent};
+    use crate::window::values::event::{Layout, ViewerEvent};
 
     fn flat(size: Size, value: u8) -> Picture {
         Picture { size, pixels: [value, value, value, 255].repeat(size.pixel_count()) }

@@ -1,14 +1,14 @@
 //! The event of each key.
 
-use super::event::{Side, ViewerEvent};
-use super::line_style::LinesShown;
-use super::state::ViewerState;
 use crate::keys::{Action, action};
 use crate::styles::StyleName;
+use crate::window::values::event::{Side, ViewerEvent};
+use crate::window::values::line_style::LinesShown;
+use crate::window::values::state::ViewerState;
 use egui::{Key, Modifiers};
 
 /// The things to save: each with its name and its key's action.
-pub(super) const SAVES: [(&str, Action); 4] = [
+pub(in crate::window) const SAVES: [(&str, Action); 4] = [
     ("picture", Action::SavePicture),
     ("lines", Action::SaveLines),
     ("turn", Action::SaveTurn),
@@ -16,12 +16,12 @@ pub(super) const SAVES: [(&str, Action); 4] = [
 ];
 
 /// The event of a key; `None` for a key without an action.
-pub(super) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Option<ViewerEvent> {
+pub(in crate::window) fn event(key: Key, modifiers: Modifiers, state: &ViewerState) -> Option<ViewerEvent> {
     event_of(action(|name| Key::from_name(name) == Some(key), modifiers.shift, modifiers.command)?, state)
 }
 
 /// The event of a key's action; `None` if it has nothing to close.
-pub(super) fn event_of(action: Action, state: &ViewerState) -> Option<ViewerEvent> {
+pub(in crate::window) fn event_of(action: Action, state: &ViewerState) -> Option<ViewerEvent> {
     let style = |name: &str| ViewerEvent::Style(state.active, name.to_owned());
     Some(match action {
         Action::Turn(step) => ViewerEvent::Turn(step),

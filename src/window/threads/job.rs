@@ -1,7 +1,5 @@
 //! A drawing job and its result: values that the viewer and its drawing threads exchange.
 
-use super::coarse;
-use super::event::Side;
 use crate::camera::CameraSettings;
 use crate::error::Result;
 use crate::orbit::Orbit;
@@ -9,6 +7,8 @@ use crate::picture::Picture;
 use crate::renderer::PassTime;
 use crate::scene::{Scene, SceneSettings};
 use crate::styles::{Show, Style};
+use crate::window::threads::coarse;
+use crate::window::values::event::Side;
 use std::sync::Arc;
 
 /// A drawing job.

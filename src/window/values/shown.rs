@@ -1,12 +1,12 @@
 //! The window while it is open: winit's events in, egui's frames out.
 
-use super::event::{Effect, ViewerEvent};
-use super::ui::{self, Textures};
-use super::viewer::Viewer;
 use crate::error::Result;
 use crate::gl::context::window::{Shapes, WindowGl};
 use crate::picture::Picture;
 use crate::scene::Size;
+use crate::window::threads::viewer::Viewer;
+use crate::window::values::event::{Effect, ViewerEvent};
+use crate::window::widgets::ui::{self, Textures};
 use egui::{FontData, FontDefinitions, FontFamily, ViewportId};
 use std::sync::Arc;
 use std::time::Duration;
@@ -18,13 +18,13 @@ use winit::window::{Fullscreen, Window};
 const TEXT_GREY: u8 = 215;
 
 /// A window less wide, in points, begins without the panel, and folds it when it becomes so.
-pub(super) const NARROW: u32 = 800;
+pub(in crate::window) const NARROW: u32 = 800;
 
 /// How long a dragging pointer rests before the full picture is drawn.
 const STILL: Duration = Duration::from_millis(200);
 
 /// The parts that exist once the window exists.
-pub(super) struct Shown {
+pub(in crate::window) struct Shown {
     pub viewer: Viewer,
     textures: Textures,
     pub egui: egui_winit::State,
@@ -44,7 +44,12 @@ pub(super) struct Shown {
 
 impl Shown {
     /// `played` is whether a recording plays that gives the drawing area its sizes, if one plays.
-    pub(super) fn open(event_loop: &ActiveEventLoop, viewer: Viewer, size: Size, played: Option<bool>) -> Result<Self> {
+    pub(in crate::window) fn open(
+        event_loop: &ActiveEventLoop,
+        viewer: Viewer,
+        size: Size,
+        played: Option<bool>,
+    ) -> Result<Self> {
         let follows_window = played != Some(true);
         let title = viewer.state.title();
         let attributes = Window::default_attributes()
@@ -85,14 +90,14 @@ impl Shown {
         Ok(shown)
     }
 
-    pub(super) fn size(&self) -> Size {
+    pub(in crate::window) fn size(&self) -> Size {
         let size = self.window.inner_size();
         Size { width: size.width, height: size.height }
     }
 
     /// Paints a frame and applies its events. Returns the window's picture if requested, and how long the window can wait before
     /// the next paint.
-    pub(super) fn frame(&mut self, is_wanted: bool) -> Result<(Option<Picture>, Duration)> {
+    pub(in crate::window) fn frame(&mut self, is_wanted: bool) -> Result<(Option<Picture>, Duration)> {
         let input = self.egui.take_egui_input(&self.window);
         let context = self.egui.egui_ctx().clone();
         let mut events = Vec::new();
@@ -134,11 +139,11 @@ impl Shown {
     }
 
     /// Pixels of the window to a point.
-    pub(super) fn scale(&self) -> f64 {
+    pub(in crate::window) fn scale(&self) -> f64 {
         self.window.scale_factor()
     }
 
-    pub(super) fn event(&mut self, event: ViewerEvent) {
+    pub(in crate::window) fn event(&mut self, event: ViewerEvent) {
         match self.viewer.event(event) {
             Some(Effect::FullScreen(is_full)) => {
                 self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
@@ -149,7 +154,7 @@ impl Shown {
     }
 
     /// Folds the panel when the window becomes too narrow for it; opened again it stays.
-    pub(super) fn fold_panel(&mut self) {
+    pub(in crate::window) fn fold_panel(&mut self) {
         let is_narrow = f64::from(self.size().width) < f64::from(NARROW) * self.window.scale_factor();
         if is_narrow && !self.is_narrow && self.viewer.state.has_panel {
             self.event(ViewerEvent::Panel);
@@ -159,7 +164,7 @@ impl Shown {
 }
 
 /// Dark panels with texts that can be read.
-pub(super) fn dress(context: &egui::Context) {
+pub(in crate::window) fn dress(context: &egui::Context) {
     context.set_theme(egui::Theme::Dark);
     context.all_styles_mut(|style| {
         // A fading element would need repeated painting.
@@ -169,7 +174,7 @@ pub(super) fn dress(context: &egui::Context) {
 }
 
 /// DejaVu for everything: egui's own fonts have separate licences.
-pub(super) fn fonts() -> FontDefinitions {
+pub(in crate::window) fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
     for (name, data, family) in [
         ("sans", dejavu::sans::regular(), FontFamily::Proportional),

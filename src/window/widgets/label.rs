@@ -1,9 +1,9 @@
 //! The label of each of two pictures side by side, in a corner of its pane: a look, a style with its text's settings, or neither.
 
-use super::controls;
-use super::event::{Layout, Side};
-use super::state::{Content, ViewerState};
 use crate::styles::Origin;
+use crate::window::values::controls;
+use crate::window::values::event::{Layout, Side};
+use crate::window::values::state::{Content, ViewerState};
 use egui::{Align2, Color32, FontId, Pos2, Rect, Ui, Vec2};
 
 /// From a pane's corner to the text, points.
@@ -13,7 +13,7 @@ const MARGIN: f32 = 8.0;
 const PADDING: f32 = 3.0;
 
 /// The label of a side: the look's name, or the style's and the origin of its settings.
-pub(super) fn label(state: &ViewerState, side: Side) -> String {
+pub(in crate::window) fn label(state: &ViewerState, side: Side) -> String {
     let name = state.drawn_name(side);
     if let Some(look) = state.look_of(side).filter(|look| look.has_settings()) {
         return format!("look {}", look.name);
@@ -30,7 +30,7 @@ pub(super) fn label(state: &ViewerState, side: Side) -> String {
 
 /// Paints the labels of two sides; a single one needs none. `corner` is the drawing area's in points, `scale` the number of
 /// pixels per point.
-pub(super) fn show(ui: &Ui, state: &ViewerState, area: Rect, scale: f32) {
+pub(in crate::window) fn show(ui: &Ui, state: &ViewerState, area: Rect, scale: f32) {
     if state.layout == Layout::Single {
         return;
     }
@@ -58,7 +58,7 @@ fn paint(ui: &Ui, text: &str, corner: Pos2, align: Align2) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::window::event::ViewerEvent;
+    use crate::window::values::event::ViewerEvent;
 
     fn labels(events: &[ViewerEvent]) -> [String; 2] {
         let mut state = ViewerState::default();

@@ -1,14 +1,5 @@
 //! Saves files from the window: the picture, its exact lines, a turn, a preset; and the command line that makes the same.
 
-use super::controls;
-use super::draw::Drawer;
-use super::event::{Save, Side};
-use super::exact;
-use super::job::Job;
-use super::line_job;
-use super::line_style::LinesShown;
-use super::paint::over;
-use super::state::ViewerState;
 use crate::animation::{AnimationTarget, AnimationWriter};
 use crate::error::Result;
 use crate::gl::{Backend, ContextInfo};
@@ -22,6 +13,15 @@ use crate::scene::{Scene, SceneSettings, Size};
 use crate::settings::HasSettings;
 use crate::shell;
 use crate::styles::Show;
+use crate::window::threads::draw::Drawer;
+use crate::window::threads::exact;
+use crate::window::threads::job::Job;
+use crate::window::threads::line_job;
+use crate::window::values::controls;
+use crate::window::values::event::{Save, Side};
+use crate::window::values::line_style::LinesShown;
+use crate::window::values::paint::over;
+use crate::window::values::state::ViewerState;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -31,7 +31,7 @@ const TURN: (u32, u16) = (36, 69);
 
 /// How a model is read and where files go.
 #[derive(Debug, Clone)]
-pub(super) struct Surroundings {
+pub(in crate::window) struct Surroundings {
     /// How the models were read.
     pub load: LoadOptions,
     /// OpenGL from.
@@ -51,7 +51,7 @@ pub(super) struct Surroundings {
 /// # Errors
 ///
 /// [`crate::Error::Setting`] where a setting has no option, and the camera's errors.
-pub(super) fn command(
+pub(in crate::window) fn command(
     state: &ViewerState,
     job: &Job,
     surroundings: &Surroundings,
@@ -120,7 +120,7 @@ fn style_options(state: &ViewerState, job: &Job, side: Side) -> Result<Options> 
 /// # Errors
 ///
 /// [`crate::Error::File`] and the errors of drawing.
-pub(super) fn save(
+pub(in crate::window) fn save(
     state: &ViewerState,
     job: &Job,
     shown: Option<&Picture>,

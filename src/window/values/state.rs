@@ -1,9 +1,5 @@
 //! The viewer as a value: the scene, the view, the styles, and how events change them. It uses neither a window nor GL.
 
-use super::buffer::{Buffer, buffers};
-use super::controls;
-use super::event::{Effect, Layout, Save, Side, ViewerEvent};
-use super::line_style::LinesShown;
 use crate::camera::CameraSettings;
 use crate::camera::View;
 use crate::mesh::LoadOptions;
@@ -12,6 +8,10 @@ use crate::preset::{LOOKS, Look, Preset};
 use crate::request::{Layer, Request};
 use crate::scene::{SceneSettings, Size};
 use crate::styles::{LineStyle, Style, StyleName};
+use crate::window::values::buffer::{Buffer, buffers};
+use crate::window::values::controls;
+use crate::window::values::event::{Effect, Layout, Save, Side, ViewerEvent};
+use crate::window::values::line_style::LinesShown;
 
 /// The complete state of the viewer's pictures.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,15 +19,15 @@ pub struct ViewerState {
     /// The models, as the user named them.
     pub models: Vec<String>,
     /// How they are read.
-    pub(super) load: LoadOptions,
+    pub(in crate::window) load: LoadOptions,
     /// The view of them.
     pub orbit: Orbit,
     /// The styles of both sides by their names, each with its last settings.
-    pub(super) styles: [Vec<Style>; 2],
+    pub(in crate::window) styles: [Vec<Style>; 2],
     /// The shown style of each side.
-    pub(super) chosen: [StyleName; 2],
+    pub(in crate::window) chosen: [StyleName; 2],
     /// Whether exact lines lie over it.
-    pub(super) has_lines_over: [bool; 2],
+    pub(in crate::window) has_lines_over: [bool; 2],
     /// The side that number keys and the panel are for.
     pub active: Side,
     /// How the two styles are laid out.
@@ -37,7 +37,7 @@ pub struct ViewerState {
     /// The shown buffer of the styles.
     pub buffer: Buffer,
     /// The scene of both sides; a pane gives its size, and the orbit its view.
-    pub(super) scene: SceneSettings,
+    pub(in crate::window) scene: SceneSettings,
     /// Whether pictures may be coarser while the view moves.
     pub is_coarse_while_moving: bool,
     /// Size of the drawing area, pixels.
@@ -135,7 +135,7 @@ impl ViewerState {
     }
 
     /// The style of exact lines that lie over pictures, the same on both sides.
-    pub(super) fn style_of_lines(&self) -> &Style {
+    pub(in crate::window) fn style_of_lines(&self) -> &Style {
         &self.styles[0][StyleName::Lines as usize]
     }
 
@@ -399,12 +399,12 @@ impl ViewerState {
     }
 
     /// The look that the active side has, if it has one.
-    pub(super) fn look(&self) -> Option<Look> {
+    pub(in crate::window) fn look(&self) -> Option<Look> {
         self.look_of(self.active)
     }
 
     /// The look that a side has, from wherever it is seen.
-    pub(super) fn look_of(&self, side: Side) -> Option<Look> {
+    pub(in crate::window) fn look_of(&self, side: Side) -> Option<Look> {
         if self.lines_shown(side) == LinesShown::Over {
             return None;
         }

@@ -1,15 +1,15 @@
 //! Reads models on a separate thread; the window stays responsive.
 
-use super::report::{LoadedModels, Report, Reporter, Stage};
 use crate::error::Result;
 use crate::mesh::{LoadOptions, LoadStage, Mesh, load_watched};
 use crate::scene::{Scene, SceneSettings};
+use crate::window::threads::report::{LoadedModels, Report, Reporter, Stage};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Starts threads that read models; the last request counts.
-pub(super) struct Loader {
+pub(in crate::window) struct Loader {
     reporter: Reporter,
     /// The number of the last load.
     last: AtomicU64,
@@ -17,12 +17,12 @@ pub(super) struct Loader {
 
 impl Loader {
     /// With this reporter.
-    pub(super) fn new(reporter: Reporter) -> Self {
+    pub(in crate::window) fn new(reporter: Reporter) -> Self {
         Self { reporter, last: AtomicU64::default() }
     }
 
     /// Whether this load is the last request.
-    pub(super) fn is_last(&self, number: u64) -> bool {
+    pub(in crate::window) fn is_last(&self, number: u64) -> bool {
         self.last.load(Ordering::Relaxed) == number
     }
 
@@ -31,7 +31,7 @@ impl Loader {
     /// # Errors
     ///
     /// When the thread cannot be started.
-    pub(super) fn start(&self, models: Vec<String>, options: LoadOptions) -> std::io::Result<()> {
+    pub(in crate::window) fn start(&self, models: Vec<String>, options: LoadOptions) -> std::io::Result<()> {
         let number = self.last.fetch_add(1, Ordering::Relaxed) + 1;
         let reporter = self.reporter.clone();
         let work = move || {

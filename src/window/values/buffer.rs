@@ -61,7 +61,7 @@ pub fn buffers(style: StyleName) -> Vec<Buffer> {
 }
 
 /// The colours of classes, in their order, far apart for eyes of any kind.
-pub(super) const CLASS_COLORS: [(Class, [f32; 3]); 7] = [
+pub(in crate::window) const CLASS_COLORS: [(Class, [f32; 3]); 7] = [
     (Class::Boundary, [0.84, 0.37, 0.0]),
     (Class::NonManifold, [0.8, 0.1, 0.1]),
     (Class::Silhouette, [0.0, 0.0, 0.0]),

@@ -3,11 +3,6 @@
 //! Takes a [`Job`], all values; returns the pictures that `tinta render` draws with the same settings, byte for byte, because it
 //! is the same renderer with the same plans.
 
-use super::coarse;
-use super::event::Side;
-use super::job::{Cost, Drawing, Job};
-use super::line_measure::LineMeasure;
-use super::report::{Report, Reporter};
 use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
 use crate::picture::Picture;
@@ -15,13 +10,18 @@ use crate::renderer::{Renderer, median, milliseconds_since};
 use crate::request::Request;
 use crate::scene::Scene;
 use crate::styles::{Show, Style};
+use crate::window::threads::coarse;
+use crate::window::threads::job::{Cost, Drawing, Job};
+use crate::window::threads::line_measure::LineMeasure;
+use crate::window::threads::report::{Report, Reporter};
+use crate::window::values::event::Side;
 use std::collections::HashMap;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
 /// A command for a drawing thread.
-pub(super) enum Order {
+pub(in crate::window) enum Order {
     /// Draw this.
     Draw(Box<Job>),
     /// Time this and draw its lines alone.
@@ -158,7 +158,7 @@ impl Drawer {
 
 /// Starts a thread, which names itself by its number. It ends when its orders do, and must be waited for then: a driver does
 /// not bear a program's end while it draws.
-pub(super) fn start(
+pub(in crate::window) fn start(
     backend: Backend,
     number: usize,
     reporter: Reporter,

@@ -3,13 +3,13 @@
 //! Values are the texts that the command line takes: a control, a recorded event and a command use the same words. The settings
 //! are declared with the styles; this file lists none.
 
-use super::line_style::LINE_SETTINGS;
 use crate::error::Result;
 use crate::mesh::LoadOptions;
 use crate::preset::{LOOKS, Look};
 use crate::scene::SceneSettings;
 use crate::settings::{HasSettings, Kind, Options, Setting, Table};
 use crate::styles::{Style, StyleName};
+use crate::window::values::line_style::LINE_SETTINGS;
 
 /// The settings of the scene that a window shows and sets: the others are the models' or the mouse's.
 pub const SCENE_SETTINGS: [&str; 8] =
@@ -24,7 +24,7 @@ fn published(style: &Style) -> Style {
 }
 
 /// The controls of a style: all of its settings but those that have one value only, or stand for several others.
-pub(super) fn of(style: &Style) -> Vec<Control<Style>> {
+pub(in crate::window) fn of(style: &Style) -> Vec<Control<Style>> {
     let all = of_table(Style::table(), style, &published(style));
     all.into_iter().filter(|control| is_shown(style, control.setting.name)).collect()
 }
@@ -35,25 +35,25 @@ fn is_shown(style: &Style, name: &str) -> bool {
 }
 
 /// The controls of the scene.
-pub(super) fn of_scene(scene: &SceneSettings) -> Vec<Control<SceneSettings>> {
+pub(in crate::window) fn of_scene(scene: &SceneSettings) -> Vec<Control<SceneSettings>> {
     let all = of_table(SceneSettings::table(), scene, &SceneSettings::default());
     all.into_iter().filter(|control| SCENE_SETTINGS.contains(&control.setting.name)).collect()
 }
 
 /// The controls of how models are read.
-pub(super) fn of_load(load: &LoadOptions) -> Vec<Control<LoadOptions>> {
+pub(in crate::window) fn of_load(load: &LoadOptions) -> Vec<Control<LoadOptions>> {
     let all = of_table(LoadOptions::table(), load, &LoadOptions::default());
     all.into_iter().filter(|control| LOAD_SETTINGS.contains(&control.setting.name)).collect()
 }
 
 /// Another style with a look's settings; as published if it does not accept them.
-pub(super) fn sibling(look: Look, name: StyleName) -> Style {
+pub(in crate::window) fn sibling(look: Look, name: StyleName) -> Style {
     let options = look.preset().map(|preset| preset.options);
     options.and_then(|options| Style::with_options(name, &options)).unwrap_or_else(|_| Style::named(name))
 }
 
 /// The look whose sibling a style is; the published one if it has only its own settings.
-pub(super) fn look_of_sibling(style: &Style) -> Option<Look> {
+pub(in crate::window) fn look_of_sibling(style: &Style) -> Option<Look> {
     let is_of = |look: &Look| sibling(*look, style.style_name()) == *style;
     // A style that a look does not mention is as published.
     LOOKS.into_iter().rev().find(is_of)
@@ -64,7 +64,7 @@ pub(super) fn look_of_sibling(style: &Style) -> Option<Look> {
 /// # Errors
 ///
 /// As [`Look::preset`].
-pub(super) fn of_look(look: Look, drawn: &Style, scene: &SceneSettings) -> Result<(Style, SceneSettings)> {
+pub(in crate::window) fn of_look(look: Look, drawn: &Style, scene: &SceneSettings) -> Result<(Style, SceneSettings)> {
     let mut scene = scene.clone();
     let table = SceneSettings::table();
     for other in LOOKS {
@@ -101,7 +101,7 @@ fn of_table<T: Clone + 'static>(table: &'static Table<T>, of: &T, published: &T)
 const WHITE: &str = "#ffffff";
 
 /// A setting as a panel shows it.
-pub(super) struct Control<T: 'static> {
+pub(in crate::window) struct Control<T: 'static> {
     /// The setting.
     pub setting: &'static Setting<T>,
     /// Its value.
@@ -112,12 +112,12 @@ pub(super) struct Control<T: 'static> {
 
 impl<T: Clone + 'static> Control<T> {
     /// Its option, as events and the command line have it.
-    pub(super) fn option(&self) -> String {
+    pub(in crate::window) fn option(&self) -> String {
         format!("--{}", self.setting.name)
     }
 
     /// The first value after leaving the open state: the default if it has one, else the range's upper ends, or white.
-    pub(super) fn given(&self) -> String {
+    pub(in crate::window) fn given(&self) -> String {
         match self.setting.kind {
             Kind::Numbers { count, range: [_, high], .. } if self.setting.open == Some(&*self.default) => {
                 vec![high.to_string(); count].join(",")
@@ -128,13 +128,13 @@ impl<T: Clone + 'static> Control<T> {
     }
 
     /// Whether its name or its help has all of these words in it.
-    pub(super) fn is_found_by(&self, words: &str) -> bool {
+    pub(in crate::window) fn is_found_by(&self, words: &str) -> bool {
         let text = format!("{} {} {}", self.setting.name, self.setting.label(), self.setting.help).to_lowercase();
         words.to_lowercase().split_whitespace().all(|word| text.contains(word))
     }
 
     /// Whether it is as published.
-    pub(super) fn is_default(&self) -> bool {
+    pub(in crate::window) fn is_default(&self) -> bool {
         self.value == self.default
     }
 }
@@ -145,28 +145,28 @@ impl<T: Clone + 'static> Control<T> {
 ///
 /// Returns a sentence that begins with the option, for a style without it and for invalid values. The style's plan refuses
 /// invalid combinations.
-pub(super) fn turn(style: &mut Style, option: &str, value: &str) -> std::result::Result<(), String> {
+pub(in crate::window) fn turn(style: &mut Style, option: &str, value: &str) -> std::result::Result<(), String> {
     let setting = find(style, option)?;
     set(setting, style, option, value)
 }
 
 /// The window's settings other than those of styles.
-pub(super) struct Group {
+pub(in crate::window) struct Group {
     /// The owner of the settings, for the error about an unknown one.
     what: &'static str,
     names: &'static [&'static str],
 }
 
 /// Those of the scene, and of reading models.
-pub(super) const SCENE: Group = Group { what: "", names: &SCENE_SETTINGS };
-pub(super) const LOAD: Group = Group { what: " of models", names: &LOAD_SETTINGS };
+pub(in crate::window) const SCENE: Group = Group { what: "", names: &SCENE_SETTINGS };
+pub(in crate::window) const LOAD: Group = Group { what: " of models", names: &LOAD_SETTINGS };
 
 /// Sets a control of a group.
 ///
 /// # Errors
 ///
 /// A sentence that begins with the option, for one that a window does not have and for values it cannot have.
-pub(super) fn turn_in<T: HasSettings>(
+pub(in crate::window) fn turn_in<T: HasSettings>(
     group: &Group,
     of: &mut T,
     option: &str,
@@ -180,7 +180,11 @@ pub(super) fn turn_in<T: HasSettings>(
 /// # Errors
 ///
 /// Those of [`turn_in`].
-pub(super) fn turn_back_in<T: HasSettings>(group: &Group, of: &mut T, option: &str) -> std::result::Result<(), String> {
+pub(in crate::window) fn turn_back_in<T: HasSettings>(
+    group: &Group,
+    of: &mut T,
+    option: &str,
+) -> std::result::Result<(), String> {
     let setting: &Setting<T> = find_in(group, option)?;
     turned(setting.set(of, &T::table().default_of(setting)))
 }
@@ -198,12 +202,12 @@ fn find_in<T: HasSettings>(group: &Group, option: &str) -> std::result::Result<&
 /// # Errors
 ///
 /// Those of [`Table::apply`].
-pub(super) fn apply_to_scene(scene: &mut SceneSettings, options: &Options) -> Result<()> {
+pub(in crate::window) fn apply_to_scene(scene: &mut SceneSettings, options: &Options) -> Result<()> {
     SceneSettings::table().apply(scene, &of_scene_in(options))
 }
 
 /// Those of the options that say something of the scene that a window can set.
-pub(super) fn of_scene_in(options: &Options) -> Options {
+pub(in crate::window) fn of_scene_in(options: &Options) -> Options {
     let is_one = |name: &str| SCENE_SETTINGS.contains(&name);
     options.iter().filter(|(name, _)| is_one(name)).map(|(name, value)| (name.clone(), value.clone())).collect()
 }
@@ -228,7 +232,7 @@ fn set<T: Clone + 'static>(
 /// # Errors
 ///
 /// Those of [`turn`].
-pub(super) fn turn_back(style: &mut Style, option: &str) -> std::result::Result<(), String> {
+pub(in crate::window) fn turn_back(style: &mut Style, option: &str) -> std::result::Result<(), String> {
     let setting = find(style, option)?;
     let default = setting.value(&published(style)).unwrap_or_default();
     turned(setting.set(style, &default))

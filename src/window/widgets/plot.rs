@@ -1,8 +1,8 @@
 //! Times and errors of the shown picture, as numbers and a small plot.
 
-use super::cost::{Costs, Point};
-use super::line_style::LinesShown;
-use super::viewer::Viewer;
+use crate::window::threads::cost::{Costs, Point};
+use crate::window::threads::viewer::Viewer;
+use crate::window::values::line_style::LinesShown;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2};
 
 /// Size of the plot, points.
@@ -21,7 +21,7 @@ const LABEL_GAP: f32 = 6.0;
 const LEAST_RANGE: f64 = 0.05;
 
 /// Shows times and errors.
-pub(super) fn show(ui: &mut Ui, viewer: &Viewer) {
+pub(in crate::window) fn show(ui: &mut Ui, viewer: &Viewer) {
     for side in viewer.state.sides() {
         if viewer.state.lines_shown(*side) == LinesShown::Alone {
             ui.strong(viewer.state.style(*side).name());

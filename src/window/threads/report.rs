@@ -1,13 +1,13 @@
 //! Messages from threads to the viewer, and how they wake it.
 
-use super::event::Side;
-use super::job::{Cost, Drawing};
-use super::line_job::Found;
-use super::line_measure::LineScore;
 use crate::error::{Error, Result};
 use crate::gl::ContextInfo;
 use crate::mesh::LoadOptions;
 use crate::scene::Scene;
+use crate::window::threads::job::{Cost, Drawing};
+use crate::window::threads::line_job::Found;
+use crate::window::threads::line_measure::LineScore;
+use crate::window::values::event::Side;
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -5,15 +5,15 @@
 //! alone are finished and shown, then the search for the newest view starts. Strokes keep their ids from view to view, to count
 //! how many stayed.
 
-use super::line_job::{Found, LineJob, Stayed};
-use super::paint::painted;
-use super::report::{Report, Reporter};
 use crate::error::Result;
 use crate::lines::{LineSettings, Progress, StrokeIds, VisibleLines, chain, strokes, strokes_of_paths};
 use crate::picture::Picture;
 use crate::renderer::milliseconds_since;
 use crate::scene::Scene;
 use crate::styles::LineStyle;
+use crate::window::threads::line_job::{Found, LineJob, Stayed};
+use crate::window::threads::report::{Report, Reporter};
+use crate::window::values::paint::painted;
 use std::collections::HashSet;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
@@ -58,7 +58,7 @@ struct Kept {
 /// # Errors
 ///
 /// As [`VisibleLines::with_progress`] and [`strokes`].
-pub(super) fn ink(scene: &Scene, style: &LineStyle, progress: &Progress) -> Result<Picture> {
+pub(in crate::window) fn ink(scene: &Scene, style: &LineStyle, progress: &Progress) -> Result<Picture> {
     let lines = VisibleLines::with_progress(scene, &style.wanted(), progress)?;
     Ok(painted(&strokes(&lines, &style.drawing)?, scene.size))
 }

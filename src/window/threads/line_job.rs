@@ -1,10 +1,10 @@
 //! The requested exact lines and the found ones: values that the viewer and its line thread exchange.
 
-use super::job::Job;
-use super::paint::over;
 use crate::picture::Picture;
 use crate::scene::{SceneSettings, Size};
 use crate::styles::LineStyle;
+use crate::window::threads::job::Job;
+use crate::window::values::paint::over;
 
 /// The requested lines and how to draw them.
 #[derive(Debug, Clone)]
@@ -28,7 +28,7 @@ pub struct Stayed {
 
 impl Stayed {
     /// For the panel.
-    pub(super) fn text(self) -> String {
+    pub(in crate::window) fn text(self) -> String {
         let Self { count, new, gone } = self;
         format!("{count} strokes, {new} new, {gone} gone")
     }
@@ -55,7 +55,7 @@ impl Found {
 }
 
 /// The background of lines drawn alone.
-pub(super) fn ground(size: Size, settings: &SceneSettings) -> Picture {
+pub(in crate::window) fn ground(size: Size, settings: &SceneSettings) -> Picture {
     let pixel = settings.background.clear_color().map(|channel| (channel * 255.0).round() as u8);
     Picture { size, pixels: pixel.repeat(size.pixel_count()) }
 }

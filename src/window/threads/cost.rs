@@ -3,14 +3,14 @@
 //! The exact lines of a view take longer than its picture: a separate thread finds them, and gives up as soon as the view
 //! changes.
 
-use super::event::Side;
-use super::job::Cost;
-use super::line_measure::{LineMeasure, LineScore};
-use super::report::{Report, Reporter};
 use crate::error::Result;
 use crate::lines::Progress;
 use crate::renderer::PassTime;
 use crate::scene::Scene;
+use crate::window::threads::job::Cost;
+use crate::window::threads::line_measure::{LineMeasure, LineScore};
+use crate::window::threads::report::{Report, Reporter};
+use crate::window::values::event::Side;
 use std::sync::Arc;
 
 /// The measurements of the shown picture.

@@ -5,12 +5,12 @@
 //! screen of such a driver take turns (see `gl`). The second therefore uses EGL's surfaceless platform where the first uses a
 //! device: the same library's driver with its own screen.
 
-use super::draw::{self, Order};
-use super::job::Job;
-use super::line_measure::LineMeasure;
-use super::report::Reporter;
 use crate::gl::{Backend, ContextInfo};
 use crate::threads::cores;
+use crate::window::threads::draw::{self, Order};
+use crate::window::threads::job::Job;
+use crate::window::threads::line_measure::LineMeasure;
+use crate::window::threads::report::Reporter;
 use std::collections::HashMap;
 use std::sync::mpsc::Sender;
 use std::thread::JoinHandle;
@@ -22,7 +22,7 @@ const MOST: usize = 2;
 const SECOND: Backend = Backend::Surfaceless;
 
 /// The threads.
-pub(super) struct RenderThreads {
+pub(in crate::window) struct RenderThreads {
     backend: Backend,
     /// The first thread's context's own description.
     first: Option<ContextInfo>,
@@ -51,7 +51,7 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When the thread cannot be started.
-    pub(super) fn start(backend: Backend, reporter: Reporter) -> std::io::Result<Self> {
+    pub(in crate::window) fn start(backend: Backend, reporter: Reporter) -> std::io::Result<Self> {
         let mut started =
             Self { backend, first: None, reporter, threads: Vec::new(), shaders: None, may_grow: false, count: 0 };
         started.add()?;
@@ -71,7 +71,7 @@ impl RenderThreads {
 
     /// Takes a thread's context description: decides whether a second thread helps, and whether the second one draws the same
     /// pictures.
-    pub(super) fn opened(&mut self, thread: usize, context: &ContextInfo) {
+    pub(in crate::window) fn opened(&mut self, thread: usize, context: &ContextInfo) {
         if thread == 0 {
             let has_another = self.backend == Backend::Auto && context.backend == "egl";
             self.may_grow = context.is_software() && has_another && cores() > 1;
@@ -82,7 +82,7 @@ impl RenderThreads {
     }
 
     /// Does without a thread that cannot draw; whether there is still one that can.
-    pub(super) fn lost(&mut self, thread: usize) -> bool {
+    pub(in crate::window) fn lost(&mut self, thread: usize) -> bool {
         self.may_grow = false;
         if let Some(lost) = self.threads.get_mut(thread) {
             (lost.orders, lost.job) = (None, None);
@@ -91,7 +91,7 @@ impl RenderThreads {
     }
 
     /// The last job that was given out and is not done.
-    pub(super) fn newest(&self) -> Option<&Job> {
+    pub(in crate::window) fn newest(&self) -> Option<&Job> {
         let jobs = self.threads.iter().filter_map(|thread| thread.job.as_ref());
         jobs.max_by_key(|(number, _)| *number).map(|(_, job)| job)
     }
@@ -101,7 +101,7 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When a thread has ended.
-    pub(super) fn draw(&mut self, job: Job, is_moving: bool) -> Result<(), Ended> {
+    pub(in crate::window) fn draw(&mut self, job: Job, is_moving: bool) -> Result<(), Ended> {
         let is_free = |thread: &Thread| thread.orders.is_some() && thread.job.is_none();
         let may_add = is_moving && self.may_grow && self.threads.len() < MOST;
         // If no other thread can start, the picture waits.
@@ -119,7 +119,7 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When it has ended.
-    pub(super) fn measure_cost(&self, job: Job, measure: Option<LineMeasure>) -> Result<(), Ended> {
+    pub(in crate::window) fn measure_cost(&self, job: Job, measure: Option<LineMeasure>) -> Result<(), Ended> {
         self.threads.first().map_or(Err(Ended), |thread| thread.send(Order::MeasureCost(Box::new(job), measure)))
     }
 
@@ -128,21 +128,21 @@ impl RenderThreads {
     /// # Errors
     ///
     /// When a thread has ended.
-    pub(super) fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<(), Ended> {
+    pub(in crate::window) fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<(), Ended> {
         self.shaders = Some(shaders.clone());
         let mut working = self.threads.iter().filter(|thread| thread.orders.is_some());
         working.try_for_each(|thread| thread.send(Order::Shaders(shaders.clone())))
     }
 
     /// The job that a thread has done, with its number.
-    pub(super) fn done(&mut self, thread: usize) -> Option<(u64, Job)> {
+    pub(in crate::window) fn done(&mut self, thread: usize) -> Option<(u64, Job)> {
         self.threads.get_mut(thread)?.job.take()
     }
 }
 
 /// A thread has ended that should not have.
 #[derive(Debug)]
-pub(super) struct Ended;
+pub(in crate::window) struct Ended;
 
 /// Whether two contexts belong to the same driver and draw the same pictures.
 fn is_same_driver(a: &ContextInfo, b: &ContextInfo) -> bool {

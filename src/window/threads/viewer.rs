@@ -4,27 +4,27 @@
 //! one picture. When the picture is finished and outdated, the thread gets the next job. The newest request is always at most one
 //! picture away, and no thread draws while the state stays the same.
 
-use super::compose::composed;
-use super::cost::Costs;
-use super::event::{Effect, Save, Side, ViewerEvent};
-use super::exact::ExactLines;
-use super::job::{Drawing, Job};
-use super::line_job::LineJob;
-use super::line_measure::LineMeasure;
-use super::line_style::LinesShown;
-use super::load::Loader;
-use super::paint::over;
-use super::render_threads::{Ended, RenderThreads};
-use super::report::{LoadedModels, Stage};
-use super::report::{Report, Reporter};
-use super::save::{Surroundings, save};
-use super::state::ViewerState;
-use super::watch;
 use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
 use crate::mesh::LoadOptions;
 use crate::picture::Picture;
 use crate::scene::Scene;
+use crate::window::threads::cost::Costs;
+use crate::window::threads::exact::ExactLines;
+use crate::window::threads::job::{Drawing, Job};
+use crate::window::threads::line_job::LineJob;
+use crate::window::threads::line_measure::LineMeasure;
+use crate::window::threads::load::Loader;
+use crate::window::threads::render_threads::{Ended, RenderThreads};
+use crate::window::threads::report::{LoadedModels, Stage};
+use crate::window::threads::report::{Report, Reporter};
+use crate::window::threads::save::{Surroundings, save};
+use crate::window::threads::watch;
+use crate::window::values::compose::composed;
+use crate::window::values::event::{Effect, Save, Side, ViewerEvent};
+use crate::window::values::line_style::LinesShown;
+use crate::window::values::paint::over;
+use crate::window::values::state::ViewerState;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -164,7 +164,7 @@ impl Viewer {
         match effect {
             Some(Effect::Open(models)) => self.open(models),
             #[cfg(feature = "file-dialogue")]
-            Some(Effect::Browse) => super::dialogue::choose(&self.state.models, self.reporter.clone()),
+            Some(Effect::Browse) => crate::window::threads::dialogue::choose(&self.state.models, self.reporter.clone()),
             Some(Effect::Save(kind)) => self.save(kind),
             effect @ Some(Effect::FullScreen(_) | Effect::Quit) => return effect,
             None => {}
@@ -351,7 +351,7 @@ impl Viewer {
         let Some(job) = self.job() else { return Vec::new() };
         let command = |save: Save, output: &str| {
             let (state, side) = (&self.state, self.state.active);
-            let command = super::save::command(state, &job, &self.surroundings, save, side, output);
+            let command = crate::window::threads::save::command(state, &job, &self.surroundings, save, side, output);
             command.map_err(|error| error.to_string())
         };
         let (picture, lines) = ((Save::Picture, "drawing.png"), (Save::Lines, "drawing.svg"));

@@ -1,13 +1,13 @@
 //! The widget of a control, by the kind of its setting.
 
-use super::controls::Control;
 use crate::scene::Color;
 use crate::settings::{Kind, Value};
 use crate::styles::ClassColors;
+use crate::window::values::controls::Control;
 use egui::{RichText, Ui};
 
 /// A change to a control: a new value, or back to the default.
-pub(super) enum Change {
+pub(in crate::window) enum Change {
     /// To this value.
     Set(String),
     /// To the default.
@@ -15,7 +15,7 @@ pub(super) enum Change {
 }
 
 /// A control: its name, its widget, and a reset to the published value. Returns the change.
-pub(super) fn show<T: Clone + 'static>(ui: &mut Ui, control: &Control<T>) -> Option<Change> {
+pub(in crate::window) fn show<T: Clone + 'static>(ui: &mut Ui, control: &Control<T>) -> Option<Change> {
     let (setting, value) = (control.setting, &control.value);
     let mut change = None;
     ui.horizontal(|ui| {

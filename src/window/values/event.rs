@@ -113,7 +113,7 @@ pub enum ViewerEvent {
 
 impl ViewerEvent {
     /// Whether it writes a file.
-    pub(super) fn saves(&self) -> bool {
+    pub(in crate::window) fn saves(&self) -> bool {
         matches!(self, Self::SavePicture | Self::SaveLines | Self::SaveTurn | Self::SavePreset)
     }
 }

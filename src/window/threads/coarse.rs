@@ -12,13 +12,13 @@ use crate::styles::{Style, StyleName};
 const DIVISOR: u32 = 2;
 
 /// The size that is drawn.
-pub(super) fn size(size: Size) -> Size {
+pub(in crate::window) fn size(size: Size) -> Size {
     Size { width: size.width.div_ceil(DIVISOR), height: size.height.div_ceil(DIVISOR) }
 }
 
 /// The style that is drawn: without the faces that look away, without larger pictures to shrink, and the three passes' picture
 /// by `mrt`, with one pass over the geometry.
-pub(super) fn style(style: &Style) -> Style {
+pub(in crate::window) fn style(style: &Style) -> Style {
     let of_mrt = || Style::with_options(StyleName::Mrt, &style.to_options().ok()?).ok();
     let mut coarse = match style.style_name() {
         StyleName::ThreePass => of_mrt().unwrap_or_else(|| style.clone()),
@@ -37,7 +37,7 @@ pub(super) fn style(style: &Style) -> Style {
 }
 
 /// A picture of this size from the one that was drawn.
-pub(super) fn enlarged(picture: &Picture, size: Size) -> Picture {
+pub(in crate::window) fn enlarged(picture: &Picture, size: Size) -> Picture {
     let row_bytes = picture.size.width as usize * 4;
     let mut pixels = Vec::with_capacity(size.pixel_count() * 4);
     for y in 0..size.height {

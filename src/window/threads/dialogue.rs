@@ -1,11 +1,11 @@
 //! The system's dialogue to choose a file in, on a separate thread: the window keeps responding while it is open.
 
-use super::report::{Report, Reporter};
+use crate::window::threads::report::{Report, Reporter};
 use std::path::Path;
 
 /// Opens the dialogue in the folder of the first of these models, and reports the chosen file. Does nothing where the system has
 /// no dialogue.
-pub(super) fn choose(models: &[String], reporter: Reporter) {
+pub(in crate::window) fn choose(models: &[String], reporter: Reporter) {
     let folder = models.first().and_then(|model| Path::new(model).canonicalize().ok()?.parent().map(Path::to_owned));
     let to = reporter.clone();
     let ask = move || {

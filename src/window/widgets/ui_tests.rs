@@ -21,7 +21,7 @@ impl Frames {
             Viewer::start(ViewerOptions { state, load, backend, shaders: None, folder, line_measure: None }, || {})
                 .unwrap();
         let context = Context::default();
-        context.set_fonts(crate::window::shown::fonts());
+        context.set_fonts(crate::window::values::shown::fonts());
         let mut frames = Self { viewer, context, textures: Textures::default() };
         // egui knows where things are once it has shown them.
         (0..3).for_each(|_| drop(frames.show(Vec::new())));

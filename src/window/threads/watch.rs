@@ -4,8 +4,8 @@
 //! notification by the system would need a crate and miss network disks. A file counts as changed once it stays the same for one
 //! check, to avoid reading half of it.
 
-use super::report::{Report, Reporter};
 use crate::glsl::SOURCES;
+use crate::window::threads::report::{Report, Reporter};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -22,13 +22,13 @@ type Look = Option<(SystemTime, u64)>;
 
 /// Files and their last state.
 #[derive(Debug, Default)]
-pub(super) struct Watched {
+pub(in crate::window) struct Watched {
     files: Vec<(PathBuf, Look, Look)>,
 }
 
 impl Watched {
     /// Begins to watch files in their current state.
-    pub(super) fn new(files: impl IntoIterator<Item = PathBuf>) -> Self {
+    pub(in crate::window) fn new(files: impl IntoIterator<Item = PathBuf>) -> Self {
         let seen = |file: PathBuf| {
             let now = look(&file);
             (file, now, now)
@@ -37,7 +37,7 @@ impl Watched {
     }
 
     /// Checks the files; returns whether one has changed since the last report and stayed the same since the last check.
-    pub(super) fn has_changed(&mut self) -> bool {
+    pub(in crate::window) fn has_changed(&mut self) -> bool {
         let mut has_changed = false;
         for (file, said, last) in &mut self.files {
             let now = look(file);
@@ -57,7 +57,7 @@ fn look(file: &Path) -> Look {
 }
 
 /// The shaders that a folder laid out like `glsl/` has in place of those built in.
-pub(super) fn shaders_in(folder: &Path) -> HashMap<String, String> {
+pub(in crate::window) fn shaders_in(folder: &Path) -> HashMap<String, String> {
     let read = |path: &str| {
         let file = folder.join(path);
         let is_short = std::fs::metadata(&file).is_ok_and(|file| file.is_file() && file.len() <= LONGEST_SHADER);
@@ -68,7 +68,7 @@ pub(super) fn shaders_in(folder: &Path) -> HashMap<String, String> {
 }
 
 /// Starts the thread; each message is the new list of models to watch. It ends with its sender.
-pub(super) fn start(shaders: Option<PathBuf>, reporter: Reporter) -> std::io::Result<Sender<Vec<PathBuf>>> {
+pub(in crate::window) fn start(shaders: Option<PathBuf>, reporter: Reporter) -> std::io::Result<Sender<Vec<PathBuf>>> {
     let (sender, lists) = channel();
     let work = move || work(shaders.as_deref(), &lists, &reporter);
     std::thread::Builder::new().name("watching".to_owned()).spawn(work)?;

@@ -1,22 +1,22 @@
 //! The panel: a widget for every control of the active style. It reads the state and makes events.
 
-use super::controls::{self, Control};
-use super::event::{Layout, Side, ViewerEvent};
-use super::keys;
-use super::line_style::LinesShown;
-use super::viewer::Viewer;
-use super::widget::{self, Change};
 use crate::keys::about;
 use crate::preset::{LOOKS, Look, SHIPPED};
 use crate::styles::{Origin, StyleName};
+use crate::window::threads::viewer::Viewer;
+use crate::window::values::controls::{self, Control};
+use crate::window::values::event::{Layout, Side, ViewerEvent};
+use crate::window::values::line_style::LinesShown;
+use crate::window::widgets::keys;
+use crate::window::widgets::widget::{self, Change};
 use egui::{Color32, RichText, Ui};
 
 /// Colours of the remarks on a style's settings.
-pub(super) const FAITHFUL: Color32 = Color32::from_rgb(110, 190, 110);
-pub(super) const CHANGED: Color32 = Color32::from_rgb(220, 160, 60);
+pub(in crate::window) const FAITHFUL: Color32 = Color32::from_rgb(110, 190, 110);
+pub(in crate::window) const CHANGED: Color32 = Color32::from_rgb(220, 160, 60);
 
 /// Colour of the hint in an empty field.
-pub(super) const HINT: Color32 = Color32::GRAY;
+pub(in crate::window) const HINT: Color32 = Color32::GRAY;
 
 /// The meaning of coarser.
 const COARSE: &str =
@@ -27,7 +27,7 @@ const STAYED: &str = "strokes of the exact lines in this view, and how many came
                       as it runs along the same place of the model";
 
 /// Shows the panel's content.
-pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
+pub(in crate::window) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     let state = &viewer.state;
     let side = state.active;
     ui.horizontal_wrapped(|ui| {
@@ -73,7 +73,8 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) 
     let looks = LOOKS.into_iter().map(|look| (look.name, look.about));
     choices_with_help(ui, "look", look, looks, |name| events.push(ViewerEvent::Look(name.to_owned())));
     if lines != LinesShown::Alone {
-        let buffers = super::buffer::buffers(style.style_name()).into_iter().map(|buffer| buffer.name());
+        let buffers =
+            crate::window::values::buffer::buffers(style.style_name()).into_iter().map(|buffer| buffer.name());
         choices(ui, "shown", state.buffer.name(), buffers, |name| events.push(ViewerEvent::Buffer(name.to_owned())));
     }
     choices(ui, "presets", "choose a paper's", SHIPPED.iter().map(|(name, _)| *name), |name| {

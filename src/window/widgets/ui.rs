@@ -1,16 +1,16 @@
 //! A frame of the window: panes, panel, sheets, and the events that mouse and keys make in it.
 
-use super::buffer::{Buffer, CLASS_COLORS};
-use super::compose::difference;
-use super::event::{Side, ViewerEvent};
-use super::keys;
-use super::label;
-use super::line_style::LinesShown;
-use super::panel;
-use super::plot;
-use super::state::{Content, Pane, ViewerState};
-use super::viewer::Viewer;
 use crate::picture::Picture;
+use crate::window::threads::viewer::Viewer;
+use crate::window::values::buffer::{Buffer, CLASS_COLORS};
+use crate::window::values::compose::difference;
+use crate::window::values::event::{Side, ViewerEvent};
+use crate::window::values::line_style::LinesShown;
+use crate::window::values::state::{Content, Pane, ViewerState};
+use crate::window::widgets::keys;
+use crate::window::widgets::label;
+use crate::window::widgets::panel;
+use crate::window::widgets::plot;
 use egui::{Align2, Color32, Context, CursorIcon, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2};
 use std::path::Path;
 use std::time::Duration;
@@ -20,13 +20,13 @@ const PANEL_WIDTH: [f32; 2] = [220.0, 300.0];
 const PANEL_SHARE: f32 = 0.36;
 
 /// Height of the line below the panes, points.
-pub(super) const STATUS_HEIGHT: f32 = 24.0;
+pub(in crate::window) const STATUS_HEIGHT: f32 = 24.0;
 
 /// Height of the parts around the list of keys, points.
 const KEY_SHEET_MARGIN: f32 = 136.0;
 
 /// Size that the panel and the status line take from a window of this width, points.
-pub(super) fn taken(state: &ViewerState, window_width: f32) -> [f32; 2] {
+pub(in crate::window) fn taken(state: &ViewerState, window_width: f32) -> [f32; 2] {
     [if state.has_panel { panel_width(window_width) } else { 0.0 }, STATUS_HEIGHT]
 }
 
@@ -53,7 +53,7 @@ const LOADING_INTERVAL: Duration = Duration::from_millis(100);
 
 /// The pictures as textures, replaced when new ones arrive.
 #[derive(Default)]
-pub(super) struct Textures {
+pub(in crate::window) struct Textures {
     made_of: Option<(u64, bool)>,
     sides: [Option<TextureHandle>; 2],
     difference: Option<TextureHandle>,
@@ -92,7 +92,7 @@ fn put(context: &Context, texture: &mut Option<TextureHandle>, picture: Option<&
 }
 
 /// Shows a frame and returns its events. `follows_window`: the drawing area is as large as the window allows.
-pub(super) fn frame(
+pub(in crate::window) fn frame(
     context: &Context,
     viewer: &Viewer,
     textures: &mut Textures,
