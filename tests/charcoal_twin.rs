@@ -263,7 +263,7 @@ fn in_perspective_the_listings_coordinate_leaves_the_texels_middles_and_the_driv
     let (published, mended, elsewhere) = (against(false, true), against(true, false), against(false, false));
     assert!(mended.0 < 0.5 && mended.1 < 3.0, "{mended:?}");
     // The filter's 8 bits and the rasterizer's last bit move grains; where the coordinate is not the listing's, far more move.
-    assert!(published.0 < 3.0 && published.0 * 2.0 < elsewhere.0, "{published:?} {elsewhere:?}");
+    assert!(published.0 < 1.5 && published.1 < 25.0 && published.0 * 3.0 < elsewhere.0, "{published:?} {elsewhere:?}");
 }
 
 fn check_formula(backends: &[Backend], variants: &[(&str, Charcoal)]) {

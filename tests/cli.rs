@@ -9,7 +9,7 @@ pub fn tinta(arguments: &[&str]) -> Output {
 }
 
 /// Asserts exit code 2, empty standard output and one sentence that contains all `words`.
-fn refused(arguments: &[&str], words: &[&str]) {
+pub(crate) fn refused(arguments: &[&str], words: &[&str]) {
     let output = tinta(arguments);
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");

@@ -32,8 +32,9 @@ pub(super) struct Layout {
 
 pub(super) const MARGIN: f64 = 12.0;
 
-/// Quartiles and curves.
-const BAR: RGBColor = RGBColor(150, 150, 150);
+/// Quartiles, and curves over picture sizes.
+const BAR: RGBColor = RGBColor(205, 205, 205);
+const CURVE: RGBColor = RGBColor(130, 130, 130);
 
 /// Names with more characters get a number instead.
 const LONGEST_LABEL: usize = 46;
@@ -117,10 +118,6 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
     text((MARGIN, inner.top - line_height * 0.7), Anchor::Start, &format!("↑ {}", measure.axis()))?;
     text((inner.right, inner.bottom + line_height * 2.0), Anchor::End, &format!("{} →", time.axis()))?;
     grid(&canvas, &axes, &scale, &inner, &layout)?;
-    canvas.line(&steps, MIDDLE, 2)?;
-    for curve in curves(points) {
-        canvas.line(&curve.iter().map(|index| middles[*index]).collect::<Vec<_>>(), BAR, 1)?;
-    }
     for (point, (x, y)) in points.iter().zip(&middles) {
         let [fast, slow] =
             point.times_ms.map(|ms| axes.pixel(ms.clamp(scale.time_ms.start, scale.time_ms.end), point.error).0);
@@ -131,6 +128,10 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
         canvas.line(&[(fast, *y), (slow, *y)], BAR, 1)?;
         canvas.line(&[(*x, least), (*x, most)], BAR, 1)?;
     }
+    for curve in curves(points) {
+        canvas.line(&curve.iter().map(|index| middles[*index]).collect::<Vec<_>>(), CURVE, 1)?;
+    }
+    canvas.line(&steps, MIDDLE, 2)?;
     // Hollow marks first, to put the published settings above them.
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by_key(|index| (front.contains(index), points[*index].is_faithful));
@@ -151,7 +152,7 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
         let at = (item.left, legend_top + line_height * item.line as f64);
         match &item.mark {
             Mark::Style(style, is_filled) => marks::draw(&canvas, style, (at.0 + 7.0, at.1), *is_filled)?,
-            Mark::Bar => canvas.line(&[at, (at.0 + 14.0, at.1)], BAR, 1)?,
+            Mark::Line(color) => canvas.line(&[at, (at.0 + 14.0, at.1)], *color, 1)?,
             Mark::Front => canvas.line(&[at, (at.0 + 14.0, at.1)], MIDDLE, 2)?,
         }
         text((at.0 + 20.0, at.1), Anchor::Start, &item.text)?;
@@ -353,7 +354,7 @@ fn labels(
 
 enum Mark {
     Style(String, bool),
-    Bar,
+    Line(RGBColor),
     Front,
 }
 
@@ -374,9 +375,9 @@ fn legend(points: &[Point], layout: &Layout) -> Vec<Item> {
     if points.iter().any(|point| !point.is_faithful) {
         items.push((Mark::Style(styles[0].to_owned(), false), "hollow: not the published settings".to_owned()));
     }
-    items.push((Mark::Bar, "quartiles: of a frame's time, and of the models' errors".to_owned()));
+    items.push((Mark::Line(BAR), "quartiles: of a frame's time, and of the models' errors".to_owned()));
     if !curves(points).is_empty() {
-        items.push((Mark::Bar, "a setting at several picture sizes".to_owned()));
+        items.push((Mark::Line(CURVE), "a setting at several picture sizes".to_owned()));
     }
     items.push((Mark::Front, "Pareto front: no setting is both faster and closer".to_owned()));
     let mut left = MARGIN;

@@ -162,7 +162,7 @@ pub struct Point {
     pub times_ms: [f64; 2],
     /// Mean over models of the error.
     pub error: f64,
-    /// Lower and upper quartile of the models' errors.
+    /// Lower and upper quartile of the models' errors; of fewer than four models twice the mean.
     pub errors: [f64; 2],
 }
 
@@ -218,6 +218,7 @@ pub fn points(rows: &[&Row], measure: Measure, time: Time) -> Points {
         let [low, middle, high] =
             [0, 1, 2].map(|at: usize| (of_models.iter().map(|row| time.of(row)[at].ln()).sum::<f64>() / count).exp());
         let errors: Vec<f64> = of_models.iter().filter_map(|row| measure.error(row)).collect();
+        let error = errors.iter().sum::<f64>() / count;
         let size = first.size;
         points.push(Point {
             name: names[key].clone(),
@@ -230,8 +231,8 @@ pub fn points(rows: &[&Row], measure: Measure, time: Time) -> Points {
             is_faithful: first.is_faithful,
             time_ms: middle,
             times_ms: [low, high],
-            error: errors.iter().sum::<f64>() / count,
-            errors: quartiles(&errors),
+            error,
+            errors: if errors.len() < 4 { [error; 2] } else { quartiles(&errors) },
         });
     }
     let left_out = order.len() - points.len();

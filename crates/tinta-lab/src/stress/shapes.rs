@@ -1,13 +1,11 @@
 //! The shapes that stiff cases are made of: small, each with one thing wrong or extreme, in units of about 1.
 
 use super::Written;
-use glam::{DVec2, DVec3, Vec2};
+use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 use tinta::error::Result;
-use tinta::mesh::{LoadOptions, Material, Mesh, load};
-use tinta::picture::{Picture, write_rgba_png};
-use tinta::scene::Size;
+use tinta::mesh::{LoadOptions, Mesh, load};
 
 /// A shape by name, with its parameter if it has one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,10 +58,8 @@ pub enum Shape {
     Hinge(f64),
     /// Four squares side by side, each a tenth of a unit behind the last: seen from the front they differ by depth only.
     Terraces,
-    /// A wavy sheet, pressed flat along z.
-    Flat,
-    /// A square of two triangles with a picture on it.
-    Textured,
+    /// A wavy sheet, pressed flat along z, of this many squares along each side.
+    Flat(u32),
     /// A shape that a file brings.
     Written(Written),
     /// A long strip from in front of the eye of these cases to far behind it, through the point (1, 1, 1) of eye space, the place
@@ -94,11 +90,7 @@ impl Shape {
             other => other.triangles(),
         };
         let positions = positions.into_iter().map(|point| point * scale + offset).collect();
-        let mesh = Mesh::of_triangles("a stiff case", positions, &triangles, &LoadOptions::default())?;
-        match self {
-            Self::Textured => with_picture(mesh, folder),
-            _ => Ok(mesh),
-        }
+        Mesh::of_triangles("a stiff case", positions, &triangles, &LoadOptions::default())
     }
 
     fn triangles(self) -> Triangles {
@@ -191,11 +183,7 @@ impl Shape {
                     (0..4).flat_map(|step| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|i| i + step * 4))).collect(),
                 )
             }
-            Self::Flat => sheet(12),
-            Self::Textured => {
-                let points = vec![DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
-                (points, vec![[0, 1, 2], [0, 2, 3]])
-            }
+            Self::Flat(side) => sheet(side),
             Self::ThroughTheLight => {
                 let points = vec![
                     DVec3::ONE,
@@ -309,33 +297,6 @@ fn sheet(side: u32) -> Triangles {
         })
     });
     (points, faces.collect())
-}
-
-/// Puts a chequered picture onto a square whose corners are its mesh's positions.
-fn with_picture(mesh: Mesh, folder: &Path) -> Result<Mesh> {
-    const SIDE: u32 = 16;
-    let path = folder.join("chequers.png");
-    let color = |index: u32| match (index % SIDE / 2 + index / SIDE / 2) % 2 {
-        0 => [210, 180, 120, 255],
-        _ => [90, 60, 40, 255],
-    };
-    let pixels = (0..SIDE * SIDE).flat_map(color).collect();
-    write_rgba_png(&Picture { size: Size { width: SIDE, height: SIDE }, pixels }, &path)?;
-    let (low, high) = mesh.bounds();
-    let place = |point: &DVec3| ((*point - low) / (high - low).max_element()).truncate().as_vec2();
-    let coordinates: Vec<Vec2> = mesh.positions.iter().map(place).collect();
-    Ok(Mesh {
-        texture_coordinates: coordinates,
-        triangle_texture_coordinates: mesh.triangles.clone(),
-        materials: vec![Material {
-            name: "chequers".to_owned(),
-            color: None,
-            texture: Some(path),
-            ..Material::default()
-        }],
-        triangle_materials: vec![0; mesh.triangles.len()],
-        ..mesh
-    })
 }
 
 #[cfg(test)]

@@ -142,7 +142,10 @@ fn models() -> Vec<Case> {
     let mirrored = Drawing { scale: -1.0, twin: Some(Box::new(ball.clone())), ..ball };
     let denormal = |value| Drawing { shape: Shape::BadVertex(value), ..Drawing::default() };
     let shaded = [StyleName::Phong, StyleName::ThreePass, StyleName::Ink].map(Variant::published).to_vec();
-    let many = |cells| Drawing { variants: shaded.clone(), ..written(Written::Sheet(cells)) };
+    let many = |side| {
+        let variants = shaded.clone();
+        Drawing { shape: Shape::Flat(side), variants, study: Study::Picture, ..Drawing::default() }
+    };
     let none = Drawing { scale: 1e-310, ..Drawing::default() };
     vec![
         drawn(

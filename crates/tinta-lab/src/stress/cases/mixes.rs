@@ -23,7 +23,7 @@ const SHAPES: [Shape; 16] = [
     Shape::TJunction,
     Shape::Contact,
     Shape::Piercing,
-    Shape::Flat,
+    Shape::Flat(12),
     Shape::Fan(300),
 ];
 

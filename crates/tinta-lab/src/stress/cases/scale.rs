@@ -48,12 +48,12 @@ pub(super) fn cases() -> Vec<Case> {
     };
     let near = Drawing { shape: smaller, camera, ..Drawing::default() };
     all.push(rendered("the smaller cube seen from nearby".to_owned(), near).with("lines_px", 100.0, 600.0));
-    all.push(rendered("flat in one axis".to_owned(), Drawing { shape: Shape::Flat, ..Drawing::default() }));
+    all.push(rendered("flat in one axis".to_owned(), Drawing { shape: Shape::Flat(12), ..Drawing::default() }));
     let edge_on =
         CameraSettings { view: "right".parse().unwrap_or(CameraSettings::default().view), ..Default::default() };
     all.push(rendered(
         "flat in one axis, seen edge-on".to_owned(),
-        Drawing { shape: Shape::Flat, camera: edge_on, ..Drawing::default() },
+        Drawing { shape: Shape::Flat(12), camera: edge_on, ..Drawing::default() },
     ));
     let many = Drawing {
         shape: Shape::Cube,
