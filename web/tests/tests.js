@@ -1,6 +1,6 @@
 // Tests of the program and the page in a browser: each reports its name and whether it held.
 
-import init, { Files, Model, Pane, listing, shaders, tables as tablesOf } from "./tinta.js";
+import init, { Files, Model, Pane, listing, look, shaders, tables as tablesOf } from "./tinta.js";
 import { assert, byteDifference, darkness, differing, drawn, finish, pixels, test, tones } from "./harness.js";
 import { program } from "./files.js";
 import { testPage } from "./page.js";
@@ -44,7 +44,7 @@ for (const { name } of tables.models) {
   for (const style of ofPasses.filter((style) => style.name !== "sand" || name === "soldier")) {
     await test(`${style.name} of ${name} is the command line's picture`, async () => {
       const options = { style: style.name, size: SIZE };
-      pane.draw(JSON.stringify(options), "final");
+      pane.draw(JSON.stringify(options), "final", false);
       const words = ["--style", style.name, "--size", SIZE, "--backend", "egl"];
       const expected = await pixels(await drawn(`builtin:${name}`, ...words, "drawn.png"));
       const grainy = GRAINY.includes(style.name);
@@ -78,21 +78,30 @@ for (const { name } of tables.models) {
   model.free();
 }
 
-for (const [style, option, value] of [
-  ["three-pass", "map-encoding", "depth-texture"],
-  ["ink", "crease-by", "normals"],
-]) {
-  await test(`${style} that reads the depth buffer is the command line's picture`, async () => {
-    const model = Model.builtin("gear", "{}");
-    pane.show(model);
-    for (const round of [1, 2]) {
-      pane.draw(JSON.stringify({ style, size: SIZE, [option]: value }), "final");
-      const words = ["--style", style, "--size", SIZE, "--backend", "egl", `--${option}`, value];
-      const share = differing(pane.pixels(), await pixels(await drawn("builtin:gear", ...words, "drawn.png")), 2);
-      assert(share <= MOST * TIMES[style], `${share * 100} % differ in picture ${round}`);
-    }
-    model.free();
-  });
+for (const name of ["bust", "gear", "soldier"]) {
+  const print = JSON.parse(look("print"), (_, value) => value ?? undefined);
+  for (const [what, style, words, options] of [
+    ["the depth texture of three-pass", "three-pass", ["--map-encoding", "depth-texture"], { "map-encoding": "depth-texture" }],
+    ["the look print", print.style, ["--look", "print"], { ...print.settings, ...print.scene, ...print.read }],
+  ]) {
+    await test(`${what} of ${name} is the command line's picture, again and again`, async () => {
+      const isLook = words[0] === "--look";
+      const model = Model.builtin(name, JSON.stringify(isLook ? print.read : {}));
+      pane.show(model);
+      pane.look(isLook ? print.view : "30,15");
+      const shares = [];
+      for (const round of [1, 2]) {
+        pane.draw(JSON.stringify({ style, size: SIZE, ...options }), "final", false);
+        const how = isLook ? words : ["--style", style, "--view", "30,15", ...words];
+        const expected = await pixels(await drawn(`builtin:${name}`, ...how, "--size", SIZE, "--backend", "egl", "drawn.png"));
+        shares.push(differing(pane.pixels(), expected, 2));
+      }
+      model.free();
+      pane.reset();
+      assert(shares.every((share) => share <= MOST * TIMES[style]) && shares[0] === shares[1], `${shares}`);
+      return `${(shares[0] * 100).toFixed(3)} %`;
+    });
+  }
 }
 
 await test("every choice of every setting of every style links and draws, or says why not", () => {
@@ -104,7 +113,7 @@ await test("every choice of every setting of every style links and draws, or say
     const drawWith = (settings, show) => {
       count += 1;
       try {
-        pane.draw(JSON.stringify({ style: style.name, size: "48x48", ...settings }), show);
+        pane.draw(JSON.stringify({ style: style.name, size: "48x48", ...settings }), show, false);
       } catch (problem) {
         const said = problem.message;
         assert(!/^shader|compile|link|GL_INVALID/i.test(said), `${style.name} ${JSON.stringify(settings)}: ${said}`);
@@ -147,7 +156,7 @@ await test("memory and WebGL's objects stay as they are over 500 changes of the 
   const change = (number) => {
     const model = Model.builtin(tables.models[number % tables.models.length].name, "{}");
     pane.show(model);
-    pane.draw(JSON.stringify({ style: "three-pass", size: "64x64" }), "final");
+    pane.draw(JSON.stringify({ style: "three-pass", size: "64x64" }), "final", false);
     model.free();
   };
   for (let number = 0; number < 50; number += 1) change(number);
