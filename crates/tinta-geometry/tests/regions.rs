@@ -21,9 +21,12 @@ use shapes::{Random, mesh};
 use std::path::PathBuf;
 use std::time::Duration;
 use tinta::camera::Projection;
-use tinta::lines::{Progress, Region, Regions, SeenFace, first_hits};
+use tinta::lines::{
+    Hit, Progress, Region, Regions, SeenFace, ToneLight, ToneRule, TonedSurface, fills, first_hits, svg_of_paths,
+};
+use tinta::mesh::NONE;
 use tinta::tolerances::{CONTACT, WELD};
-use tinta::{CameraSettings, Error, LoadOptions, Scene, SceneSettings, load};
+use tinta::{CameraSettings, Color, DrawingSettings, Error, LoadOptions, Scene, SceneSettings, VisibleLines, load};
 
 /// The families, and four kinds of randomly oriented scenes.
 const KINDS: usize = FAMILIES.len() + 4;
@@ -51,7 +54,18 @@ struct Checked {
 
 /// Compares the regions of all pixels with rays. Panics where the regions do not fill the picture exactly once.
 fn check(name: &str, scene: &Scene) -> Checked {
-    let found = Regions::of(scene).unwrap();
+    let seen = |hit: Hit| SeenFace { object: hit.object, face: hit.face };
+    check_labels(name, scene, &Regions::of(scene).unwrap(), seen, |hit, label| touches(scene, world(scene, hit), label))
+}
+
+/// Compares the labels of all pixels with those of rays. `is_as_right` says whether another label will do.
+fn check_labels<T: Copy + PartialEq + std::fmt::Debug>(
+    name: &str,
+    scene: &Scene,
+    found: &Regions<Option<T>>,
+    label: impl Fn(Hit) -> T,
+    is_as_right: impl Fn(&Hit, T) -> bool,
+) -> Checked {
     assert_eq!(found.broken, 0, "{name}");
     let size = [scene.size.width as usize, scene.size.height as usize];
     let whole = (size[0] * size[1]) as f64;
@@ -70,17 +84,17 @@ fn check(name: &str, scene: &Scene) -> Checked {
     for (pixel, (number, hit)) in region_of.into_iter().zip(first_hits(scene)).enumerate() {
         assert_ne!(number, usize::MAX, "{name}: no region at {pixel}");
         let seen = found.regions[number].seen;
-        let hit_face = hit.map(|hit| SeenFace { object: hit.object, face: hit.face });
+        let of_ray = hit.map(&label);
         let px = DVec2::new((pixel % size[0]) as f64 + 0.5, (pixel / size[0]) as f64 + 0.5);
-        if seen == hit_face || hit.zip(seen).is_some_and(|(hit, seen)| touches(scene, world(scene, &hit), seen)) {
+        if seen == of_ray || hit.zip(seen).is_some_and(|(hit, seen)| is_as_right(&hit, seen)) {
             continue;
         }
-        let is_near = |region: &Region| region.loops.iter().any(|corners| distance(corners, px) < NEAR_BORDER_PX);
+        let is_near = |region: &Region<Option<T>>| region.loops.iter().any(|it| distance(it, px) < NEAR_BORDER_PX);
         if found.regions.iter().any(is_near) {
             checked.near_borders += 1;
         } else {
             checked.wrong += 1;
-            checked.example = format!("{name} at {px}: {seen:?} instead of {hit_face:?}");
+            checked.example = format!("{name} at {px}: {seen:?} instead of {of_ray:?}");
         }
     }
     checked
@@ -91,7 +105,7 @@ fn corners(scene: &Scene, seen: SeenFace) -> [DVec3; 3] {
     object.mesh.triangles[seen.face as usize].map(|corner| object.mesh.positions[corner as usize] + object.offset)
 }
 
-fn world(scene: &Scene, hit: &tinta::lines::Hit) -> DVec3 {
+fn world(scene: &Scene, hit: &Hit) -> DVec3 {
     let [a, b, c] = corners(scene, SeenFace { object: hit.object, face: hit.face });
     a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2]
 }
@@ -123,7 +137,7 @@ fn area(corners: &[DVec2]) -> f64 {
 }
 
 /// Calls `at` with each pixel whose middle lies in a region.
-fn fill(region: &Region, [width, height]: [usize; 2], mut at: impl FnMut(usize)) {
+fn fill<T>(region: &Region<T>, [width, height]: [usize; 2], mut at: impl FnMut(usize)) {
     let all = || region.loops.iter().flatten();
     let low = all().map(|point| point.y).fold(f64::INFINITY, f64::min);
     let high = all().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max);
@@ -248,6 +262,101 @@ fn regions_of_all_public_models_are_the_faces_that_rays_hit() {
         views.extend((0..8).map(|turn| view(&format!("{},{height}", turn * 45), turn % 2 == 1)));
     }
     check_models(&names, &views);
+}
+
+/// The tone at a ray's hit, by the listing's formulas with matrices of the world.
+fn tone(scene: &Scene, rule: &ToneRule, hit: &Hit) -> u8 {
+    let view = scene.camera.view_from_world();
+    let object = &scene.objects[hit.object as usize];
+    let mesh = &object.mesh;
+    let (mut diffuse, mut mirrored, mut to_eye) = (0.0, DVec3::ZERO, DVec3::ZERO);
+    for corner in 0..3 {
+        let position = mesh.positions[mesh.triangles[hit.face as usize][corner] as usize] + object.offset;
+        let normal = mesh.normals[mesh.triangle_normals[hit.face as usize][corner] as usize].as_dvec3();
+        let normal = view.transform_vector3(normal).normalize();
+        let point = view.transform_point3(position) / scene.radius;
+        let (light, eye) = match rule.light {
+            ToneLight::Near(light) => ((light - point).normalize(), -point.normalize()),
+            ToneLight::Far(direction) => (direction, DVec3::Z),
+        };
+        diffuse += hit.weights[corner] * (light.dot(normal) + 1.0) * 0.5;
+        // GLSL's reflect(-light, normal).
+        mirrored += hit.weights[corner] * (-light - 2.0 * normal.dot(-light) * normal);
+        to_eye += hit.weights[corner] * eye;
+    }
+    let specular = mirrored.normalize().dot(to_eye.normalize());
+    if specular > rule.thresholds[1] { 2 } else { u8::from(diffuse >= rule.thresholds[0]) }
+}
+
+/// The published rule, that of the look `print`, and one with two tones.
+fn rules() -> [ToneRule; 3] {
+    [
+        ToneRule { light: ToneLight::Near(DVec3::ONE), thresholds: [0.8, 0.65] },
+        ToneRule { light: ToneLight::Far(DVec3::new(-0.4, 1.0, 0.6).normalize()), thresholds: [0.56, 0.2] },
+        ToneRule { light: ToneLight::Near(DVec3::ONE), thresholds: [0.6, 2.0] },
+    ]
+}
+
+fn check_tones(name: &str, scene: &Scene) -> Checked {
+    let mut all = Checked::default();
+    for rule in rules() {
+        let found = Regions::toned(scene, &rule, &Progress::default()).unwrap();
+        let surface = |hit: Hit| TonedSurface { object: hit.object, material: NONE, tone: tone(scene, &rule, &hit) };
+        add(&mut all, check_labels(name, scene, &found, surface, |_, _| false));
+        if let Some(folder) = std::env::var_os("TINTA_TONES") {
+            let grey = |surface: TonedSurface| Color([[0.65, 0.95, 1.0][usize::from(surface.tone)]; 3]);
+            let lines = VisibleLines::of(scene, &tinta::LineSettings::default()).unwrap();
+            let paths = tinta::lines::chain(&lines.segments);
+            let settings = DrawingSettings::default();
+            let text = svg_of_paths(&lines, paths.clone(), &fills(&found, grey), &settings).unwrap();
+            let only = svg_of_paths(&lines, paths, &[], &settings).unwrap();
+            println!("{name}: lines {} bytes, with areas {}", only.len(), text.len());
+            let file = format!("{}-{}.svg", name.replace('/', "-"), rule.thresholds[0]);
+            std::fs::write(PathBuf::from(folder).join(file), text).unwrap();
+        }
+    }
+    all
+}
+
+#[test]
+fn tones_of_a_ball_are_those_that_rays_find() {
+    let mesh = shapes::icosphere(3);
+    let normals: Vec<_> = mesh.positions.iter().map(|position| position.normalize().as_vec3()).collect();
+    let triangle_normals = mesh.triangles.clone();
+    let mesh = tinta::Mesh { normals, triangle_normals, ..mesh };
+    let scene = Scene::new([mesh], &SceneSettings::default()).unwrap();
+    judge(&check_tones("ball", &scene));
+}
+
+#[test]
+fn tones_of_public_models_are_those_that_rays_find() {
+    let mut all = Checked::default();
+    let models = models(&["cow.obj", "teapot.obj", "suzanne.obj"]);
+    for (name, mesh) in &models {
+        // Without materials, which are no part of the comparison.
+        let mesh = tinta::Mesh { triangle_materials: Vec::new(), ..mesh.clone() };
+        let settings = SceneSettings { camera: view("30,23", false), ..SceneSettings::default() };
+        add(&mut all, check_tones(name, &Scene::new([mesh], &settings).unwrap()));
+    }
+    if !models.is_empty() {
+        judge(&all);
+    }
+}
+
+#[test]
+fn joined_regions_are_the_outlines_of_objects() {
+    let scene = scene(0, &mut Random::seeded(1)).1;
+    let found = Regions::of(&scene).unwrap();
+    let outlines = found.joined(|seen| seen.map(|seen| seen.object));
+    assert_eq!(outlines.broken, 0);
+    let area = |object: u32| {
+        let of_object = found.regions.iter().filter(|it| it.seen.is_some_and(|seen| seen.object == object));
+        of_object.map(|region| region.area_px).sum::<f64>()
+    };
+    for object in 0..scene.objects.len() as u32 {
+        let joined = outlines.regions.iter().filter(|region| region.seen == object);
+        assert!((joined.map(|region| region.area_px).sum::<f64>() - area(object)).abs() < 1e-6, "{object}");
+    }
 }
 
 #[test]
