@@ -33,7 +33,8 @@ pub(crate) mod probe;
 mod quads;
 mod smooth_edges;
 mod sources;
-pub(crate) mod squares;
+pub(crate) mod square;
+mod squares;
 mod targets;
 mod textures;
 

@@ -9,7 +9,8 @@ use super::{Command, Verdict, given};
 use tinta::glam::DVec2;
 use tinta::request::{Layer, Request};
 use tinta::settings::{HasSettings, Setting};
-use tinta::{Error, Result, Scene, Style, StyleName, VisibleLines};
+use tinta::styles::is_of_lines_alone;
+use tinta::{Error, LineSettings, Result, Scene, Style, StyleName, VisibleLines};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -54,8 +55,9 @@ impl Selection for OfPicture {
     type Of = Request;
 
     fn has(setting: &Setting<Request>) -> bool {
-        let is_of_style = Style::table().has(setting.name) && setting.name != "supersample";
-        OfSubject::has(setting) || ["style", "size", "backend"].contains(&setting.name) || is_of_style
+        let is_drawn = Style::table().has(setting.name) && !is_of_lines_alone(setting.name);
+        let is_other = ["style", "size", "backend"].contains(&setting.name) || LineSettings::table().has(setting.name);
+        OfSubject::has(setting) || is_other || (is_drawn && setting.name != "supersample")
     }
 }
 

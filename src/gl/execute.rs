@@ -6,7 +6,7 @@ use super::fixed_function;
 use super::legacy;
 use super::objects::{Buffer, Program, Shader, TimerQuery};
 use super::sources;
-use super::squares::Square;
+use super::square::Square;
 use super::targets::{Targets, clear_each};
 use super::textures::Textures;
 use crate::error::{Error, Result};

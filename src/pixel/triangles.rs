@@ -1,6 +1,6 @@
 //! The triangles of a draw as GL sees them: which of them cover a pixel's middle, and each corner's share there.
 
-use crate::gl::squares::Square;
+use crate::gl::square::Square;
 use crate::mesh::{NONE, VertexArrays};
 use crate::plan::{Draw, Faces, Geometry, Paint};
 use crate::scene::{Color, Scene};

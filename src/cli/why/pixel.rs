@@ -1,5 +1,6 @@
 //! A pixel explained in words: pass by pass, statement by statement, beside the driver's value and the exact lines.
 
+use super::super::plain;
 use serde::Serialize;
 use std::fmt::Write;
 use tinta::glam::DVec2;
@@ -29,6 +30,8 @@ pub(super) struct WhyPixel {
     color: [u8; 4],
     /// OpenGL's name of the driver.
     renderer: String,
+    /// The objects' names, by their numbers.
+    objects: Vec<String>,
     steps: Vec<PixelStep>,
     /// `None` for styles that draw no lines.
     lines: Option<AgainstLines>,
@@ -75,6 +78,7 @@ pub(super) fn why(request: &Request, scene: &Scene, place: DVec2) -> Result<WhyP
         place_in_textures: at,
         color: color.map(|channel| (channel * 255.0).round().clamp(0.0, 255.0) as u8),
         renderer: renderer.context().renderer.clone(),
+        objects: scene.objects.iter().map(|object| object.mesh.name.clone()).collect(),
         steps,
         lines,
     })
@@ -82,7 +86,7 @@ pub(super) fn why(request: &Request, scene: &Scene, place: DVec2) -> Result<WhyP
 
 /// Writes the explanation as a page.
 pub(super) fn in_words(why: &WhyPixel) -> String {
-    let WhyPixel { style, pixel: [x, y], place_in_textures: at, color, renderer, steps, lines } = why;
+    let WhyPixel { style, pixel: [x, y], place_in_textures: at, color, renderer, objects, steps, lines } = why;
     let mut text = format!("Pixel {x},{y} of {style} is {color:?}, drawn by {renderer}.\n");
     if let Some(lines) = lines {
         text.push_str(&of_lines(lines));
@@ -93,7 +97,7 @@ pub(super) fn in_words(why: &WhyPixel) -> String {
             let _ = write!(text, " with {program}");
         }
         text.push('\n');
-        of_fragments(&mut text, &step.fragments, *at);
+        of_fragments(&mut text, &step.fragments, objects, *at);
         let _ = writeln!(text, "  {}", written(step));
     }
     text
@@ -125,7 +129,7 @@ fn three_digits(value: f64) -> String {
 }
 
 /// The triangles over the pixel: the one that stays statement by statement, the others as a number.
-fn of_fragments(text: &mut String, fragments: &[Fragment], at: [u32; 2]) {
+fn of_fragments(text: &mut String, fragments: &[Fragment], objects: &[String], at: [u32; 2]) {
     let last =
         fragments.iter().rposition(Fragment::is_written).or_else(|| fragments.iter().rposition(|f| f.is_discarded));
     let others = fragments.len() - usize::from(last.is_some());
@@ -137,11 +141,8 @@ fn of_fragments(text: &mut String, fragments: &[Fragment], at: [u32; 2]) {
     };
     if let Some(object) = fragment.object {
         let side = if fragment.is_front { "front" } else { "back" };
-        let _ = write!(
-            text,
-            "  triangle {} of object {object}, its {side}, depth {:.6}",
-            fragment.triangle, fragment.depth
-        );
+        let name = objects.get(object).map_or_else(String::new, |name| plain(name));
+        let _ = write!(text, "  triangle {} of {name}, its {side}, depth {:.6}", fragment.triangle, fragment.depth);
         let shares: Vec<String> = fragment.corners.iter().map(|corner| format!("{:.4}", corner.share)).collect();
         let _ = write!(text, ", corners' shares {}", shares.join(" "));
         let _ = writeln!(text, "{}", if others > 0 { format!("; {others} more cover it") } else { String::new() });
