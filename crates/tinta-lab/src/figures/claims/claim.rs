@@ -35,6 +35,12 @@ impl Claim {
     }
 }
 
+/// The place of a claim: `E:145, section 4.1`.
+pub(super) fn place(text: Text, section: &str, line: u32) -> String {
+    let section = if section.starts_with(char::is_numeric) { format!("section {section}") } else { section.to_owned() };
+    format!("{}:{line}, {section}", text.letter())
+}
+
 /// Makes the claims of a text, without pictures: id, section, line, sentence, rule, command, and measurement.
 pub(super) fn of_text(
     text: Text,

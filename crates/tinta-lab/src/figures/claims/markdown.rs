@@ -1,5 +1,6 @@
 //! The file claims.md: the claims with the numbers of one run.
 
+use super::claim::place;
 use super::{Claim, ClaimRecord, tally};
 use crate::figures::figure::Text;
 use crate::figures::measure::HowToMeasure;
@@ -14,12 +15,6 @@ impl Text {
             Self::Dachsbacher => 'D',
         }
     }
-}
-
-/// The place of a claim: `E:145, section 4.1`.
-pub(super) fn place(text: Text, section: &str, line: u32) -> String {
-    let section = if section.starts_with(char::is_numeric) { format!("section {section}") } else { section.to_owned() };
-    format!("{}:{line}, {section}", text.letter())
 }
 
 impl Claim {
