@@ -315,7 +315,8 @@ impl Mesh {
         let positions = points_of(vertices)?;
         let normals: Vec<f32> = normals.as_array().iter().copied().collect();
         let (free, free_vertices, segments, points, labels) = curves;
-        let curves = tinta::mesh::Curves { positions: points_of(free)?, file_vertices: free_vertices, segments, points, labels };
+        let curves =
+            tinta::mesh::Curves { positions: points_of(free)?, file_vertices: free_vertices, segments, points, labels };
         let mesh = tinta::Mesh {
             curves,
             marked: Vec::new(),
@@ -336,7 +337,12 @@ impl Mesh {
         let free = &mesh.curves;
         let is_whole = mesh.file_vertices.len() == mesh.positions.len()
             && free.file_vertices.len() == free.positions.len()
-            && free.segments.as_flattened().iter().chain(&free.points).all(|end| (*end as usize) < free.positions.len())
+            && free
+                .segments
+                .as_flattened()
+                .iter()
+                .chain(&free.points)
+                .all(|end| (*end as usize) < free.positions.len())
             && free.labels.iter().all(|(point, _)| (*point as usize) < free.points.len())
             && mesh.triangle_normals.len() == mesh.triangles.len()
             && !(mesh.triangles.is_empty() && free.is_empty())

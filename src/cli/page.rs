@@ -253,7 +253,7 @@ const PLACE: &str = "<!-- lesson -->\n";
 /// The page with its lesson, and without other lectures; `None` if it has no place for one.
 fn with_lesson(page: &str, lecture: Option<Lecture>, link: &str, files: &[(String, Vec<u8>)]) -> Option<String> {
     let (before, after) = page.split_once(PLACE)?;
-    let wanted = lecture.map(|lecture| format!(" data-lecture=\"{}\"", lecture.to_string()));
+    let wanted = lecture.map(|lecture| format!(" data-lecture=\"{}\"", lecture));
     let is_of_lesson = |line: &&str| {
         let is_of_lecture = line.starts_with("<script") && line.contains(" data-lecture=");
         !is_of_lecture || wanted.as_ref().is_some_and(|wanted| line.contains(wanted))

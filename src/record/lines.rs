@@ -89,7 +89,7 @@ pub fn lines_json(lines: &VisibleLines, scene: &Scene) -> Result<String> {
     if let Some(note) = lines.partial_note() {
         let _ = writeln!(text, "\"partial\": {},\n\"undecided\": {},", json(&note)?, lines.undecided);
     }
-    let _ = write!(text, "\"camera\": {},\n", json(&CameraRecord::new(scene))?);
+    let _ = writeln!(text, "\"camera\": {},", json(&CameraRecord::new(scene))?);
     if !lines.labels.is_empty() {
         let labels = lines.labels.iter().map(|label| LabelRecord {
             text: &label.text,
