@@ -1,6 +1,6 @@
 //! A pixel explained: every step of a plan recomputed for one pixel, beside the values that the driver left there.
 //!
-//! In: a [`Plan`], and what GL held after each of its steps ([`crate::Renderer::step_values`]). Out: the triangles that cover the
+//! In: a [`Plan`](crate::plan::Plan), and what GL held after each of its steps ([`crate::Renderer::step_values`]). Out: the triangles that cover the
 //! pixel, their varyings, each statement of the shaders with its value, the depth test, the blending and the value written. Each
 //! step starts from the driver's own values, so an error does not travel from pass to pass.
 //!

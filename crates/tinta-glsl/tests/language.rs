@@ -87,12 +87,12 @@ fn the_trace_tells_what_each_statement_did() {
     let map = Value::new(Type::named("sampler2D").unwrap(), &[3.0]);
     let run = stage.run(&[("map", map)], &One, &Settings { is_traced: true, ..Settings::default() }).unwrap();
     assert!(run.is_discarded);
-    let whats: Vec<&What> = run.events.iter().map(|Event { what, .. }| what).collect();
+    let seen: Vec<&What> = run.events.iter().map(|Event { what, .. }| what).collect();
     let quarter = Value::floats(&[0.25]);
-    assert!(matches!(whats[0], What::Read { texture, sample, .. } if texture == "map" && sample.value[0] == 0.25));
-    assert_eq!(whats[1], &What::Returned { function: "read".to_owned(), value: quarter });
-    assert_eq!(whats[2], &What::Set { variable: "a".to_owned(), value: quarter });
-    assert_eq!(whats[3..], [&What::Branched { is_taken: false }, &What::Discarded]);
+    assert!(matches!(seen[0], What::Read { texture, sample, .. } if texture == "map" && sample.value[0] == 0.25));
+    assert_eq!(seen[1], &What::Returned { function: "read".to_owned(), value: quarter });
+    assert_eq!(seen[2], &What::Set { variable: "a".to_owned(), value: quarter });
+    assert_eq!(seen[3..], [&What::Branched { is_taken: false }, &What::Discarded]);
 }
 
 #[test]
