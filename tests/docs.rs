@@ -328,6 +328,7 @@ fn the_limits_are_documented_as_they_are() {
         ("ROWS_BYTES", ROWS_BYTES),
         ("BATCH_BYTES", BATCH_BYTES),
         ("JOB_BYTES", JOB_BYTES as u64),
+        ("LABEL_CHARACTERS", LABEL_CHARACTERS as u64),
         ("JOB_ID_BYTES", JOB_ID_BYTES as u64),
         ("PICTURE_SIDE_PX", u64::from(PICTURE_SIDE_PX)),
         ("PICTURE_BYTES", PICTURE_BYTES),

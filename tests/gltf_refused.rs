@@ -113,7 +113,7 @@ fn files_that_lie_about_themselves_are_refused_in_a_sentence() {
     change("/meshes/0/primitives/0/mode", json!(99), "primitives of an unknown kind");
     change("/meshes/0/primitives/0/material", json!(7), "materials that do not exist");
     change("/meshes/0/primitives/0/indices", json!(99), "its accessor 99 does not exist");
-    change("/meshes/0/primitives/0/attributes", json!({"NORMAL": 1}), "triangles without positions");
+    change("/meshes/0/primitives/0/attributes", json!({"NORMAL": 1}), "primitives without positions");
     change("/meshes/0/primitives/0/attributes/NORMAL", json!(3), "numbers per element where 3 are needed");
     change("/accessors/0/count", huge.clone(), "take more than 20 times");
     change("/accessors/0/count", json!(25), "its accessor 0 reaches beyond its buffer view");

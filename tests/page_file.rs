@@ -19,11 +19,11 @@ fn lesson(folder: &Folder, words: &[&str]) -> (serde_json::Value, String) {
 #[test]
 fn a_page_holds_the_model_with_its_files_and_the_options_of_the_left_side() {
     let folder = Folder::new();
-    let words = ["models/pawn.obj", "--tones", "2", "--normals", "smooth", "--copies", "3", "--right", "phong"];
+    let words = ["models/ant.obj", "--tones", "2", "--normals", "smooth", "--copies", "3", "--right", "phong"];
     let (lesson, page) = lesson(&folder, &words);
     let files: Vec<&str> = lesson["files"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
-    assert_eq!(files[0], "pawn.obj");
-    assert!(files.contains(&"pawn.ppm"), "its picture too: {files:?}");
+    assert_eq!(files[0], "ant.obj");
+    assert!(files.contains(&"ant.mtl"), "its materials too: {files:?}");
     assert_eq!(page.matches("data-file=\"model/").count(), files.len());
     assert!(!page.contains("how.md"), "no lecture was asked for");
     let link = lesson["link"].as_str().unwrap();

@@ -75,7 +75,7 @@ fn check_model(loaded: Result<Loaded>) {
     };
     loaded.remarks.iter().for_each(|remark| check_sentence(remark));
     let mesh = loaded.mesh;
-    assert!(!mesh.triangles.is_empty());
+    assert!(!mesh.triangles.is_empty() || !mesh.curves.is_empty());
     assert!(mesh.positions.iter().all(|position| position.is_finite()));
     assert!(mesh.normals.iter().all(|normal| normal.is_finite() && (normal.length() - 1.0).abs() < 1e-3));
     assert!(mesh.triangles.as_flattened().iter().all(|index| (*index as usize) < mesh.positions.len()));

@@ -18,11 +18,11 @@ use tinta::mesh::{Loaded, load};
 use tinta::page::NOT_OF_BROWSERS;
 use tinta::request::Request;
 use tinta::settings::{HasSettings, Kind, OptionValue, Setting, names_of, on_off};
-use tinta::{Error, LoadOptions, Result, SceneSettings, Style, StyleName, TextTarget};
+use tinta::{Error, LoadOptions, Result, Scene, SceneSettings, Style, StyleName, TextTarget};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
-    examples: &["tinta page cow.obj -o cow.html                  a page to turn it in a browser"],
+    examples: &["tinta page cow.obj -o cow.html                  turn it in a browser"],
     offers: |option| match option {
         "lecture" => names_of::<Lecture>(),
         "right" => names_of::<StyleName>(),
@@ -120,6 +120,8 @@ fn run(arguments: &Arguments) -> Result<()> {
     let loaded = load(&arguments.model, &request.read).map_err(|error| request.attributed(error))?;
     loaded.remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
     let files = files(&arguments.model, &loaded)?;
+    let scene = Scene::new([loaded.mesh], &request.scene).map_err(|error| request.attributed(error))?;
+    request.style.plan(&scene, request.show).map_err(|error| request.attributed(error))?;
     let page = built(arguments.from.as_deref())?;
     let page = with_lesson(&page, arguments.lecture, &link(arguments, &request), &files);
     let page = page.ok_or_else(|| {

@@ -53,7 +53,7 @@ pub(super) const COMMAND: Command = Command {
 #[derive(clap::Args)]
 #[command(after_help = after_help())]
 pub(super) struct Arguments {
-    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input; several make one scene, each at its own coordinates
+    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input; several make one scene
     #[arg(required = true, value_name = "MODEL")]
     pub models: Vec<String>,
 

@@ -16,7 +16,7 @@ use tinta::{Error, LineSettings, Result, Scene, Style, StyleName, VisibleLines};
 pub(super) const COMMAND: Command = Command {
     examples: &[
         "tinta why cow.obj 240,310                       explain why a line is hidden",
-        "tinta why cow.obj 240,310 --style three-pass    explain a pixel, statement by statement",
+        "tinta why cow.obj 240,310 --style three-pass    explain a pixel",
     ],
     ..Command::new("why", <Arguments as clap::Args>::augment_args, |matches, _| {
         run(&given::<Arguments>(matches)?).map(|()| Verdict::Good)

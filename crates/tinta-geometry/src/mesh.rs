@@ -17,6 +17,7 @@
 
 mod build;
 mod curves;
+mod curves_of_soup;
 pub mod defects;
 mod folder;
 mod format;

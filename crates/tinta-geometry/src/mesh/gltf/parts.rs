@@ -10,6 +10,9 @@ use glam::{DMat3, DMat4, DVec3, Vec2};
 use gltf_json::mesh::{Mode, MorphTarget, Primitive, Semantic};
 use gltf_json::validation::Checked::{self, Valid};
 use gltf_json::{Accessor, Index, Mesh, Root, Skin};
+use std::borrow::Cow;
+use std::borrow::Cow;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -201,16 +204,16 @@ pub(super) fn put(
 }
 
 /// The triangles that indices stand for, counter-clockwise, without those of strips that only continue elsewhere.
-fn triangles(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
+fn triangles(indices: &[u32], mode: Mode) -> Cow<'_, [[u32; 3]]> {
     let mut triangles = every_triangle(indices, mode);
     if mode == Mode::TriangleStrip {
-        triangles.retain(|[a, b, c]| a != b && b != c && a != c);
+        triangles.to_mut().retain(|[a, b, c]| a != b && b != c && a != c);
     }
     triangles
 }
 
 /// The same with all triangles of strips.
-fn every_triangle(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
+fn every_triangle(indices: &[u32], mode: Mode) -> Cow<'_, [[u32; 3]]> {
     match (mode, indices) {
         (Mode::TriangleStrip, _) => {
             let turned = |(place, corners): (usize, &[u32])| match place % 2 {
@@ -220,7 +223,7 @@ fn every_triangle(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
             indices.windows(3).enumerate().map(turned).collect()
         }
         (Mode::TriangleFan, [first, rest @ ..]) => rest.windows(2).map(|pair| [pair[0], pair[1], *first]).collect(),
-        _ => indices.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect(),
+        _ => Cow::Borrowed(indices.as_chunks().0),
     }
 }
 

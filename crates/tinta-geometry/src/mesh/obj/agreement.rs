@@ -54,6 +54,8 @@ fn tobjs(bytes: &[u8], folder: &Folder<'_>) -> Vec<Face> {
             faces.push((face.to_vec(), material.clone()));
             rest = others;
         }
+        // Lines and points come as faces of two corners and one.
+        faces.retain(|(corners, _)| corners.len() > 2);
         faces
     };
     models.into_iter().flat_map(|model| of_mesh(model.mesh)).collect()
