@@ -56,7 +56,7 @@ fn lines_are_written_as_json_and_their_record_is_printed() {
         (&record["style"]["hidden"], &record["style"]["line-width"]),
         (&"ghost".into(), &serde_json::Value::Null)
     );
-    assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(6));
+    assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(9));
 }
 
 #[test]

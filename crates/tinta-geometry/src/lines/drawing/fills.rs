@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use std::collections::HashMap;
 
 /// The width of a trap, pixels: half of it is seen while the upper area is not painted.
-pub const TRAP_PX: f64 = 2.0;
+pub const TRAP_PX: f64 = 4.0;
 
 /// The areas of an object's material, from the darkest tone to the brightest.
 #[derive(Debug, Clone, PartialEq)]
