@@ -65,7 +65,7 @@ pub struct ShaderRow {
     pub article_mpixels: Option<f64>,
     /// Ours; `None` where the square took no measurable time.
     pub mpixels: Option<f64>,
-    /// Milliseconds of the square alone, which [`Series::cost_ms`] tells: the median of the differences within a turn.
+    /// Milliseconds of the square alone: the median of the differences within a turn.
     pub square_ms: f64,
     /// These differences, in the order measured.
     pub squares_ms: Vec<f64>,
