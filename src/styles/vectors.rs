@@ -1,6 +1,7 @@
 //! What a cartoon style draws into a file of vectors: exact areas of tone, and exact lines above them. No GL here.
 
 use super::{Cartoon, CreaseBy, Ink, LineStyle, LineWidth, Mrt, Style, Tones};
+use crate::edges::{Class, ClassSet};
 use crate::error::{Error, Result};
 use crate::lines::{
     DrawingSettings, FillGroup, LineSettings, Progress, Regions, ToneLight, ToneRule, TonedSurface, fills,
@@ -45,10 +46,14 @@ impl Style {
 
 fn of_ink(ink: &Ink, size: Size) -> Vectors {
     let direction = |light: [f32; 3]| DVec3::from_array(light.map(f64::from)).normalize_or_zero();
-    let settings = LineSettings {
-        crease_angle: ink.crease_angle,
-        lasting_creases: ink.crease_by == CreaseBy::Normals,
-        ..LineSettings::default()
+    let all = LineSettings { crease_angle: ink.crease_angle, ..LineSettings::default() };
+    let settings = match ink.crease_by {
+        // The pixels' creases are where the model's normals are split.
+        CreaseBy::Normals => {
+            let classes = all.classes.without(&[Class::Crease]).or(ClassSet::of(&[Class::Normal]));
+            LineSettings { classes, ..all }
+        }
+        _ => all,
     };
     let widths = [ink.line_width, ink.inner_width.unwrap_or(ink.line_width)];
     Vectors {
