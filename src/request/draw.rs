@@ -4,6 +4,7 @@ use super::{ModelCache, Request, Session};
 use crate::clock::Instant;
 use crate::edges::SilhouetteRule;
 use crate::error::{Error, Result};
+use crate::glsl;
 use crate::lines::{DrawingSettings, FillGroup, LineSettings, Progress, VisibleLines};
 use crate::mesh::{LoadStage, Mesh};
 use crate::picture::Picture;
@@ -12,7 +13,8 @@ use crate::plan::prune::{Kept, Omission, Pruned, prune};
 use crate::renderer::{Renderer, milliseconds_since};
 use crate::scene::Scene;
 use crate::styles::{LineStyle, Vectors};
-use std::path::PathBuf;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The result of a request.
@@ -240,10 +242,34 @@ impl Request {
         renderer.draw(scene, &plan)
     }
 
+    /// The session's context for this request, with its shaders.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Session::renderer`] and [`Renderer::replace_shaders`]; [`Error::Setting`] for a folder without shaders.
+    pub fn renderer<'a>(&self, session: &'a mut Session) -> Result<&'a mut Renderer> {
+        let shaders = match &self.glsl {
+            None => HashMap::new(),
+            Some(folder) if !Path::new(folder).is_dir() => {
+                return Err(Error::value("glsl", folder, "there is no such folder; check the name"));
+            }
+            Some(folder) => glsl::in_folder(Path::new(folder)),
+        };
+        if let (Some(folder), true) = (&self.glsl, shaders.is_empty()) {
+            let problem = "it holds no changed shader; lay it out like glsl/, for example phong/phong.frag";
+            return Err(Error::value("glsl", folder, problem));
+        }
+        let renderer = session.renderer(self.backend)?;
+        if renderer.replaced_shaders() != shaders {
+            renderer.replace_shaders(shaders)?;
+        }
+        Ok(renderer)
+    }
+
     fn picture(&self, session: &mut Session) -> Result<DrawnPicture> {
         let (mut times, loaded) = self.ready(session);
         let Planned { scene, files, published, times: of_loading } = loaded?;
-        let renderer = session.renderer(self.backend)?;
+        let renderer = self.renderer(session)?;
         let start = Instant::now();
         let Pruned { plan, omissions, kept } = self.pruned(&published, &scene, renderer)?;
         times.plan_ms = of_loading.plan_ms + milliseconds_since(start);
