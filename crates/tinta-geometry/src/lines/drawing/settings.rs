@@ -3,6 +3,7 @@
 use crate::edges::Class;
 use crate::error::{Error, Result};
 use crate::lines::drawing::curves::FIT_PX;
+use crate::lines::drawing::hatch::{AUTO_SPACING, Hatching};
 use crate::lines::drawing::layers::{ClassColors, ClassWidths, Layer};
 use crate::lines::drawing::length::{LINE_WIDTH, LINE_WIDTH_RANGE, LINE_WIDTH_SAID, Length, Millimetres, Units};
 use crate::lines::drawing::page::{PageSize, Paper};
@@ -33,6 +34,8 @@ pub struct DrawingSettings {
     pub min_length: Option<Length>,
     /// Largest distance of the drawn cubic Bézier curves from the lines, pixels. Default none, which draws polylines.
     pub fit_px: Option<f64>,
+    /// How tones are drawn as strokes. Default not: a style with tones fills their areas.
+    pub hatching: Hatching,
     /// A rectangle behind the drawing, or none. Default white.
     pub background: Background,
     /// Size on paper. Default unset: the program that shows the drawing decides.
@@ -43,7 +46,7 @@ pub struct DrawingSettings {
     /// false.
     pub has_provenance: bool,
     /// Whether the drawing is for a plotter. Paths are then sorted to shorten pen-up travel, dashes are separate
-    /// lines, and the background is omitted. Layers, widths and colours distinguish the pens; lines without a width
+    /// lines, and the background and areas are omitted. Layers, widths and colours distinguish the pens; lines without a width
     /// are half a pixel wide. Default false.
     pub is_for_pen: bool,
 }
@@ -60,6 +63,7 @@ impl Default for DrawingSettings {
             class_widths: ClassWidths::default(),
             min_length: None,
             fit_px: None,
+            hatching: Hatching::default(),
             background: Background::Color(WHITE),
             page_size: PageSize::Unset,
             margin: Millimetres(15.0),
@@ -130,6 +134,31 @@ impl DrawingSettings {
                 Ok(())
             },
         );
+        let hatch = Setting::of(
+            "hatch",
+            "SPACING",
+            Kind::Text { offered: &["1mm", "6x"], example: "8x" },
+            "Draw the tones of --look print and styles with tones as strokes, this far apart, in place of areas: in pixels of \
+             --size, millimetres (1mm) or widths of a stroke (6x, the same as --hatch alone); none for the brightest tone, \
+             crossed ones for the darkest of three",
+            |svg: &Self| svg.hatching.spacing.map_or(UNSET.to_owned(), |spacing| spacing.text()),
+            |svg, text| {
+                svg.hatching.spacing = match text {
+                    UNSET => None,
+                    "" => Some(AUTO_SPACING),
+                    text => Some(Length::parse(text)?),
+                };
+                Ok(())
+            },
+        );
+        let hatch = hatch.open(UNSET).said("none, areas").standing_alone();
+        let hatch_angle = Setting::field(
+            "hatch-angle",
+            "DEGREES",
+            "Direction of the strokes of --hatch, degrees from the horizontal, rising to the right",
+            |svg: &mut Self| &mut svg.hatching.angle_degrees,
+        );
+        let hatch_angle = hatch_angle.range(-90.0, 90.0, 0);
         let (name, value_name, help) = LINE_WIDTH;
         let (low, high, decimals) = LINE_WIDTH_RANGE;
         let settings = vec![
@@ -148,10 +177,10 @@ impl DrawingSettings {
                 "class-widths",
                 "WIDTHS",
                 "Widths of the lines by class: CLASS=WIDTH, separated by commas, in pixels of --size, millimetres (0.35mm) or \
-                 line widths (2x); also outline (at the background), hidden, hidden-CLASS",
+                 line widths (2x); also outline (at the background), hatch, hidden, hidden-CLASS",
                 |svg: &mut Self| &mut svg.class_widths,
             )
-            .said("the width of all lines, half of it for hidden ones"),
+            .said("the width of all lines, half of it for hidden ones and hatch"),
             Setting::open_field(
                 "min-length",
                 "LENGTH",
@@ -172,6 +201,8 @@ impl DrawingSettings {
             )
             .range(*FIT_PX.start(), *FIT_PX.end(), 2)
             .said("none, only straight segments"),
+            hatch,
+            hatch_angle,
             width.open(UNSET).said("none, sizes are in pixels"),
             dpi.open(UNSET).said("none, sizes are in pixels"),
             paper.open(UNSET).said("none, sizes are in pixels"),
@@ -185,7 +216,7 @@ impl DrawingSettings {
             Setting::flag(
                 "pen",
                 "Draw for a plotter: order lines for short moves with the pen up, write dashes as separate lines, \
-                 leave out the background; an outline with its own width (--class-widths, --look technical) is a layer \
+                 leave out the background and areas; an outline with its own width (--class-widths, --look technical) is a layer \
                  for a second pen",
                 |svg: &Self| svg.is_for_pen,
                 |svg, is_on| svg.is_for_pen = is_on,
@@ -251,6 +282,7 @@ impl DrawingSettings {
                 return Err(Error::value("min-length", length, "a length is a number, 0 or more"));
             }
         }
+        self.hatching.check(WIDTHS, has_paper)?;
         if let Some(error) = self.fit_px {
             if !FIT_PX.contains(&error) {
                 let problem = format!("the error of curves is a number from {} to {}", FIT_PX.start(), FIT_PX.end());
@@ -292,6 +324,7 @@ impl DrawingSettings {
             (Some(width), _) => px(width),
             (None, Layer::Hidden(class)) => self.width_px(Layer::Visible(class), units) * HIDDEN_WIDTH,
             (None, Layer::Visible(Class::Point)) => px(self.width()) * POINT_WIDTHS,
+            (None, Layer::Hatch(_)) => px(self.width()) * HATCH_WIDTH,
             (None, _) => px(self.width()),
         }
     }
@@ -352,6 +385,9 @@ const LEAST_FOLD: f64 = 8.0;
 /// Diameter of the dots that show points, in line widths.
 const POINT_WIDTHS: f64 = 2.0;
 
+/// Width of the strokes of tones, line widths.
+const HATCH_WIDTH: f64 = 0.5;
+
 /// Hidden lines' width and strength, as shares of their class's.
 const HIDDEN_WIDTH: f64 = 0.5;
 const HIDDEN_STRENGTH: f32 = 0.5;
@@ -388,6 +424,18 @@ mod tests {
             assert!(message(DrawingSettings { min_length, ..base() }).starts_with("min-length"));
         }
         assert!(message(DrawingSettings { margin: Millimetres(3.0), ..base() }).starts_with("margin: only"));
+        let spacings =
+            [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9].map(Length::Px).into_iter().chain([Length::Times(0.0)]);
+        for spacing in spacings {
+            let hatching = Hatching { spacing: Some(spacing), ..Hatching::default() };
+            assert!(
+                message(DrawingSettings { hatching, ..base() }).starts_with(&format!("hatch {spacing}: a distance"))
+            );
+        }
+        for angle_degrees in [f64::NAN, f64::INFINITY, 1e9] {
+            let hatching = Hatching { angle_degrees, ..Hatching::default() };
+            assert!(message(DrawingSettings { hatching, ..base() }).starts_with("hatch-angle"));
+        }
         assert!(base().check().is_ok());
     }
 
@@ -398,6 +446,7 @@ mod tests {
         let on_screen = [
             DrawingSettings { line_width: mm, ..base() },
             DrawingSettings { min_length: mm, ..base() },
+            DrawingSettings { hatching: Hatching { spacing: mm, ..Hatching::default() }, ..base() },
             DrawingSettings { class_widths, ..base() },
         ];
         for settings in on_screen {
