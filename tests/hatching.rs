@@ -32,7 +32,7 @@ fn every_style_of_tones_is_hatched_below_its_lines() {
     for style in ["three-pass", "two-pass", "mrt", "ink"] {
         let of = |options: &[&str]| layers(&drawn(&folder, &[&["--style", style], options].concat()));
         let painted = of(&[]);
-        let hatched = of(&["--hatch"]);
+        let hatched = of(&["--hatch", "auto"]);
         let has = |layers: &[(String, usize)], start: &str| layers.iter().any(|(id, _)| id.starts_with(start));
         assert!(!has(&painted, "hatch") && has(&painted, "fill-0"), "{style}");
         let of_strokes: Vec<&str> =
@@ -44,9 +44,9 @@ fn every_style_of_tones_is_hatched_below_its_lines() {
             layers.iter().filter(|(id, _)| id.starts_with("visible")).cloned().collect()
         };
         assert!(!lines(&painted).is_empty() && lines(&painted) == lines(&hatched), "{style}");
-        let two = of(&["--hatch", "--tones", "2", "--no-borders"]);
+        let two = of(&["--hatch", "auto", "--tones", "2", "--no-borders"]);
         assert!(has(&two, "hatch-0") && !has(&two, "hatch-1") && !has(&two, "visible"), "{style}");
-        assert!(!has(&of(&["--hatch", "--tones", "1"]), "hatch"), "{style}");
+        assert!(!has(&of(&["--hatch", "auto", "--tones", "1"]), "hatch"), "{style}");
     }
 }
 
@@ -60,8 +60,8 @@ fn a_bare_model_is_hatched_on_paper_and_a_coloured_one_on_its_colour() {
         made(&[&["render", &bare, "-o", &svg, "--look", "print", "--size", "300"], options].concat());
         std::fs::read_to_string(&svg).unwrap().contains(r#"id="fill-"#)
     };
-    assert!(has_fills(&[]) && !has_fills(&["--hatch"]) && has_fills(&["--hatch", "--color", "tan"]));
-    assert!(!has_fills(&["--pen"]) && !has_fills(&["--pen", "--hatch", "--color", "tan"]));
+    assert!(has_fills(&[]) && !has_fills(&["--hatch", "auto"]) && has_fills(&["--hatch", "auto", "--color", "tan"]));
+    assert!(!has_fills(&["--pen"]) && !has_fills(&["--pen", "--hatch", "auto", "--color", "tan"]));
 }
 
 #[test]
@@ -69,8 +69,7 @@ fn a_sheet_has_strokes_in_millimetres_for_a_pen_of_its_own() {
     let folder = Folder::new();
     let paper = ["--look", "print", "--page", "A4", "--pen", "--class-widths", "hatch=0.25mm"];
     let stroke = |spacing: &str| {
-        let option = format!("--hatch={spacing}");
-        let text = drawn(&folder, &[&paper[..], &[option.as_str()]].concat());
+        let text = drawn(&folder, &[&paper[..], &["--hatch", spacing]].concat());
         let count: usize = layers(&text).iter().filter(|(id, _)| id.starts_with("hatch")).map(|(_, count)| count).sum();
         (text, count)
     };
@@ -79,14 +78,27 @@ fn a_sheet_has_strokes_in_millimetres_for_a_pen_of_its_own() {
     assert!(narrow as f64 > 1.8 * wide as f64 && (narrow as f64) < 2.2 * wide as f64, "{wide} {narrow}");
     let pens = made(
         &[
-            &["render", "builtin:bust", "-o", &folder.path("pens.svg"), "--hatch=1mm", "--explain", "--size", "300"],
+            &["render", "builtin:bust", "-o", &folder.path("pens.svg"), "--hatch", "1mm", "--explain", "--size", "300"],
             &paper[..],
         ]
         .concat(),
     );
     assert!(pens.contains("hatch-0") && pens.contains("hatch-1") && pens.contains("0.25 mm"), "{pens}");
     let pdf = folder.path("a.pdf");
-    made(&["render", "builtin:bust", "-o", &pdf, "--look", "print", "--page", "A4", "--hatch", "--size", "300"]);
+    made(&[
+        "render",
+        "builtin:bust",
+        "-o",
+        &pdf,
+        "--look",
+        "print",
+        "--page",
+        "A4",
+        "--hatch",
+        "auto",
+        "--size",
+        "300",
+    ]);
     let bytes = std::fs::read(&pdf).unwrap();
     assert!(bytes.windows(7).any(|part| part == b"hatch 1"), "a layer of its own");
 }
@@ -94,7 +106,7 @@ fn a_sheet_has_strokes_in_millimetres_for_a_pen_of_its_own() {
 #[test]
 fn a_recipe_keeps_hatching() {
     let folder = Folder::new();
-    let text = drawn(&folder, &["--look", "print", "--page", "A4", "--hatch=1.5mm", "--hatch-angle", "30"]);
+    let text = drawn(&folder, &["--look", "print", "--page", "A4", "--hatch", "1.5mm", "--hatch-angle", "30"]);
     let again = folder.path("again.svg");
     made(&["again", &folder.path("a.svg"), "-o", &again]);
     assert_eq!(std::fs::read_to_string(&again).unwrap(), text);
@@ -109,16 +121,23 @@ fn nonsense_for_strokes_is_refused_by_the_options_name() {
         assert!(!std::path::Path::new(&output).exists());
     };
     for spacing in ["0", "-1", "nan", "inf", "1e9", "0x", "0%"] {
-        let option = format!("--hatch={spacing}");
-        refuse("a.svg", &["--look", "print", &option], &["--hatch", "0.001 to 16384"]);
+        refuse("a.svg", &["--look", "print", "--hatch", spacing], &["--hatch", "0.001 to 16384"]);
     }
-    refuse("a.svg", &["--look", "print", "--hatch=0.001"], &["--hatch 0.001", "strokes", "at most 1000000", "wider"]);
-    refuse("a.svg", &["--look", "print", "--hatch=1mm"], &["--hatch 1mm", "--page A4"]);
-    refuse("a.svg", &["--look", "print", "--hatch=wide"], &["--hatch wide", "0.35mm"]);
-    refuse("a.svg", &["--look", "print", "--hatch", "--hatch-angle", "nan"], &["--hatch-angle NaN", "-360 to 360"]);
-    refuse("a.svg", &["--hatch"], &["--hatch", "lines alone have no tones", "--look print"]);
-    refuse("a.png", &["--look", "print", "--hatch"], &["--hatch", "write a .svg"]);
-    refuse("a.svg", &["--look", "charcoal", "--hatch"], &["--hatch", "write a .svg"]);
+    refuse(
+        "a.svg",
+        &["--look", "print", "--hatch", "0.001"],
+        &["--hatch 0.001", "strokes", "at most 1000000", "wider"],
+    );
+    refuse("a.svg", &["--look", "print", "--hatch", "1mm"], &["--hatch 1mm", "--page A4"]);
+    refuse("a.svg", &["--look", "print", "--hatch", "wide"], &["--hatch wide", "0.35mm"]);
+    refuse(
+        "a.svg",
+        &["--look", "print", "--hatch", "auto", "--hatch-angle", "nan"],
+        &["--hatch-angle NaN", "-360 to 360"],
+    );
+    refuse("a.svg", &["--hatch", "auto"], &["--hatch", "lines alone have no tones", "--look print"]);
+    refuse("a.png", &["--look", "print", "--hatch", "auto"], &["--hatch", "write a .svg"]);
+    refuse("a.svg", &["--look", "charcoal", "--hatch", "auto"], &["--hatch", "write a .svg"]);
 }
 
 #[test]
@@ -132,7 +151,7 @@ fn a_picture_of_pixels_names_options_that_only_vectors_have() {
     let drawn = request.draw(&mut Session::default(), &Default::default()).unwrap();
     let tinta::request::Drawn::Picture(picture) = drawn else { panic!("a picture") };
     assert!(picture.remarks.iter().any(|remark| remark.starts_with("--class-colors has no effect on style ink")));
-    let hatched: Options = [("style", OptionValue::text("ink")), ("hatch", OptionValue::Switch(true))]
+    let hatched: Options = [("style", OptionValue::text("ink")), ("hatch", OptionValue::text("auto"))]
         .map(|(name, value)| (name.to_owned(), value))
         .into();
     let (request, _) = Request::from_layers(&[Layer::Given(hatched)]).unwrap();

@@ -137,21 +137,21 @@ impl DrawingSettings {
         let hatch = Setting::of(
             "hatch",
             "SPACING",
-            Kind::Text { offered: &["1mm", "6x"], example: "8x" },
-            "Draw the tones of --look print and styles with tones as strokes, this far apart, in place of areas: in pixels of \
-             --size, millimetres (1mm) or widths of a stroke (6x, the same as --hatch alone); none for the brightest tone, \
-             crossed ones for the darkest of three",
+            Kind::Text { offered: &[AUTO, "1mm", "6x"], example: "8x" },
+            "Distance between strokes that draw the tones of --look print and other styles with tones, in place of areas: pixels \
+             of --size, millimetres (1mm), widths of a stroke (8x), or auto (6x); the brightest tone has no strokes, the darkest \
+             of three has crossed ones",
             |svg: &Self| svg.hatching.spacing.map_or(UNSET.to_owned(), |spacing| spacing.text()),
             |svg, text| {
                 svg.hatching.spacing = match text {
                     UNSET => None,
-                    "" => Some(AUTO_SPACING),
+                    AUTO => Some(AUTO_SPACING),
                     text => Some(Length::parse(text)?),
                 };
                 Ok(())
             },
         );
-        let hatch = hatch.open(UNSET).said("none, areas").standing_alone();
+        let hatch = hatch.open(UNSET).said("none, areas");
         let hatch_angle = Setting::field(
             "hatch-angle",
             "DEGREES",
