@@ -118,8 +118,12 @@ impl Vectors {
     ///
     /// Those of [`Regions::toned`].
     pub fn regions(&self, scene: &Scene, progress: &Progress) -> Result<Regions<Option<TonedSurface>>> {
-        let rule = ToneRule { light: self.light, thresholds: self.tones.thresholds().map(f64::from) };
-        Regions::toned(scene, &rule, progress)
+        Regions::toned(scene, &self.rule(), progress)
+    }
+
+    /// How light becomes tones.
+    pub fn rule(&self) -> ToneRule {
+        ToneRule { light: self.light, thresholds: self.tones.thresholds().map(f64::from) }
     }
 
     /// The colour of a surface: its material's, times its tone.
