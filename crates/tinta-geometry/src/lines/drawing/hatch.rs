@@ -9,6 +9,7 @@
 use crate::error::{Error, Result};
 use crate::lines::drawing::length::Length;
 use crate::lines::regions::Regions;
+use crate::settings::{Kind, Setting, Value};
 use glam::DVec2;
 use std::ops::RangeInclusive;
 
@@ -27,10 +28,44 @@ impl Default for Hatching {
     }
 }
 
-/// The spacing where only hatching is asked for: strokes cover a sixth of a tone, two crossed directions almost a third.
-pub(in crate::lines) const AUTO_SPACING: Length = Length::Times(6.0);
+/// The text for no strokes.
+const NONE: &str = "none";
+
+/// The text for [`AUTO_SPACING`].
+const AUTO: &str = "auto";
+
+/// The spacing that follows from the strokes' width: they cover a sixth of a tone, two crossed directions almost a third.
+const AUTO_SPACING: Length = Length::Times(6.0);
 
 impl Hatching {
+    /// Its settings.
+    pub(in crate::lines) fn settings() -> Vec<Setting<Self>> {
+        let spacing = Setting::of(
+            "hatch",
+            "SPACING",
+            Kind::Text { offered: &[AUTO, "1mm", "6x"], example: "8x" },
+            "Distance between strokes that draw the tones of --look print and other styles with tones, in place of areas: pixels \
+             of --size, millimetres (1mm), widths of a stroke (8x), or auto (6x); the brightest tone has no strokes, the darkest \
+             of three has crossed ones",
+            |hatching: &Self| hatching.spacing.map_or(NONE.to_owned(), |spacing| spacing.text()),
+            |hatching, text| {
+                hatching.spacing = match text {
+                    NONE => None,
+                    AUTO => Some(AUTO_SPACING),
+                    text => Some(Length::parse(text)?),
+                };
+                Ok(())
+            },
+        );
+        let angle = Setting::field(
+            "hatch-angle",
+            "DEGREES",
+            "Direction of the strokes of --hatch, degrees from the horizontal, rising to the right",
+            |hatching: &mut Self| &mut hatching.angle_degrees,
+        );
+        vec![spacing.open(NONE).said("none, areas"), angle.range(-90.0, 90.0, 0)]
+    }
+
     /// Refuses a spacing outside `allowed`, millimetres without a size on paper, and angles beyond a full turn.
     pub(in crate::lines) fn check(self, allowed: RangeInclusive<f64>, has_paper: bool) -> Result<()> {
         if let Some(spacing) = self.spacing {

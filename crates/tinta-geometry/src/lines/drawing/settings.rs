@@ -3,12 +3,12 @@
 use crate::edges::Class;
 use crate::error::{Error, Result};
 use crate::lines::drawing::curves::FIT_PX;
-use crate::lines::drawing::hatch::{AUTO_SPACING, Hatching};
+use crate::lines::drawing::hatch::Hatching;
 use crate::lines::drawing::layers::{ClassColors, ClassWidths, Layer};
 use crate::lines::drawing::length::{LINE_WIDTH, LINE_WIDTH_RANGE, LINE_WIDTH_SAID, Length, Millimetres, Units};
 use crate::lines::drawing::page::{PageSize, Paper};
 use crate::scene::{Background, Color};
-use crate::settings::{HasSettings, Kind, Setting, Table, Value, under};
+use crate::settings::{HasSettings, Kind, Setting, Table, Value, under, within};
 use std::sync::LazyLock;
 
 /// The settings of a drawing.
@@ -134,31 +134,6 @@ impl DrawingSettings {
                 Ok(())
             },
         );
-        let hatch = Setting::of(
-            "hatch",
-            "SPACING",
-            Kind::Text { offered: &[AUTO, "1mm", "6x"], example: "8x" },
-            "Distance between strokes that draw the tones of --look print and other styles with tones, in place of areas: pixels \
-             of --size, millimetres (1mm), widths of a stroke (8x), or auto (6x); the brightest tone has no strokes, the darkest \
-             of three has crossed ones",
-            |svg: &Self| svg.hatching.spacing.map_or(UNSET.to_owned(), |spacing| spacing.text()),
-            |svg, text| {
-                svg.hatching.spacing = match text {
-                    UNSET => None,
-                    AUTO => Some(AUTO_SPACING),
-                    text => Some(Length::parse(text)?),
-                };
-                Ok(())
-            },
-        );
-        let hatch = hatch.open(UNSET).said("none, areas");
-        let hatch_angle = Setting::field(
-            "hatch-angle",
-            "DEGREES",
-            "Direction of the strokes of --hatch, degrees from the horizontal, rising to the right",
-            |svg: &mut Self| &mut svg.hatching.angle_degrees,
-        );
-        let hatch_angle = hatch_angle.range(-90.0, 90.0, 0);
         let (name, value_name, help) = LINE_WIDTH;
         let (low, high, decimals) = LINE_WIDTH_RANGE;
         let settings = vec![
@@ -201,8 +176,6 @@ impl DrawingSettings {
             )
             .range(*FIT_PX.start(), *FIT_PX.end(), 2)
             .said("none, only straight segments"),
-            hatch,
-            hatch_angle,
             width.open(UNSET).said("none, sizes are in pixels"),
             dpi.open(UNSET).said("none, sizes are in pixels"),
             paper.open(UNSET).said("none, sizes are in pixels"),
@@ -225,7 +198,8 @@ impl DrawingSettings {
         let heading = "Style lines: exact visible lines, as vectors into FILE.svg, FILE.pdf or FILE.json, as pixels \
             into FILE.png with --look technical or --style lines; also --classes, --class-colors, --line-width, \
             --crease-angle";
-        under(heading, settings).collect()
+        let hatching = within(Hatching::settings(), |svg: &mut Self| Some(&mut svg.hatching));
+        under(heading, settings.into_iter().chain(hatching).collect()).collect()
     }
 }
 
