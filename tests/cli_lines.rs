@@ -211,10 +211,7 @@ fn inking_has_no_intersections() {
     let folder = Folder::new();
     let out = folder.path("a.png");
     let ink = ["render", "builtin:ant", "-o", &out, "--style", "inking", "--size", "32", "--classes"];
-    refused_in_one_line(
-        &[&ink[..], &["intersection"]].concat(),
-        &["--classes intersection", "only exact lines and areas"],
-    );
+    refused_in_one_line(&[&ink[..], &["intersection"]].concat(), &["--classes intersection", "only style lines"]);
     made(&[&ink[..], &["all"]].concat());
 }
 

@@ -34,6 +34,9 @@ const NONE: &str = "none";
 /// The text for [`AUTO_SPACING`].
 const AUTO: &str = "auto";
 
+/// The error for a text that is no spacing.
+const USAGE: &str = "give pixels, millimetres on paper, widths of a stroke, or auto: 8, 1mm or 6x";
+
 /// The spacing that follows from the strokes' width: they cover a sixth of a tone, two crossed directions almost a third.
 const AUTO_SPACING: Length = Length::Times(6.0);
 
@@ -52,7 +55,7 @@ impl Hatching {
                 hatching.spacing = match text {
                     NONE => None,
                     AUTO => Some(AUTO_SPACING),
-                    text => Some(Length::parse(text)?),
+                    text => Some(text.parse().map_err(|_| USAGE.to_owned())?),
                 };
                 Ok(())
             },
