@@ -2,7 +2,6 @@
 //! GL here.
 
 use super::{Cartoon, CreaseBy, Ink, LineWidth, Mrt, Style, Tones};
-use crate::edges::{Class, ClassSet};
 use crate::error::{Error, Result};
 use crate::lines::{
     Areas, DrawingSettings, LineSettings, Progress, Regions, ToneLight, ToneRule, TonedSurface, VisibleLines, fills,
@@ -36,7 +35,8 @@ impl Style {
         let of_cartoon = |tones: &Tones, border: Option<Option<LineWidth>>| Vectors {
             tones: tones.clone(),
             light: ToneLight::Near(LISTED_LIGHT),
-            lines: border.map(|_| LineSettings::default()),
+            // The listing's filter compares normals.
+            lines: border.map(|_| LineSettings { creases_by_normals: true, ..LineSettings::default() }),
             drawing: drawing([border.flatten().unwrap_or(LISTED_WIDTH); 2], size),
         };
         match self {
@@ -52,14 +52,8 @@ impl Style {
 fn of_ink(ink: &Ink, size: Size) -> Vectors {
     let direction = |light: [f32; 3]| DVec3::from_array(light.map(f64::from)).normalize_or_zero();
     let all = LineSettings { crease_angle: ink.crease_angle, ..LineSettings::default() };
-    let settings = match ink.crease_by {
-        // The pixels' creases are where the model's normals are split.
-        CreaseBy::Normals => {
-            let classes = all.classes.without(&[Class::Crease]).or(ClassSet::of(&[Class::Normal]));
-            LineSettings { classes, ..all }
-        }
-        _ => all,
-    };
+    // The pixels' creases are where the model's normals are split.
+    let settings = LineSettings { creases_by_normals: ink.crease_by == CreaseBy::Normals, ..all };
     let widths = [ink.line_width, ink.inner_width.unwrap_or(ink.line_width)];
     Vectors {
         tones: ink.tones.clone(),
