@@ -153,8 +153,24 @@ const MISTAKES: [(&str, &str); 88] = [
         "out.svg: style phong draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture such as drawing.png",
     ),
     (
-        "render triangle.obj -o out.json --look print",
-        "out.json: look print draws areas and lines, for which this format has no place; name a .svg, a .pdf or a picture such as drawing.png",
+        "render triangle.obj -o out.json --look charcoal",
+        "out.json: look charcoal draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture such as drawing.png",
+    ),
+    (
+        "render triangle.obj -o out.svg --no-borders",
+        "--no-borders: style lines draws nothing but lines; leave it out, or add --areas object",
+    ),
+    (
+        "render triangle.obj -o out.svg --areas face --pen",
+        "--areas: a pen draws lines alone; leave out one of --areas and --pen",
+    ),
+    (
+        "render triangle.obj -o out.png --style lines --areas face",
+        "--areas: a picture of exact lines has no areas; leave it out, or write a .svg",
+    ),
+    (
+        "render triangle.obj -o out-%d.svg --areas object --turntable 3",
+        "--turntable: areas are drawn from one view; leave it out, or draw lines alone",
     ),
     (
         "render triangle.obj -o out.pdf --look charcoal --style sand",

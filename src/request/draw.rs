@@ -4,14 +4,14 @@ use super::{ModelCache, Request, Session};
 use crate::clock::Instant;
 use crate::edges::SilhouetteRule;
 use crate::error::{Error, Result};
-use crate::lines::{DrawingSettings, FillGroup, LineSettings, Progress, VisibleLines};
+use crate::lines::{DrawingSettings, LineSettings, Progress, VisibleLines};
 use crate::mesh::{LoadStage, Mesh};
 use crate::picture::Picture;
 use crate::plan::Plan;
 use crate::plan::prune::{Kept, Omission, Pruned, prune};
 use crate::renderer::{Renderer, milliseconds_since};
 use crate::scene::Scene;
-use crate::styles::{LineStyle, Vectors};
+use crate::styles::{Areas, LineStyle, Vectors};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -77,8 +77,8 @@ pub struct DrawnLines {
     pub style: LineStyle,
     /// The lines.
     pub lines: VisibleLines,
-    /// The areas below them, in the order in which they are painted; empty in styles of lines alone.
-    pub fills: Vec<FillGroup>,
+    /// The areas below them; `None` in a drawing of lines alone.
+    pub areas: Option<Areas>,
     /// Remarks for the user, a sentence each.
     pub remarks: Vec<String>,
     /// How long reading took, milliseconds.
@@ -113,25 +113,37 @@ impl Request {
     ///
     /// Those of reading, of the settings with this scene, of the way to OpenGL; [`Error::Cancelled`] where `progress` was.
     pub fn draw(&self, session: &mut Session, progress: &Progress) -> Result<Drawn> {
-        let vectors = self.vectors();
-        if self.style.lines().is_none() && vectors.is_none() {
+        if self.style.lines().is_none() && self.vectors().is_none() {
             return self.picture(session).map(|picture| Drawn::Picture(Box::new(picture)));
         }
         let ReadModels { meshes, files, ms: load_ms, .. } = self.models(&session.models)?;
         let scene = Scene::new(meshes, &self.scene)?;
-        let fills = vectors.as_ref().map_or(Ok(Vec::new()), |vectors| vectors.fills(&scene, progress))?;
-        let remarks = vectors.as_ref().map_or(Vec::new(), |vectors| vectors.remarks(&scene));
-        let lines = match vectors {
-            Some(vectors) if vectors.lines.is_none() => VisibleLines::none(scene.size),
-            _ => self.lines(&scene, progress)?,
-        };
         let style = self.line_style().unwrap_or_default();
-        Ok(Drawn::Lines(Box::new(DrawnLines { scene, files, style, lines, fills, remarks, load_ms })))
+        style.check()?;
+        let areas = self.areas(&scene, progress)?;
+        let remarks = self.vectors().map_or(Vec::new(), |vectors| vectors.remarks(&scene));
+        let lines = self.lines(&scene, progress)?;
+        Ok(Drawn::Lines(Box::new(DrawnLines { scene, files, style, lines, areas, remarks, load_ms })))
     }
 
-    /// The vectors of this request's style of passes; `None` where it draws pixels.
-    fn vectors(&self) -> Option<Vectors> {
-        self.as_vectors.then(|| self.style.vectors(self.scene.size)).flatten()
+    /// The areas, and the lines above them, of a style that has areas; `None` where it draws pixels.
+    pub fn vectors(&self) -> Option<Vectors> {
+        let is_drawn = self.as_vectors || self.style.lines().is_some();
+        is_drawn.then(|| self.style.vectors(self.scene.size)).flatten()
+    }
+
+    /// Whether the drawing has areas and no lines.
+    fn is_of_areas_alone(&self) -> bool {
+        self.vectors().is_some_and(|vectors| vectors.lines.is_none())
+    }
+
+    /// Finds the areas of a scene below the lines; `None` in a drawing of lines alone.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Vectors::areas`].
+    pub fn areas(&self, scene: &Scene, progress: &Progress) -> Result<Option<Areas>> {
+        self.vectors().map(|vectors| vectors.areas(scene, progress)).transpose()
     }
 
     /// Reads the models.
@@ -161,9 +173,9 @@ impl Request {
     /// pixels.
     pub fn line_style(&self) -> Option<LineStyle> {
         let of_vectors = || self.vectors().map(|vectors| vectors.lines.unwrap_or_default());
-        let LineStyle { lines, drawing } = self.style.lines().or_else(of_vectors)?;
-        let drawing = DrawingSettings { title: self.title(), background: self.scene.background, ..drawing };
-        Some(LineStyle { lines, drawing })
+        let style = self.style.lines().or_else(of_vectors)?;
+        let drawing = DrawingSettings { title: self.title(), background: self.scene.background, ..style.drawing };
+        Some(LineStyle { drawing, ..style })
     }
 
     /// The lines to find for this style.
@@ -178,8 +190,10 @@ impl Request {
     /// Whether the result of this request also serves another request for the same lines, whichever parts that one shows.
     pub fn finds_all_for(&self, other: &Self) -> bool {
         let wanted = [self, other].map(|request| request.line_style().map(|style| request.wanted(&style)));
-        let [Some(own), Some(other)] = wanted else { return false };
-        own.finds_hidden >= other.finds_hidden && own.finds_outline >= other.finds_outline
+        let [Some(of_own), Some(of_other)] = wanted else { return false };
+        self.is_of_areas_alone() == other.is_of_areas_alone()
+            && of_own.finds_hidden >= of_other.finds_hidden
+            && of_own.finds_outline >= of_other.finds_outline
     }
 
     /// Finds the lines of a scene that the drawing shows, short ones too.
@@ -192,7 +206,10 @@ impl Request {
             let problem = "this style draws a picture in passes; choose a style of lines";
             return Err(Error::value("style", self.style.name(), problem));
         };
-        style.drawing.check()?;
+        style.check()?;
+        if self.is_of_areas_alone() {
+            return Ok(VisibleLines::none(scene.size));
+        }
         VisibleLines::with_progress(scene, &self.wanted(&style), progress)
     }
 

@@ -1,23 +1,42 @@
-//! What a cartoon style draws into a file of vectors: exact areas of tone, and exact lines above them. No GL here.
+//! What a style draws into a file of vectors: exact areas, and exact lines above them. No GL here.
 
 use super::{Cartoon, CreaseBy, Ink, LineStyle, LineWidth, Mrt, Style, Tones};
 use crate::edges::{Class, ClassSet};
 use crate::error::{Error, Result};
 use crate::lines::{
-    DrawingSettings, FillGroup, LineSettings, Progress, Regions, ToneLight, ToneRule, TonedSurface, fills,
+    DrawingSettings, FillGroup, Joined, LineSettings, Progress, Regions, Surface, ToneLight, ToneRule, TonedSurface,
+    fills, painted,
 };
+use crate::mesh::NONE;
 use crate::scene::{Color, Scene, Size};
 use glam::DVec3;
+use std::f64::consts::TAU;
 use tinta_geometry::lines::Length;
 
-/// The vectors of a style of passes.
+/// The vectors of a style.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vectors {
-    /// The tones.
-    tones: Tones,
-    light: ToneLight,
+    rule: AreaRule,
     /// The lines above; `None` without.
     pub lines: Option<LineStyle>,
+}
+
+/// What an area is.
+#[derive(Debug, Clone, PartialEq)]
+enum AreaRule {
+    /// A tone of an object's material.
+    Tones(Tones, ToneLight),
+    /// A face, a material or an object.
+    Joined(Joined),
+}
+
+/// The areas of a view.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Areas {
+    /// The areas with the background, which fill the picture.
+    pub regions: Regions<Option<Surface>>,
+    /// The areas as they are painted.
+    pub fills: Vec<FillGroup>,
 }
 
 /// Place of the light in `toon.vert`, scene radii from the eye.
@@ -27,11 +46,10 @@ const LISTED_LIGHT: DVec3 = DVec3::ONE;
 const LISTED_WIDTH: LineWidth = LineWidth::Pixels(2);
 
 impl Style {
-    /// What this style draws into a file of vectors of this size; `None` for a style that has no areas of tone.
+    /// What this style draws into a file of vectors of this size; `None` for a style without areas.
     pub fn vectors(&self, size: Size) -> Option<Vectors> {
         let of_cartoon = |tones: &Tones, border: Option<Option<LineWidth>>| Vectors {
-            tones: tones.clone(),
-            light: ToneLight::Near(LISTED_LIGHT),
+            rule: AreaRule::Tones(tones.clone(), ToneLight::Near(LISTED_LIGHT)),
             lines: border.map(|width| lines(LineSettings::default(), [width.unwrap_or(LISTED_WIDTH); 2], size)),
         };
         match self {
@@ -39,6 +57,7 @@ impl Style {
             | Self::TwoPass(Cartoon { tones, border, .. })
             | Self::Mrt(Mrt { tones, border, .. }) => Some(of_cartoon(tones, border.map(|border| border.width))),
             Self::Ink(ink) => Some(of_ink(ink, size)),
+            Self::Lines(style) => style.areas.map(|joined| of_lines(style, joined)),
             _ => None,
         }
     }
@@ -56,11 +75,15 @@ fn of_ink(ink: &Ink, size: Size) -> Vectors {
         _ => all,
     };
     let widths = [ink.line_width, ink.inner_width.unwrap_or(ink.line_width)];
+    let light = ink.tone_light.map_or(ToneLight::Near(LISTED_LIGHT), |light| ToneLight::Far(direction(light)));
     Vectors {
-        tones: ink.tones.clone(),
-        light: ink.tone_light.map_or(ToneLight::Near(LISTED_LIGHT), |light| ToneLight::Far(direction(light))),
+        rule: AreaRule::Tones(ink.tones.clone(), light),
         lines: ink.is_inked.then(|| lines(settings, widths, size)),
     }
+}
+
+fn of_lines(style: &LineStyle, joined: Joined) -> Vectors {
+    Vectors { rule: AreaRule::Joined(joined), lines: (!style.is_of_areas_alone).then(|| style.clone()) }
 }
 
 /// Exact lines of these widths: the outline's, and those inside.
@@ -70,51 +93,52 @@ fn lines(lines: LineSettings, [outline, inner]: [LineWidth; 2], size: Size) -> L
     if outline != inner {
         drawing.class_widths.0.set_outline(px(outline));
     }
-    LineStyle { lines, drawing }
+    LineStyle { lines, drawing, ..LineStyle::default() }
 }
 
 impl Vectors {
+    /// Returns the areas of a scene: without lines above them, those of faces, materials and objects are their polygons alone.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for invalid tones; those of [`Regions::toned`] and [`Regions::joined_by`].
+    pub fn areas(&self, scene: &Scene, progress: &Progress) -> Result<Areas> {
+        match &self.rule {
+            AreaRule::Tones(tones, light) => {
+                tones.check()?;
+                let rule = ToneRule { light: *light, thresholds: tones.thresholds().map(f64::from) };
+                let regions = whole(Regions::toned(scene, &rule, progress)?)?;
+                let color = |TonedSurface { object, material, tone }| {
+                    let Color(color) = own_color(scene, object, material);
+                    Color(color.map(|channel| channel * tones.levels[usize::from(tone)]))
+                };
+                let fills = fills(&regions, color);
+                Ok(Areas { regions: regions.labelled(|seen| seen.map(Surface::from)), fills })
+            }
+            AreaRule::Joined(joined) => {
+                let regions = whole(Regions::joined_by(scene, *joined, progress)?)?;
+                let fills =
+                    painted(&regions, self.lines.is_some(), |number| joined_color(scene, &regions, number, *joined));
+                Ok(Areas { regions, fills })
+            }
+        }
+    }
+
     /// Returns the areas of a scene as they are painted.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for invalid tones; those of [`Regions::toned`].
+    /// Those of [`Vectors::areas`].
     pub fn fills(&self, scene: &Scene, progress: &Progress) -> Result<Vec<FillGroup>> {
-        self.tones.check()?;
-        let regions = self.regions(scene, progress)?;
-        if regions.broken > 0 {
-            let problem = format!(
-                "{} borders of areas do not close; this is a bug in tinta: report it with the model",
-                regions.broken
-            );
-            return Err(Error::Lines { problem });
-        }
-        Ok(fills(&regions, |surface| self.color(scene, surface)))
-    }
-
-    /// Returns the areas of a scene by object, material and tone.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Regions::toned`].
-    pub fn regions(&self, scene: &Scene, progress: &Progress) -> Result<Regions<Option<TonedSurface>>> {
-        let rule = ToneRule { light: self.light, thresholds: self.tones.thresholds().map(f64::from) };
-        Regions::toned(scene, &rule, progress)
-    }
-
-    /// The colour of a surface: its material's, times its tone.
-    pub fn color(&self, scene: &Scene, surface: TonedSurface) -> Color {
-        let mesh = &scene.objects[surface.object as usize].mesh;
-        let Color(color) = scene.material_color(mesh, surface.material);
-        let level = self.tones.levels[usize::from(surface.tone)];
-        // Under vertex colours a material is white; an area has one colour, so their mean.
-        let own = if scene.shows_vertex_colors(mesh) { mean(&mesh.position_colors) } else { [1.0; 3] };
-        Color([0, 1, 2].map(|channel| color[channel] * own[channel] * level))
+        Ok(self.areas(scene, progress)?.fills)
     }
 
     /// Returns remarks on what the areas leave out, a sentence each.
     pub fn remarks(&self, scene: &Scene) -> Vec<String> {
         let mut remarks = Vec::new();
+        if matches!(self.rule, AreaRule::Joined(Joined::Face | Joined::Object)) {
+            return remarks;
+        }
         if scene.objects.iter().any(|object| scene.shows_vertex_colors(&object.mesh)) {
             remarks.push("vectors draw each object in the mean of its colours at vertices".to_owned());
         }
@@ -123,6 +147,42 @@ impl Vectors {
         }
         remarks
     }
+}
+
+/// Refuses regions with borders that do not close.
+fn whole<T>(regions: Regions<T>) -> Result<Regions<T>> {
+    if regions.broken == 0 {
+        return Ok(regions);
+    }
+    let problem =
+        format!("{} borders of areas do not close; this is a bug in tinta: report it with the model", regions.broken);
+    Err(Error::Lines { problem })
+}
+
+/// The colour of an area: its material's, or one for its face's or its object's number.
+fn joined_color(scene: &Scene, regions: &Regions<Option<Surface>>, number: usize, joined: Joined) -> Color {
+    let Some(Surface { object, material, face, .. }) = regions.regions[number].seen else { return Color([1.0; 3]) };
+    match joined {
+        Joined::Face => numbered(face.unwrap_or_default()),
+        Joined::Material => own_color(scene, object, material.unwrap_or(NONE)),
+        Joined::Object => numbered(object),
+    }
+}
+
+/// A light colour for a number, unlike those of the numbers next to it.
+fn numbered(number: u32) -> Color {
+    /// The golden ratio: its multiples divide the circle of hues evenly.
+    const TURN: f64 = 0.618_033_988_749_895;
+    let channel = |third: f64| 0.68 + 0.24 * ((f64::from(number) * TURN + third / 3.0) * TAU).cos();
+    Color([0.0, 1.0, 2.0].map(|third| channel(third) as f32))
+}
+
+/// The colour of an object's material. Under vertex colours a material is white; an area has one colour, so their mean.
+fn own_color(scene: &Scene, object: u32, material: u32) -> Color {
+    let mesh = &scene.objects[object as usize].mesh;
+    let Color(color) = scene.material_color(mesh, material);
+    let own = if scene.shows_vertex_colors(mesh) { mean(&mesh.position_colors) } else { [1.0; 3] };
+    Color([0, 1, 2].map(|channel| color[channel] * own[channel]))
 }
 
 /// The mean of colours.
