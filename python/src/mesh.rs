@@ -214,6 +214,14 @@ impl Mesh {
         Ok(Self::new(mesh, None, self.options.clone(), self.files.clone(), self.remarks.clone()))
     }
 
+    /// This mesh, made of the triangles of another, with the numbers of the other's given faces.
+    fn with_faces_of(&self, other: &Self) -> Self {
+        let face = |triangle: u32| other.mesh.file_face(self.mesh.file_face(triangle));
+        let file_faces = (0..self.mesh.triangles.len() as u32).map(face).collect();
+        let mesh = tinta::Mesh { file_faces, ..(*self.mesh).clone() };
+        Self::new(mesh, None, self.options.clone(), self.files.clone(), self.remarks.clone())
+    }
+
     /// Reads a mesh from a file.
     #[staticmethod]
     fn of_file(py: Python<'_>, path: String, given: &Bound<'_, PyDict>) -> PyResult<Self> {

@@ -145,9 +145,9 @@ def _colors(actor, surface):
         values = np.linalg.norm(values, axis=1)
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-    table = type(mapper.lookup_table)()
-    table.DeepCopy(mapper.lookup_table)
-    if not mapper.GetUseLookupTableScalarRange():
+    table = mapper.lookup_table
+    if not mapper.GetUseLookupTableScalarRange() and hasattr(table, "SetTableRange"):
+        # As a mapper does before it draws.
         table.SetTableRange(*mapper.scalar_range)
     mapped = table.MapScalars(numpy_to_vtk(np.ascontiguousarray(values, dtype=float)), 1, -1)
     return vtk_to_numpy(mapped)[:, :3] / 255.0
