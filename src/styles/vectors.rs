@@ -1,7 +1,6 @@
 //! What a style draws into a file of vectors: exact areas, and exact lines above them. No GL here.
 
 use super::{Cartoon, CreaseBy, Ink, LineStyle, LineWidth, Mrt, Style, Tones};
-use crate::edges::{Class, ClassSet};
 use crate::error::{Error, Result};
 use crate::lines::{
     DrawingSettings, FillGroup, Joined, LineSettings, Progress, Regions, Surface, ToneLight, ToneRule, TonedSurface,
@@ -50,7 +49,11 @@ impl Style {
     pub fn vectors(&self, size: Size) -> Option<Vectors> {
         let of_cartoon = |tones: &Tones, border: Option<Option<LineWidth>>| Vectors {
             rule: AreaRule::Tones(tones.clone(), ToneLight::Near(LISTED_LIGHT)),
-            lines: border.map(|width| lines(LineSettings::default(), [width.unwrap_or(LISTED_WIDTH); 2], size)),
+            lines: border.map(|width| {
+                // The listing's filter compares normals.
+                let settings = LineSettings { creases_by_normals: true, ..LineSettings::default() };
+                lines(settings, [width.unwrap_or(LISTED_WIDTH); 2], size)
+            }),
         };
         match self {
             Self::ThreePass(Cartoon { tones, border, .. })
@@ -66,14 +69,8 @@ impl Style {
 fn of_ink(ink: &Ink, size: Size) -> Vectors {
     let direction = |light: [f32; 3]| DVec3::from_array(light.map(f64::from)).normalize_or_zero();
     let all = LineSettings { crease_angle: ink.crease_angle, ..LineSettings::default() };
-    let settings = match ink.crease_by {
-        // The pixels' creases are where the model's normals are split.
-        CreaseBy::Normals => {
-            let classes = all.classes.without(&[Class::Crease]).or(ClassSet::of(&[Class::Normal]));
-            LineSettings { classes, ..all }
-        }
-        _ => all,
-    };
+    // The pixels' creases are where the model's normals are split.
+    let settings = LineSettings { creases_by_normals: ink.crease_by == CreaseBy::Normals, ..all };
     let widths = [ink.line_width, ink.inner_width.unwrap_or(ink.line_width)];
     let light = ink.tone_light.map_or(ToneLight::Near(LISTED_LIGHT), |light| ToneLight::Far(direction(light)));
     Vectors {
@@ -106,8 +103,7 @@ impl Vectors {
         match &self.rule {
             AreaRule::Tones(tones, light) => {
                 tones.check()?;
-                let rule = ToneRule { light: *light, thresholds: tones.thresholds().map(f64::from) };
-                let regions = whole(Regions::toned(scene, &rule, progress)?)?;
+                let regions = whole(Regions::toned(scene, &tone_rule(tones, *light), progress)?)?;
                 let color = |TonedSurface { object, material, tone }| {
                     let Color(color) = own_color(scene, object, material);
                     Color(color.map(|channel| channel * tones.levels[usize::from(tone)]))
@@ -133,6 +129,14 @@ impl Vectors {
         Ok(self.areas(scene, progress)?.fills)
     }
 
+    /// How light becomes tones; `None` for areas of faces, materials and objects.
+    pub fn rule(&self) -> Option<ToneRule> {
+        match &self.rule {
+            AreaRule::Tones(tones, light) => Some(tone_rule(tones, *light)),
+            AreaRule::Joined(_) => None,
+        }
+    }
+
     /// Returns remarks on what the areas leave out, a sentence each.
     pub fn remarks(&self, scene: &Scene) -> Vec<String> {
         let mut remarks = Vec::new();
@@ -147,6 +151,10 @@ impl Vectors {
         }
         remarks
     }
+}
+
+fn tone_rule(tones: &Tones, light: ToneLight) -> ToneRule {
+    ToneRule { light, thresholds: tones.thresholds().map(f64::from) }
 }
 
 /// Refuses regions with borders that do not close.

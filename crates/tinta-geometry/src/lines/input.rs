@@ -6,5 +6,6 @@ pub(super) mod face_subset;
 pub(super) mod feature;
 pub(super) mod features;
 pub(super) mod mesh_repair;
+mod normal_creases;
 pub(super) mod object_edges;
 pub(super) mod split_t_junctions;
