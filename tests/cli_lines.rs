@@ -62,7 +62,10 @@ fn lines_are_written_as_json_and_their_record_is_printed() {
 /// The JSON file of a drawing with these options.
 fn json(folder: &Folder, options: &[&str]) -> serde_json::Value {
     let out = folder.path("areas.json");
-    made(&[&["render", "builtin:soldier", "builtin:open-box", "-o", &out, "--size", "96x64"], options].concat());
+    // The look print tells that it leaves out the soldier's texture.
+    let output =
+        tinta(&[&["render", "builtin:soldier", "builtin:open-box", "-o", &out, "--size", "96x64"], options].concat());
+    assert_eq!(output.status.code(), Some(0), "{options:?}: {}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap()
 }
 
