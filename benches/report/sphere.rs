@@ -42,6 +42,7 @@ pub fn bumpy_sphere(triangles: usize) -> Mesh {
         triangle_texture_coordinates: Vec::new(),
         materials: Vec::new(),
         triangle_materials: Vec::new(),
+        file_faces: Vec::new(),
         position_colors: Vec::new(),
         marked: Vec::new(),
         curves: Default::default(),

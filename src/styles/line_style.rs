@@ -1,10 +1,15 @@
 //! Exact visible lines as a style: the lines to find and how to draw them.
 
-use crate::lines::{DrawingSettings, Hidden, LineSettings};
-use crate::settings::{Setting, within};
+use super::headings::no_borders;
+use crate::error::{Error, Result};
+use crate::lines::{DrawingSettings, Hidden, Joined, LineSettings};
+use crate::settings::{Setting, under, within};
 
 /// The heading of edge settings.
 const LINES: &str = "Style lines: which lines";
+
+/// The heading of settings of areas.
+const AREAS: &str = "Style lines: areas below the lines";
 
 /// Exact visible lines.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -13,10 +18,14 @@ pub struct LineStyle {
     pub lines: LineSettings,
     /// How they are drawn.
     pub drawing: DrawingSettings,
+    /// By what the areas below the lines are joined. Default `None`: no areas.
+    pub areas: Option<Joined>,
+    /// Whether the areas are drawn without lines. Default no.
+    pub is_of_areas_alone: bool,
 }
 
 impl LineStyle {
-    /// Returns the settings of the lines, then of the drawing.
+    /// Returns the settings of the lines, of the areas, then of the drawing.
     pub(super) fn settings() -> Vec<Setting<Self>> {
         let lines = within(LineSettings::settings(), |style: &mut Self| Some(&mut style.lines));
         // Settings of edges have no heading here because other styles share them.
@@ -24,7 +33,29 @@ impl LineStyle {
             setting.heading = if setting.heading.is_empty() { LINES } else { setting.heading };
             setting
         });
+        let areas = Setting::open_field(
+            "areas",
+            "WHAT",
+            "none",
+            "Exact areas below the lines: of each face, of each material, or of each object, whose outlines they are; a .json \
+             file lists them",
+            |style: &mut Self| &mut style.areas,
+        );
+        let alone = no_borders(|style: &Self| style.is_of_areas_alone, |style, is_it| style.is_of_areas_alone = is_it);
+        let lines = lines.chain(under(AREAS, vec![areas, alone]));
         lines.chain(within(DrawingSettings::settings(), |style: &mut Self| Some(&mut style.drawing))).collect()
+    }
+
+    /// Refuses a drawing of nothing, and areas by a pen.
+    pub(crate) fn check(&self) -> Result<()> {
+        if self.is_of_areas_alone && self.areas.is_none() {
+            let problem = "style lines draws nothing but lines; leave it out, or add --areas object";
+            return Err(Error::setting("no-borders", problem));
+        }
+        if self.drawing.is_for_pen && self.areas.is_some() {
+            return Err(Error::setting("areas", "a pen draws lines alone; leave out one of --areas and --pen"));
+        }
+        self.drawing.check()
     }
 
     /// Returns the lines to find for this drawing: outlines and hidden lines only if they show.

@@ -136,6 +136,7 @@ impl Soup {
             triangle_texture_coordinates: pieces.texture_coordinates,
             materials: std::mem::take(&mut self.materials),
             triangle_materials: pieces.materials,
+            file_faces: pieces.polygons,
             marked,
             curves,
             defects,
@@ -145,6 +146,9 @@ impl Soup {
         }
         if mesh.triangle_materials.iter().all(|index| *index == NONE) {
             mesh.triangle_materials.clear();
+        }
+        if mesh.file_faces.iter().zip(0..).all(|(face, triangle)| *face == triangle) {
+            mesh.file_faces = Vec::new();
         }
         if mesh.position_colors.len() != mesh.positions.len() {
             mesh.position_colors.clear();

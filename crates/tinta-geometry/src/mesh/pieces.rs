@@ -17,6 +17,8 @@ pub(super) struct Pieces {
     pub normals: Vec<[u32; 3]>,
     pub texture_coordinates: Vec<[u32; 3]>,
     pub materials: Vec<u32>,
+    /// Each triangle's polygon.
+    pub polygons: Vec<u32>,
     /// How many triangles had no area.
     pub degenerate: usize,
     /// How many polygons had too many corners to be cut.
@@ -41,12 +43,11 @@ impl Pieces {
                     [] => &soup.corners[polygon * 3..][..3],
                     starts => &soup.corners[starts[polygon] as usize..starts[polygon + 1] as usize],
                 };
-                let material = soup.polygon_materials.get(polygon).copied().unwrap_or(NONE);
                 if corners.iter().any(|corner| !finite[corner.position as usize]) {
                     continue;
                 }
                 if let [a, b, c] = *corners {
-                    pieces.push(soup, welded, [a, b, c], material);
+                    pieces.push(soup, welded, [a, b, c], polygon);
                     continue;
                 }
                 once.clear();
@@ -59,7 +60,7 @@ impl Pieces {
                 let corners = once.as_slice();
                 if corners.len() <= 3 {
                     match *corners {
-                        [a, b, c] => pieces.push(soup, welded, [a, b, c], material),
+                        [a, b, c] => pieces.push(soup, welded, [a, b, c], polygon),
                         _ => pieces.degenerate += 1,
                     }
                     continue;
@@ -73,7 +74,7 @@ impl Pieces {
                 // If earcut finds no area, the lost triangles count as degenerate.
                 pieces.degenerate += (corners.len() - 2).saturating_sub(cut.len());
                 cut.iter().for_each(|triangle| {
-                    pieces.push(soup, welded, triangle.map(|index| corners[index as usize]), material);
+                    pieces.push(soup, welded, triangle.map(|index| corners[index as usize]), polygon);
                 });
             }
             pieces
@@ -90,6 +91,7 @@ impl Pieces {
         self.triangles.reserve_exact(count);
         self.face_normals.reserve_exact(count);
         self.normals.reserve_exact(count);
+        self.polygons.reserve_exact(count);
         if !soup.texture_coordinates.is_empty() {
             self.texture_coordinates.reserve_exact(count);
         }
@@ -98,8 +100,8 @@ impl Pieces {
         }
     }
 
-    /// Adds a triangle, or counts it where it has no area.
-    fn push(&mut self, soup: &Soup, welded: &[u32], corners: [Corner; 3], material: u32) {
+    /// Adds a triangle of a polygon, or counts it where it has no area.
+    fn push(&mut self, soup: &Soup, welded: &[u32], corners: [Corner; 3], polygon: usize) {
         let triangle = corners.map(|corner| welded[corner.position as usize]);
         let Some(face_normal) = triangle_normal(triangle.map(|index| soup.positions[index as usize])) else {
             self.degenerate += 1;
@@ -108,11 +110,12 @@ impl Pieces {
         self.triangles.push(triangle);
         self.face_normals.push(face_normal);
         self.normals.push(corners.map(|corner| corner.normal));
+        self.polygons.push(polygon as u32);
         if !soup.texture_coordinates.is_empty() {
             self.texture_coordinates.push(corners.map(|corner| corner.texture));
         }
         if !soup.polygon_materials.is_empty() {
-            self.materials.push(material);
+            self.materials.push(soup.polygon_materials.get(polygon).copied().unwrap_or(NONE));
         }
     }
 
@@ -122,6 +125,7 @@ impl Pieces {
         self.normals.append(&mut other.normals);
         self.texture_coordinates.append(&mut other.texture_coordinates);
         self.materials.append(&mut other.materials);
+        self.polygons.append(&mut other.polygons);
         self.degenerate += other.degenerate;
         self.repeated_corners += other.repeated_corners;
     }
@@ -143,6 +147,7 @@ impl Pieces {
         retain(&mut self.normals, &keep);
         retain(&mut self.texture_coordinates, &keep);
         retain(&mut self.materials, &keep);
+        retain(&mut self.polygons, &keep);
     }
 }
 

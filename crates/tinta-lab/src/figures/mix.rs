@@ -144,6 +144,7 @@ fn cut(mesh: &Mesh, pieces: usize) -> Mesh {
         triangle_texture_coordinates: Vec::new(),
         materials: Vec::new(),
         triangle_materials: Vec::new(),
+        file_faces: Vec::new(),
         position_colors: Vec::new(),
         marked: Vec::new(),
         curves: Default::default(),

@@ -22,6 +22,7 @@ pub(in crate::lines) fn with_faces(mesh: &Mesh, faces: Vec<(usize, [u32; 3])>) -
         triangle_normals: of_corners(&mesh.triangle_normals),
         triangle_texture_coordinates: of_corners(&mesh.triangle_texture_coordinates),
         triangle_materials: faces.iter().filter_map(|(face, _)| mesh.triangle_materials.get(*face).copied()).collect(),
+        file_faces: faces.iter().map(|(face, _)| mesh.file_face(*face as u32)).collect(),
         triangles: faces.into_iter().map(|(_, corners)| corners).collect(),
         ..mesh.clone()
     }
