@@ -42,6 +42,8 @@ pub fn bumpy_sphere(triangles: usize) -> Mesh {
         triangle_texture_coordinates: Vec::new(),
         materials: Vec::new(),
         triangle_materials: Vec::new(),
+        parts: Vec::new(),
+        triangle_parts: Vec::new(),
         position_colors: Vec::new(),
         marked: Vec::new(),
         curves: Default::default(),

@@ -331,6 +331,8 @@ impl Mesh {
             triangle_texture_coordinates: Vec::new(),
             materials: Vec::new(),
             triangle_materials: Vec::new(),
+            parts: Vec::new(),
+            triangle_parts: Vec::new(),
             defects: tinta::mesh::Defects::default(),
         };
         let is_within = |rows: &[[u32; 3]], count: usize| rows.as_flattened().iter().all(|row| (*row as usize) < count);

@@ -193,6 +193,7 @@ impl Request {
             return Err(Error::value("style", self.style.name(), problem));
         };
         style.drawing.check()?;
+        style.lines.parts.check(&style.drawing)?;
         VisibleLines::with_progress(scene, &self.wanted(&style), progress)
     }
 

@@ -31,7 +31,7 @@ impl LineStyle {
     pub fn wanted(&self) -> LineSettings {
         LineSettings {
             finds_outline: self.drawing.tells_outline(),
-            finds_hidden: self.drawing.hidden != Hidden::None,
+            finds_hidden: self.drawing.hidden != Hidden::None || self.lines.parts.draw_hidden(),
             ..self.lines.clone()
         }
     }

@@ -69,8 +69,8 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     let drawn = with_recipe(style.drawing, output, recipe.as_ref());
     let is_chained = format != Format::Json || run.is_told();
     let mut paths = if is_chained { chain(&lines.segments) } else { Vec::new() };
-    if format != Format::Json && drawn.hidden == Hidden::None {
-        paths.retain(|path| path.is_visible);
+    if format != Format::Json {
+        paths.retain(|path| path.is_visible || lines.drawing(path.look, &drawn).hidden != Hidden::None);
     }
     let counts = LineCounts::new(&lines, &paths);
     if is_stopped(stop.as_ref()) {

@@ -139,20 +139,31 @@ impl ClassSet {
             "Edges to draw: boundary, non-manifold, silhouette, crease (or convex-crease, concave-crease), material, texture, \
              normal, marked, in style lines also intersection, the form lines suggestive, ridge, valley, apparent-ridge, and the \
              model's own curve and point; separated by commas, or all",
-            move |of: &T| field(&mut of.clone()).classes().map(Class::name).collect::<Vec<_>>().join(","),
+            move |of: &T| field(&mut of.clone()).text(),
             move |of: &mut T, text: &str| {
-                let named = || -> std::result::Result<Vec<Class>, ParseError> {
-                    text.split(',').map(|name| name.trim().parse()).collect()
-                };
-                *field(of) = match text {
-                    "all" => all,
-                    _ => Self::of(&named().map_err(|problem| format!("{problem}, or all"))?),
-                };
+                *field(of) = Self::parsed(text, all)?;
                 Ok(())
             },
         )
         .said("boundary,silhouette,crease; style lines: also non-manifold, material, marked, intersection, curve and point")
         .printed("D, Inking: boundary, crease and silhouette are what the listing asks for")
+    }
+}
+
+impl ClassSet {
+    /// Its names, separated by commas.
+    pub(crate) fn text(self) -> String {
+        self.classes().map(Class::name).collect::<Vec<_>>().join(",")
+    }
+
+    /// The set of these names, separated by commas; `all` are those of the name `all`.
+    pub(crate) fn parsed(text: &str, all: Self) -> std::result::Result<Self, ParseError> {
+        let named: std::result::Result<Vec<Class>, ParseError> =
+            text.split(',').map(|name| name.trim().parse()).collect();
+        match text {
+            "all" => Ok(all),
+            _ => Ok(Self::of(&named.map_err(|problem| format!("{problem}, or all"))?)),
+        }
     }
 }
 

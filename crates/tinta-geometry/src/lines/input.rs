@@ -7,4 +7,5 @@ pub(super) mod feature;
 pub(super) mod features;
 pub(super) mod mesh_repair;
 pub(super) mod object_edges;
+pub(super) mod part_classes;
 pub(super) mod split_t_junctions;

@@ -136,6 +136,8 @@ impl Soup {
             triangle_texture_coordinates: pieces.texture_coordinates,
             materials: std::mem::take(&mut self.materials),
             triangle_materials: pieces.materials,
+            parts: std::mem::take(&mut self.parts),
+            triangle_parts: pieces.parts,
             marked,
             curves,
             defects,

@@ -17,6 +17,7 @@ pub(super) struct Pieces {
     pub normals: Vec<[u32; 3]>,
     pub texture_coordinates: Vec<[u32; 3]>,
     pub materials: Vec<u32>,
+    pub parts: Vec<u32>,
     /// How many triangles had no area.
     pub degenerate: usize,
     /// How many polygons had too many corners to be cut.
@@ -41,12 +42,11 @@ impl Pieces {
                     [] => &soup.corners[polygon * 3..][..3],
                     starts => &soup.corners[starts[polygon] as usize..starts[polygon + 1] as usize],
                 };
-                let material = soup.polygon_materials.get(polygon).copied().unwrap_or(NONE);
                 if corners.iter().any(|corner| !finite[corner.position as usize]) {
                     continue;
                 }
                 if let [a, b, c] = *corners {
-                    pieces.push(soup, welded, [a, b, c], material);
+                    pieces.push(soup, welded, [a, b, c], polygon);
                     continue;
                 }
                 once.clear();
@@ -59,7 +59,7 @@ impl Pieces {
                 let corners = once.as_slice();
                 if corners.len() <= 3 {
                     match *corners {
-                        [a, b, c] => pieces.push(soup, welded, [a, b, c], material),
+                        [a, b, c] => pieces.push(soup, welded, [a, b, c], polygon),
                         _ => pieces.degenerate += 1,
                     }
                     continue;
@@ -73,7 +73,7 @@ impl Pieces {
                 // If earcut finds no area, the lost triangles count as degenerate.
                 pieces.degenerate += (corners.len() - 2).saturating_sub(cut.len());
                 cut.iter().for_each(|triangle| {
-                    pieces.push(soup, welded, triangle.map(|index| corners[index as usize]), material);
+                    pieces.push(soup, welded, triangle.map(|index| corners[index as usize]), polygon);
                 });
             }
             pieces
@@ -96,10 +96,13 @@ impl Pieces {
         if !soup.polygon_materials.is_empty() {
             self.materials.reserve_exact(count);
         }
+        if !soup.polygon_parts.is_empty() {
+            self.parts.reserve_exact(count);
+        }
     }
 
-    /// Adds a triangle, or counts it where it has no area.
-    fn push(&mut self, soup: &Soup, welded: &[u32], corners: [Corner; 3], material: u32) {
+    /// Adds a triangle of a polygon, or counts it where it has no area.
+    fn push(&mut self, soup: &Soup, welded: &[u32], corners: [Corner; 3], polygon: usize) {
         let triangle = corners.map(|corner| welded[corner.position as usize]);
         let Some(face_normal) = triangle_normal(triangle.map(|index| soup.positions[index as usize])) else {
             self.degenerate += 1;
@@ -112,7 +115,10 @@ impl Pieces {
             self.texture_coordinates.push(corners.map(|corner| corner.texture));
         }
         if !soup.polygon_materials.is_empty() {
-            self.materials.push(material);
+            self.materials.push(soup.polygon_materials.get(polygon).copied().unwrap_or(NONE));
+        }
+        if !soup.polygon_parts.is_empty() {
+            self.parts.push(soup.polygon_parts.get(polygon).copied().unwrap_or(NONE));
         }
     }
 
@@ -122,6 +128,7 @@ impl Pieces {
         self.normals.append(&mut other.normals);
         self.texture_coordinates.append(&mut other.texture_coordinates);
         self.materials.append(&mut other.materials);
+        self.parts.append(&mut other.parts);
         self.degenerate += other.degenerate;
         self.repeated_corners += other.repeated_corners;
     }
@@ -143,6 +150,7 @@ impl Pieces {
         retain(&mut self.normals, &keep);
         retain(&mut self.texture_coordinates, &keep);
         retain(&mut self.materials, &keep);
+        retain(&mut self.parts, &keep);
     }
 }
 

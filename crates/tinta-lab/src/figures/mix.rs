@@ -144,6 +144,8 @@ fn cut(mesh: &Mesh, pieces: usize) -> Mesh {
         triangle_texture_coordinates: Vec::new(),
         materials: Vec::new(),
         triangle_materials: Vec::new(),
+        parts: Vec::new(),
+        triangle_parts: Vec::new(),
         position_colors: Vec::new(),
         marked: Vec::new(),
         curves: Default::default(),

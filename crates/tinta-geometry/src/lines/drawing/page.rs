@@ -297,6 +297,8 @@ mod tests {
             edge: None,
             angle_degrees: None,
             object: 0,
+            part: 0,
+            look: 0,
         };
         let size = Size { width: 600, height: 400 };
         VisibleLines {
@@ -308,6 +310,8 @@ mod tests {
             undecided: 0,
             has_specks: false,
             labels: Vec::new(),
+            parts: Vec::new(),
+            looks: Vec::new(),
             times: LineTimes::default(),
         }
     }

@@ -146,14 +146,30 @@ impl ObjectEdges<'_> {
     }
 }
 
-/// The scene's objects with their edges, repaired if needed; objects with the same mesh share them.
-pub(in crate::lines) fn object_edges(scene: &Scene) -> Vec<ObjectEdges<'_>> {
+/// Tells which faces hide nothing, by the number of the object, the mesh and its face.
+pub(in crate::lines) type IsGhost<'a> = &'a (dyn Fn(usize, &Mesh, u32) -> bool + Sync);
+
+/// For each face that may hide others, by its number in the scene, whether it hides nothing.
+pub(in crate::lines) fn ghost_faces(parts: &[ObjectEdges<'_>], is_ghost: IsGhost<'_>) -> Vec<bool> {
+    let of_part = |(object, part): (usize, &ObjectEdges<'_>)| {
+        let shape = part.shape().clone();
+        (0..shape.triangles.len() as u32).map(move |face| is_ghost(object, &shape, face))
+    };
+    parts.iter().enumerate().flat_map(of_part).collect()
+}
+
+/// The scene's objects with their edges, repaired if needed; objects with the same mesh share them. Ghosts are repaired apart:
+/// none of them stands for a face that hides others.
+pub(in crate::lines) fn object_edges<'a>(scene: &'a Scene, ghosts: Option<IsGhost<'_>>) -> Vec<ObjectEdges<'a>> {
     let mut known: HashMap<*const Mesh, Option<Arc<RepairedEdges>>> = HashMap::new();
     let mut parts = Vec::with_capacity(scene.objects.len());
-    for object in &scene.objects {
+    for (number, object) in scene.objects.iter().enumerate() {
+        let of_mesh = |mesh: &Mesh, face: u32| ghosts.is_some_and(|is_ghost| is_ghost(number, mesh, face));
+        let of_mesh = ghosts.is_some().then_some(&of_mesh as &dyn Fn(&Mesh, u32) -> bool);
         let (mesh, edges) = (&object.mesh, scene.edges(object));
-        let repair =
-            || mesh_repair::repaired(mesh, edges.list()).map(|repaired| Arc::new(RepairedEdges::new(repaired)));
+        let repair = || {
+            mesh_repair::repaired(mesh, edges.list(), of_mesh).map(|repaired| Arc::new(RepairedEdges::new(repaired)))
+        };
         let edges = match known.entry(Arc::as_ptr(mesh)).or_insert_with(repair) {
             None => Edges::OfScene(edges),
             Some(edges) => Edges::Repaired(edges.clone()),
