@@ -206,7 +206,7 @@ impl VisibleLines {
             }
         }
         let mut compared = intersections.compared;
-        if settings.classes.contains(Class::Intersection) {
+        if !settings.classes.and(ClassSet::of(&[Class::Intersection, Class::Part])).is_empty() {
             let found = &intersections.lines;
             lines.extend(input::features::intersection_features(&faces, all_parts, found, &mut edges));
         }

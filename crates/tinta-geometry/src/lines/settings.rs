@@ -29,6 +29,8 @@ pub struct LineSettings {
     pub on_surface: f64,
     /// Styles of parts: colour, width, classes, crease angle, role in hiding. Default none.
     pub parts: PartRules,
+    /// Whether seams are left out where coplanar faces of one material meet across parts of one file. Default false.
+    pub joins_parts: bool,
     /// Whether hidden parts are found too. Default true. If false,
     /// [`VisibleLines::segments`](super::VisibleLines::segments) holds visible parts only, and hidden ones take no
     /// time.
@@ -65,6 +67,7 @@ impl Default for LineSettings {
             silhouette: SilhouetteRule::Exact,
             on_surface: 1e-4,
             parts: PartRules::default(),
+            joins_parts: false,
             finds_hidden: true,
             finds_outline: false,
             forms: FormSettings::default(),
@@ -126,6 +129,12 @@ impl LineSettings {
                 |lines: &mut Self| &mut lines.parts,
             )
             .repeated(PartRules::BETWEEN),
+            Setting::flag(
+                "join-parts",
+                "Leave out seams where coplanar faces of one material meet across parts of one file",
+                |lines: &Self| lines.joins_parts,
+                |lines, is_on| lines.joins_parts = is_on,
+            ),
         ];
         let forms = within(FormSettings::settings(), |lines: &mut Self| Some(&mut lines.forms));
         edges.into_iter().chain(forms).collect()

@@ -84,7 +84,11 @@ pub(in crate::lines) fn edge_features(
             let on_edge = contours.map_or(OnEdge::ByFaces, |contours| {
                 contours.parts[number].on_edge(space, &faces.positions, list, edge)
             });
-            let parts_by_class = parts_by_class(of_edge, on_edge, scene_parts.classes(of_part));
+            let wanted = match settings.joins_parts && part.is_seam_of_parts(edge) {
+                true => ClassSet::default(),
+                false => scene_parts.classes(of_part),
+            };
+            let parts_by_class = parts_by_class(of_edge, on_edge, wanted);
             if let Some(class) = parts_by_class.iter().filter_map(|(class, _)| *class).min() {
                 *counts.of(class) += 1;
             }
@@ -154,7 +158,7 @@ fn plane_of(faces: &Faces, at_edge: &[u32], number_of: impl Fn(u32) -> u32) -> u
     planes.reduce(|first, second| if first == second { first } else { NO_GROUP }).unwrap_or(NO_GROUP)
 }
 
-/// The intersections of faces whose parts have this class; counts them.
+/// The intersections of faces whose parts have this class, or the class of lines between parts; counts them.
 pub(in crate::lines) fn intersection_features(
     faces: &Faces,
     (parts, scene_parts): (&[ObjectEdges<'_>], &SceneParts),
@@ -171,15 +175,22 @@ pub(in crate::lines) fn intersection_features(
         let object = object_of(number);
         scene_parts.of_face(object, parts[object].shape(), number - starts[object])
     };
-    let feature = |intersection: &Intersection| {
+    // The object and its part in the file.
+    let in_file = |face: u32| {
+        let number = faces.numbers[face as usize];
+        let object = object_of(number);
+        (object, parts[object].shape().triangle_parts.get((number - starts[object]) as usize))
+    };
+    let mut feature = |intersection: &Intersection| {
         let of_faces = intersection.faces.map(part_of);
         let part = scene_parts.owner(of_faces.into_iter());
-        if !scene_parts.classes(part).contains(Class::Intersection) {
-            return None;
-        }
+        let [first, second] = intersection.faces.map(in_file);
+        let between = ClassSet::of(if first == second { &[] } else { &[Class::Part] });
+        let class = between.or(ClassSet::of(&[Class::Intersection])).and(scene_parts.classes(part)).first()?;
+        *counts.of(class) += 1;
         let [first, second] = intersection.faces.map(|face| triangle_normal(faces.corners(face)));
         Some(Feature {
-            class: Some(Class::Intersection),
+            class: Some(class),
             occludes: false,
             object: object_of(faces.numbers[intersection.faces[0] as usize]) as u32,
             part,
@@ -193,9 +204,7 @@ pub(in crate::lines) fn intersection_features(
             angle_degrees: first.zip(second).map(|(first, second)| degrees_between(first, second)),
         })
     };
-    let features: Vec<Feature> = intersections.iter().filter_map(feature).collect();
-    counts.intersection = features.len();
-    features
+    intersections.iter().filter_map(&mut feature).collect()
 }
 
 /// The curves and points of all parts, lifted by [`LineSettings::on_surface`]; counts them.

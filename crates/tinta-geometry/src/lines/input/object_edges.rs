@@ -2,7 +2,7 @@
 
 use crate::edges::{Eye, Incidence, MeshEdges, Side, SilhouetteRule, side_of_face};
 use crate::lines::input::mesh_repair::{self, RepairedMesh};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::{Object, Scene};
 use crate::tolerances::CONTACT;
 use std::collections::{BTreeMap, HashMap};
@@ -129,6 +129,34 @@ impl ObjectEdges<'_> {
         let of_wholes = faces.chunk_by(|a, b| self.whole_face(*a) == self.whole_face(*b));
         let others: Vec<u32> = of_wholes.filter(|parts| parts.len() != 2).flatten().copied().collect();
         others.len() < faces.len() && (others.is_empty() || self.lie_flat(edge, &others))
+    }
+
+    /// Whether coplanar faces of one material and two parts meet at an edge, and all other faces at it lie behind them.
+    pub(in crate::lines) fn is_seam_of_parts(&self, edge: u32) -> bool {
+        let (list, mesh) = (self.edges.get().list(), self.edges.get().mesh());
+        let of = |list: &[u32], face: u32| list.get(face as usize).copied();
+        let at_edge = list.faces(edge);
+        let are_joined = |first: u32, second: u32| {
+            of(&mesh.triangle_parts, first) != of(&mesh.triangle_parts, second)
+                && of(&mesh.triangle_materials, first) == of(&mesh.triangle_materials, second)
+                && self.lie_flat(edge, &[first, second])
+        };
+        let mut pairs = at_edge.iter().flat_map(|first| at_edge.iter().map(|second| [*first, *second]));
+        let Some(joined) = pairs.find(|[first, second]| first < second && are_joined(*first, *second)) else {
+            return false;
+        };
+        let ends = list.positions()[edge as usize];
+        let start = mesh.positions[ends[0] as usize];
+        let Some(outwards) =
+            triangle_normal(mesh.triangles[joined[0] as usize].map(|corner| mesh.positions[corner as usize]))
+        else {
+            return false;
+        };
+        let is_behind = |face: u32| {
+            let third = mesh.triangles[face as usize].into_iter().find(|corner| !ends.contains(corner));
+            third.is_some_and(|third| (mesh.positions[third as usize] - start).dot(outwards) < 0.0)
+        };
+        at_edge.iter().filter(|face| !joined.contains(face)).all(|face| is_behind(*face))
     }
 
     /// Whether two faces at an edge are coplanar, on opposite sides of it.

@@ -164,7 +164,7 @@ mod tests {
             ("bolt*: colour=red", "bolt*: a part has no setting colour; did you mean color?"),
             ("bolt*: wobble=1", "a part has no setting wobble; choose color, line-width"),
             ("bolt*: gost", "bolt*: gost: did you mean ghost?"),
-            ("bolt*: color=redd", "did you mean red?"),
+            ("bolt*: color=redd", "a colour is a CSS name"),
             ("bolt*: ghost, solid", "bolt*: as comes twice"),
             ("bolt*: classes=creases", "did you mean crease?"),
             ("bolt*: crease-angle=200", "between 0 and 180"),

@@ -104,7 +104,7 @@ pub(in crate::lines) fn with_lines<T>(
     let all_parts = (parts.as_slice(), &scene_parts);
     let (mut all, mut edges) = features::edge_features(scene, &space, &faces, all_parts, None, settings);
     let crossing_faces = intersections(&space, &faces, &parts, (None, None), progress);
-    if settings.classes.contains(Class::Intersection) {
+    if !settings.classes.and(ClassSet::of(&[Class::Intersection, Class::Part])).is_empty() {
         all.extend(features::intersection_features(&faces, all_parts, &crossing_faces.lines, &mut edges));
     }
     if !settings.classes.and(ClassSet::FORMS).is_empty() {
