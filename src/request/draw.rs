@@ -161,9 +161,9 @@ impl Request {
     /// pixels.
     pub fn line_style(&self) -> Option<LineStyle> {
         let of_vectors = || self.vectors().map(|vectors| vectors.lines.unwrap_or_default());
-        let LineStyle { lines, drawing } = self.style.lines().or_else(of_vectors)?;
+        let LineStyle { lines, drawing, sheet } = self.style.lines().or_else(of_vectors)?;
         let drawing = DrawingSettings { title: self.title(), background: self.scene.background, ..drawing };
-        Some(LineStyle { lines, drawing })
+        Some(LineStyle { lines, drawing, sheet })
     }
 
     /// The lines to find for this style.
@@ -194,7 +194,10 @@ impl Request {
         };
         style.drawing.check()?;
         style.lines.parts.check(&style.drawing)?;
-        VisibleLines::with_progress(scene, &self.wanted(&style), progress)
+        match style.sheet {
+            Some(angle) => VisibleLines::on_sheet(scene, &self.wanted(&style), angle, progress),
+            None => VisibleLines::with_progress(scene, &self.wanted(&style), progress),
+        }
     }
 
     /// Finds the lines of a scene that the drawing shows, without those too short to see.

@@ -1,7 +1,7 @@
 //! Exact visible lines as a style: the lines to find and how to draw them.
 
-use crate::lines::{DrawingSettings, Hidden, LineSettings};
-use crate::settings::{Setting, within};
+use crate::lines::{DrawingSettings, Hidden, LineSettings, ProjectionAngle};
+use crate::settings::{Setting, under, within};
 
 /// The heading of edge settings.
 const LINES: &str = "Style lines: which lines";
@@ -13,6 +13,8 @@ pub struct LineStyle {
     pub lines: LineSettings,
     /// How they are drawn.
     pub drawing: DrawingSettings,
+    /// The views of a sheet in place of the camera's. Default none.
+    pub sheet: Option<ProjectionAngle>,
 }
 
 impl LineStyle {
@@ -24,7 +26,19 @@ impl LineStyle {
             setting.heading = if setting.heading.is_empty() { LINES } else { setting.heading };
             setting
         });
-        lines.chain(within(DrawingSettings::settings(), |style: &mut Self| Some(&mut style.drawing))).collect()
+        let drawing: Vec<_> =
+            within(DrawingSettings::settings(), |style: &mut Self| Some(&mut style.drawing)).collect();
+        let sheet = Setting::open_field(
+            "sheet",
+            "ANGLE",
+            "none",
+            "Draw a sheet with front, top, side and isometric views to one scale, and a scale bar in model units: third \
+             (American) or first (European) angle; --size is that of the sheet",
+            |style: &mut Self| &mut style.sheet,
+        )
+        .said("none, one view");
+        let heading = drawing[0].heading;
+        lines.chain(drawing).chain(under(heading, vec![sheet])).collect()
     }
 
     /// Returns the lines to find for this drawing: outlines and hidden lines only if they show.

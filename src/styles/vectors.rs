@@ -70,7 +70,7 @@ fn lines(lines: LineSettings, [outline, inner]: [LineWidth; 2], size: Size) -> L
     if outline != inner {
         drawing.class_widths.0.set_outline(px(outline));
     }
-    LineStyle { lines, drawing }
+    LineStyle { lines, drawing, sheet: None }
 }
 
 impl Vectors {

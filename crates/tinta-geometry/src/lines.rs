@@ -40,6 +40,7 @@ mod progress;
 mod regions;
 mod segment;
 mod settings;
+mod sheet;
 mod smooth;
 #[cfg(test)]
 mod smooth_tests;
@@ -68,6 +69,7 @@ pub use progress::{Phase, Progress};
 pub use regions::{Region, Regions, SeenFace, ToneLight, ToneRule, TonedSurface};
 pub use segment::LineSegment;
 pub use settings::LineSettings;
+pub use sheet::ProjectionAngle;
 pub use smooth::closed_forms;
 pub use smooth::forms::FormSettings;
 pub use smooth::silhouettes::{SmoothSilhouette, smooth_silhouettes};

@@ -8,14 +8,16 @@ mod lines_random;
 #[path = "../../../tests/shapes.rs"]
 mod shapes;
 
+use glam::DVec3;
 use lines_random::random_scene;
-use shapes::Random;
+use shapes::{Random, cuboid, joined};
+use std::cell::Cell;
 use std::sync::Arc;
 use tinta::edges::{Class, ClassSet};
 use tinta::lines::{Hidden, LineSegment, PartRules, drawn_layers, svg};
 use tinta::mesh::NamedPart;
 use tinta::settings::Value as _;
-use tinta::{DrawingSettings, LineSettings, Mesh, Scene, VisibleLines};
+use tinta::{CameraSettings, DrawingSettings, LineSettings, Mesh, Scene, SceneSettings, VisibleLines};
 
 /// Kinds of random scenes: separate triangles, boxes, spheres, triangles over common points.
 const KINDS: u32 = 4;
@@ -100,6 +102,7 @@ fn ghosts_are_visible_everywhere() {
 
 #[test]
 fn other_parts_are_drawn_as_if_ghosts_were_not_there() {
+    let changed = Cell::new(0);
     for_scenes(12, |scene, which, kind| {
         // Parts that share edges end where the other is taken away.
         if kind > 1 {
@@ -118,6 +121,7 @@ fn other_parts_are_drawn_as_if_ghosts_were_not_there() {
             *object = object.with_mesh(Arc::new(rest));
         }
         let (ghosted, without) = (found(scene, "arm: ghost"), found(&without, ""));
+        changed.set(changed.get() + without_equal(&visible(&ghosted), &visible(&found(scene, ""))).len());
         let is_compared = |lines: &VisibleLines, segment: &LineSegment| {
             name(lines, segment) != "arm" && segment.class != Class::Intersection
         };
@@ -129,6 +133,7 @@ fn other_parts_are_drawn_as_if_ghosts_were_not_there() {
         let only: Vec<_> = [without_equal(&with, &without), without_equal(&without, &with)].concat();
         assert!(only.is_empty(), "{which}: {only:#?}");
     });
+    assert!(changed.get() > 100, "ghosts show what they hid");
 }
 
 #[test]
@@ -232,4 +237,71 @@ fn the_last_rule_of_each_setting_counts_and_hidden_lines_follow() {
     );
     assert!(others.iter().filter(|it| it.layer.is_visible()).all(|it| it.color.to_string() == "#ff0000"));
     assert_eq!(lines.drawing(0, &drawing).hidden, Hidden::None);
+}
+
+/// A wall of blocks side by side along x, a part each, and the same wall as one block.
+fn wall(cuts: &[f64]) -> [Mesh; 2] {
+    let block = |from: f64, to: f64| cuboid(DVec3::new(from, 0.0, 0.0), DVec3::new(to, 1.0, 0.5));
+    let blocks: Vec<Mesh> = cuts.windows(2).map(|ends| block(ends[0], ends[1])).collect();
+    [with_parts(&joined(&blocks), |face| (face / 12) as u32), block(cuts[0], cuts[cuts.len() - 1])]
+}
+
+fn visible_px(mesh: Mesh, settings: &LineSettings, view: &str) -> f64 {
+    let camera = CameraSettings { view: view.parse().unwrap(), ..CameraSettings::default() };
+    let scene = Scene::new([Arc::new(mesh)], &SceneSettings { camera, ..SceneSettings::default() }).unwrap();
+    let lines = VisibleLines::of(&scene, settings).unwrap();
+    visible(&lines).iter().map(|segment| segment.ends_px[0].distance(segment.ends_px[1])).sum()
+}
+
+#[test]
+fn joined_blocks_are_drawn_as_one_and_blocks_of_other_materials_are_not() {
+    let random = &mut Random(11);
+    let joins = LineSettings { joins_parts: true, ..LineSettings::default() };
+    for count in [2, 2, 3, 3, 4, 5] {
+        let mut cuts = vec![0.0];
+        (0..count).for_each(|number| cuts.push(cuts[number] + 0.3 + random.number()));
+        let view = format!("{},{}", (random.number() * 360.0).round(), 10.0 + (random.number() * 60.0).round());
+        let [blocks, whole] = wall(&cuts);
+        let px = |mesh: &Mesh, settings| visible_px(mesh.clone(), settings, &view);
+        let plain = px(&whole, &joins);
+        assert!((px(&blocks, &joins) - plain).abs() < 1e-3, "{count} blocks from {view}");
+        assert!(px(&blocks, &LineSettings::default()) > plain + 10.0, "{count} blocks from {view}");
+        let materials = (0..blocks.triangles.len()).map(|face| (face / 12) as u32).collect();
+        let painted =
+            Mesh { materials: vec![tinta::mesh::Material::default(); count], triangle_materials: materials, ..blocks };
+        assert!(px(&painted, &joins) > plain + 10.0, "{count} materials from {view}");
+    }
+}
+
+#[test]
+fn lines_between_parts_are_a_class() {
+    let between = LineSettings { classes: ClassSet::of(&[Class::Part]), ..LineSettings::default() };
+    for_scenes(8, |scene, which, kind| {
+        let found = |classes: &[Class]| {
+            let settings = LineSettings { classes: ClassSet::of(classes), ..LineSettings::default() };
+            VisibleLines::of(scene, &settings).unwrap()
+        };
+        let [alone, both, crossing] =
+            [vec![Class::Part], vec![Class::Part, Class::Intersection], vec![Class::Intersection]]
+                .map(|classes| found(&classes));
+        let count = |lines: &VisibleLines, class| lines.edges.clone().of(class).to_owned();
+        assert_eq!(count(&alone, Class::Part), count(&both, Class::Part), "{which}");
+        if kind == 1 {
+            // Whole boxes: what is between parts is an intersection, and of one box with itself there is none.
+            assert_eq!(count(&alone, Class::Part), count(&crossing, Class::Intersection), "{which}");
+        }
+    });
+    let [blocks, _] = wall(&[0.0, 1.0, 2.0]);
+    // Open at the seam, so that each edge there has two faces.
+    let open = Mesh {
+        triangles: blocks.triangles.iter().filter(|corners| !lies_at(&blocks, **corners, 1.0)).copied().collect(),
+        triangle_parts: (0..20).map(|face| face / 10).collect(),
+        ..blocks.clone()
+    };
+    assert!(visible_px(open, &between, "20,30") > 10.0);
+}
+
+/// Whether all corners of a triangle have this x.
+fn lies_at(mesh: &Mesh, corners: [u32; 3], x: f64) -> bool {
+    corners.iter().all(|corner| mesh.positions[*corner as usize].x == x)
 }

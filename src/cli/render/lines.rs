@@ -167,6 +167,7 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Resu
             refuse(&OF_PAPER, &pixels_on_paper(&request.options))
         }
         Format::Json => {
+            refuse(&["sheet"], "a .json file holds one view; leave it out, or write a .svg")?;
             let drawing = DrawingSettings::table().of(None).into_iter().map(|setting| setting.name);
             let options: Vec<&str> = drawing.filter(|name| *name != "min-length" && is_of_lines_alone(name)).collect();
             refuse(&options, "a .json file holds all lines but no appearance; leave it out, or write a .svg")

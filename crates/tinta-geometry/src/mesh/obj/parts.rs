@@ -35,3 +35,32 @@ pub(super) fn put_on(soup: &mut Soup, namings: &[(usize, Naming)]) {
         (soup.parts, soup.polygon_parts) = (parts, of_faces);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faces_have_the_last_group_of_the_last_object_before_them() {
+        let soup = || Soup { polygon_sizes: vec![3; 6], ..Soup::default() };
+        let object = |before, name: &str| (before, Naming::Object(name.to_owned()));
+        let group = |before, name: &str| (before, Naming::Group(name.to_owned()));
+        let namings = [
+            object(1, "arm"),
+            group(2, "a b"),
+            (2, Naming::Use("steel".to_owned())),
+            group(3, ""),
+            object(4, "leg"),
+            group(4, "a b"),
+            object(5, "arm"),
+        ];
+        let mut read = soup();
+        put_on(&mut read, &namings);
+        let part = |name: &str, within| NamedPart { name: name.to_owned(), within };
+        assert_eq!(read.parts, [part("arm", NONE), part("a b", 0), part("leg", NONE), part("a b", 2)]);
+        assert_eq!(read.polygon_parts, [NONE, 0, 1, 0, 3, 0]);
+        let mut without = soup();
+        put_on(&mut without, &[(0, Naming::Use("steel".to_owned()))]);
+        assert!(without.parts.is_empty() && without.polygon_parts.is_empty());
+    }
+}
