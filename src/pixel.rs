@@ -27,6 +27,7 @@
 //! ```
 
 mod explainer;
+mod explanation;
 mod fragment;
 mod recomputation;
 mod textures;
@@ -34,6 +35,7 @@ mod triangles;
 mod verdict;
 
 pub use explainer::{Explainer, PixelStep, is_background};
+pub use explanation::Explanation;
 pub use fragment::{Corner, Fragment};
 pub use recomputation::{Filtering, Recomputation};
 pub use tinta_glsl::{Base, Event, Mistake, Precision, Sample, Texel, Type, Value, What};

@@ -398,12 +398,11 @@ impl Renderer {
     }
 
     /// Draws one frame and returns what GL held in these pixels of the surface after each step, in the order of
-    /// [`Plan::steps`].
+    /// [`Plan::steps`]. A browser gives no depth back.
     ///
     /// # Errors
     ///
     /// As [`Renderer::draw`]; also if the picture is too large for one piece.
-    #[cfg(not(target_arch = "wasm32"))]
     pub fn step_values(&mut self, scene: &Scene, plan: &Plan, part: Rectangle) -> Result<Vec<StepValues>> {
         self.with_context(scene, plan, |frame| {
             let &[tile] = frame.tiles.as_slice() else {
@@ -429,13 +428,18 @@ impl Renderer {
     /// [`Error::Shader`] with the driver's log; the earlier shaders then remain.
     pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<()> {
         self.drawers.iter().try_for_each(|drawer| drawer.resources.refuse_if_lost("replacing shaders"))?;
-        let before = self.drawers[0].resources.given_shaders();
+        let before = self.replaced_shaders();
         let replaced = self.drawers.iter_mut().try_for_each(|drawer| drawer.replace_shaders(&shaders));
         if replaced.is_err() {
             // They compiled before.
             self.drawers.iter_mut().try_for_each(|drawer| drawer.replace_shaders(&before))?;
         }
         replaced
+    }
+
+    /// The shaders of [`Renderer::replace_shaders`], by their paths.
+    pub fn replaced_shaders(&self) -> HashMap<String, String> {
+        self.drawers[0].resources.given_shaders()
     }
 
     /// Compiles a single shader of `glsl/`, to test whether this driver accepts it.

@@ -14,6 +14,38 @@ const ODD_FILES: [(&str, &str); 5] = [
     ("empty.obj", ""),
 ];
 
+/// Each exercise of a page: its command, and what its answer quotes.
+fn exercises(page: &str) -> Vec<(String, Vec<String>)> {
+    let (_, exercises) = page.split_once("## Predict, then look").unwrap_or_default();
+    let code = |text: &str| text.lines().filter_map(|line| line.strip_prefix("    ")).map(str::to_owned).collect();
+    let parts = exercises.split("</details>").filter_map(|exercise| exercise.split_once("<details>"));
+    parts
+        .map(|(question, answer)| {
+            let commands: Vec<String> = code(question);
+            (commands.join("\n"), code(answer))
+        })
+        .collect()
+}
+
+#[test]
+fn the_answers_of_exercises_are_printed() {
+    let mut count = 0;
+    for text in ["evangelista", "dachsbacher", "valente"] {
+        let page = std::fs::read_to_string(root().join(format!("docs/texts/how-{text}-works.md"))).unwrap();
+        for (command, quoted) in exercises(&page) {
+            let words = command.strip_prefix("tinta ").unwrap_or_else(|| panic!("{text}: {command}")).split(' ');
+            let output = Command::new(env!("CARGO_BIN_EXE_tinta")).args(words).output().unwrap();
+            let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+            assert!(!quoted.is_empty(), "{command}");
+            for line in quoted {
+                assert!(printed.contains(&line), "{text}: {command} does not print {line:?}");
+            }
+            count += 1;
+        }
+    }
+    assert_eq!(count, 9, "three exercises for each text");
+}
+
 #[test]
 fn every_sentence_quoted_in_troubleshooting_is_said() {
     let folder = tempfile::tempdir().unwrap();

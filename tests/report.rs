@@ -4,7 +4,7 @@ use image::{ImageFormat, Rgb, RgbImage};
 use roxmltree::Document;
 use std::collections::BTreeMap;
 use std::io::{Cursor, Write};
-use tinta_lab::measure::{LineError, PassRow, Row, RunTime, ToneError};
+use tinta_lab::measure::{LineError, PassRow, Row, RunTime, ToneBorderError, ToneError};
 use tinta_lab::report::{
     Measure, ROWS_FILE, ReportInfo, ReportPicture, RowLog, Shape, Time, columns, csv, html, machines, pareto, plot,
     points, read_rows, write,
@@ -68,6 +68,8 @@ fn with_tones(mut row: Row, inner_differing: Option<f64>, mean_difference: f64) 
         rim_differing: inner_differing.map(|share| (share * 20.0).min(1.0)),
         mean_difference,
         largest_difference: 89.25,
+        borders: inner_differing
+            .map(|_| ToneBorderError { exact_to_drawn_px: [0.25, 0.5], drawn_to_exact_px: [0.24, 0.47] }),
     });
     row
 }

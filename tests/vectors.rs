@@ -149,3 +149,20 @@ fn no_ground_shines_through_between_areas() {
         }
     }
 }
+
+#[test]
+fn looks_of_tones_write_areas_without_being_told_a_style() {
+    let folder = tempfile::tempdir().unwrap();
+    for look in ["print", "published"] {
+        for name in ["a.svg", "a.pdf"] {
+            let file = folder.path().join(name);
+            let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_tinta"));
+            command.args(["render", "builtin:gear", "--size", "64", "--look", look, "-o"]).arg(&file);
+            let output = command.output().unwrap();
+            assert!(output.status.success(), "{look} {name}: {}", String::from_utf8_lossy(&output.stderr));
+            let written = std::fs::read(&file).unwrap();
+            let has_areas = String::from_utf8_lossy(&written).contains("id=\"fill-0-0\"");
+            assert!(has_areas || name.ends_with("pdf"), "{look}: no areas in {name}");
+        }
+    }
+}

@@ -1,16 +1,16 @@
 //! `tinta why`: why a pixel has its colour, or why the line at a place is visible or hidden.
 
 mod line;
-mod pixel;
 
 use super::models::load_meshes;
 use super::options::{Below, CameraFile, Chosen, OfSubject, Selection};
 use super::{Command, Verdict, given};
 use tinta::glam::DVec2;
+use tinta::pixel::Explanation;
 use tinta::request::{Layer, Request};
 use tinta::settings::{HasSettings, Setting};
 use tinta::styles::is_of_lines_alone;
-use tinta::{Error, LineSettings, Result, Scene, Style, StyleName, VisibleLines};
+use tinta::{Error, LineSettings, Renderer, Result, Scene, Style, StyleName, VisibleLines};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -77,8 +77,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let (request, _) = arguments.drawing.request_over(style, std::slice::from_ref(&arguments.model), &below)?;
     let scene = Scene::new(load_meshes(&request.models, &request.read)?, &request.scene)?;
     let Some(style) = request.line_style() else {
-        let why = pixel::why(&request, &scene, arguments.place)?;
-        return if arguments.json { super::print_json(&why) } else { super::print(&pixel::in_words(&why)) };
+        let mut renderer = Renderer::new(request.backend)?;
+        let why = Explanation::of(&request.style, &scene, &mut renderer, arguments.place)?;
+        return if arguments.json { super::print_json(&why) } else { super::print(&why.to_string()) };
     };
     let why = VisibleLines::why(&scene, &style.lines, arguments.place).map_err(|error| match error {
         // The place is no option.

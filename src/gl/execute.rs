@@ -11,7 +11,7 @@ use super::targets::{Targets, clear_each};
 use super::textures::Textures;
 use crate::error::{Error, Result};
 use crate::glsl;
-use crate::plan::{self, Blend, Depth, Draw, Geometry, LineDrawing, Plan, Step, Submission, Target, Tile};
+use crate::plan::{self, Blend, Depth, Draw, Format, Geometry, LineDrawing, Plan, Step, Submission, Target, Tile};
 use crate::scene::{Rectangle, Scene, Size};
 use glam::Mat4;
 use glow::HasContext;
@@ -348,30 +348,43 @@ impl Resources {
         unsafe { self.gl.glow.read_pixels(x, y, width, height, glow::RGBA, glow::UNSIGNED_BYTE, target) };
     }
 
-    /// Reads these pixels of the target's texture of this number, 0 for the framebuffer, as numbers: red, green, blue, alpha,
-    /// bottom row first.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub(crate) fn read_colors(&self, number: u32, part: Rectangle) -> Vec<[f32; 4]> {
+    /// Reads these pixels of the target's texture of this number and format, 0 for the framebuffer, as numbers: red, green, blue,
+    /// alpha, bottom row first.
+    pub(crate) fn read_colors(&self, number: u32, format: Format, part: Rectangle) -> Vec<[f32; 4]> {
         let mut values = vec![[0.0; 4]; part.pixel_count()];
+        // A browser reads bytes as bytes only.
+        let mut bytes = match legacy::HAS_PIPELINE || format != Format::Unorm8 {
+            true => Vec::new(),
+            false => vec![[0_u8; 4]; part.pixel_count()],
+        };
         let [x, y, width, height] = [part.x, part.y, part.width, part.height].map(|number| number as i32);
-        let pixels = glow::PixelPackData::Slice(Some(bytemuck::cast_slice_mut(&mut values)));
-        // SAFETY: the context is current, rows are packed without gaps, and the memory has four floats a pixel. The texture
-        // read by default is chosen again.
+        let (kind, memory): (u32, &mut [u8]) = match bytes.is_empty() {
+            true => (glow::FLOAT, bytemuck::cast_slice_mut(&mut values)),
+            false => (glow::UNSIGNED_BYTE, bytes.as_flattened_mut()),
+        };
+        let pixels = glow::PixelPackData::Slice(Some(memory));
+        // SAFETY: the context is current, rows are packed without gaps, and the memory has four numbers of this kind a pixel. The
+        // texture read by default is chosen again.
         unsafe {
             if self.into_textures {
                 self.gl.glow.read_buffer(glow::COLOR_ATTACHMENT0 + number);
             }
-            self.gl.glow.read_pixels(x, y, width, height, glow::RGBA, glow::FLOAT, pixels);
+            self.gl.glow.read_pixels(x, y, width, height, glow::RGBA, kind, pixels);
             if self.into_textures {
                 self.gl.glow.read_buffer(glow::COLOR_ATTACHMENT0);
             }
         }
+        for (value, read) in values.iter_mut().zip(bytes) {
+            *value = read.map(|byte| f32::from(byte) / 255.0);
+        }
         values
     }
 
-    /// Reads these pixels of the target's depth buffer, bottom row first; it must have one.
-    #[cfg(not(target_arch = "wasm32"))]
+    /// Reads these pixels of the target's depth buffer, bottom row first; it must have one. In a browser none.
     pub(crate) fn read_depth(&self, part: Rectangle) -> Vec<f32> {
+        if !legacy::HAS_PIPELINE {
+            return Vec::new();
+        }
         let mut values = vec![0.0; part.pixel_count()];
         let [x, y, width, height] = [part.x, part.y, part.width, part.height].map(|number| number as i32);
         let pixels = glow::PixelPackData::Slice(Some(bytemuck::cast_slice_mut(&mut values)));

@@ -11,6 +11,7 @@ use crate::plan::{self, Attachments, Draw, Format, Geometry, Pass, Plan, Step, T
 use crate::renderer::StepValues;
 use crate::scene::Scene;
 use serde::Serialize;
+use std::collections::HashMap;
 
 /// A step of a plan at one pixel.
 #[derive(Debug, Clone, Serialize)]
@@ -59,12 +60,28 @@ impl<'a> Explainer<'a> {
     /// [`Error::Setting`] for supersampled plans and for textures that cannot be recomputed, [`Error::Shader`] for shaders that the
     /// interpreter does not understand.
     pub fn new(scene: &'a Scene, plan: &'a Plan, values: &'a [StepValues], how: Recomputation) -> Result<Self> {
+        Self::with_shaders(scene, plan, values, how, &HashMap::new())
+    }
+
+    /// Like [`Explainer::new`], of a renderer with these shaders, by their paths below `glsl/`, instead of those built in.
+    ///
+    /// # Errors
+    ///
+    /// As [`Explainer::new`].
+    pub fn with_shaders(
+        scene: &'a Scene,
+        plan: &'a Plan,
+        values: &'a [StepValues],
+        how: Recomputation,
+        replaced: &HashMap<String, String>,
+    ) -> Result<Self> {
         if plan.supersample > 1 {
             let problem = "a pixel of it has several colours; explain a pixel of the picture drawn once, without this";
             return Err(Error::value("supersample", plan.supersample, problem));
         }
-        let draws =
-            (0..values.len()).map(|number| prepared(scene, plan, values, number, how)).collect::<Result<_>>()?;
+        let draws = (0..values.len())
+            .map(|number| prepared(scene, plan, values, (number, replaced), how))
+            .collect::<Result<_>>()?;
         Ok(Self { plan, values, draws })
     }
 
@@ -81,7 +98,7 @@ impl<'a> Explainer<'a> {
         (number, at): (usize, [u32; 2]),
     ) -> Result<PixelStep> {
         let mut draws: Vec<Option<PreparedDraw<'a>>> = (0..number).map(|_| None).collect();
-        draws.push(prepared(scene, plan, values, number, how)?);
+        draws.push(prepared(scene, plan, values, (number, &HashMap::new()), how)?);
         Self { plan, values, draws }.at_step(number, at, false)
     }
 
@@ -182,7 +199,7 @@ fn prepared<'a>(
     scene: &'a Scene,
     plan: &'a Plan,
     values: &'a [StepValues],
-    number: usize,
+    (number, replaced): (usize, &HashMap<String, String>),
     how: Recomputation,
 ) -> Result<Option<PreparedDraw<'a>>> {
     let Some((pass, Step::Draw(draw))) = all_steps(plan).nth(number) else { return Ok(None) };
@@ -191,9 +208,10 @@ fn prepared<'a>(
     }
     let program = fixed_function::program_of(draw, false)
         .ok_or_else(|| Error::gl("explaining a pixel", "a draw has no shaders"))?;
-    let text = |path: &'static str| {
+    let text = |path: &'static str| -> Result<(&'static str, &str)> {
         let missing = || Error::gl("explaining a pixel", format!("{path} is no shader of tinta"));
-        glsl::source(path).map(|text| (path, text)).ok_or_else(missing)
+        let replaced = replaced.get(path).map(String::as_str);
+        replaced.or_else(|| glsl::source(path)).map(|text| (path, text)).ok_or_else(missing)
     };
     let fragments: Vec<(&str, &str)> = program.fragments.iter().map(|path| text(path)).collect::<Result<_>>()?;
     let stage = |texts: &[(&str, &str)]| tinta_glsl::Stage::new(texts).map_err(misunderstood);

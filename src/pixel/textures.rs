@@ -63,6 +63,11 @@ impl<'a> Images<'a> {
                 Texture::DepthMap => {
                     let StepValues { part, depth, .. } =
                         &values[last(&|(_, step)| **step == Step::CopyDepth).ok_or_else(missing)?];
+                    if depth.is_empty() {
+                        let problem =
+                            "it reads depth, which browsers do not give back; the command tinta why explains it";
+                        return Err(Error::setting("style", problem));
+                    }
                     Image::Depth(*part, depth)
                 }
                 Texture::Drawn(name) => {

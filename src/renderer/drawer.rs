@@ -5,7 +5,7 @@ use crate::gl::context::{Context, Current};
 use crate::gl::execute::Resources;
 use crate::limits::{DRAWN_AT_ONCE_PIXELS, DRAWN_PIXELS, TILE_SIDE_PX};
 use crate::picture::Picture;
-use crate::plan::{Output, Pass, Plan, Step, Tile, TileLimits};
+use crate::plan::{Format, Output, Pass, Plan, Step, Target, Tile, TileLimits};
 use crate::scene::{Rectangle, Scene, Size};
 use std::collections::HashMap;
 
@@ -198,15 +198,15 @@ impl Frame<'_> {
     }
 
     /// Carries out one step of a picture in one piece and reads what the target then holds in some pixels.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(super) fn step_values(&mut self, pass: &Pass, step: &Step, part: Rectangle) -> Result<StepValues> {
         self.resources.begin(pass.target, pass.scissor)?;
         self.resources.step(self.scene, step)?;
-        let (count, has_depth) = match pass.target {
-            crate::plan::Target::Framebuffer => (1, true),
-            crate::plan::Target::Textures(attachments) => (attachments.colors.len() as u32, attachments.has_depth),
+        let (formats, has_depth) = match pass.target {
+            Target::Framebuffer => (vec![Format::Unorm8], true),
+            Target::Textures(to) => (to.colors.iter().map(|color| color.format).collect(), to.has_depth),
         };
-        let colors = (0..count).map(|number| self.resources.read_colors(number, part)).collect();
+        let colors =
+            (0..).zip(formats).map(|(number, format)| self.resources.read_colors(number, format, part)).collect();
         let depth = if has_depth { self.resources.read_depth(part) } else { Vec::new() };
         self.resources.check(pass.name)?;
         Ok(StepValues { part, colors, depth })
@@ -261,7 +261,7 @@ pub struct StepValues {
     pub part: Rectangle,
     /// For each texture of the target, or the framebuffer: red, green, blue and alpha of each pixel, bottom row first.
     pub colors: Vec<Vec<[f32; 4]>>,
-    /// The depth of each pixel, 0 to 1; empty if the target has no depth buffer.
+    /// The depth of each pixel, 0 to 1; empty if the target has no depth buffer, and in a browser.
     pub depth: Vec<f32>,
 }
 

@@ -34,7 +34,8 @@ pub enum Layer {
 pub fn layers(look: Option<Look>, files: Vec<Preset>, given: Options, draws_lines: bool) -> Vec<Layer> {
     let is_said = !files.is_empty() || given.contains_key("style") || draws_lines;
     let look = look.or(if is_said { None } else { Some(LOOKS[0]) });
-    let style = draws_lines.then_some(Layer::Style(StyleName::Lines));
+    // A look draws its own style into vectors, too.
+    let style = (draws_lines && look.is_none()).then_some(Layer::Style(StyleName::Lines));
     let below = style.into_iter().chain(look.map(Layer::Look));
     below.chain(files.into_iter().map(Layer::File)).chain([Layer::Given(given)]).collect()
 }

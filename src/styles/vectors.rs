@@ -1,7 +1,6 @@
 //! What a cartoon style draws into a file of vectors: exact areas of tone, and exact lines above them. No GL here.
 
 use super::{Cartoon, CreaseBy, Ink, LineStyle, LineWidth, Mrt, Style, Tones};
-use crate::edges::{Class, ClassSet};
 use crate::error::{Error, Result};
 use crate::lines::{
     DrawingSettings, FillGroup, LineSettings, Progress, Regions, ToneLight, ToneRule, TonedSurface, fills,
@@ -32,7 +31,11 @@ impl Style {
         let of_cartoon = |tones: &Tones, border: Option<Option<LineWidth>>| Vectors {
             tones: tones.clone(),
             light: ToneLight::Near(LISTED_LIGHT),
-            lines: border.map(|width| lines(LineSettings::default(), [width.unwrap_or(LISTED_WIDTH); 2], size)),
+            lines: border.map(|width| {
+                // The listing's filter compares normals.
+                let settings = LineSettings { creases_by_normals: true, ..LineSettings::default() };
+                lines(settings, [width.unwrap_or(LISTED_WIDTH); 2], size)
+            }),
         };
         match self {
             Self::ThreePass(Cartoon { tones, border, .. })
@@ -47,14 +50,8 @@ impl Style {
 fn of_ink(ink: &Ink, size: Size) -> Vectors {
     let direction = |light: [f32; 3]| DVec3::from_array(light.map(f64::from)).normalize_or_zero();
     let all = LineSettings { crease_angle: ink.crease_angle, ..LineSettings::default() };
-    let settings = match ink.crease_by {
-        // The pixels' creases are where the model's normals are split.
-        CreaseBy::Normals => {
-            let classes = all.classes.without(&[Class::Crease]).or(ClassSet::of(&[Class::Normal]));
-            LineSettings { classes, ..all }
-        }
-        _ => all,
-    };
+    // The pixels' creases are where the model's normals are split.
+    let settings = LineSettings { creases_by_normals: ink.crease_by == CreaseBy::Normals, ..all };
     let widths = [ink.line_width, ink.inner_width.unwrap_or(ink.line_width)];
     Vectors {
         tones: ink.tones.clone(),
@@ -98,8 +95,12 @@ impl Vectors {
     ///
     /// Those of [`Regions::toned`].
     pub fn regions(&self, scene: &Scene, progress: &Progress) -> Result<Regions<Option<TonedSurface>>> {
-        let rule = ToneRule { light: self.light, thresholds: self.tones.thresholds().map(f64::from) };
-        Regions::toned(scene, &rule, progress)
+        Regions::toned(scene, &self.rule(), progress)
+    }
+
+    /// How light becomes tones.
+    pub fn rule(&self) -> ToneRule {
+        ToneRule { light: self.light, thresholds: self.tones.thresholds().map(f64::from) }
     }
 
     /// The colour of a surface: its material's, times its tone.

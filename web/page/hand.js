@@ -7,7 +7,7 @@ import { key_action as actionOf } from "./tinta.js";
 const NOTCH = 1.118;
 
 /** Connects a stage with the app that it changes; returns which side is meant by keys: the one last touched. */
-export function hand(stage, { state, pane, changed, moved, settle, tables, visible }, { chooseStyle, side, keys, save }) {
+export function hand(stage, { state, pane, changed, moved, settle, tables, visible }, { chooseStyle, side, keys, save, why }) {
   const pointers = new Map();
   let touched = "left";
   let divides = false;
@@ -20,6 +20,7 @@ export function hand(stage, { state, pane, changed, moved, settle, tables, visib
   };
 
   stage.addEventListener("pointerdown", (event) => {
+    if (why.asks(event)) return why.ask(event);
     stage.setPointerCapture?.(event.pointerId);
     const reach = (event.pointerType === "touch" ? 22 : 8) / stage.clientWidth;
     divides = pointers.size === 0 && Math.abs(dividerAt(event) - state().divider) < reach * 100;

@@ -12,6 +12,7 @@ import { saving } from "./save.js";
 import { shaderEditor } from "./shaders.js";
 import { sides } from "./sides.js";
 import { linkOf, ofLink, options, styleOf } from "./state.js";
+import { asking } from "./why.js";
 
 const at = (id) => document.getElementById(id);
 const NAMES = ["left", "right"];
@@ -207,6 +208,7 @@ const modelOf = () =>
 /** Changes the state, draws it, and puts it into the address once nothing has changed for a while. */
 function changed(change) {
   change();
+  why.forget();
   if (pane) state.orbit = pane.orbit();
   draw();
   clearTimeout(addressed);
@@ -270,6 +272,7 @@ const shaders = shaderEditor(app);
 const controls = sides(app);
 const lecture = lectures(app, { shader: shaders.show, controls: controls.all });
 const save = saving(app);
+const why = asking(app);
 
 /** Opens WebGL, or explains why it failed. */
 function begin() {
@@ -317,7 +320,7 @@ at("divider").addEventListener("input", () => changed(() => (state.divider = Num
 at("whole").addEventListener("click", () => changed(() => pane?.reset()));
 at("licences").href = address("licences.txt");
 at("key-sheet").addEventListener("click", () => at("keys").showModal());
-const active = hand(at("stage"), app, { chooseStyle: controls.chooseStyle, side: controls.one, keys: at("keys"), save: { picture: (name) => save.picture(name), lines: () => at("svg").click() } });
+const active = hand(at("stage"), app, { chooseStyle: controls.chooseStyle, side: controls.one, keys: at("keys"), why, save: { picture: (name) => save.picture(name), lines: () => at("svg").click() } });
 for (const event of ["dragover", "drop"]) {
   addEventListener(event, (dropped) => {
     dropped.preventDefault();

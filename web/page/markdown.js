@@ -1,19 +1,32 @@
-// As much of Markdown as the documents use: headings, paragraphs, lists, tables, code, pictures, links.
+// As much of Markdown as the documents use: headings, paragraphs, lists, tables, code, pictures, links, folded answers.
 
 import { element } from "./panel.js";
 
 /** A document's blocks as elements; `picture(alternative, address, heading)` makes the element of a picture. */
 export function blocks(text, picture) {
   const made = [];
+  // Blocks of an answer that a reader unfolds.
+  let folded = null;
+  const add = (block) => (folded ? folded.append(block) : made.push(block));
   for (const block of text.split(/\n{2,}/)) {
     const lines = block.replace(/\n+$/, "").split("\n");
     if (!lines[0]) continue;
+    const summary = lines[0].match(/^<details><summary>(.*)<\/summary>/);
+    if (summary) {
+      folded = element("details", {}, element("summary", { textContent: summary[1] }));
+      made.push(folded);
+      continue;
+    }
+    if (lines[0] === "</details>") {
+      folded = null;
+      continue;
+    }
     const heading = lines[0].match(/^(#+) (.*)/);
-    if (heading) made.push(element(`h${heading[1].length}`, {}, ...words(heading[2], picture)));
-    else if (lines.every((line) => line.startsWith("    "))) made.push(element("pre", { textContent: lines.map((line) => line.slice(4)).join("\n") }));
-    else if (lines[0].startsWith("|")) made.push(table(lines, picture));
-    else if (lines[0].startsWith("- ")) made.push(list(lines, picture));
-    else made.push(element("p", {}, ...words(lines.join(" "), picture)));
+    if (heading) add(element(`h${heading[1].length}`, {}, ...words(heading[2], picture)));
+    else if (lines.every((line) => line.startsWith("    "))) add(element("pre", { textContent: lines.map((line) => line.slice(4)).join("\n") }));
+    else if (lines[0].startsWith("|")) add(table(lines, picture));
+    else if (lines[0].startsWith("- ")) add(list(lines, picture));
+    else add(element("p", {}, ...words(lines.join(" "), picture)));
   }
   return made;
 }

@@ -4,7 +4,9 @@ use crate::errors::{said, unreadable};
 use crate::model::{Model, asked};
 use serde_json::json;
 use tinta::camera::CameraSettings;
+use tinta::glam::DVec2;
 use tinta::orbit::Orbit;
+use tinta::pixel::Explanation;
 use tinta::plan::Step;
 use tinta::recipe::Driver;
 use tinta::renderer::Renderer;
@@ -127,6 +129,19 @@ impl Pane {
         let request = asked(StyleName::ThreePass, options)?;
         let scene = self.seen(&request)?;
         Ok(Ink::of_style(&mut self.renderer, &scene, &request.style).map_err(said)?.map(|ink| ink.darkness))
+    }
+
+    /// Why a pixel of the drawing, right and down from its upper left corner, has its colour: each pass with each statement of its
+    /// shaders and its value.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Pane::draw`], and for background.
+    pub fn why(&mut self, options: &str, x: f64, y: f64) -> Result<String, JsError> {
+        let request = asked(StyleName::ThreePass, options)?;
+        let scene = self.seen(&request)?;
+        let why = Explanation::of(&request.style, &scene, &mut self.renderer, DVec2::new(x, y)).map_err(said)?;
+        Ok(why.to_string())
     }
 
     /// From where the scene is seen, as [`Pane::set_orbit`] takes it.

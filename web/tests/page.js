@@ -51,6 +51,22 @@ export async function testPage(tables) {
     return settled();
   };
 
+  await test("a pixel is explained where the picture is pressed, until the picture changes", async () => {
+    await pointer("pointerdown", 0.25, 0.5, { altKey: true });
+    const said = () => at("why").querySelector("pre").textContent;
+    assert(!at("why").hidden && /leaves [0-9]/.test(said()) && /the driver/.test(said()), said());
+    // What is recomputed is what the browser drew.
+    const apart = [...said().matchAll(/([0-9.]+) steps of 255 away/g)].map(([, steps]) => Number(steps));
+    assert(apart.every((steps) => steps <= 1.5), `apart by ${apart} of 255`);
+    at("ask").click();
+    assert(stage.classList.contains("asks"), "the button waits for a pixel");
+    await pointer("pointerdown", 0.002, 0.002);
+    assert(/background/.test(said()) && !stage.classList.contains("asks"), said());
+    await key("ArrowRight");
+    assert(at("why").hidden && at("asked").hidden, "what was said of another picture goes");
+    await key("r");
+  });
+
   await test("the page shows both styles at once", () => {
     for (const name of ["left", "right"]) {
       const colors = new Set(new Uint32Array(picture(at(name)).buffer));

@@ -29,6 +29,8 @@ mod run;
 #[cfg(feature = "measuring")]
 mod shading;
 #[cfg(feature = "measuring")]
+mod tone_borders;
+#[cfg(feature = "measuring")]
 mod tones;
 
 #[cfg(feature = "measuring")]
@@ -38,7 +40,7 @@ pub use ink::{INK_FROM, Ink, InkVerdicts, Verdict};
 #[cfg(feature = "judging")]
 pub(crate) use reference::samples_of;
 pub use reference::{Reference, SOFT_CREASE_DEGREES, Sample};
-pub use row::{Against, LineError, PassRow, Row, RunTime, ToneError};
+pub use row::{Against, LineError, PassRow, Row, RunTime, ToneBorderError, ToneError};
 #[cfg(feature = "measuring")]
 pub use run::{MeasureSettings, MeasureStep, Measured, Setting, Subject, frames_a_turn, measure, turns};
 #[cfg(feature = "measuring")]

@@ -6,6 +6,7 @@ pub(super) mod face_subset;
 pub(super) mod feature;
 pub(super) mod features;
 pub(super) mod mesh_repair;
+mod normal_creases;
 pub(super) mod object_edges;
 pub(super) mod part_classes;
 pub(super) mod split_t_junctions;

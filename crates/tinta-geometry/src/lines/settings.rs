@@ -19,6 +19,9 @@ pub struct LineSettings {
     /// Whether to keep only lasting creases: closed ones, long ones, and those at the end of a flat face of several
     /// triangles. Default false, which also draws single folds of scans.
     pub lasting_creases: bool,
+    /// Whether a crease lies where the mesh's normals on both sides of an edge differ by the crease angle, instead of its faces: where
+    /// shading breaks. It ends within the edge where they approach each other. Default false.
+    pub creases_by_normals: bool,
     /// The rule for silhouettes. `Exact`, the default, finds those of the faces. `Smooth` finds those of the curved
     /// surface that the faces approximate. `Published` is refused because it has no exact lines.
     pub silhouette: SilhouetteRule,
@@ -64,6 +67,7 @@ impl Default for LineSettings {
             ]),
             crease_angle: CreaseAngle::of_drawings(),
             lasting_creases: false,
+            creases_by_normals: false,
             silhouette: SilhouetteRule::Exact,
             on_surface: 1e-4,
             parts: PartRules::default(),

@@ -221,7 +221,7 @@ fn share_of(weights: impl Iterator<Item = (bool, f64)>) -> f64 {
 }
 
 /// Weighted mean and 95th percentile of values with their weights; `None` without values.
-fn mean_and_95th(mut values: Vec<(f64, f64)>) -> Option<[f64; 2]> {
+pub(super) fn mean_and_95th(mut values: Vec<(f64, f64)>) -> Option<[f64; 2]> {
     values.retain(|(value, _)| value.is_finite());
     values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let all: f64 = values.iter().map(|(_, weight)| weight).sum();

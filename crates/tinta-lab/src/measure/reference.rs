@@ -198,7 +198,7 @@ fn count_of_steps([a, b]: [DVec2; 2], step_px: f64) -> f64 {
 }
 
 /// The middles of equal pieces of a line, none longer than a step.
-fn middles(ends: [DVec2; 2], step_px: f64) -> impl Iterator<Item = DVec2> {
+pub(super) fn middles(ends: [DVec2; 2], step_px: f64) -> impl Iterator<Item = DVec2> {
     let count = count_of_steps(ends, step_px);
     (0..count as usize).map(move |index| ends[0].lerp(ends[1], (index as f64 + 0.5) / count))
 }

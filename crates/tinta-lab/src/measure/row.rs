@@ -104,6 +104,19 @@ pub struct ToneError {
     pub mean_difference: f64,
     /// The largest.
     pub largest_difference: f64,
+    /// The places where tones change; `None` for continuous tones, and without any inside.
+    #[serde(default)]
+    pub borders: Option<ToneBorderError>,
+}
+
+/// How far a picture's borders between tones are from the exact ones, farther than 1 pixel from every visible line: mean and 95th
+/// percentile, pixels.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ToneBorderError {
+    /// From the exact borders, weighted by length, to the nearest in the picture.
+    pub exact_to_drawn_px: [f64; 2],
+    /// From the picture's, each time two pixels beside each other differ, to the nearest exact one.
+    pub drawn_to_exact_px: [f64; 2],
 }
 
 /// Time of a setting, wall-clock milliseconds unless noted.

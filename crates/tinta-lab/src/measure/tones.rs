@@ -6,9 +6,11 @@
 use super::ToneError;
 use super::reference::Reference;
 use super::shading::{Shading, Surface};
+use super::tone_borders::ToneBorders;
 use glam::{DMat3, DVec2, DVec3};
+use std::sync::{Arc, Mutex, PoisonError};
 use tinta::error::Result;
-use tinta::lines::{Hit, first_hits};
+use tinta::lines::{Hit, ToneRule, first_hits};
 use tinta::mesh::NONE;
 use tinta::picture::Picture;
 use tinta::scene::Scene;
@@ -28,6 +30,8 @@ const ROUNDING: f64 = 1.5;
 pub struct ReferenceLight {
     /// Row by row from the top.
     surfaces: Vec<Option<Surface>>,
+    /// The exact borders of tones by rules already asked for: most settings of a style share theirs.
+    borders: Mutex<Vec<(ToneRule, Arc<ToneBorders>)>>,
 }
 
 impl ReferenceLight {
@@ -41,7 +45,21 @@ impl ReferenceLight {
             surface.place = DVec2::new(x / width as f64, 1.0 - y / height as f64);
             Some(surface)
         };
-        Self { surfaces: first_hits(scene).into_iter().enumerate().map(surface).collect() }
+        let surfaces = first_hits(scene).into_iter().enumerate().map(surface).collect();
+        Self { surfaces, borders: Mutex::default() }
+    }
+
+    /// The exact borders of a style's tones; `None` for a style without.
+    fn borders(&self, style: &Style, scene: &Scene) -> Result<Option<Arc<ToneBorders>>> {
+        let Some(vectors) = style.vectors(scene.size) else { return Ok(None) };
+        let rule = vectors.rule();
+        let mut known = self.borders.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, borders)) = known.iter().find(|(of, _)| *of == rule) {
+            return Ok(Some(Arc::clone(borders)));
+        }
+        let borders = Arc::new(ToneBorders::of(&vectors, scene)?);
+        known.push((rule, Arc::clone(&borders)));
+        Ok(Some(borders))
     }
 
     /// A style's shading by these rays on white, as GL would draw it without error; `None` for one that is not computed here.
@@ -94,6 +112,15 @@ impl ReferenceLight {
             }
         }
         let [inner, rim] = counts;
+        let borders = match &shading {
+            Shading::Tones(tones) => {
+                let colors: Vec<Option<[f64; 3]>> =
+                    self.surfaces.iter().map(|surface| surface.map(|surface| surface.color.to_array())).collect();
+                let exact = self.borders(style, scene)?;
+                exact.and_then(|exact| exact.error(picture, tones, &colors, (reference, RIM_PX)))
+            }
+            _ => None,
+        };
         let share = |[count, differing]: [usize; 2]| {
             let share = if count > 0 { differing as f64 / count as f64 } else { 0.0 };
             shading.is_of_tones().then_some(share)
@@ -105,6 +132,7 @@ impl ReferenceLight {
             rim_differing: share(rim),
             mean_difference: if inner[0] > 0 { sum / inner[0] as f64 } else { 0.0 },
             largest_difference: largest,
+            borders,
         }))
     }
 }

@@ -340,6 +340,20 @@ fn tone_columns() -> Vec<Column> {
             "The largest difference of any channel over the same pixels, of 255.",
         ),
         column(
+            "tone_border_to_drawn_mean_px",
+            "Tone border to drawn, mean px",
+            2,
+            |row| tone(row, |tones| tones.borders.as_ref().map(|borders| borders.exact_to_drawn_px[0])),
+            "Mean distance from the exact borders between tones to the nearest in the picture, away from lines, pixels.",
+        ),
+        column(
+            "drawn_to_tone_border_mean_px",
+            "Drawn tone border to exact, mean px",
+            2,
+            |row| tone(row, |tones| tones.borders.as_ref().map(|borders| borders.drawn_to_exact_px[0])),
+            "Mean distance from the picture's borders between tones to the nearest exact one, away from lines, pixels.",
+        ),
+        column(
             "tone_pixels",
             "Tone pixels",
             0,

@@ -5,8 +5,9 @@ use crate::edges::{Class, ClassCounts, ClassSet, EdgeList, Incidence, Silhouette
 use crate::error::Result;
 use crate::lines::LineSettings;
 use crate::lines::input::feature::Feature;
+use crate::lines::input::normal_creases::creased_parts;
 use crate::lines::input::object_edges::ObjectEdges;
-use crate::lines::input::part_classes::PartClasses;
+use crate::lines::input::part_classes::{CREASES, PartClasses};
 use crate::lines::parts::scene_parts::SceneParts;
 use crate::lines::smooth::contours::{Contours, OnEdge, between};
 use crate::lines::visible::faces::{Faces, Own, near_crossing};
@@ -23,8 +24,12 @@ const OCCLUDING: ClassSet = ClassSet::of(&[Class::Boundary, Class::NonManifold, 
 
 /// The classes of a mesh's edges that these settings need.
 pub(in crate::lines) fn asked(settings: &LineSettings) -> ClassSet {
+    let of_normals = match settings.creases_by_normals && settings.classes.contains(Class::Crease) {
+        true => ClassSet::of(&[Class::Normal]),
+        false => ClassSet::default(),
+    };
     let of_contours = if settings.has_smooth_contours() { ClassSet::of(&[Class::Crease]) } else { ClassSet::default() };
-    settings.classes.or(OCCLUDING).or(of_contours).and(ClassSet::EDGES)
+    settings.classes.or(OCCLUDING).or(of_contours).or(of_normals).and(ClassSet::EDGES)
 }
 
 /// The edges of all parts that are drawn or hide others, in a stable order, and the number of drawn ones in each
@@ -70,7 +75,19 @@ pub(in crate::lines) fn edge_features(
                 continue;
             }
             let of_part = scene_parts.owner(list.faces(edge).iter().map(part_of));
-            let mut of_edge = classes.of(edge, scene_parts.look_of(of_part));
+            let look = scene_parts.look_of(of_part);
+            let wanted = match settings.joins_parts && part.is_seam_of_parts(edge) {
+                true => ClassSet::default(),
+                false => scene_parts.classes(of_part),
+            };
+            let mut of_edge = classes.of(edge, look);
+            let mut creased = Vec::new();
+            if settings.creases_by_normals {
+                if of_edge.contains(Class::Normal) && wanted.contains(Class::Crease) {
+                    creased = creased_parts(mesh, list, edge, crease_angles[look as usize].cosine);
+                }
+                of_edge = of_edge.without(&CREASES);
+            }
             let by_edge_on = match edge_on.binary_search(&edge) {
                 Ok(_) => at_edge_on(faces, mesh, list, edge, number_of),
                 Err(_) => None,
@@ -84,11 +101,10 @@ pub(in crate::lines) fn edge_features(
             let on_edge = contours.map_or(OnEdge::ByFaces, |contours| {
                 contours.parts[number].on_edge(space, &faces.positions, list, edge)
             });
-            let wanted = match settings.joins_parts && part.is_seam_of_parts(edge) {
-                true => ClassSet::default(),
-                false => scene_parts.classes(of_part),
-            };
-            let parts_by_class = parts_by_class(of_edge, on_edge, wanted);
+            let mut parts_by_class = parts_by_class(of_edge, on_edge, wanted);
+            if !creased.is_empty() {
+                parts_by_class = with_creases(&parts_by_class, &creased);
+            }
             if let Some(class) = parts_by_class.iter().filter_map(|(class, _)| *class).min() {
                 *counts.of(class) += 1;
             }
@@ -144,6 +160,22 @@ fn parts_by_class(of_edge: ClassSet, on_edge: OnEdge, wanted: ClassSet) -> Vec<(
         parts.push((other, [from, 1.0]));
     }
     parts
+}
+
+/// Parts of an edge cut where its creased parts begin and end, and those drawn as creases unless their class comes before.
+fn with_creases(parts: &[(Option<Class>, [f64; 2])], creased: &[[f64; 2]]) -> Vec<(Option<Class>, [f64; 2])> {
+    let mut cut = Vec::new();
+    for (class, [from, to]) in parts {
+        let inner = creased.as_flattened().iter().copied().filter(|share| from < share && share < to);
+        let places: Vec<f64> = std::iter::once(*from).chain(inner).chain([*to]).collect();
+        for ends in places.windows(2) {
+            let middle = f64::midpoint(ends[0], ends[1]);
+            let is_creased = creased.iter().any(|[start, end]| (*start..=*end).contains(&middle));
+            let crease = is_creased.then_some(Class::Crease);
+            cut.push((class.into_iter().copied().chain(crease).min(), [ends[0], ends[1]]));
+        }
+    }
+    cut
 }
 
 /// The planes of the first two faces at an edge.

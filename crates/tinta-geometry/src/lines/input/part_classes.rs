@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Classes of edges that `lasting_creases` restricts.
-const CREASES: [Class; 3] = [Class::Crease, Class::ConvexCrease, Class::ConcaveCrease];
+pub(super) const CREASES: [Class; 3] = [Class::Crease, Class::ConvexCrease, Class::ConcaveCrease];
 
 /// The classes of a mesh's edges for the crease angles of all parts.
 pub(super) struct PartClasses {

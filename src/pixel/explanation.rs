@@ -1,0 +1,235 @@
+//! A pixel explained in words: pass by pass, statement by statement, beside the driver's value and the exact lines.
+
+use super::{
+    AgainstLines, Event, Explainer, Fragment, PixelStep, Recomputation, Sample, Verdict, What, against_lines,
+    is_background,
+};
+use crate::error::{Error, Result};
+use crate::lines::{LineSettings, VisibleLines};
+use crate::renderer::Renderer;
+use crate::scene::{Rectangle, Scene};
+use crate::styles::{Show, Style};
+use glam::DVec2;
+use serde::Serialize;
+use std::fmt::{Display, Formatter, Write};
+
+/// How far around the pixel the buffers are read back: further than any of the styles' shaders reads.
+const MARGIN_PX: u32 = 72;
+
+/// Statements told of one triangle.
+const MOST_EVENTS: usize = 80;
+
+/// Characters shown of a statement.
+const SOURCE_LENGTH: usize = 58;
+
+/// A pixel of a style's picture, explained.
+#[derive(Debug, Serialize)]
+pub struct Explanation {
+    /// The style's name.
+    pub style: &'static str,
+    /// Right and down from the upper left corner.
+    pub pixel: [u32; 2],
+    /// The same right and up from the lower left corner, as GL counts texels.
+    pub place_in_textures: [u32; 2],
+    /// Red, green, blue and alpha of the picture, of 255.
+    pub color: [u8; 4],
+    /// OpenGL's name of the driver.
+    pub renderer: String,
+    /// The objects' names, by their numbers.
+    pub objects: Vec<String>,
+    /// Each step of the plan.
+    pub steps: Vec<PixelStep>,
+    /// The pixel's line beside the exact ones; `None` for styles that draw no lines.
+    pub lines: Option<AgainstLines>,
+    /// The texts of the shaders that ran, by their paths.
+    #[serde(skip)]
+    texts: Vec<(String, String)>,
+}
+
+impl Explanation {
+    /// Draws a scene in a style and explains the pixel at a place, x right and y down from the upper left corner.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::CommandLine`] for a place outside of the picture or of background; those of [`Renderer::step_values`] and of
+    /// [`Explainer`].
+    pub fn of(style: &Style, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<Self> {
+        let size = scene.size;
+        let refuse = |problem: String| Error::CommandLine { problem: format!("{},{}: {problem}", place.x, place.y) };
+        let is_within = |at: f64, count: u32| (0.0..f64::from(count)).contains(&at);
+        if !is_within(place.x, size.width) || !is_within(place.y, size.height) {
+            let (right, low) = (size.width - 1, size.height - 1);
+            return Err(refuse(format!(
+                "this is outside of the picture; choose x from 0 to {right} and y from 0 to {low}"
+            )));
+        }
+        let pixel = [place.x as u32, place.y as u32];
+        let at = [pixel[0], size.height - 1 - pixel[1]];
+        let (x, y) = (at[0].saturating_sub(MARGIN_PX), at[1].saturating_sub(MARGIN_PX));
+        let until = |at: u32, count: u32| (at + MARGIN_PX + 1).min(count);
+        let part = Rectangle { x, y, width: until(at[0], size.width) - x, height: until(at[1], size.height) - y };
+
+        let plan = style.plan(scene, Show::Final)?;
+        let values = renderer.step_values(scene, &plan, part)?;
+        let how = Recomputation::like(renderer.context());
+        let replaced = renderer.replaced_shaders();
+        let steps = Explainer::with_shaders(scene, &plan, &values, how, &replaced)?.pixel(at, true)?;
+        if is_background(&steps) {
+            return Err(refuse("this is background, where nothing is drawn; choose a pixel of the model".to_owned()));
+        }
+        let lines = match style.style_name().has_lines() && replaced.is_empty() {
+            true => {
+                let plan = style.plan(scene, Show::Borders)?;
+                let values = renderer.step_values(scene, &plan, part)?;
+                let lines = VisibleLines::of(scene, &LineSettings::default())?;
+                Some(against_lines(scene, style, (&plan, &values), &lines, at, how)?)
+            }
+            false => None,
+        };
+        let color = steps.last().and_then(|step| step.drawn.first()).copied().unwrap_or_default();
+        Ok(Self {
+            style: style.name(),
+            pixel,
+            place_in_textures: at,
+            color: color.map(|channel| (channel * 255.0).round().clamp(0.0, 255.0) as u8),
+            renderer: renderer.context().renderer.clone(),
+            objects: scene.objects.iter().map(|object| object.mesh.name.clone()).collect(),
+            steps,
+            lines,
+            texts: replaced.into_iter().collect(),
+        })
+    }
+
+    /// The line of a shader that an event comes from, shortened.
+    fn source(&self, event: &Event) -> String {
+        let replaced = self.texts.iter().find(|(path, _)| *path == event.shader).map(|(_, text)| text.as_str());
+        let text = replaced.or_else(|| crate::glsl::source(&event.shader)).unwrap_or_default();
+        let line = text.lines().nth((event.line as usize).saturating_sub(1)).unwrap_or_default();
+        line.trim().chars().take(SOURCE_LENGTH).collect()
+    }
+
+    /// The triangles over the pixel: the one that stays statement by statement, the others as a number.
+    fn write_fragments(&self, text: &mut String, fragments: &[Fragment]) {
+        let last =
+            fragments.iter().rposition(Fragment::is_written).or_else(|| fragments.iter().rposition(|f| f.is_discarded));
+        let others = fragments.len() - usize::from(last.is_some());
+        let Some(fragment) = last.map(|place| &fragments[place]) else {
+            if others > 0 {
+                let _ = writeln!(text, "  {others} triangles cover it, all behind what is there");
+            }
+            return;
+        };
+        if let Some(object) = fragment.object {
+            let side = if fragment.is_front { "front" } else { "back" };
+            let name = self.objects.get(object).map_or("", String::as_str).escape_debug();
+            let _ = write!(text, "  triangle {} of {name}, its {side}, depth {:.6}", fragment.triangle, fragment.depth);
+            let shares: Vec<String> = fragment.corners.iter().map(|corner| format!("{:.4}", corner.share)).collect();
+            let _ = write!(text, ", corners' shares {}", shares.join(" "));
+            let _ = writeln!(text, "{}", if others > 0 { format!("; {others} more cover it") } else { String::new() });
+            for (name, value) in &fragment.varyings {
+                let _ = writeln!(text, "    in   {name} = {value}");
+            }
+        }
+        for event in fragment.events.iter().take(MOST_EVENTS) {
+            let (line, value) = (self.source(event), of_event(event, self.place_in_textures));
+            let _ = writeln!(text, "  {:>5}  {line:<SOURCE_LENGTH$} {value}", event.line);
+        }
+        if fragment.events.len() > MOST_EVENTS {
+            let _ = writeln!(text, "         and {} more; --json lists all", fragment.events.len() - MOST_EVENTS);
+        }
+    }
+}
+
+impl Display for Explanation {
+    fn fmt(&self, out: &mut Formatter<'_>) -> std::fmt::Result {
+        let Self { style, pixel: [x, y], color, renderer, steps, lines, .. } = self;
+        let mut text = format!("Pixel {x},{y} of {style} is {color:?}, drawn by {renderer}.\n");
+        if let Some(lines) = lines {
+            text.push_str(&of_lines(lines));
+        }
+        for step in steps {
+            let _ = write!(text, "\n{}, {}", step.pass, step.step);
+            if let Some(program) = &step.program {
+                let _ = write!(text, " with {program}");
+            }
+            text.push('\n');
+            self.write_fragments(&mut text, &step.fragments);
+            let _ = writeln!(text, "  {}", written(step));
+        }
+        out.write_str(&text)
+    }
+}
+
+/// What the exact lines say.
+fn of_lines(lines: &AgainstLines) -> String {
+    let AgainstLines { verdict, darkness, class, distance_px, flips } = lines;
+    let nearest = match (class, distance_px) {
+        (Some(class), Some(distance)) => format!("the nearest visible line is a {class} at {distance:.2} px"),
+        _ => "no line is visible".to_owned(),
+    };
+    let verdict = match verdict {
+        Verdict::Right => "as the exact lines",
+        Verdict::Invented => "invented",
+        Verdict::Missed => "missed",
+        Verdict::Empty => "no line here, as in the exact lines",
+    };
+    let mut text = format!("Its line is {darkness} of 255 dark: {verdict}; {nearest}.\n");
+    let becomes = if *darkness >= super::INK_FROM { "no ink" } else { "ink" };
+    for flip in flips {
+        let _ = writeln!(text, "It becomes {becomes} with --{} {}.", flip.setting, three_digits(flip.value));
+    }
+    text
+}
+
+fn three_digits(value: f64) -> String {
+    format!("{value:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn of_event(event: &Event, at: [u32; 2]) -> String {
+    match &event.what {
+        What::Set { variable, value } => format!("{variable} = {value}"),
+        What::Branched { is_taken } => format!("the condition is {is_taken}"),
+        What::Read { texture, sample, .. } => format!("{texture} {}", of_sample(sample, at)),
+        What::Returned { function, value } => format!("{function} returns {value}"),
+        What::Discarded => "the pixel stays as it was".to_owned(),
+    }
+}
+
+/// The texels of a read; those around the pixel by the letters of the texts' filters, A to I from the lower left.
+fn of_sample(sample: &Sample, at: [u32; 2]) -> String {
+    let color = |value: [f64; 4]| value.map(|channel| format!("{:.4}", channel)).join(", ");
+    match sample.texels.as_slice() {
+        [] => format!("has no picture here: {}", color(sample.value)),
+        [texel] => {
+            let [across, up] = [0, 1].map(|axis| i64::from(texel.place[axis]) - i64::from(at[axis]) + 1);
+            let letter = ((0..3).contains(&across) && (0..3).contains(&up)).then(|| 3 * up + across);
+            let letter = letter.and_then(|place| "ABCDEFGHI".chars().nth(place as usize));
+            let tap = letter.map_or_else(String::new, |letter| format!("tap {letter}, "));
+            format!("{tap}texel {},{}: {}", texel.place[0], texel.place[1], color(texel.value))
+        }
+        texels => {
+            let parts: Vec<String> = texels
+                .iter()
+                .map(|texel| format!("{},{} by {:.3}", texel.place[0], texel.place[1], texel.weight))
+                .collect();
+            format!("texels {}: {}", parts.join(", "), color(sample.value))
+        }
+    }
+}
+
+/// The value that a step leaves, and the driver's.
+fn written(step: &PixelStep) -> String {
+    let bytes =
+        |color: &[f64]| color.iter().map(|channel| three_digits(channel * 255.0)).collect::<Vec<_>>().join(", ");
+    let drawn: Vec<String> = step.drawn.iter().map(|color| bytes(&color.map(f64::from))).collect();
+    let drawn = drawn.join(" and ");
+    match (&step.computed, step.difference) {
+        (Some(_), Some(difference)) if difference < 0.01 => format!("leaves {drawn}; the driver: the same"),
+        (Some(computed), Some(difference)) => {
+            let computed: Vec<String> = computed.iter().map(|color| bytes(color)).collect();
+            let computed = computed.join(" and ");
+            format!("leaves {computed}; the driver: {drawn}, {} steps of 255 away", three_digits(difference))
+        }
+        _ => format!("leaves {drawn} by the driver; {}", step.remark.unwrap_or_default()),
+    }
+}
