@@ -115,7 +115,8 @@ pub(in crate::lines) fn page(lines: &VisibleLines, settings: &DrawingSettings) -
     let looks = lines.drawings(settings);
     let is_drawn =
         |segment: &LineSegment| looks[segment.look as usize].draws(segment.is_visible) && !segment.is_covered;
-    Page::new(lines, is_drawn, settings.page_size, settings.margin.0)
+    let drawn = lines.segments.iter().filter(|segment| is_drawn(segment));
+    Page::new(lines.size, drawn, settings.page_size, settings.margin.0)
 }
 
 impl DrawnLayer {

@@ -5,8 +5,8 @@
 //! same numbers on any paper.
 
 use crate::error::{Error, ParseError, Result};
+use crate::lines::LineSegment;
 use crate::lines::drawing::length::{Millimetres, Units};
-use crate::lines::{LineSegment, VisibleLines};
 use crate::scene::Size;
 use crate::settings::{Kind, Problem, Value};
 use glam::DVec2;
@@ -220,14 +220,13 @@ pub(in crate::lines) struct Page {
 }
 
 impl Page {
-    /// The page of a drawing; the lines matter only if a sheet is to be filled.
-    pub(in crate::lines) fn new(
-        lines: &VisibleLines,
-        is_drawn: impl Fn(&LineSegment) -> bool,
+    /// The page of a drawing of a picture's size; the drawn lines matter only if a sheet is to be filled.
+    pub(in crate::lines) fn new<'a>(
+        Size { width, height }: Size,
+        drawn: impl Iterator<Item = &'a LineSegment>,
         size: PageSize,
         margin: f64,
     ) -> Self {
-        let Size { width, height } = lines.size;
         let picture = DVec2::new(f64::from(width), f64::from(height));
         let units = |px_per_mm| Units { px_per_mm, height_px: picture.y };
         let whole = |lengths, unit, px_per_mm| Self {
@@ -245,7 +244,6 @@ impl Page {
             }
             PageSize::Dpi(dpi) => whole(picture / dpi, "in", Some(dpi / MM_PER_INCH)),
             PageSize::Paper(paper) => {
-                let drawn = lines.segments.iter().filter(|segment| is_drawn(segment));
                 let (low, high) = bounds(drawn).unwrap_or((DVec2::ZERO, picture));
                 let paper_mm = DVec2::from_array(paper.sides_mm(high - low));
                 // A horizontal or vertical line has an extent of 0 in one direction.
@@ -282,11 +280,12 @@ fn bounds<'a>(pieces: impl Iterator<Item = &'a LineSegment>) -> Option<(DVec2, D
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edges::{Class, ClassCounts};
-    use crate::lines::LineTimes;
+    use crate::edges::Class;
 
-    fn line(a: [f64; 2], b: [f64; 2]) -> VisibleLines {
-        let segment = LineSegment {
+    const SIZE: Size = Size { width: 600, height: 400 };
+
+    fn line(a: [f64; 2], b: [f64; 2]) -> LineSegment {
+        LineSegment {
             ends_world: [glam::DVec3::ZERO; 2],
             class: Class::Crease,
             is_visible: true,
@@ -299,25 +298,11 @@ mod tests {
             object: 0,
             part: 0,
             look: 0,
-        };
-        let size = Size { width: 600, height: 400 };
-        VisibleLines {
-            size,
-            segments: vec![segment],
-            edges: ClassCounts::default(),
-            changes: None,
-            covered_triangles: 0,
-            undecided: 0,
-            has_specks: false,
-            labels: Vec::new(),
-            parts: Vec::new(),
-            looks: Vec::new(),
-            times: LineTimes::default(),
         }
     }
 
-    fn page(lines: &VisibleLines, size: PageSize, margin: f64) -> Page {
-        Page::new(lines, |_| true, size, margin)
+    fn page(line: &LineSegment, size: PageSize, margin: f64) -> Page {
+        Page::new(SIZE, std::iter::once(line), size, margin)
     }
 
     #[test]
@@ -361,7 +346,7 @@ mod tests {
         assert_fits([[0.0, 0.0], [600.0, 400.0]], "100x300mm", 49.0, [100.0, 300.0]);
         assert_fits([[10.0, 50.0], [20.0, 50.0]], "letter", 15.0, [279.4, 215.9]);
         // An empty drawing shows the whole picture.
-        let nothing = Page::new(&line([1.0; 2], [2.0; 2]), |_| false, sheet("A4"), 15.0);
+        let nothing = Page::new(SIZE, std::iter::empty(), sheet("A4"), 15.0);
         assert_eq!(nothing.units.px_per_mm, Some(600.0 / 267.0));
     }
 
