@@ -156,7 +156,7 @@ mod tests {
             .map(|name| crate::mesh::NamedPart { name: name.to_owned(), within: NONE })
             .to_vec();
         let sentence = |pattern: &str| Pattern(pattern.to_owned()).names_nothing([&mesh].into_iter());
-        assert_eq!(sentence("braket"), "no part or model has this name; did you mean bracket?");
+        assert_eq!(sentence("brackett"), "no part or model has this name; did you mean bracket?");
         assert_eq!(sentence("screw*"), "no part or model has this name; there are bolt0, bolt1, bracket, plate.glb");
         assert_eq!(sentence("material:steel"), "no material has this name; none has a name");
     }

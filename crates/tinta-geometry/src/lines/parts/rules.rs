@@ -163,7 +163,7 @@ mod tests {
             ("bolt*:", "write PATTERN: SETTINGS"),
             ("bolt*: colour=red", "bolt*: a part has no setting colour; did you mean color?"),
             ("bolt*: wobble=1", "a part has no setting wobble; choose color, line-width"),
-            ("bolt*: gost", "bolt*: gost: did you mean ghost?"),
+            ("bolt*: ghostt", "bolt*: ghostt: did you mean ghost?"),
             ("bolt*: color=redd", "a colour is a CSS name"),
             ("bolt*: ghost, solid", "bolt*: as comes twice"),
             ("bolt*: classes=creases", "did you mean crease?"),
