@@ -5,6 +5,9 @@
 //! assert!(filter.starts_with("#version 120") && filter.contains("DETECTION_FACTOR 0.2f"));
 //! ```
 
+use std::collections::HashMap;
+use std::path::Path;
+
 pub mod es;
 
 /// A shader's path below `glsl/` and its text.
@@ -124,6 +127,21 @@ sources![
     "valente/wrap-repeat.frag",
 ];
 
+/// Longest shader read from a folder, bytes: some hundred times the longest there is.
+const LONGEST: u64 = 1 << 20;
+
+/// The shaders that a folder laid out like `glsl/` has in place of those built in, by their paths: files of the same names with other
+/// texts.
+pub fn in_folder(folder: &Path) -> HashMap<String, String> {
+    let read = |path: &str| {
+        let file = folder.join(path);
+        let is_short = std::fs::metadata(&file).is_ok_and(|file| file.is_file() && file.len() <= LONGEST);
+        is_short.then(|| std::fs::read_to_string(&file).ok()).flatten()
+    };
+    let changed = SOURCES.iter().filter_map(|(path, built_in)| Some((*path, *built_in, read(path)?)));
+    changed.filter(|(_, built_in, text)| text != built_in).map(|(path, _, text)| (path.to_owned(), text)).collect()
+}
+
 /// Returns the text of a shader; `None` for an unknown path.
 pub fn source(path: &str) -> Option<&'static str> {
     SOURCES.iter().find(|(name, _)| *name == path).map(|(_, text)| *text)
@@ -158,5 +176,17 @@ mod tests {
         for (path, text) in SOURCES {
             assert!(text.starts_with("#version 120\n//"), "{path} begins with its version and says what it is");
         }
+    }
+
+    #[test]
+    fn only_shaders_that_differ_from_those_built_in_replace_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, text) = SOURCES[0];
+        std::fs::create_dir_all(folder.path().join(path).parent().unwrap()).unwrap();
+        std::fs::write(folder.path().join(path), text).unwrap();
+        std::fs::write(folder.path().join("other.frag"), "void main() {}").unwrap();
+        assert!(in_folder(folder.path()).is_empty());
+        std::fs::write(folder.path().join(path), format!("{text}\n")).unwrap();
+        assert_eq!(in_folder(folder.path()).into_keys().collect::<Vec<_>>(), [path]);
     }
 }

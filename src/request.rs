@@ -59,6 +59,8 @@ pub struct Request {
     pub animation: AnimationSettings,
     /// The way to OpenGL. Default the first that works.
     pub backend: Backend,
+    /// A folder laid out like `glsl/`, whose shaders are drawn with instead of those built in. Default `None`.
+    pub glsl: Option<String>,
     /// What to leave out of the published plan.
     pub pruning: PruneSettings,
     /// Whether a style of passes is drawn as vectors where it can be: areas of tone, and exact lines above them. Default no.
@@ -170,7 +172,7 @@ fn settings() -> Vec<Setting<Request>> {
         .chain(read)
         .chain(under(ANIMATION, of_animation()))
         .chain(under("Skipping work that cannot change the picture", of_pruning()))
-        .chain(under("Running", vec![backend()]))
+        .chain(under("Running", vec![backend(), glsl()]))
         .collect()
 }
 
@@ -256,6 +258,12 @@ fn backend() -> Setting<Request> {
     Setting::field("backend", "BACKEND", help, |request: &mut Request| &mut request.backend)
 }
 
+/// The setting of a folder of shaders.
+fn glsl() -> Setting<Request> {
+    let help = "Draw with the shaders of this folder, laid out like glsl/, instead of the built-in ones; in the window, edits show at once";
+    Setting::open_field("glsl", "DIR", "none", help, |request: &mut Request| &mut request.glsl)
+}
+
 impl Request {
     /// All settings at their defaults, in this style as published.
     pub fn of_style(style: StyleName) -> Self {
@@ -267,6 +275,7 @@ impl Request {
             show: Show::default(),
             animation: AnimationSettings::default(),
             backend: Backend::default(),
+            glsl: None,
             pruning: PruneSettings::default(),
             as_vectors: false,
             tells_all: false,

@@ -104,7 +104,7 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     refuse(&svg, &["--no-borders"], &["--no-borders", "leave it out"]);
     refuse(&svg, &["--silhouette", "paper"], &["--silhouette paper", "exactly"]);
     for options in [&["--hidden", "ghost"][..], &["--class-widths", "crease=1"], &["--pen"]] {
-        refuse(&png, options, &[options[0], "only style lines"]);
+        refuse(&png, options, &[options[0], "only exact lines and areas"]);
         refuse(&json, options, &[options[0], ".json", ".svg"]);
     }
     assert!(!std::path::Path::new(&svg).exists());
@@ -129,7 +129,7 @@ fn nonsense_for_lines_is_refused_by_the_options_name() {
     refuse(&["--line-width", "2x"], &["--line-width 2x", "--class-widths"]);
     refuse(&["--min-length", "2x"], &["--min-length 2x", "--class-widths"]);
     refuse(&["--class-widths", "outlines=3"], &["--class-widths", "did you mean outline?"]);
-    refuse(&["--class-widths", "sketch=3"], &["--class-widths", "outline, hidden, or hidden-"]);
+    refuse(&["--class-widths", "sketch=3"], &["--class-widths", "outline, hatch, hidden, or hidden-"]);
     refuse(&["--line-width", "0.5mm"], &["--line-width 0.5mm", "no size on paper", "--page A4"]);
     refuse(&["--min-length", "1mm"], &["--min-length 1mm", "--page A4"]);
     refuse(&["--min-length", "-1"], &["--min-length -1", "0 or more"]);

@@ -124,7 +124,7 @@ const MISTAKES: [(&str, &str); 88] = [
     ),
     (
         "render triangle.obj -o out.png --hidden dashed",
-        "--hidden: only style lines has this; leave it out, or write a .svg",
+        "--hidden: only exact lines and areas have this; leave it out, or write a .svg",
     ),
     (
         "render triangle.obj -o out.png --style charcoal --show map",

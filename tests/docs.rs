@@ -327,6 +327,7 @@ fn the_limits_are_documented_as_they_are() {
         ("PICTURE_FILE_BYTES", PICTURE_FILE_BYTES),
         ("ROWS_BYTES", ROWS_BYTES),
         ("BATCH_BYTES", BATCH_BYTES),
+        ("HATCH_STROKES", HATCH_STROKES as u64),
         ("JOB_BYTES", JOB_BYTES as u64),
         ("LABEL_CHARACTERS", LABEL_CHARACTERS as u64),
         ("JOB_ID_BYTES", JOB_ID_BYTES as u64),

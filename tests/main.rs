@@ -33,6 +33,7 @@ mod goldens;
 mod goldens_looks;
 #[cfg(feature = "window")]
 mod goldens_window;
+mod hatching;
 mod hostile;
 mod improved;
 mod ink_creases;

@@ -12,9 +12,10 @@ use tinta::{
 
 /// The areas of a style as SVG.
 fn areas(scene: &Scene, style: &Style) -> String {
-    let fills = style.vectors(scene.size).unwrap().fills(scene, &Progress::default()).unwrap();
+    let lines = VisibleLines::none(scene.size);
+    let areas = style.vectors(scene.size).unwrap().areas(scene, &lines, &Progress::default()).unwrap();
     let settings = DrawingSettings { background: scene.background, ..DrawingSettings::default() };
-    svg_of_paths(&VisibleLines::none(scene.size), Vec::new(), &fills, &settings).unwrap()
+    svg_of_paths(&lines, Vec::new(), Some(&areas), &settings).unwrap()
 }
 
 /// An SVG's pixels at a zoom.

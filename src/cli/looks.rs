@@ -26,7 +26,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "MODEL", default_value = "builtin:bust", hide_default_value = true)]
     model: String,
 
-    /// Folder for one picture in each look and index.html, which shows them side by side; created if missing [default: none, list the looks]
+    /// Folder for a picture in each look, as pixels and as vectors where it has them, and index.html, which shows them side by side; created if missing [default: none, list the looks]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 
@@ -50,15 +50,21 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     super::make_folder(folder)?;
     let mut session = super::models::session();
     for look in LOOKS {
-        let output = folder.join(file(look)).display().to_string();
-        let size = Options::from([("size".to_owned(), OptionValue::text(arguments.size.to_string()))]);
-        let layers = layers(Some(look), Vec::new(), size, look.draws_lines());
-        let request = Request::from_layers(&layers)?.0.with_models(vec![arguments.model.clone()]);
-        render::render(&request, &RunSettings::default(), &output, &[], &mut session)?;
+        let request = request(look, arguments.size)?.with_models(vec![arguments.model.clone()]);
+        for file in files(look, &request) {
+            let output = folder.join(file).display().to_string();
+            render::render(&request, &RunSettings::default(), &output, &[], &mut session)?;
+        }
     }
     let page = folder.join("index.html");
-    TextTarget::check(&page.display().to_string())?.write(&html(&arguments.model, arguments.size))?;
+    TextTarget::check(&page.display().to_string())?.write(&html(&arguments.model, arguments.size)?)?;
     super::print(&format!("{}\n", page.display()))
+}
+
+/// A look in this size.
+fn request(look: Look, size: Size) -> Result<Request> {
+    let size = Options::from([("size".to_owned(), OptionValue::text(size.to_string()))]);
+    Ok(Request::from_layers(&layers(Some(look), Vec::new(), size, look.draws_lines()))?.0)
 }
 
 /// A line for each.
@@ -70,29 +76,33 @@ fn list() -> String {
     text + "\nDraw a model in every look:  tinta looks MODEL -o looks\nDraw it in one look:         tinta render MODEL -o picture.png --look NAME\n"
 }
 
-/// The file of a look: vectors if it draws lines.
-fn file(look: Look) -> String {
-    format!("{}.{}", look.name, if look.draws_lines() { "svg" } else { "png" })
+/// The files of a look: pixels unless it draws lines, and vectors where it has them.
+fn files(look: Look, request: &Request) -> Vec<String> {
+    let has_vectors = look.draws_lines() || request.style.vectors(request.scene.size).is_some();
+    let kinds = [("png", !look.draws_lines()), ("svg", has_vectors)];
+    kinds.into_iter().filter(|(_, is)| *is).map(|(kind, _)| format!("{}.{kind}", look.name)).collect()
 }
 
 /// The page, which needs only the pictures beside it.
-fn html(model: &str, size: Size) -> String {
-    let mut figures = String::new();
+fn html(model: &str, size: Size) -> Result<String> {
+    let (mut figures, model) = (String::new(), escaped(model));
     for look in LOOKS {
-        let (file, model) = (file(look), escaped(model));
-        let _ = write!(
-            figures,
-            "<figure>\n<a class=\"picture\" href=\"{file}\"><img src=\"{file}\" alt=\"{model} in the look {name}\" \
-             width=\"{}\" height=\"{}\"/></a>\n<figcaption><strong>{name}</strong>: {}<br/>\
-             <code>tinta render {model} -o {file} --look {name} --size {size}</code></figcaption>\n</figure>\n",
-            size.width,
-            size.height,
-            escaped(look.about),
-            name = look.name,
-        );
+        for file in files(look, &request(look, size)?) {
+            let kind = if file.ends_with(".svg") { "vectors" } else { "pixels" };
+            let _ = write!(
+                figures,
+                "<figure>\n<a class=\"picture\" href=\"{file}\"><img src=\"{file}\" alt=\"{model} in the look {name}, as {kind}\" \
+                 width=\"{}\" height=\"{}\"/></a>\n<figcaption><strong>{name}</strong>, as {kind}: {}<br/>\
+                 <code>tinta render {model} -o {file} --look {name} --size {size}</code></figcaption>\n</figure>\n",
+                size.width,
+                size.height,
+                escaped(look.about),
+                name = look.name,
+            );
+        }
     }
-    beginning("Looks", Pictures::Beside)
-        + &format!("<h1>Looks</h1>\n<main class=\"pictures\">\n{figures}</main>\n</body>\n</html>\n")
+    Ok(beginning("Looks", Pictures::Beside)
+        + &format!("<h1>Looks</h1>\n<main class=\"pictures\">\n{figures}</main>\n</body>\n</html>\n"))
 }
 
 #[cfg(test)]
@@ -102,15 +112,13 @@ mod tests {
     #[test]
     fn every_look_is_listed_and_can_be_drawn_in_its_size() {
         let size = Size { width: 32, height: 24 };
+        let page = html("a<b.obj", size).unwrap();
         for look in LOOKS {
-            assert!(
-                list().contains(look.about) && html("a<b.obj", size).contains(&escaped(look.about)),
-                "{}",
-                look.name
-            );
+            assert!(list().contains(look.about) && page.contains(&escaped(look.about)), "{}", look.name);
         }
-        assert!(html("a<b.obj", size).contains("a&lt;b.obj") && !html("a<b.obj", size).contains("a<b"));
-        assert_eq!(file(LOOKS[1]), "technical.svg");
+        assert!(page.contains("a&lt;b.obj") && !page.contains("a<b"));
+        let files = LOOKS.map(|look| files(look, &request(look, size).unwrap()).join(" "));
+        assert_eq!(files, ["print.png print.svg", "technical.svg", "charcoal.png", "published.png published.svg"]);
         // Without a size, pictures have their look's size; published styles use the size of the papers' pictures.
         for (more, size) in [
             ("a.png", [1280, 960]),

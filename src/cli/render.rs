@@ -187,7 +187,7 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
     remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
     // Known only now.
     pictures_of(&scene).keep(output)?;
-    let renderer = session.renderer(request.backend)?;
+    let renderer = request.renderer(session)?;
     let recipe = keep::recipe(rendering, &scene, &files, Some(renderer.context()));
     target.write_with(&picture, recipe.and_then(|recipe| recipe.note()).as_ref())?;
     if let Some(folder) = &run.dump {

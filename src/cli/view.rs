@@ -43,10 +43,6 @@ pub(super) struct Arguments {
     #[arg(long, hide_short_help = true)]
     coarse: bool,
 
-    /// Read shaders from this folder, laid out like glsl/, instead of the built-in ones; edits show at once [default: none]
-    #[arg(long, hide_short_help = true, value_name = "DIR")]
-    glsl: Option<PathBuf>,
-
     /// Folder for files saved from the window [default: the current one]
     #[arg(long, hide_short_help = true, value_name = "DIR", default_value = ".", hide_default_value = true)]
     folder: PathBuf,
@@ -78,17 +74,15 @@ impl Selection for OfWindow {
     fn has(setting: &Setting<Request>) -> bool {
         let name = setting.name;
         let is_of_style = Style::table().has(name) && (!is_of_lines_alone(name) || LINE_SETTINGS.contains(&name));
-        let is_other = ["style", "show", "backend"].contains(&name) || SCENE_SETTINGS.contains(&name);
+        let is_other = ["style", "show", "backend", "glsl"].contains(&name) || SCENE_SETTINGS.contains(&name);
         is_of_style || is_other || LoadOptions::table().has(name)
     }
 }
 
 /// Opens the window and returns when it is closed.
 pub(super) fn run(arguments: &Arguments, call: &Call<'_>) -> Result<()> {
-    for (option, folder) in [("glsl", arguments.glsl.as_ref()), ("folder", Some(&arguments.folder))] {
-        if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
-            return Err(Error::value(option, folder.display(), "there is no such folder; check the name"));
-        }
+    if !arguments.folder.is_dir() {
+        return Err(Error::value("folder", arguments.folder.display(), "there is no such folder; check the name"));
     }
     if arguments.models.iter().any(|model| model == standard_input::DASH) {
         return Err(Error::model(
@@ -111,12 +105,15 @@ pub(super) fn run(arguments: &Arguments, call: &Call<'_>) -> Result<()> {
         ..Below::default()
     };
     let (request, _) = arguments.options.request(&arguments.models, &below)?;
+    if let Some(folder) = request.glsl.as_ref().filter(|folder| !Path::new(folder).is_dir()) {
+        return Err(Error::value("glsl", folder, "there is no such folder; check the name"));
+    }
     let replay = arguments.replay.as_deref().map(Replay::read).transpose()?;
     let viewer = ViewerOptions {
         state: state(&request, arguments.right, arguments.coarse).map_err(|error| request.attributed(error))?,
         load: request.read.clone(),
         backend: request.backend,
-        shaders: arguments.glsl.clone(),
+        shaders: request.glsl.clone().map(PathBuf::from),
         folder: arguments.folder.clone(),
         line_measure: call.program.line_measure,
     };

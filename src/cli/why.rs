@@ -7,10 +7,10 @@ use super::options::{Below, CameraFile, Chosen, OfSubject, Selection};
 use super::{Command, Verdict, given};
 use tinta::glam::DVec2;
 use tinta::pixel::Explanation;
-use tinta::request::{Layer, Request};
+use tinta::request::{Layer, Request, Session};
 use tinta::settings::{HasSettings, Setting};
 use tinta::styles::is_of_lines_alone;
-use tinta::{Error, LineSettings, Renderer, Result, Scene, Style, StyleName, VisibleLines};
+use tinta::{Error, LineSettings, Result, Scene, Style, StyleName, VisibleLines};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -18,8 +18,8 @@ pub(super) const COMMAND: Command = Command {
         "tinta why cow.obj 240,310                       explain why a line is hidden",
         "tinta why cow.obj 240,310 --style three-pass    explain a pixel",
     ],
-    ..Command::new("why", <Arguments as clap::Args>::augment_args, |matches, _| {
-        run(&given::<Arguments>(matches)?).map(|()| Verdict::Good)
+    ..Command::new("why", <Arguments as clap::Args>::augment_args, |matches, call| {
+        run(&given::<Arguments>(matches)?, call.session).map(|()| Verdict::Good)
     })
 };
 
@@ -56,7 +56,8 @@ impl Selection for OfPicture {
 
     fn has(setting: &Setting<Request>) -> bool {
         let is_drawn = Style::table().has(setting.name) && !is_of_lines_alone(setting.name);
-        let is_other = ["style", "size", "backend"].contains(&setting.name) || LineSettings::table().has(setting.name);
+        let is_other =
+            ["style", "size", "backend", "glsl"].contains(&setting.name) || LineSettings::table().has(setting.name);
         OfSubject::has(setting) || is_other || (is_drawn && setting.name != "supersample")
     }
 }
@@ -71,14 +72,13 @@ fn place(text: &str) -> std::result::Result<DVec2, String> {
 }
 
 /// Explains a pixel or a line.
-pub(super) fn run(arguments: &Arguments) -> Result<()> {
+pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let below = Below { camera: arguments.camera.camera.as_deref(), ..Below::default() };
     let style = Layer::Style(StyleName::Lines);
     let (request, _) = arguments.drawing.request_over(style, std::slice::from_ref(&arguments.model), &below)?;
     let scene = Scene::new(load_meshes(&request.models, &request.read)?, &request.scene)?;
     let Some(style) = request.line_style() else {
-        let mut renderer = Renderer::new(request.backend)?;
-        let why = Explanation::of(&request.style, &scene, &mut renderer, arguments.place)?;
+        let why = Explanation::of(&request.style, &scene, request.renderer(session)?, arguments.place)?;
         return if arguments.json { super::print_json(&why) } else { super::print(&why.to_string()) };
     };
     let why = VisibleLines::why(&scene, &style.lines, arguments.place).map_err(|error| match error {

@@ -229,6 +229,13 @@ fn rewritten(stage: Stage, tokens: &[Token<'_>]) -> Result<Vec<String>, String> 
                 texts[*place] = format!("({} * {})", UNIFORMS[2].2, ATTRIBUTES[0].2);
                 places[number + 1..].iter().take(2).for_each(|bracket| texts[*bracket].clear());
             }
+            // Here a uniform has no value of its own; one that has is not set by any style.
+            Kind::Word if text == "uniform" => {
+                let declaration = places[number..].iter().map(|place| tokens[*place].text);
+                if declaration.take_while(|text| *text != ";").any(|text| text == "=") {
+                    texts[*place] = "const".to_owned();
+                }
+            }
             Kind::Word if text == "texture1D" => sample_table(tokens, &places[number..], &mut texts)?,
             Kind::Word => {
                 if let Some(new) = renamed(stage, text) {

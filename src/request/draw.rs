@@ -1,18 +1,21 @@
 //! From a request to a picture or lines.
 
-use super::{ModelCache, Request, Session};
+use super::{ModelCache, Request, Session, ignored_remark};
 use crate::clock::Instant;
 use crate::edges::SilhouetteRule;
 use crate::error::{Error, Result};
-use crate::lines::{DrawingSettings, FillGroup, LineSettings, Progress, VisibleLines};
+use crate::glsl;
+use crate::lines::{Areas, DrawingSettings, LineSettings, Progress, VisibleLines};
 use crate::mesh::{LoadStage, Mesh};
 use crate::picture::Picture;
 use crate::plan::Plan;
 use crate::plan::prune::{Kept, Omission, Pruned, prune};
 use crate::renderer::{Renderer, milliseconds_since};
 use crate::scene::Scene;
-use crate::styles::{LineStyle, Vectors};
-use std::path::PathBuf;
+use crate::settings::HasSettings;
+use crate::styles::{LineStyle, Vectors, is_of_vectors};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The result of a request.
@@ -77,8 +80,8 @@ pub struct DrawnLines {
     pub style: LineStyle,
     /// The lines.
     pub lines: VisibleLines,
-    /// The areas below them, in the order in which they are painted; empty in styles of lines alone.
-    pub fills: Vec<FillGroup>,
+    /// The areas below them; `None` in styles of lines alone.
+    pub areas: Option<Areas>,
     /// Remarks for the user, a sentence each.
     pub remarks: Vec<String>,
     /// How long reading took, milliseconds.
@@ -113,25 +116,30 @@ impl Request {
     ///
     /// Those of reading, of the settings with this scene, of the way to OpenGL; [`Error::Cancelled`] where `progress` was.
     pub fn draw(&self, session: &mut Session, progress: &Progress) -> Result<Drawn> {
-        let vectors = self.vectors();
+        let vectors = self.vectors()?;
         if self.style.lines().is_none() && vectors.is_none() {
+            self.refuse_vectors_options()?;
             return self.picture(session).map(|picture| Drawn::Picture(Box::new(picture)));
         }
         let ReadModels { meshes, files, ms: load_ms, .. } = self.models(&session.models)?;
         let scene = Scene::new(meshes, &self.scene)?;
-        let fills = vectors.as_ref().map_or(Ok(Vec::new()), |vectors| vectors.fills(&scene, progress))?;
         let remarks = vectors.as_ref().map_or(Vec::new(), |vectors| vectors.remarks(&scene));
-        let lines = match vectors {
+        let lines = match &vectors {
             Some(vectors) if vectors.lines.is_none() => VisibleLines::none(scene.size),
             _ => self.lines(&scene, progress)?,
         };
+        let areas = vectors.map(|vectors| vectors.areas(&scene, &lines, progress)).transpose()?;
         let style = self.line_style().unwrap_or_default();
-        Ok(Drawn::Lines(Box::new(DrawnLines { scene, files, style, lines, fills, remarks, load_ms })))
+        Ok(Drawn::Lines(Box::new(DrawnLines { scene, files, style, lines, areas, remarks, load_ms })))
     }
 
-    /// The vectors of this request's style of passes; `None` where it draws pixels.
-    fn vectors(&self) -> Option<Vectors> {
-        self.as_vectors.then(|| self.style.vectors(self.scene.size)).flatten()
+    /// The vectors of this request's style of passes, drawn with the options of drawings; `None` where it draws pixels.
+    fn vectors(&self) -> Result<Option<Vectors>> {
+        let mut vectors = self.as_vectors.then(|| self.style.vectors(self.scene.size)).flatten();
+        if let Some(vectors) = &mut vectors {
+            DrawingSettings::table().apply(&mut vectors.drawing, &self.options)?;
+        }
+        Ok(vectors)
     }
 
     /// Reads the models.
@@ -160,7 +168,10 @@ impl Request {
     /// How lines are drawn: the style's way, on the scene's background, titled after the models. `None` for a style that draws
     /// pixels.
     pub fn line_style(&self) -> Option<LineStyle> {
-        let of_vectors = || self.vectors().map(|vectors| vectors.lines.unwrap_or_default());
+        let of_vectors = || {
+            let vectors = self.vectors().ok().flatten()?;
+            Some(LineStyle { lines: vectors.lines.unwrap_or_default(), drawing: vectors.drawing, sheet: None })
+        };
         let LineStyle { lines, drawing, sheet } = self.style.lines().or_else(of_vectors)?;
         let drawing = DrawingSettings { title: self.title(), background: self.scene.background, ..drawing };
         Some(LineStyle { lines, drawing, sheet })
@@ -244,14 +255,40 @@ impl Request {
         renderer.draw(scene, &plan)
     }
 
+    /// The session's context for this request, with its shaders.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Session::renderer`] and [`Renderer::replace_shaders`]; [`Error::Setting`] for a folder without shaders.
+    pub fn renderer<'a>(&self, session: &'a mut Session) -> Result<&'a mut Renderer> {
+        let shaders = match &self.glsl {
+            None => HashMap::new(),
+            Some(folder) if !Path::new(folder).is_dir() => {
+                return Err(Error::value("glsl", folder, "there is no such folder; check the name"));
+            }
+            Some(folder) => glsl::in_folder(Path::new(folder)),
+        };
+        if let (Some(folder), true) = (&self.glsl, shaders.is_empty()) {
+            let problem = "it holds no changed shader; lay it out like glsl/, for example phong/phong.frag";
+            return Err(Error::value("glsl", folder, problem));
+        }
+        let renderer = session.renderer(self.backend)?;
+        if renderer.replaced_shaders() != shaders {
+            renderer.replace_shaders(shaders)?;
+        }
+        Ok(renderer)
+    }
+
     fn picture(&self, session: &mut Session) -> Result<DrawnPicture> {
         let (mut times, loaded) = self.ready(session);
         let Planned { scene, files, published, times: of_loading } = loaded?;
-        let renderer = session.renderer(self.backend)?;
+        let renderer = self.renderer(session)?;
         let start = Instant::now();
         let Pruned { plan, omissions, kept } = self.pruned(&published, &scene, renderer)?;
         times.plan_ms = of_loading.plan_ms + milliseconds_since(start);
-        let remarks = [self.style.remarks(&scene), renderer.remarks(&plan)].concat();
+        let of_vectors = self.options.keys().filter(|option| is_of_vectors(option, self.style.style_name()));
+        let ignored = ignored_remark(of_vectors.map(String::as_str), &[self.style.name()]);
+        let remarks = [self.style.remarks(&scene), renderer.remarks(&plan), ignored.into_iter().collect()].concat();
         let start = Instant::now();
         let picture = renderer.draw(&scene, &plan)?;
         times.first_frame_ms = milliseconds_since(start);

@@ -8,7 +8,7 @@ use crate::lines::DrawingSettings;
 use crate::preset::{LOOKS, Look, Preset};
 use crate::scene::SceneSettings;
 use crate::settings::{EXCLUSIVE, HasSettings, OptionValue, Options, refuse_exclusive};
-use crate::styles::{StyleName, is_ignored, is_of_lines_alone};
+use crate::styles::{StyleName, is_ignored, is_of_lines_alone, is_of_vectors};
 
 /// Where options come from.
 #[derive(Debug, Clone)]
@@ -152,21 +152,37 @@ impl Request {
             has_camera |= matches!(layer, Layer::Camera(_));
         }
         request.options.retain(|_, value| !is_off(value));
+        request.refuse_of_lines(|option| !is_of_vectors(option, style)).map_err(|error| request.attributed(error))?;
         let options = request.options.clone();
-        if !style.draws_lines()
-            && let Some(option) = options.keys().find(|option| is_of_lines_alone(option))
-        {
-            let problem = match OF_PAPER.contains(&option.as_str()) {
-                true => pixels_on_paper(&options),
-                false => "only style lines has this; leave it out, or write a .svg".to_owned(),
-            };
-            return Err(request.attributed(Error::setting(option.clone(), problem)));
-        }
         Self::table().apply(&mut request, &options).map_err(|error| request.attributed(error))?;
         let given =
             layers.iter().filter_map(|layer| if let Layer::Given(options) = layer { Some(options) } else { None });
-        let remark = ignored_remark(given.flat_map(Options::keys).map(String::as_str), &[style.name()]);
+        let given = given.flat_map(Options::keys).map(String::as_str);
+        let remark = ignored_remark(given.filter(|option| !is_of_vectors(option, style)), &[style.name()]);
         Ok((request, remark.into_iter().collect()))
+    }
+
+    /// Refuses the options that a style of passes has as vectors alone, for a picture.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] with the option.
+    pub fn refuse_vectors_options(&self) -> Result<()> {
+        self.refuse_of_lines(|_| true)
+    }
+
+    /// Refuses those of the options of exact lines alone that `is_refused` names, unless the style draws exact lines.
+    fn refuse_of_lines(&self, is_refused: impl Fn(&str) -> bool) -> Result<()> {
+        if self.style.style_name().draws_lines() {
+            return Ok(());
+        }
+        let is_wrong = |option: &&String| is_of_lines_alone(option) && is_refused(option);
+        let Some(option) = self.options.keys().find(is_wrong) else { return Ok(()) };
+        let problem = match OF_PAPER.contains(&option.as_str()) {
+            true => pixels_on_paper(&self.options),
+            false => "only exact lines and areas have this; leave it out, or write a .svg".to_owned(),
+        };
+        Err(Error::setting(option.clone(), problem))
     }
 
     /// Like [`Request::from_layers`], for options alone.
@@ -286,8 +302,8 @@ mod tests {
         assert!(refused(&[file("tone = 2")]).contains("line 1: tone: there is no such option; did you mean tones?"));
         assert!(refused(&[file("eye = [1, 2, 3]\nview = \"top\"")]).contains("exclude each other"));
         assert_eq!(
-            refused(&[given(&[("hidden", "dashed")])]),
-            "hidden: only style lines has this; leave it out, or write a .svg"
+            refused(&[given(&[("hidden", "dashed"), ("style", "phong")])]),
+            "hidden: only exact lines and areas have this; leave it out, or write a .svg"
         );
         let late = Request::from_layers(&[file("tones = 4")]).unwrap().0;
         assert_eq!(late.attributed(Error::setting("tones", "no")).to_string(), "a.toml: line 1: tones: no");

@@ -1,6 +1,8 @@
 //! Finds options that change nothing in the drawn styles, for a warning to the user.
 
 use super::{Style, StyleName};
+use crate::lines::DrawingSettings;
+use crate::scene::SceneSettings;
 use crate::settings::HasSettings;
 
 /// Whether this option changes nothing in any of the styles; false for options outside the styles.
@@ -19,6 +21,12 @@ pub fn is_ignored(option: &str, styles: &[&str]) -> bool {
 pub fn is_of_lines_alone(option: &str) -> bool {
     let of_passes = StyleName::of_passes().any(|(_, style)| style_has(style, option));
     Style::table().has(option) && !of_passes
+}
+
+/// Whether this is an option of drawings of exact lines that the style, which OpenGL draws in passes, has as vectors too.
+pub fn is_of_vectors(option: &str, style: StyleName) -> bool {
+    let has_vectors = || Style::named(style).vectors(SceneSettings::default().size).is_some();
+    DrawingSettings::table().has(option) && !style_has(style, option) && has_vectors()
 }
 
 fn style_has(style: StyleName, option: &str) -> bool {

@@ -1,9 +1,11 @@
-//! What a cartoon style draws into a file of vectors: exact areas of tone, and exact lines above them. No GL here.
+//! What a cartoon style draws into a file of vectors: exact areas of tone or strokes that stand for them, and exact lines above. No
+//! GL here.
 
-use super::{Cartoon, CreaseBy, Ink, LineStyle, LineWidth, Mrt, Style, Tones};
+use super::{Cartoon, CreaseBy, Ink, LineWidth, Mrt, Style, Tones};
 use crate::error::{Error, Result};
 use crate::lines::{
-    DrawingSettings, FillGroup, LineSettings, Progress, Regions, ToneLight, ToneRule, TonedSurface, fills,
+    Areas, DrawingSettings, LineSettings, Progress, Regions, ToneLight, ToneRule, TonedSurface, VisibleLines, fills,
+    hatches,
 };
 use crate::scene::{Color, Scene, Size};
 use glam::DVec3;
@@ -16,7 +18,9 @@ pub struct Vectors {
     tones: Tones,
     light: ToneLight,
     /// The lines above; `None` without.
-    pub lines: Option<LineStyle>,
+    pub lines: Option<LineSettings>,
+    /// How they are drawn, with the style's line widths; and whether tones are hatched.
+    pub drawing: DrawingSettings,
 }
 
 /// Place of the light in `toon.vert`, scene radii from the eye.
@@ -31,11 +35,9 @@ impl Style {
         let of_cartoon = |tones: &Tones, border: Option<Option<LineWidth>>| Vectors {
             tones: tones.clone(),
             light: ToneLight::Near(LISTED_LIGHT),
-            lines: border.map(|width| {
-                // The listing's filter compares normals.
-                let settings = LineSettings { creases_by_normals: true, ..LineSettings::default() };
-                lines(settings, [width.unwrap_or(LISTED_WIDTH); 2], size)
-            }),
+            // The listing's filter compares normals.
+            lines: border.map(|_| LineSettings { creases_by_normals: true, ..LineSettings::default() }),
+            drawing: drawing([border.flatten().unwrap_or(LISTED_WIDTH); 2], size),
         };
         match self {
             Self::ThreePass(Cartoon { tones, border, .. })
@@ -56,28 +58,33 @@ fn of_ink(ink: &Ink, size: Size) -> Vectors {
     Vectors {
         tones: ink.tones.clone(),
         light: ink.tone_light.map_or(ToneLight::Near(LISTED_LIGHT), |light| ToneLight::Far(direction(light))),
-        lines: ink.is_inked.then(|| lines(settings, widths, size)),
+        lines: ink.is_inked.then_some(settings),
+        drawing: drawing(widths, size),
     }
 }
 
-/// Exact lines of these widths: the outline's, and those inside.
-fn lines(lines: LineSettings, [outline, inner]: [LineWidth; 2], size: Size) -> LineStyle {
+/// A drawing with lines of these widths: the outline's, and those inside.
+fn drawing([outline, inner]: [LineWidth; 2], size: Size) -> DrawingSettings {
     let px = |width: LineWidth| Length::Px(f64::from(width.pixels(size)));
     let mut drawing = DrawingSettings { line_width: Some(px(inner)), ..DrawingSettings::default() };
     if outline != inner {
         drawing.class_widths.0.set_outline(px(outline));
     }
-    LineStyle { lines, drawing, sheet: None }
+    drawing
 }
 
 impl Vectors {
-    /// Returns the areas of a scene as they are painted.
+    /// Returns the areas of a scene as they are drawn below these lines.
+    ///
+    /// Where strokes stand for tones, what has a colour keeps the brightest tone's as one area, and all else is paper. A pen paints
+    /// no areas.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for invalid tones; those of [`Regions::toned`].
-    pub fn fills(&self, scene: &Scene, progress: &Progress) -> Result<Vec<FillGroup>> {
+    /// [`Error::Setting`] for invalid tones and settings of the drawing, and for too many strokes; those of [`Regions::toned`].
+    pub fn areas(&self, scene: &Scene, lines: &VisibleLines, progress: &Progress) -> Result<Areas> {
         self.tones.check()?;
+        self.drawing.check()?;
         let regions = self.regions(scene, progress)?;
         if regions.broken > 0 {
             let problem = format!(
@@ -86,7 +93,17 @@ impl Vectors {
             );
             return Err(Error::Lines { problem });
         }
-        Ok(fills(&regions, |surface| self.color(scene, surface)))
+        let brightest = self.tones.count - 1;
+        let is_colored = |it: &TonedSurface| !scene.is_bare(&scene.objects[it.object as usize].mesh, it.material);
+        let flat =
+            |seen: Option<TonedSurface>| seen.filter(is_colored).map(|it| Some(TonedSurface { tone: brightest, ..it }));
+        let fills = match self.drawing.hatching.spacing {
+            _ if self.drawing.is_for_pen => Vec::new(),
+            Some(_) => fills(&regions.joined(flat), |surface| self.color(scene, surface)),
+            None => fills(&regions, |surface| self.color(scene, surface)),
+        };
+        let hatches = hatches(scene, &regions, brightest, lines, &self.drawing)?;
+        Ok(Areas { fills, hatches, ..Areas::around(&regions) })
     }
 
     /// Returns the areas of a scene by object, material and tone.

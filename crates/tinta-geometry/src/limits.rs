@@ -40,6 +40,9 @@ pub const JOB_BYTES: usize = 64 << 10;
 /// Longest label of a point, letters: several lines of a page.
 pub const LABEL_CHARACTERS: usize = 1000;
 
+/// Most strokes of a hatched drawing: some hundred times what a sheet of paper holds.
+pub const HATCH_STROKES: usize = 1_000_000;
+
 /// Longest name of a job, bytes: a table can still show it.
 pub const JOB_ID_BYTES: usize = 200;
 

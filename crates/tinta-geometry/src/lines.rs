@@ -51,10 +51,13 @@ mod visible_lines;
 mod why;
 mod write;
 
+pub use drawing::areas::Areas;
 pub use drawing::chain::{LinePath, chain};
 pub use drawing::curves::{Step, fitted};
 pub use drawing::drawn_layers::{DrawnLayer, GHOST_OPACITY, drawn_layers};
 pub use drawing::fills::{Fill, FillGroup, TRAP_PX, fills};
+pub use drawing::hatch::{Hatch, Hatching};
+pub use drawing::hatches::hatches;
 pub use drawing::layers::{ClassColors, ClassWidths, Layer, OfLayers};
 pub use drawing::length::{Length, Millimetres, Units, line_width};
 pub use drawing::page::{PageSize, Paper, Sheet, Turn};

@@ -349,6 +349,13 @@ impl Scene {
         }
     }
 
+    /// Whether triangles with this material have no colour of their own and none that replaces it: they get the scene's.
+    pub fn is_bare(&self, mesh: &Mesh, material: u32) -> bool {
+        let is_colored = |material: &Material| material.color.is_some() || self.is_textured(mesh, material);
+        let has_color = mesh.materials.get(material as usize).is_some_and(is_colored);
+        !(self.recolor || has_color || self.shows_vertex_colors(mesh))
+    }
+
     /// The colour of faces without one; white under vertex colours.
     fn bare_color(&self, mesh: &Mesh) -> Color {
         if self.shows_vertex_colors(mesh) { Color([1.0; 3]) } else { self.color }

@@ -3,6 +3,8 @@
 
 extern crate tinta_geometry as tinta;
 
+#[path = "regions/hatching.rs"]
+mod hatching;
 #[path = "../../../tests/lines_families.rs"]
 mod lines_families;
 #[path = "../../../tests/lines_random.rs"]
@@ -22,7 +24,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 use tinta::camera::Projection;
 use tinta::lines::{
-    Hit, Progress, Region, Regions, SeenFace, ToneLight, ToneRule, TonedSurface, fills, first_hits, svg_of_paths,
+    Areas, Hit, Progress, Region, Regions, SeenFace, ToneLight, ToneRule, TonedSurface, fills, first_hits, svg_of_paths,
 };
 use tinta::mesh::NONE;
 use tinta::tolerances::{CONTACT, WELD};
@@ -308,8 +310,9 @@ fn check_tones(name: &str, scene: &Scene) -> Checked {
             let lines = VisibleLines::of(scene, &tinta::LineSettings::default()).unwrap();
             let paths = tinta::lines::chain(&lines.segments);
             let settings = DrawingSettings::default();
-            let text = svg_of_paths(&lines, paths.clone(), &fills(&found, grey), &settings).unwrap();
-            let only = svg_of_paths(&lines, paths, &[], &settings).unwrap();
+            let areas = Areas { fills: fills(&found, grey), ..Areas::default() };
+            let text = svg_of_paths(&lines, paths.clone(), Some(&areas), &settings).unwrap();
+            let only = svg_of_paths(&lines, paths, None, &settings).unwrap();
             println!("{name}: lines {} bytes, with areas {}", only.len(), text.len());
             let file = format!("{}-{}.svg", name.replace('/', "-"), rule.thresholds[0]);
             std::fs::write(PathBuf::from(folder).join(file), text).unwrap();

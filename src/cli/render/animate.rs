@@ -47,7 +47,7 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
     pictures_of(&scenes[0]).keep(output)?;
     let delay_ms = delay_ms(&request.animation, scenes.len());
     let context = Instant::now();
-    let renderer = session.renderer(request.backend)?;
+    let renderer = request.renderer(session)?;
     let context_ms = milliseconds_since(context);
 
     let progress = Progress::new("drawing", scenes.len() as u64);

@@ -63,13 +63,15 @@ impl Format {
                 request.style_said()
             )),
             // A name that is no picture either is refused later, with the full list of formats.
-            (false, None) if output == "-" || Path::new(output).is_dir() => Ok(None),
+            (false, None) if output == "-" || Path::new(output).is_dir() => {
+                request.refuse_vectors_options().map(|()| None)
+            }
             (false, None) => match extension(output) {
                 Some(extension) if !is_of_a_picture(extension) => refuse(format!(
                     "tinta writes no .{extension}; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for \
                      lines, .gif or .apng for an animation"
                 )),
-                _ => Ok(None),
+                _ => request.refuse_vectors_options().map(|()| None),
             },
         }
     }

@@ -49,9 +49,10 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
         drawn => drawn?,
     };
     let Drawn::Lines(drawn) = drawn else { return Ok(Verdict::Good) };
-    let DrawnLines { scene, files, style, lines, fills, remarks, load_ms } = *drawn;
+    let DrawnLines { scene, files, style, lines, areas, remarks, load_ms } = *drawn;
     scene.crack_remarks().iter().chain(&remarks).for_each(|remark| say(&format!("tinta: {remark}")));
-    if fills.is_empty() && !lines.segments.iter().any(|segment| segment.is_visible) {
+    let has_areas = areas.as_ref().is_some_and(|areas| areas.corners_px.is_some());
+    if !has_areas && !lines.segments.iter().any(|segment| segment.is_visible) {
         say("tinta: no line of these classes is visible in this picture; see --classes, --eye and --target");
     }
 
@@ -77,11 +78,11 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
         return Ok(stopped(stop.as_ref()));
     }
     let pens = match run.explain && drawn.is_for_pen {
-        true => explain::pens(&strokes_of_paths(&lines, paths.clone(), &drawn)?),
+        true => explain::pens(&strokes_of_paths(&lines, paths.clone(), areas.as_ref(), &drawn)?),
         false => String::new(),
     };
     let said = note.map(comment).or_else(|| recipe.as_ref().and_then(Recipe::note));
-    write(format, output, &scene, (&lines, paths), &fills, &drawn, said.as_ref())?;
+    write(format, output, &scene, (&lines, paths), areas.as_ref(), &drawn, said.as_ref())?;
     let lines_ms = milliseconds_since(start);
     if run.explain {
         super::super::print(&(explain::lines(&lines, &counts, load_ms, lines_ms) + &pens))?;

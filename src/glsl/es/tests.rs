@@ -35,6 +35,7 @@ fn whole_numbers_become_floats_where_1_20_takes_them_for_floats() {
             "uniform int smudge; void f() { if (smudge != 0) a *= 2; }",
             "uniform int smudge; void f() { if (smudge != 0) a *= 2.0; }",
         ),
+        ("uniform float edge = 1;", "const float edge = 1.0;"),
         ("const int LARGEST = 16; int b = 2 * LARGEST;", "const int LARGEST = 16; int b = 2 * LARGEST;"),
         ("gl_FragData[1] = vec4(1);", "gl_FragData[1] = vec4(1.0);"),
         ("for (int y = 0; y < 4; ++y) a += 1e3;", "for (int y = 0; y < 4; ++y) a += 1e3;"),

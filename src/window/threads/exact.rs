@@ -39,7 +39,7 @@ impl LineJob {
         let stayed = Stayed { count: strokes.len(), new: strokes.len() - stayed, gone: kept.strokes.len() - stayed };
         kept.strokes = strokes;
         // As in the file: a path that ends where a stroke does would restart its dashes.
-        let drawn = strokes_of_paths(&lines, chain(&lines.segments), drawing)?;
+        let drawn = strokes_of_paths(&lines, chain(&lines.segments), None, drawing)?;
         Ok((painted(&drawn, scene.size), stayed))
     }
 }

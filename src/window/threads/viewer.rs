@@ -113,7 +113,7 @@ impl Viewer {
         let mut render_threads = RenderThreads::start(options.backend, reporter.clone()).map_err(no_thread)?;
         if let Some(folder) = &options.shaders {
             // One that has ended will say why.
-            let _ = render_threads.replace_shaders(watch::shaders_in(folder));
+            let _ = render_threads.replace_shaders(crate::glsl::in_folder(folder));
         }
         let watched = watch::start(options.shaders.clone(), reporter.clone()).map_err(no_thread)?;
         let loader = Loader::new(reporter.clone());

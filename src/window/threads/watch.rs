@@ -4,18 +4,14 @@
 //! notification by the system would need a crate and miss network disks. A file counts as changed once it stays the same for one
 //! check, to avoid reading half of it.
 
-use crate::glsl::SOURCES;
+use crate::glsl::{SOURCES, in_folder};
 use crate::window::threads::report::{Report, Reporter};
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, SystemTime};
 
 /// Time between looks.
 const INTERVAL: Duration = Duration::from_millis(500);
-
-/// Longest shader read, bytes: some hundred times the longest there is.
-const LONGEST_SHADER: u64 = 1 << 20;
 
 /// A file's time and length, read without opening it; `None` for a missing file.
 type Look = Option<(SystemTime, u64)>;
@@ -56,17 +52,6 @@ fn look(file: &Path) -> Look {
     Some((metadata.modified().ok()?, metadata.len()))
 }
 
-/// The shaders that a folder laid out like `glsl/` has in place of those built in.
-pub(in crate::window) fn shaders_in(folder: &Path) -> HashMap<String, String> {
-    let read = |path: &str| {
-        let file = folder.join(path);
-        let is_short = std::fs::metadata(&file).is_ok_and(|file| file.is_file() && file.len() <= LONGEST_SHADER);
-        is_short.then(|| std::fs::read_to_string(&file).ok()).flatten()
-    };
-    let changed = SOURCES.iter().filter_map(|(path, built_in)| Some((*path, *built_in, read(path)?)));
-    changed.filter(|(_, built_in, text)| text != built_in).map(|(path, _, text)| (path.to_owned(), text)).collect()
-}
-
 /// Starts the thread; each message is the new list of models to watch. It ends with its sender.
 pub(in crate::window) fn start(shaders: Option<PathBuf>, reporter: Reporter) -> std::io::Result<Sender<Vec<PathBuf>>> {
     let (sender, lists) = channel();
@@ -91,7 +76,7 @@ fn work(shaders: Option<&Path>, lists: &Receiver<Vec<PathBuf>>, reporter: &Repor
         if let Some(folder) = shaders
             && watched_shaders.has_changed()
         {
-            reporter.say(Report::ShadersChanged(shaders_in(folder)));
+            reporter.say(Report::ShadersChanged(in_folder(folder)));
         }
     }
 }
@@ -125,17 +110,5 @@ mod tests {
         assert!(!watched.has_changed() && !watched.has_changed());
         std::fs::write(&file, "v 0 0 0").unwrap();
         assert!(!watched.has_changed() && watched.has_changed());
-    }
-
-    #[test]
-    fn only_shaders_that_differ_from_those_built_in_replace_them() {
-        let folder = tempfile::tempdir().unwrap();
-        let (path, text) = SOURCES[0];
-        std::fs::create_dir_all(folder.path().join(path).parent().unwrap()).unwrap();
-        std::fs::write(folder.path().join(path), text).unwrap();
-        std::fs::write(folder.path().join("other.frag"), "void main() {}").unwrap();
-        assert!(shaders_in(folder.path()).is_empty());
-        std::fs::write(folder.path().join(path), format!("{text}\n")).unwrap();
-        assert_eq!(shaders_in(folder.path()).into_keys().collect::<Vec<_>>(), [path]);
     }
 }

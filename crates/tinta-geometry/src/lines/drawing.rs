@@ -1,10 +1,13 @@
 //! Turns visible lines into a drawing: layers, paths, their order and shape, paper.
 
+pub(super) mod areas;
 pub(super) mod chain;
 pub(super) mod curves;
 pub(super) mod drawn_labels;
 pub(super) mod drawn_layers;
 pub(super) mod fills;
+pub(super) mod hatch;
+pub(super) mod hatches;
 pub(super) mod layers;
 pub(super) mod length;
 pub(super) mod page;

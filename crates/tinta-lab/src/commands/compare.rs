@@ -237,7 +237,7 @@ fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &m
     let meshes = request.models(&session.models)?.meshes;
     let count = meshes.len();
     let scene = Scene::new(meshes, &request.scene)?;
-    let renderer = session.renderer(request.backend)?;
+    let renderer = request.renderer(session)?;
     let mut draw = |style: &tinta::Style| -> Result<Drawing> {
         let start = Instant::now();
         let plan = style.plan(&scene, Show::Final)?;

@@ -65,7 +65,7 @@ pub(super) fn run(
             return Ok(stopped(stop, number - 1, views));
         }
         let said = note.map(comment);
-        write(format, &name, &scene, (&lines, paths), &[], &drawn, said.as_ref())?;
+        write(format, &name, &scene, (&lines, paths), None, &drawn, said.as_ref())?;
         bytes += Path::new(&name).metadata().map_or(0, |metadata| metadata.len());
         frame_ms.push(milliseconds_since(frame));
     }

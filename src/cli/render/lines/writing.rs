@@ -7,7 +7,7 @@ use super::super::rendering::Rendering;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
 use tinta::lines::{
-    FillGroup, LinePath, Phase, Progress as LineProgress, Raster, pdf_of_paths, raster_of_paths, svg_of_paths,
+    Areas, LinePath, Phase, Progress as LineProgress, Raster, pdf_of_paths, raster_of_paths, svg_of_paths,
 };
 use tinta::picture::Note;
 use tinta::record::lines_json;
@@ -19,14 +19,14 @@ pub(super) fn write(
     output: &str,
     scene: &Scene,
     (lines, paths): (&VisibleLines, Vec<LinePath>),
-    fills: &[FillGroup],
+    areas: Option<&Areas>,
     drawn: &DrawingSettings,
     said: Option<&Note>,
 ) -> Result<()> {
     let write = |bytes: Vec<u8>| TextTarget::check(output)?.write_bytes(&bytes);
     match format {
-        Format::Svg => write(svg_of_paths(lines, paths, fills, drawn)?.into_bytes()),
-        Format::Pdf => write(pdf_of_paths(lines, paths, fills, drawn)?),
+        Format::Svg => write(svg_of_paths(lines, paths, areas, drawn)?.into_bytes()),
+        Format::Pdf => write(pdf_of_paths(lines, paths, areas, drawn)?),
         Format::Json => write(lines_json(lines, scene)?.into_bytes()),
         Format::Picture => {
             let Raster { size, pixels } = raster_of_paths(lines, paths, drawn)?;

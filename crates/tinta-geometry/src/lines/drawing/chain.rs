@@ -36,6 +36,21 @@ pub struct LinePath {
 }
 
 impl LinePath {
+    /// A stroke of a tone: it consists of no segments, so its class and object mean nothing.
+    pub(in crate::lines) fn of_stroke(ends_px: [DVec2; 2]) -> Self {
+        Self {
+            class: Class::Silhouette,
+            is_visible: true,
+            is_outline: false,
+            object: 0,
+            look: 0,
+            points_px: ends_px.into(),
+            is_closed: false,
+            segments: Vec::new(),
+            stroke: None,
+        }
+    }
+
     pub(in crate::lines) fn layer(&self) -> Layer {
         Layer::of(self.class, self.is_visible, self.is_outline)
     }

@@ -1,9 +1,10 @@
 //! A drawing for its writers: its page, and its layers from lowest to highest with their styles and paths.
 //!
-//! Input: lines, their chained paths, settings. Output: a [`Drawing`], which the SVG and PDF writers share.
+//! Input: lines, their chained paths, areas below them, settings. Output: a [`Drawing`], which the SVG and PDF writers share.
 
 use crate::edges::Class;
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::drawn_labels::{DrawnLabel, drawn_labels};
 use crate::lines::drawing::layers::Layer;
@@ -70,7 +71,7 @@ pub struct DrawnLayer {
 /// Those of [`crate::lines::svg()`].
 pub fn drawn_layers(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<DrawnLayer>> {
     let lines = lines.without_specks(settings)?;
-    let mut layers = Drawing::new(&lines, chain(&lines.segments), settings)?.layers;
+    let mut layers = Drawing::new(&lines, chain(&lines.segments), None, settings)?.layers;
     for path in layers.iter_mut().flat_map(|layer| &mut layer.paths) {
         path.points_px = settings.points_of(path);
     }
@@ -78,22 +79,30 @@ pub fn drawn_layers(lines: &VisibleLines, settings: &DrawingSettings) -> Result<
 }
 
 impl<'a> Drawing<'a> {
-    /// Sorts the paths into layers.
+    /// Sorts the paths and the strokes of areas into layers; `areas` is `None` for lines alone.
     ///
     /// # Errors
     ///
-    /// Those of [`DrawingSettings::check`] and [`VisibleLines::check`].
+    /// Those of [`DrawingSettings::check`] and [`VisibleLines::check`]; [`Error::Setting`] for hatching of lines alone.
     pub(in crate::lines) fn new(
         lines: &'a VisibleLines,
         paths: Vec<LinePath>,
+        areas: Option<&Areas>,
         settings: &'a DrawingSettings,
     ) -> Result<Self> {
         settings.check()?;
         lines.check()?;
-        let page = page(lines, settings);
+        if settings.hatching.spacing.is_some() && areas.is_none() {
+            return Err(Error::setting("hatch", "lines alone have no tones; leave it out, or choose --look print"));
+        }
+        let page = page(lines, areas, settings);
         let looks = lines.drawings(settings);
         looks.iter().try_for_each(|settings| settings.check())?;
         let mut paths_of: BTreeMap<(Layer, u32), Vec<LinePath>> = BTreeMap::new();
+        for hatch in areas.into_iter().flat_map(|areas| &areas.hatches) {
+            let strokes = hatch.strokes.iter().map(|ends| LinePath::of_stroke(*ends));
+            paths_of.entry((Layer::Hatch(hatch.tone), 0)).or_default().extend(strokes);
+        }
         paths.into_iter().for_each(|path| paths_of.entry((path.layer(), path.look)).or_default().push(path));
         let mut layers = Vec::with_capacity(paths_of.len());
         for layer in Layer::upwards() {
@@ -110,13 +119,14 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// The drawing's page; if it is a sheet of paper, the lines fill it.
-pub(in crate::lines) fn page(lines: &VisibleLines, settings: &DrawingSettings) -> Page {
+/// The drawing's page; if it is a sheet of paper, lines and areas fill it.
+pub(in crate::lines) fn page(lines: &VisibleLines, areas: Option<&Areas>, settings: &DrawingSettings) -> Page {
     let looks = lines.drawings(settings);
     let is_drawn =
         |segment: &LineSegment| looks[segment.look as usize].draws(segment.is_visible) && !segment.is_covered;
     let drawn = lines.segments.iter().filter(|segment| is_drawn(segment));
-    Page::new(lines.size, drawn, settings.page_size, settings.margin.0)
+    let corners = areas.and_then(|areas| areas.corners_px);
+    Page::new(lines.size, drawn, corners, settings.page_size, settings.margin.0)
 }
 
 impl DrawnLayer {

@@ -2,7 +2,7 @@
 //!
 //! Input: texts such as `silhouette=3,hidden=0.5`. Output: [`OfLayers`], with a value for some of the names. `CLASS`
 //! means a class's visible lines, `hidden-CLASS` its hidden ones, `hidden` all hidden lines, `outline` the visible
-//! lines with only background on one side.
+//! lines with only background on one side, `hatch` the strokes of tones.
 
 use crate::choice::nearest;
 use crate::edges::Class;
@@ -16,6 +16,8 @@ use std::str::FromStr;
 /// Lines with the same style, drawn as one layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
+    /// Strokes that stand for a tone, 0 being the darkest.
+    Hatch(u8),
     /// Visible lines of any class with only background on one side.
     Outline,
     /// A class's other visible lines.
@@ -33,14 +35,15 @@ impl Layer {
         }
     }
 
-    /// All layers from lowest to highest: hidden ones at the bottom, the first class at the top, because an edge of
-    /// several classes belongs to the first.
+    /// All layers from lowest to highest: strokes of tones at the bottom, then hidden lines, the first class at the top, because
+    /// an edge of several classes belongs to the first.
     pub fn upwards() -> impl Iterator<Item = Self> {
         let classes = || Class::ALL.into_iter().rev().map(|(_, class)| class);
-        classes().map(Self::Hidden).chain(classes().map(Self::Visible)).chain([Self::Outline])
+        let hatches = (0..HATCHED_TONES).rev().map(Self::Hatch);
+        hatches.chain(classes().map(Self::Hidden)).chain(classes().map(Self::Visible)).chain([Self::Outline])
     }
 
-    /// Whether its lines are visible.
+    /// Whether its lines lie on visible surfaces.
     pub fn is_visible(self) -> bool {
         !matches!(self, Self::Hidden(_))
     }
@@ -48,6 +51,8 @@ impl Layer {
     /// Its label in programs that show layers, in two words.
     pub fn words(self) -> [&'static str; 2] {
         match self {
+            Self::Hatch(0) => ["hatch", "0"],
+            Self::Hatch(_) => ["hatch", "1"],
             Self::Outline => ["visible", "outline"],
             Self::Visible(class) => ["visible", class.name()],
             Self::Hidden(class) => ["hidden", class.name()],
@@ -57,6 +62,7 @@ impl Layer {
     /// The names that give the layer a value; the first one with a value counts. An outline is usually silhouette.
     fn names(self) -> [Option<Name>; 2] {
         match self {
+            Self::Hatch(_) => [Some(Name::Hatch), None],
             Self::Outline => [Some(Name::Outline), Some(Name::Class(Class::Silhouette))],
             Self::Visible(class) => [Some(Name::Class(class)), None],
             Self::Hidden(class) => [Some(Name::HiddenClass(class)), Some(Name::Hidden)],
@@ -66,6 +72,12 @@ impl Layer {
 
 const CLASSES: usize = Class::ALL.len();
 
+/// Number of names with a value.
+const NAMES: usize = 2 * CLASSES + 3;
+
+/// Most tones that have strokes: all but the brightest of three.
+const HATCHED_TONES: u8 = 2;
+
 /// A name in the settings of layers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Name {
@@ -73,11 +85,15 @@ enum Name {
     Outline,
     Hidden,
     HiddenClass(Class),
+    Hatch,
 }
 
 /// The name of all hidden lines, and the prefix of hidden classes.
 const HIDDEN_LINES: &str = "hidden";
 const HIDDEN: &str = "hidden-";
+
+/// The name of the strokes of all tones.
+const HATCH: &str = "hatch";
 
 impl Name {
     fn index(self) -> usize {
@@ -86,12 +102,14 @@ impl Name {
             Self::Outline => CLASSES,
             Self::Hidden => CLASSES + 1,
             Self::HiddenClass(class) => CLASSES + 2 + class as usize,
+            Self::Hatch => NAMES - 1,
         }
     }
 
     fn all() -> impl Iterator<Item = Self> {
         let classes = || Class::ALL.into_iter().map(|(_, class)| class);
-        classes().map(Self::Class).chain([Self::Outline, Self::Hidden]).chain(classes().map(Self::HiddenClass))
+        let of_hidden = classes().map(Self::HiddenClass);
+        classes().map(Self::Class).chain([Self::Outline, Self::Hidden]).chain(of_hidden).chain([Self::Hatch])
     }
 
     fn text(self) -> String {
@@ -100,6 +118,7 @@ impl Name {
             Self::Outline => "outline".to_owned(),
             Self::Hidden => HIDDEN_LINES.to_owned(),
             Self::HiddenClass(class) => format!("{HIDDEN}{}", class.name()),
+            Self::Hatch => HATCH.to_owned(),
         }
     }
 }
@@ -111,12 +130,13 @@ impl FromStr for Name {
         match text {
             "outline" => Ok(Self::Outline),
             HIDDEN_LINES => Ok(Self::Hidden),
+            HATCH => Ok(Self::Hatch),
             _ => match text.strip_prefix(HIDDEN) {
                 Some(class) => Ok(Self::HiddenClass(class.parse()?)),
                 None => Ok(Self::Class(text.parse().map_err(|problem| {
-                    match nearest(text, &["outline", HIDDEN_LINES]) {
+                    match nearest(text, &["outline", HIDDEN_LINES, HATCH]) {
                         Some(meant) => format!("did you mean {meant}?"),
-                        None => format!("{problem}, outline, hidden, or hidden- and a class"),
+                        None => format!("{problem}, outline, hatch, hidden, or hidden- and a class"),
                     }
                 })?)),
             },
@@ -126,11 +146,11 @@ impl FromStr for Name {
 
 /// A value for some of the names.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OfLayers<T>([Option<T>; 2 * CLASSES + 2]);
+pub struct OfLayers<T>([Option<T>; NAMES]);
 
 impl<T> Default for OfLayers<T> {
     fn default() -> Self {
-        Self([const { None }; 2 * CLASSES + 2])
+        Self([const { None }; NAMES])
     }
 }
 
@@ -230,7 +250,7 @@ impl ClassColors {
         self.0.of(Layer::Visible(class)).unwrap_or(BLACK)
     }
 
-    /// Returns the colour of a name: a class, `outline`, `hidden`, or `hidden-` and a class.
+    /// Returns the colour of a name: a class, `outline`, `hatch`, `hidden`, or `hidden-` and a class.
     ///
     /// # Errors
     ///
@@ -259,14 +279,14 @@ impl ClassColors {
     /// The setting of a drawing's colours, which include layers as well as classes.
     pub fn setting_of_drawing<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let mut setting = Self::setting(field);
-        setting.kind = Self::kind_of(&["outline", HIDDEN_LINES]);
+        setting.kind = Self::kind_of(&["outline", HIDDEN_LINES, HATCH]);
         setting
     }
 
     /// The setting of the colours of classes.
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let help = "Colours of the lines by class: CLASS=COLOR, separated by commas, or figure-6 (outer red, inner \
-            blue); in style lines also outline, hidden and hidden-CLASS";
+            blue); in vectors also outline, hatch, hidden and hidden-CLASS";
         Setting::field("class-colors", "COLORS", help, field)
             .printed("D, Inking: glColor3ub( 0, 0, 0 )")
             .labelled("class colours")
@@ -366,7 +386,7 @@ mod tests {
     #[test]
     fn every_name_is_read_and_written() {
         let names: Vec<String> = Name::all().map(Name::text).collect();
-        assert_eq!(names.len(), 2 * CLASSES + 2);
+        assert_eq!(names.len(), NAMES);
         for (number, name) in names.iter().enumerate() {
             assert_eq!(name.parse::<Name>().unwrap().index(), number);
             let text = format!("{name}=#010203");
@@ -386,11 +406,11 @@ mod tests {
     }
 
     #[test]
-    fn hidden_layers_lie_below_visible_ones_and_the_outline_above_all() {
+    fn strokes_of_tones_lie_below_hidden_layers_and_these_below_visible_ones() {
         let layers: Vec<Layer> = Layer::upwards().collect();
-        assert_eq!(layers.len(), 2 * CLASSES + 1);
-        assert_eq!(layers[0], Layer::Hidden(Class::Point));
-        assert_eq!(layers[2 * CLASSES - 1..], [Layer::Visible(Class::Boundary), Layer::Outline]);
-        assert!(layers.iter().position(|layer| layer.is_visible()) == Some(CLASSES));
+        assert_eq!(layers.len(), 2 * CLASSES + 3);
+        assert_eq!(layers[..3], [Layer::Hatch(1), Layer::Hatch(0), Layer::Hidden(Class::Point)]);
+        assert_eq!(layers[2 * CLASSES + 1..], [Layer::Visible(Class::Boundary), Layer::Outline]);
+        assert!(layers[2..].iter().position(|layer| layer.is_visible()) == Some(CLASSES));
     }
 }

@@ -1,6 +1,6 @@
 //! The size of a drawing on paper, and the part of the picture's plane that the paper shows.
 //!
-//! Input: a [`PageSize`] and the extent of the drawing's lines. Output: a [`Page`]. Lines keep the picture's pixel
+//! Input: a [`PageSize`] and the extent of the drawing's lines and areas. Output: a [`Page`]. Lines keep the picture's pixel
 //! coordinates; the page holds the rectangle of pixels that it shows and its size on paper. A drawing thus has the
 //! same numbers on any paper.
 
@@ -220,10 +220,11 @@ pub(in crate::lines) struct Page {
 }
 
 impl Page {
-    /// The page of a drawing of a picture's size; the drawn lines matter only if a sheet is to be filled.
+    /// The page of a drawing of a picture's size; the drawn lines and the corners around its areas matter only if a sheet is to be filled.
     pub(in crate::lines) fn new<'a>(
         Size { width, height }: Size,
         drawn: impl Iterator<Item = &'a LineSegment>,
+        areas_px: Option<[DVec2; 2]>,
         size: PageSize,
         margin: f64,
     ) -> Self {
@@ -244,7 +245,7 @@ impl Page {
             }
             PageSize::Dpi(dpi) => whole(picture / dpi, "in", Some(dpi / MM_PER_INCH)),
             PageSize::Paper(paper) => {
-                let (low, high) = bounds(drawn).unwrap_or((DVec2::ZERO, picture));
+                let (low, high) = bounds(drawn, areas_px).unwrap_or((DVec2::ZERO, picture));
                 let paper_mm = DVec2::from_array(paper.sides_mm(high - low));
                 // A horizontal or vertical line has an extent of 0 in one direction.
                 let room = (paper_mm - 2.0 * margin) / (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
@@ -270,9 +271,9 @@ impl Page {
     }
 }
 
-/// The bounding box of segments; `None` if it has no extent.
-fn bounds<'a>(pieces: impl Iterator<Item = &'a LineSegment>) -> Option<(DVec2, DVec2)> {
-    let ends = pieces.flat_map(|piece| piece.ends_px);
+/// The bounding box of segments and further points; `None` if it has no extent.
+fn bounds<'a>(pieces: impl Iterator<Item = &'a LineSegment>, more: Option<[DVec2; 2]>) -> Option<(DVec2, DVec2)> {
+    let ends = pieces.flat_map(|piece| piece.ends_px).chain(more.into_iter().flatten());
     let around = ends.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), end| (low.min(end), high.max(end)));
     ((around.1 - around.0).max_element() > 0.0).then_some(around)
 }
@@ -302,7 +303,7 @@ mod tests {
     }
 
     fn page(line: &LineSegment, size: PageSize, margin: f64) -> Page {
-        Page::new(SIZE, std::iter::once(line), size, margin)
+        Page::new(SIZE, std::iter::once(line), None, size, margin)
     }
 
     #[test]
@@ -346,8 +347,12 @@ mod tests {
         assert_fits([[0.0, 0.0], [600.0, 400.0]], "100x300mm", 49.0, [100.0, 300.0]);
         assert_fits([[10.0, 50.0], [20.0, 50.0]], "letter", 15.0, [279.4, 215.9]);
         // An empty drawing shows the whole picture.
-        let nothing = Page::new(SIZE, std::iter::empty(), sheet("A4"), 15.0);
+        let nothing = Page::new(SIZE, std::iter::empty(), None, sheet("A4"), 15.0);
         assert_eq!(nothing.units.px_per_mm, Some(600.0 / 267.0));
+        // Areas without lines fill it too.
+        let corners = Some([DVec2::ZERO, DVec2::new(267.0, 100.0)]);
+        let areas = Page::new(SIZE, std::iter::empty(), corners, sheet("A4"), 15.0);
+        assert_eq!(areas.units.px_per_mm, Some(1.0));
     }
 
     #[test]

@@ -3,11 +3,12 @@
 use crate::edges::Class;
 use crate::error::{Error, Result};
 use crate::lines::drawing::curves::FIT_PX;
+use crate::lines::drawing::hatch::Hatching;
 use crate::lines::drawing::layers::{ClassColors, ClassWidths, Layer};
 use crate::lines::drawing::length::{LINE_WIDTH, LINE_WIDTH_RANGE, LINE_WIDTH_SAID, Length, Millimetres, Units};
 use crate::lines::drawing::page::{PageSize, Paper};
 use crate::scene::{Background, Color};
-use crate::settings::{HasSettings, Kind, Setting, Table, Value, under};
+use crate::settings::{HasSettings, Kind, Setting, Table, Value, under, within};
 use std::sync::LazyLock;
 
 /// The settings of a drawing.
@@ -33,6 +34,8 @@ pub struct DrawingSettings {
     pub min_length: Option<Length>,
     /// Largest distance of the drawn cubic Bézier curves from the lines, pixels. Default none, which draws polylines.
     pub fit_px: Option<f64>,
+    /// How tones are drawn as strokes. Default not: a style with tones fills their areas.
+    pub hatching: Hatching,
     /// A rectangle behind the drawing, or none. Default white.
     pub background: Background,
     /// Size on paper. Default unset: the program that shows the drawing decides.
@@ -43,7 +46,7 @@ pub struct DrawingSettings {
     /// false.
     pub has_provenance: bool,
     /// Whether the drawing is for a plotter. Paths are then sorted to shorten pen-up travel, dashes are separate
-    /// lines, and the background is omitted. Layers, widths and colours distinguish the pens; lines without a width
+    /// lines, and the background and areas are omitted. Layers, widths and colours distinguish the pens; lines without a width
     /// are half a pixel wide. Default false.
     pub is_for_pen: bool,
 }
@@ -60,6 +63,7 @@ impl Default for DrawingSettings {
             class_widths: ClassWidths::default(),
             min_length: None,
             fit_px: None,
+            hatching: Hatching::default(),
             background: Background::Color(WHITE),
             page_size: PageSize::Unset,
             margin: Millimetres(15.0),
@@ -148,10 +152,10 @@ impl DrawingSettings {
                 "class-widths",
                 "WIDTHS",
                 "Widths of the lines by class: CLASS=WIDTH, separated by commas, in pixels of --size, millimetres (0.35mm) or \
-                 line widths (2x); also outline (at the background), hidden, hidden-CLASS",
+                 line widths (2x); also outline (at the background), hatch, hidden, hidden-CLASS",
                 |svg: &mut Self| &mut svg.class_widths,
             )
-            .said("the width of all lines, half of it for hidden ones"),
+            .said("the width of all lines, half of it for hidden ones and hatch"),
             Setting::open_field(
                 "min-length",
                 "LENGTH",
@@ -185,7 +189,7 @@ impl DrawingSettings {
             Setting::flag(
                 "pen",
                 "Draw for a plotter: order lines for short moves with the pen up, write dashes as separate lines, \
-                 leave out the background; an outline with its own width (--class-widths, --look technical) is a layer \
+                 leave out the background and areas; an outline with its own width (--class-widths, --look technical) is a layer \
                  for a second pen",
                 |svg: &Self| svg.is_for_pen,
                 |svg, is_on| svg.is_for_pen = is_on,
@@ -194,7 +198,8 @@ impl DrawingSettings {
         let heading = "Style lines: exact visible lines, as vectors into FILE.svg, FILE.pdf or FILE.json, as pixels \
             into FILE.png with --look technical or --style lines; also --classes, --class-colors, --line-width, \
             --crease-angle";
-        under(heading, settings).collect()
+        let hatching = within(Hatching::settings(), |svg: &mut Self| Some(&mut svg.hatching));
+        under(heading, settings.into_iter().chain(hatching).collect()).collect()
     }
 }
 
@@ -251,6 +256,7 @@ impl DrawingSettings {
                 return Err(Error::value("min-length", length, "a length is a number, 0 or more"));
             }
         }
+        self.hatching.check(WIDTHS, has_paper)?;
         if let Some(error) = self.fit_px {
             if !FIT_PX.contains(&error) {
                 let problem = format!("the error of curves is a number from {} to {}", FIT_PX.start(), FIT_PX.end());
@@ -292,6 +298,7 @@ impl DrawingSettings {
             (Some(width), _) => px(width),
             (None, Layer::Hidden(class)) => self.width_px(Layer::Visible(class), units) * HIDDEN_WIDTH,
             (None, Layer::Visible(Class::Point)) => px(self.width()) * POINT_WIDTHS,
+            (None, Layer::Hatch(_)) => px(self.width()) * HATCH_WIDTH,
             (None, _) => px(self.width()),
         }
     }
@@ -352,6 +359,9 @@ const LEAST_FOLD: f64 = 8.0;
 /// Diameter of the dots that show points, in line widths.
 const POINT_WIDTHS: f64 = 2.0;
 
+/// Width of the strokes of tones, line widths.
+const HATCH_WIDTH: f64 = 0.5;
+
 /// Hidden lines' width and strength, as shares of their class's.
 const HIDDEN_WIDTH: f64 = 0.5;
 const HIDDEN_STRENGTH: f32 = 0.5;
@@ -388,6 +398,18 @@ mod tests {
             assert!(message(DrawingSettings { min_length, ..base() }).starts_with("min-length"));
         }
         assert!(message(DrawingSettings { margin: Millimetres(3.0), ..base() }).starts_with("margin: only"));
+        let spacings =
+            [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9].map(Length::Px).into_iter().chain([Length::Times(0.0)]);
+        for spacing in spacings {
+            let hatching = Hatching { spacing: Some(spacing), ..Hatching::default() };
+            assert!(
+                message(DrawingSettings { hatching, ..base() }).starts_with(&format!("hatch {spacing}: a distance"))
+            );
+        }
+        for angle_degrees in [f64::NAN, f64::INFINITY, 1e9] {
+            let hatching = Hatching { angle_degrees, ..Hatching::default() };
+            assert!(message(DrawingSettings { hatching, ..base() }).starts_with("hatch-angle"));
+        }
         assert!(base().check().is_ok());
     }
 
@@ -398,6 +420,7 @@ mod tests {
         let on_screen = [
             DrawingSettings { line_width: mm, ..base() },
             DrawingSettings { min_length: mm, ..base() },
+            DrawingSettings { hatching: Hatching { spacing: mm, ..Hatching::default() }, ..base() },
             DrawingSettings { class_widths, ..base() },
         ];
         for settings in on_screen {

@@ -48,7 +48,7 @@ impl VisibleLines {
     pub fn without_specks_with_progress(&self, settings: &DrawingSettings, progress: &Progress) -> Result<Self> {
         settings.check()?;
         self.check()?;
-        let units = crate::lines::drawing::drawn_layers::page(self, settings).units;
+        let units = crate::lines::drawing::drawn_layers::page(self, None, settings).units;
         let segments = match settings.tells_outline() {
             true => readable(&self.segments, settings.width_px(Layer::Outline, units), progress),
             false => self.segments.clone(),

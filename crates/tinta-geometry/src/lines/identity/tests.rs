@@ -107,7 +107,7 @@ fn a_stroke_that_splits_keeps_its_number_in_the_longer_part_and_a_hidden_one_com
     let mut next = |of: &[[f64; 2]]| -> Vec<u32> {
         let lines = creases(of);
         let paths = ids.next(&scene, &lines);
-        let text = svg_of_paths(&lines, paths.clone(), &[], &DrawingSettings::default()).unwrap();
+        let text = svg_of_paths(&lines, paths.clone(), None, &DrawingSettings::default()).unwrap();
         let strokes: Vec<u32> = paths.iter().filter_map(|path| path.stroke).collect();
         assert!(strokes.iter().all(|id| text.contains(&format!(r#"id="stroke-{id}""#))), "{text}");
         strokes

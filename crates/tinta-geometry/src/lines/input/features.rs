@@ -172,7 +172,7 @@ fn with_creases(parts: &[(Option<Class>, [f64; 2])], creased: &[[f64; 2]]) -> Ve
             let middle = f64::midpoint(ends[0], ends[1]);
             let is_creased = creased.iter().any(|[start, end]| (*start..=*end).contains(&middle));
             let crease = is_creased.then_some(Class::Crease);
-            cut.push((class.into_iter().copied().chain(crease).min(), [ends[0], ends[1]]));
+            cut.push((class.iter().copied().chain(crease).min(), [ends[0], ends[1]]));
         }
     }
     cut

@@ -7,6 +7,7 @@
 
 use crate::error::{Error, Result};
 use crate::lines::VisibleLines;
+use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::{Step, fitted};
 use crate::lines::drawing::drawn_labels::{DrawnLabel, height_px, win_ansi};
@@ -27,7 +28,7 @@ use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 /// that the standard fonts lack.
 pub fn pdf(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<u8>> {
     let lines = lines.without_specks(settings)?;
-    pdf_of_paths(&lines, chain(&lines.segments), &[], settings)
+    pdf_of_paths(&lines, chain(&lines.segments), None, settings)
 }
 
 /// Returns the given lines as a PDF file, with the paths that [`chain`] made of them, above the given areas.
@@ -38,10 +39,11 @@ pub fn pdf(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<u8>> 
 pub fn pdf_of_paths(
     lines: &VisibleLines,
     paths: Vec<LinePath>,
-    fills: &[FillGroup],
+    areas: Option<&Areas>,
     settings: &DrawingSettings,
 ) -> Result<Vec<u8>> {
-    let drawing = Drawing::new(lines, paths, settings)?;
+    let drawing = Drawing::new(lines, paths, areas, settings)?;
+    let fills = areas.map_or(&[][..], |areas| &areas.fills);
     let scale = drawing.page.points_per_px();
     let page_points = drawing.page.extent_px * scale;
     if page_points.max_element() > LARGEST_PAGE || page_points.min_element() < SMALLEST_PAGE {

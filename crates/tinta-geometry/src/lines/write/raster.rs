@@ -38,7 +38,7 @@ pub fn raster(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Raster
 ///
 /// Those of [`raster`].
 pub fn raster_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &DrawingSettings) -> Result<Raster> {
-    let drawing = Drawing::new(lines, paths, settings)?;
+    let drawing = Drawing::new(lines, paths, None, settings)?;
     let size = lines.size;
     let [width, height] = [size.width, size.height].map(f64::from);
     if drawing.page.extent_px != DVec2::new(width, height) || drawing.page.origin_px != DVec2::ZERO {

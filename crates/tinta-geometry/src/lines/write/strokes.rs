@@ -5,6 +5,7 @@
 
 use crate::error::Result;
 use crate::lines::VisibleLines;
+use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
 use crate::lines::drawing::layers::Layer;
@@ -57,10 +58,11 @@ impl Polyline {
 /// Those of [`crate::lines::svg`].
 pub fn strokes(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<Strokes>> {
     let lines = lines.without_specks(settings)?;
-    strokes_of_paths(&lines, chain(&lines.segments), settings)
+    strokes_of_paths(&lines, chain(&lines.segments), None, settings)
 }
 
-/// Returns the strokes of the given lines, with the paths that [`chain`] made of them.
+/// Returns the strokes of the given lines, with the paths that [`chain`] made of them, and those of the given areas; fills are
+/// left out.
 ///
 /// # Errors
 ///
@@ -68,9 +70,10 @@ pub fn strokes(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<S
 pub fn strokes_of_paths(
     lines: &VisibleLines,
     paths: Vec<LinePath>,
+    areas: Option<&Areas>,
     settings: &DrawingSettings,
 ) -> Result<Vec<Strokes>> {
-    let drawing = Drawing::new(lines, paths, settings)?;
+    let drawing = Drawing::new(lines, paths, areas, settings)?;
     Ok(drawing.layers.iter().map(|layer| of_layer(layer, settings, drawing.page.units)).collect())
 }
 

@@ -1,4 +1,5 @@
-//! Writes lines as SVG 1.1: a layer of polylines for each class and visibility, and one of texts if points have labels.
+//! Writes lines as SVG 1.1: a layer of polylines for each class and visibility, and one of texts if points have labels; below
+//! them areas and the strokes of tones.
 //!
 //! Input: [`VisibleLines`] and [`DrawingSettings`]. Output: a text that is byte-identical for the same input.
 //! Coordinates are pixels with three decimals, y down, in the order of the segments. The layers are groups that
@@ -6,11 +7,13 @@
 
 use crate::error::Result;
 use crate::lines::VisibleLines;
+use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::fitted;
 use crate::lines::drawing::drawn_labels::height_px;
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
 use crate::lines::drawing::fills::{FillGroup, TRAP_PX};
+use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::page::PAGE_DECIMALS;
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::drawing::text::{curve_data, decimal, hexadecimal, number, path_data};
@@ -29,10 +32,11 @@ use std::fmt::Write;
 /// that are not finite or leave the picture.
 pub fn svg(lines: &VisibleLines, settings: &DrawingSettings) -> Result<String> {
     let lines = lines.without_specks(settings)?;
-    svg_of_paths(&lines, chain(&lines.segments), &[], settings)
+    svg_of_paths(&lines, chain(&lines.segments), None, settings)
 }
 
-/// Returns the given lines as an SVG file, with the paths that [`chain`] made of them, above the given areas.
+/// Returns the given lines as an SVG file, with the paths that [`chain`] made of them, above the given areas; lines
+/// alone have none.
 ///
 /// # Errors
 ///
@@ -40,13 +44,13 @@ pub fn svg(lines: &VisibleLines, settings: &DrawingSettings) -> Result<String> {
 pub fn svg_of_paths(
     lines: &VisibleLines,
     paths: Vec<LinePath>,
-    fills: &[FillGroup],
+    areas: Option<&Areas>,
     settings: &DrawingSettings,
 ) -> Result<String> {
-    let drawing = Drawing::new(lines, paths, settings)?;
+    let drawing = Drawing::new(lines, paths, areas, settings)?;
     let mut out = String::new();
     begin(&drawing, &mut out);
-    fills.iter().for_each(|group| write_fills(group, &mut out));
+    areas.into_iter().flat_map(|areas| &areas.fills).for_each(|group| write_fills(group, &mut out));
     for layer in &drawing.layers {
         write_layer(&drawing, layer, &mut out);
     }
@@ -142,6 +146,9 @@ fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, out: &mut String) {
         hexadecimal(drawn.color),
         number(drawn.width_px)
     );
+    if let Layer::Hatch(tone) = drawn.layer {
+        let _ = write!(out, r#" data-tone="{tone}""#);
+    }
     if let Some(dash) = drawn.dash_px {
         let [dash, gap] = dash.map(number);
         let _ = write!(out, r#" stroke-dasharray="{dash} {gap}""#);
@@ -161,7 +168,8 @@ fn write_path(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut Str
     if let Some(stroke) = path.stroke {
         let _ = write!(out, r#" id="stroke-{stroke}""#);
     }
-    if drawing.settings.has_provenance {
+    // Strokes of tones are made of no segments.
+    if drawing.settings.has_provenance && !path.segments.is_empty() {
         write_provenance(drawing, class, path, out);
     }
     let data = match drawing.settings.fit_px {
