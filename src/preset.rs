@@ -18,6 +18,7 @@
 mod looks;
 mod shipped;
 
+use crate::settings::rule_text;
 pub use crate::settings::{OptionValue, Options};
 pub use looks::{LOOKS, Look};
 pub use shipped::SHIPPED;
@@ -29,7 +30,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::io::Read;
 use std::path::Path;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeArray, DeTable, DeValue};
 
 /// The longest preset read, bytes: some hundred times the size of all options.
 pub const LARGEST_BYTES: u64 = 64 << 10;
@@ -104,7 +105,7 @@ impl Preset {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] with the line for invalid TOML, a table within a table, or a value that no option takes.
+    /// [`Error::File`] with the line for invalid TOML, a table that is no rule for parts, or a value that no option takes.
     pub fn parse(name: &str, text: &str) -> Result<Self> {
         let line_of = |offset: usize| {
             let before = text.as_bytes().iter().take(offset);
@@ -196,13 +197,40 @@ fn refused(name: &str, problem: impl Into<String>) -> Error {
 fn option_value(value: &DeValue<'_>) -> std::result::Result<OptionValue, String> {
     match value {
         DeValue::Boolean(switch) => Ok(OptionValue::Switch(*switch)),
-        DeValue::Array(values) => {
-            let texts: std::result::Result<Vec<String>, String> =
-                values.iter().map(|value| scalar(value.get_ref())).collect();
-            Ok(OptionValue::Text(texts?.join(",")))
+        DeValue::Array(values) => scalars(values).map(|texts| OptionValue::Text(texts.join(","))),
+        DeValue::Table(rules) => {
+            let rule = |(name, value): (&str, &DeValue<'_>)| match value {
+                DeValue::Table(settings) => {
+                    let setting = |(name, value): (&str, &DeValue<'_>)| Ok((name.to_owned(), setting_of_rule(value)?));
+                    let settings = in_order(settings).map(setting).collect::<std::result::Result<Vec<_>, String>>()?;
+                    Ok(rule_text(name, settings))
+                }
+                value => scalar(value),
+            };
+            in_order(rules).map(rule).collect::<std::result::Result<_, String>>().map(OptionValue::Texts)
         }
         value => scalar(value).map(OptionValue::Text),
     }
+}
+
+/// A table's entries in the file's order.
+fn in_order<'t>(table: &'t DeTable<'_>) -> impl Iterator<Item = (&'t str, &'t DeValue<'t>)> {
+    let mut entries: Vec<_> = table.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    entries.into_iter().map(|(key, value)| (key.get_ref().as_ref(), value.get_ref()))
+}
+
+/// A setting's value in a rule's table.
+fn setting_of_rule(value: &DeValue<'_>) -> std::result::Result<OptionValue, String> {
+    match value {
+        DeValue::Boolean(switch) => Ok(OptionValue::Switch(*switch)),
+        DeValue::Array(values) => scalars(values).map(OptionValue::Texts),
+        value => scalar(value).map(OptionValue::Text),
+    }
+}
+
+fn scalars(values: &DeArray<'_>) -> std::result::Result<Vec<String>, String> {
+    values.iter().map(|value| scalar(value.get_ref())).collect()
 }
 
 fn scalar(value: &DeValue<'_>) -> std::result::Result<String, String> {
@@ -212,11 +240,9 @@ fn scalar(value: &DeValue<'_>) -> std::result::Result<String, String> {
             .map(|number| number.to_string())
             .map_err(|_| "this number is too long; write a shorter one".to_owned()),
         DeValue::Float(number) => Ok(number.as_str().trim_start_matches('+').to_owned()),
-        _ => Err(
-            "write a text, a number, true or false, or several numbers or texts in brackets; a preset has no nested \
-             tables"
-                .to_owned(),
-        ),
+        _ => Err("write a text, a number, true or false, or several numbers or texts in brackets; only rules for \
+             parts are tables: [part.\"bolt*\"]"
+            .to_owned()),
     }
 }
 

@@ -12,6 +12,7 @@ mod charcoal_twin;
 mod cli;
 mod cli_ink;
 mod cli_lines;
+mod cli_parts;
 mod cli_measure;
 mod cli_mistakes;
 mod cli_stdin;

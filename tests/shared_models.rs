@@ -46,7 +46,7 @@ fn public_models_have_the_triangles_their_authors_say_and_are_drawn_in_every_sty
 }
 
 /// A model of the public folder.
-fn model(file: &str) -> Option<String> {
+pub fn model(file: &str) -> Option<String> {
     let path = public_models()?.join(file);
     if !path.is_file() {
         skip(&format!("{file}: not in {}", path.parent().unwrap().display()));

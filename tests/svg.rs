@@ -22,6 +22,8 @@ pub fn segment(class: Class, is_visible: bool, a: [f64; 2], b: [f64; 2]) -> Line
         edge,
         angle_degrees: edge.map(|_| 45.25),
         object: 0,
+        part: 0,
+        look: 0,
     }
 }
 
@@ -36,6 +38,8 @@ pub fn lines(segments: Vec<LineSegment>) -> VisibleLines {
         undecided: 0,
         has_specks: false,
         labels: Vec::new(),
+        parts: Vec::new(),
+        looks: Vec::new(),
         times: LineTimes::default(),
     }
 }

@@ -43,6 +43,8 @@ pub fn bumpy_sphere(triangles: usize) -> Mesh {
         materials: Vec::new(),
         triangle_materials: Vec::new(),
         file_faces: Vec::new(),
+        parts: Vec::new(),
+        triangle_parts: Vec::new(),
         position_colors: Vec::new(),
         marked: Vec::new(),
         curves: Default::default(),

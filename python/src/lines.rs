@@ -23,7 +23,7 @@ use tinta::{DrawingSettings, Error, Recipe, Request, Result, Scene, VisibleLines
 /// The lines found in a scene.
 #[pyclass(frozen, module = "tinta_npr._native")]
 pub(crate) struct Lines {
-    lines: Arc<VisibleLines>,
+    pub(crate) lines: Arc<VisibleLines>,
     pub scene: Arc<Scene>,
     pub asked: Asked,
     /// All pieces, hidden ones and outlines too, on first access.
@@ -100,6 +100,14 @@ fn found(
 }
 
 impl Lines {
+    /// Refuses what one camera is needed for.
+    fn one_view(&self) -> PyResult<()> {
+        match self.asked.request.line_style().and_then(|style| style.sheet) {
+            Some(_) => Err(raised(Error::setting("sheet", "a sheet has four cameras; ask for lines of one view"))),
+            None => Ok(()),
+        }
+    }
+
     /// All pieces, as arrays and JSON have them: hidden ones too, those of the outline marked; short ones unless the drawing has
     /// a least length.
     fn everything(&self, py: Python<'_>) -> PyResult<Arc<VisibleLines>> {
@@ -245,6 +253,7 @@ impl Lines {
 
     /// The JSON file's text: all pieces and the camera.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
+        self.one_view()?;
         let (all, scene, request) = (self.everything(py)?, self.scene.clone(), self.asked.request.clone());
         let progress = Arc::new(Progress::default());
         let watched = progress.clone();
@@ -257,6 +266,7 @@ impl Lines {
 
     /// Where the camera shows points of the drawn scene: pixels, y down; NaN behind the eye.
     fn projected<'py>(&self, py: Python<'py>, numbers: PyReadonlyArray2<'_, f64>) -> PyResult<Bound<'py, PyAny>> {
+        self.one_view()?;
         let (camera, size) = (&self.scene.camera, self.scene.size);
         let [width, height] = [size.width, size.height].map(f64::from);
         let clip_from_world = camera.clip_from_view(width / height) * camera.view_from_world();
@@ -311,6 +321,7 @@ impl Lines {
     /// The camera: eye, target, up, and either fov in degrees or height in the mesh's units.
     fn camera<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         use tinta::camera::Projection;
+        self.one_view()?;
         let (camera, of) = (PyDict::new(py), &self.scene.camera);
         for (name, vector) in [("eye", of.eye), ("target", of.target), ("up", of.up)] {
             camera.set_item(name, vector.to_array())?;

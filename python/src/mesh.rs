@@ -342,6 +342,8 @@ impl Mesh {
             materials: Vec::new(),
             triangle_materials: Vec::new(),
             file_faces: file_faces.as_array().to_vec(),
+            parts: Vec::new(),
+            triangle_parts: Vec::new(),
             defects: tinta::mesh::Defects::default(),
         };
         let is_within = |rows: &[[u32; 3]], count: usize| rows.as_flattened().iter().all(|row| (*row as usize) < count);

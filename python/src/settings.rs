@@ -8,8 +8,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PySequence, PyString};
 use tinta::camera;
 use tinta::choice::{nearest, no_option};
+use tinta::lines::PartRules;
 use tinta::preset::{LOOKS, Look};
-use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, names_of, refuse_exclusive};
+use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, names_of, refuse_exclusive, rule_text};
 use tinta::styles::{StyleName, is_of_lines_alone};
 use tinta::{Backend, Error, LineSettings, LoadOptions, Request, SceneSettings, Show, Style};
 
@@ -208,6 +209,13 @@ fn value_of(key: &str, entry: &Entry, value: &Bound<'_, PyAny>) -> PyResult<Opti
         let truth = if is_on { "True" } else { "False" };
         return Err(PyValueError::new_err(format!("{key}: give {choices}, not {truth}")));
     }
+    if let (Some(_), Some(texts)) = (entry.setting.between, several(value)?)
+        && value.cast::<PyMapping>().is_err()
+        && let Ok(texts) = texts.iter().map(|text| text.extract()).collect::<PyResult<Vec<String>>>()
+        && scalar(value)?.is_none()
+    {
+        return Ok(Some(OptionValue::Texts(texts)));
+    }
     let text = match text_of(key, value, &entry.setting.kind)? {
         Some(text) => text,
         None => {
@@ -232,14 +240,18 @@ fn text_of(key: &str, value: &Bound<'_, PyAny>, kind: &Kind) -> PyResult<Option<
         return Ok(Some(text));
     }
     if let Ok(pairs) = value.cast::<PyMapping>() {
-        let mut texts = Vec::new();
+        let (mut texts, mut rules) = (Vec::new(), Vec::new());
         for pair in pairs.items()? {
             let (name, value): (String, Bound<'_, PyAny>) = pair.extract()?;
+            if let Ok(settings) = value.cast::<PyMapping>() {
+                rules.push(rule(key, &name, settings)?);
+                continue;
+            }
             // Colours are the only named values of several numbers.
             let Some(value) = text_of(&format!("{key} {name}"), &value, &Kind::Color)? else { return Ok(None) };
             texts.push(format!("{}={value}", name.replace('_', "-")));
         }
-        return Ok(Some(texts.join(",")));
+        return Ok(Some(if rules.is_empty() { texts.join(",") } else { rules.join(PartRules::BETWEEN) }));
     }
     let Some(values) = several(value)? else { return Ok(None) };
     let mut texts = Vec::new();
@@ -260,6 +272,27 @@ fn text_of(key: &str, value: &Bound<'_, PyAny>, kind: &Kind) -> PyResult<Option<
         }
         _ => texts.join(","),
     }))
+}
+
+/// The text of a rule for parts, from the dictionary of its settings.
+fn rule(key: &str, name: &str, settings: &Bound<'_, PyMapping>) -> PyResult<String> {
+    let mut options = Vec::new();
+    for pair in settings.items()? {
+        let (setting, value): (String, Bound<'_, PyAny>) = pair.extract()?;
+        let key = format!("{key} {name} {setting}");
+        let value = match switch(&value) {
+            Some(is_on) => OptionValue::Switch(is_on),
+            None => match (text_of(&key, &value, &Kind::Color)?, scalar(&value)?) {
+                (Some(text), None) if !text.starts_with("rgb(") => {
+                    OptionValue::Texts(text.split(',').map(str::to_owned).collect())
+                }
+                (Some(text), _) => OptionValue::Text(text),
+                (None, _) => return Err(PyTypeError::new_err(format!("{key}: give a text, a number, a list or True"))),
+            },
+        };
+        options.push((setting.replace('_', "-"), value));
+    }
+    Ok(rule_text(name, options))
 }
 
 /// A number, a text or a path.

@@ -131,6 +131,7 @@ fn in_words(record: &EdgeRecord) -> String {
             Class::Material => "between two materials",
             Class::Texture => "between different texture coordinates",
             Class::Normal => "between different vertex normals",
+            Class::Part => "between two parts",
             Class::Marked => "marked by the file",
             Class::Intersection => "where faces pass through one another",
             Class::Suggestive | Class::Ridge | Class::Valley | Class::ApparentRidge => "faces with such a line",

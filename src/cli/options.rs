@@ -9,7 +9,7 @@ mod tests;
 use super::camera_file;
 pub use super::selection::Selection;
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches, parser::ValueSource};
-use std::ffi::OsString;
+use std::ffi::OsStr;
 use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 use tinta::camera;
@@ -64,7 +64,8 @@ fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'st
     if setting.kind == Kind::Flag {
         return arg.action(ArgAction::SetTrue);
     }
-    let arg = arg.action(ArgAction::Set).value_name(setting.value_name);
+    let action = if setting.between.is_some() { ArgAction::Append } else { ArgAction::Set };
+    let arg = arg.action(action).value_name(setting.value_name);
     let arg = match setting.stands_alone {
         true => arg.num_args(0..=1).require_equals(true).default_missing_value(""),
         false => arg,
@@ -113,8 +114,9 @@ impl<S: Selection> FromArgMatches for Chosen<S> {
             if matches.value_source(setting.name) != Some(ValueSource::CommandLine) {
                 continue;
             }
-            let raw = matches.get_raw(setting.name).and_then(|mut raw| raw.next()).map(OsString::from);
-            let value = match raw.unwrap_or_default().into_string() {
+            let between = OsStr::new(setting.between.unwrap_or_default());
+            let raw: Vec<&OsStr> = matches.get_raw(setting.name).into_iter().flatten().collect();
+            let value = match raw.join(between).into_string() {
                 _ if setting.kind == Kind::Flag => OptionValue::Switch(true),
                 Ok(text) if setting.stands_alone && text.is_empty() => OptionValue::Switch(true),
                 Ok(text) => OptionValue::Text(text),

@@ -58,7 +58,7 @@ impl LineCounts {
 
 /// A piece of a line as written to the file.
 #[derive(Serialize)]
-struct SegmentRecord {
+struct SegmentRecord<'a> {
     class: &'static str,
     visible: bool,
     outline: bool,
@@ -68,6 +68,10 @@ struct SegmentRecord {
     edge: Option<[u32; 2]>,
     angle_degrees: Option<f64>,
     object: u32,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    part: &'a str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    material: &'a str,
 }
 
 /// A point's label as written to the file.
@@ -114,6 +118,8 @@ pub fn drawing_json(lines: &VisibleLines, regions: Option<&Regions<Option<Surfac
             edge: segment.edge,
             angle_degrees: segment.angle_degrees,
             object: segment.object,
+            part: lines.parts.get(segment.part as usize).map_or("", |part| &part.name),
+            material: lines.parts.get(segment.part as usize).map_or("", |part| &part.material),
         };
         text.push_str(if index == 0 { "\n" } else { ",\n" });
         text.push_str(&json(&record)?);

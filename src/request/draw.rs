@@ -227,7 +227,10 @@ impl Request {
         if self.is_of_areas_alone() {
             return Ok(VisibleLines::none(scene.size));
         }
-        VisibleLines::with_progress(scene, &self.wanted(&style), progress)
+        match style.sheet {
+            Some(angle) => VisibleLines::on_sheet(scene, &self.wanted(&style), angle, progress),
+            None => VisibleLines::with_progress(scene, &self.wanted(&style), progress),
+        }
     }
 
     /// Finds the lines of a scene that the drawing shows, without those too short to see.

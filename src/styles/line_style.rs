@@ -2,7 +2,7 @@
 
 use super::headings::no_borders;
 use crate::error::{Error, Result};
-use crate::lines::{DrawingSettings, Hidden, Joined, LineSettings};
+use crate::lines::{DrawingSettings, Hidden, Joined, LineSettings, ProjectionAngle};
 use crate::settings::{Setting, under, within};
 
 /// The heading of edge settings.
@@ -22,6 +22,8 @@ pub struct LineStyle {
     pub areas: Option<Joined>,
     /// Whether the areas are drawn without lines. Default no.
     pub is_of_areas_alone: bool,
+    /// The views of a sheet in place of the camera's. Default none.
+    pub sheet: Option<ProjectionAngle>,
 }
 
 impl LineStyle {
@@ -43,7 +45,19 @@ impl LineStyle {
         );
         let alone = no_borders(|style: &Self| style.is_of_areas_alone, |style, is_it| style.is_of_areas_alone = is_it);
         let lines = lines.chain(under(AREAS, vec![areas, alone]));
-        lines.chain(within(DrawingSettings::settings(), |style: &mut Self| Some(&mut style.drawing))).collect()
+        let drawing: Vec<_> =
+            within(DrawingSettings::settings(), |style: &mut Self| Some(&mut style.drawing)).collect();
+        let sheet = Setting::open_field(
+            "sheet",
+            "ANGLE",
+            "none",
+            "Draw a sheet with front, top, side and isometric views to one scale, and a scale bar in model units: third \
+             (American) or first (European) angle; --size is that of the sheet",
+            |style: &mut Self| &mut style.sheet,
+        )
+        .said("none, one view");
+        let heading = drawing[0].heading;
+        lines.chain(drawing).chain(under(heading, vec![sheet])).collect()
     }
 
     /// Refuses a drawing of nothing, and areas by a pen.
@@ -55,6 +69,10 @@ impl LineStyle {
         if self.drawing.is_for_pen && self.areas.is_some() {
             return Err(Error::setting("areas", "a pen draws lines alone; leave out one of --areas and --pen"));
         }
+        if self.sheet.is_some() && self.areas.is_some() {
+            return Err(Error::setting("areas", "areas are drawn from one view; leave out one of --areas and --sheet"));
+        }
+        self.lines.parts.check(&self.drawing)?;
         self.drawing.check()
     }
 
@@ -62,7 +80,7 @@ impl LineStyle {
     pub fn wanted(&self) -> LineSettings {
         LineSettings {
             finds_outline: self.drawing.tells_outline(),
-            finds_hidden: self.drawing.hidden != Hidden::None,
+            finds_hidden: self.drawing.hidden != Hidden::None || self.lines.parts.draw_hidden(),
             ..self.lines.clone()
         }
     }

@@ -35,10 +35,12 @@ mod drawing;
 mod identity;
 mod input;
 mod labels;
+mod parts;
 mod progress;
 mod regions;
 mod segment;
 mod settings;
+mod sheet;
 mod smooth;
 #[cfg(test)]
 mod smooth_tests;
@@ -63,10 +65,15 @@ pub use drawing::painted::painted;
 pub use drawing::settings::{DrawingSettings, Hidden};
 pub use identity::StrokeIds;
 pub use labels::Label;
+pub use parts::pattern::Pattern;
+pub use parts::rules::{PartRule, PartRules};
+pub use parts::scene_parts::ScenePart;
+pub use parts::style::{PartRole, PartStyle};
 pub use progress::{Phase, Progress};
 pub use regions::{Joined, Region, Regions, SeenFace, Surface, ToneLight, ToneRule, TonedSurface};
 pub use segment::LineSegment;
 pub use settings::LineSettings;
+pub use sheet::ProjectionAngle;
 pub use smooth::closed_forms;
 pub use smooth::forms::FormSettings;
 pub use smooth::silhouettes::{SmoothSilhouette, smooth_silhouettes};
@@ -83,9 +90,11 @@ pub use write::svg::{svg, svg_of_paths};
 use crate::clock::{Instant, milliseconds_since};
 use crate::edges::{Class, ClassSet};
 use crate::error::{Error, Result};
+use crate::mesh::Mesh;
 use crate::scene::Scene;
 use crate::threads::both;
-use input::object_edges::{Edges, ObjectEdges};
+use input::object_edges::{Edges, IsGhost, ObjectEdges, ghost_faces, object_edges};
+use parts::scene_parts::SceneParts;
 use settings::{check_on_surface, not_published};
 use smooth::contour_visibility::ContourLines;
 use smooth::contours::Contours;
@@ -134,6 +143,10 @@ impl VisibleLines {
         if settings.reference {
             return visible::reference::visible_lines(scene, settings, progress);
         }
+        let scene_parts = SceneParts::new(scene, settings)?;
+        let settings = &scene_parts.settings(settings);
+        let is_ghost = |object: usize, mesh: &Mesh, face| scene_parts.is_ghost(scene_parts.of_face(object, mesh, face));
+        let ghosts = scene_parts.has_ghosts().then_some(&is_ghost as IsGhost<'_>);
         let has_forms = !settings.classes.and(ClassSet::FORMS).is_empty();
         let with_hidden;
         let settings = if settings.counts_changes && !settings.finds_hidden {
@@ -148,7 +161,7 @@ impl VisibleLines {
         // One thread builds the hierarchy, another the edges.
         let (parts, faces) = both(
             || {
-                let parts = input::object_edges::object_edges(scene);
+                let parts = object_edges(scene, ghosts);
                 for part in &parts {
                     part.edges.get().classes(settings.crease_angle, input::features::asked(settings));
                     if has_forms && matches!(part.edges, Edges::OfScene(_)) {
@@ -160,12 +173,16 @@ impl VisibleLines {
             || Faces::new(&space, &unrepaired),
         );
         let is_repaired = parts.iter().any(|part| matches!(part.edges, Edges::Repaired(_)));
-        let faces = if is_repaired {
+        let mut faces = if is_repaired {
             let meshes: Vec<_> = parts.iter().map(|part| (part.object, part.shape().clone())).collect();
             Faces::new(&space, &meshes)
         } else {
             faces
         };
+        if let Some(is_ghost) = ghosts {
+            faces.set_ghosts(&ghost_faces(&parts, is_ghost));
+        }
+        let all_parts = (parts.as_slice(), &scene_parts);
         let topology_ms = milliseconds_since(clock);
         progress.go_on()?;
 
@@ -176,7 +193,7 @@ impl VisibleLines {
         });
         let drawn_contours = contours.as_ref().filter(|_| settings.has_smooth_contours());
         let (mut lines, mut edges) =
-            input::features::edge_features(scene, &space, &faces, &parts, drawn_contours, settings);
+            input::features::edge_features(scene, &space, &faces, all_parts, drawn_contours, settings);
         let silhouette_ms = milliseconds_since(clock);
         progress.go_on()?;
 
@@ -195,14 +212,14 @@ impl VisibleLines {
             }
         }
         let mut compared = intersections.compared;
-        if settings.classes.contains(Class::Intersection) {
-            edges.intersection = intersections.lines.len();
-            lines.extend(input::features::intersection_features(&faces, &parts, &intersections.lines));
+        if !settings.classes.and(ClassSet::of(&[Class::Intersection, Class::Part])).is_empty() {
+            let found = &intersections.lines;
+            lines.extend(input::features::intersection_features(&faces, all_parts, found, &mut edges));
         }
         if has_forms {
-            lines.extend(smooth::forms::form_features(scene, &space, &faces, &parts, settings, &mut edges));
+            lines.extend(smooth::forms::form_features(scene, &space, &faces, all_parts, settings, &mut edges));
         }
-        lines.extend(input::features::free_features(&space, &parts, settings, &mut edges)?);
+        lines.extend(input::features::free_features(&space, all_parts, settings, &mut edges)?);
         lines.extend(input::features::near_plane_features(&space, &faces));
         let found = LineIndex::new(
             &space,
@@ -220,7 +237,7 @@ impl VisibleLines {
         let undecided = progress.undecided()?;
         let mut changes = None;
         if let Some(contours) = &contours {
-            let contour_lines = ContourLines { lines: &found, contours, parts: &parts };
+            let contour_lines = ContourLines { lines: &found, contours, parts: &parts, scene_parts: &scene_parts };
             if settings.has_smooth_contours() {
                 edges.silhouette += contours.pieces.len();
                 let decided = contour_lines.decided(progress);
@@ -238,10 +255,23 @@ impl VisibleLines {
             segments = visible::doubled::marked(segments, &space, progress)?;
         }
         let labels = labels::labels(scene, &segments);
+        scene_parts.put_looks(&mut segments);
+        let SceneParts { list, looks, .. } = scene_parts;
         let visibility_ms = milliseconds_since(clock);
         let times = LineTimes { topology_ms, silhouette_ms, visibility_ms, compared };
         let covered_triangles = parts.iter().map(ObjectEdges::covered).sum();
-        let has_specks = false;
-        Ok(Self { size: scene.size, segments, labels, edges, covered_triangles, changes, undecided, has_specks, times })
+        Ok(Self {
+            size: scene.size,
+            segments,
+            labels,
+            parts: list,
+            looks,
+            edges,
+            covered_triangles,
+            changes,
+            undecided,
+            has_specks: false,
+            times,
+        })
     }
 }

@@ -52,6 +52,6 @@ pub use gltf::camera as gltf_camera;
 pub use load::{Loaded, load, load_watched, read_as, read_bytes, refuse_address};
 pub use options::{LoadOptions, LoadStage, Normals, UpAxis};
 pub(crate) use triangle_mesh::triangle_normal;
-pub use triangle_mesh::{EmbeddedPicture, Material, Mesh, NONE, TextureAlpha, bounds};
+pub use triangle_mesh::{EmbeddedPicture, Material, Mesh, NONE, NamedPart, TextureAlpha, bounds};
 pub use vertices::{Part, VertexArrays};
 pub(crate) use weld::weld;

@@ -62,13 +62,26 @@ impl OptionValue {
     }
 }
 
+/// Returns the text of a rule, as options for parts take it: `bolt*: color=red, ghost` for a name, a text and a switch that is
+/// on.
+pub fn rule_text(name: &str, settings: Vec<(String, OptionValue)>) -> String {
+    let setting = |(name, value): (String, OptionValue)| match value {
+        OptionValue::Switch(true) => Some(name),
+        OptionValue::Switch(false) => None,
+        OptionValue::Text(text) => Some(format!("{name}={text}")),
+        OptionValue::Texts(texts) => Some(format!("{name}={}", texts.join("+"))),
+    };
+    format!("{name}: {}", settings.into_iter().filter_map(setting).collect::<Vec<_>>().join(", "))
+}
+
 /// Mutually exclusive settings: each with those that it excludes.
-pub const EXCLUSIVE: [(&str, &[&str]); 9] = [
+pub const EXCLUSIVE: [(&str, &[&str]); 10] = [
     ("eye", &["view"]),
     ("transparent", &["background"]),
     ("width-mm", &["dpi"]),
     ("page", &["width-mm", "dpi"]),
     ("fit-curves", &["provenance"]),
+    ("sheet", &["view", "eye", "target", "up", "height", "framing", "turntable"]),
     ("turntable", &["animate"]),
     ("animate", &["model-frame"]),
     ("full", &["keep", "verify"]),
@@ -120,6 +133,8 @@ pub struct Setting<T> {
     pub former: &'static [(&'static str, &'static str)],
     /// Whether its option may be given without a value; its text is then empty.
     pub stands_alone: bool,
+    /// What joins its values if its option is given several times; `None` if it may not be.
+    pub between: Option<&'static str>,
     /// Whether it decides which other settings exist, and is therefore set first.
     is_first: bool,
     label: Option<&'static str>,
@@ -221,6 +236,7 @@ impl<T: Clone + 'static> Setting<T> {
             provenance: None,
             former: &[],
             stands_alone: false,
+            between: None,
             is_first: false,
             label: None,
             get: Box::new(move |of| Some(get(of))),
@@ -268,6 +284,13 @@ impl<T: Clone + 'static> Setting<T> {
     #[must_use]
     pub fn standing_alone(mut self) -> Self {
         self.stands_alone = true;
+        self
+    }
+
+    /// Allows its option several times, with the values joined by this text.
+    #[must_use]
+    pub fn repeated(mut self, between: &'static str) -> Self {
+        self.between = Some(between);
         self
     }
 
@@ -343,6 +366,7 @@ impl<T: Clone + 'static> Setting<T> {
             provenance,
             former,
             stands_alone,
+            between,
             is_first,
             label,
             get,
@@ -363,6 +387,7 @@ impl<T: Clone + 'static> Setting<T> {
             provenance,
             former,
             stands_alone,
+            between,
             is_first,
             label,
             get,
@@ -431,7 +456,7 @@ impl<T: Clone + 'static> Setting<T> {
                 Err("write true or false, without quotes".to_owned())
             }
             (_, OptionValue::Text(text)) => Ok(text.clone()),
-            (_, OptionValue::Texts(texts)) => Ok(texts.join(",")),
+            (_, OptionValue::Texts(texts)) => Ok(texts.join(self.between.unwrap_or(","))),
             (Kind::Flag | Kind::Switch, OptionValue::Switch(is_on)) => Ok(on_off(*is_on).to_owned()),
             (_, OptionValue::Switch(true)) if self.stands_alone => Ok(String::new()),
             (_, OptionValue::Switch(false)) if self.stands_alone => Ok(self.open.unwrap_or_default().to_owned()),

@@ -70,8 +70,8 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     let drawn = with_recipe(style.drawing, output, recipe.as_ref());
     let is_chained = format != Format::Json || run.is_told();
     let mut paths = if is_chained { chain(&lines.segments) } else { Vec::new() };
-    if format != Format::Json && drawn.hidden == Hidden::None {
-        paths.retain(|path| path.is_visible);
+    if format != Format::Json {
+        paths.retain(|path| path.is_visible || lines.drawing(path.look, &drawn).hidden != Hidden::None);
     }
     let counts = LineCounts::new(&lines, &paths);
     if is_stopped(stop.as_ref()) {
@@ -168,6 +168,7 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Resu
             refuse(&OF_PAPER, &pixels_on_paper(&request.options))
         }
         Format::Json => {
+            refuse(&["sheet"], "a .json file holds one view; leave it out, or write a .svg")?;
             let drawing = DrawingSettings::table().of(None).into_iter().map(|setting| setting.name);
             let options: Vec<&str> = drawing.filter(|name| *name != "min-length" && is_of_lines_alone(name)).collect();
             refuse(&options, "a .json file holds all lines but no appearance; leave it out, or write a .svg")

@@ -61,7 +61,7 @@ pub fn buffers(style: StyleName) -> Vec<Buffer> {
 }
 
 /// The colours of classes, in their order, far apart for eyes of any kind.
-pub(in crate::window) const CLASS_COLORS: [(Class, [f32; 3]); 8] = [
+pub(in crate::window) const CLASS_COLORS: [(Class, [f32; 3]); 9] = [
     (Class::Boundary, [0.84, 0.37, 0.0]),
     (Class::NonManifold, [0.8, 0.1, 0.1]),
     (Class::Silhouette, [0.0, 0.0, 0.0]),
@@ -69,6 +69,7 @@ pub(in crate::window) const CLASS_COLORS: [(Class, [f32; 3]); 8] = [
     (Class::Material, [0.0, 0.62, 0.45]),
     (Class::Texture, [0.8, 0.47, 0.65]),
     (Class::Normal, [0.75, 0.65, 0.0]),
+    (Class::Part, [0.35, 0.7, 0.9]),
     (Class::Marked, [0.45, 0.3, 0.7]),
 ];
 

@@ -34,6 +34,8 @@ crate::choices! {
         Texture = "texture",
         /// Its vertex normals differ between its two faces; likewise.
         Normal = "normal",
+        /// Its two faces belong to different parts of the file. The exact lines also find it where parts intersect.
+        Part = "part",
         /// The model's file marks it as an edge to draw: glTF's EXT_mesh_primitive_edge_visibility.
         Marked = "marked",
         /// No edge of the mesh: two faces intersect along it. Only the exact lines find it.
@@ -137,22 +139,33 @@ impl ClassSet {
             "CLASSES",
             Kind::Several(names.collect()),
             "Edges to draw: boundary, non-manifold, silhouette, crease (or convex-crease, concave-crease), material, texture, \
-             normal, marked, in style lines also intersection, the form lines suggestive, ridge, valley, apparent-ridge, and the \
+             normal, part, marked, in style lines also intersection, the form lines suggestive, ridge, valley, apparent-ridge, and the \
              model's own curve and point; separated by commas, or all",
-            move |of: &T| field(&mut of.clone()).classes().map(Class::name).collect::<Vec<_>>().join(","),
+            move |of: &T| field(&mut of.clone()).text(),
             move |of: &mut T, text: &str| {
-                let named = || -> std::result::Result<Vec<Class>, ParseError> {
-                    text.split(',').map(|name| name.trim().parse()).collect()
-                };
-                *field(of) = match text {
-                    "all" => all,
-                    _ => Self::of(&named().map_err(|problem| format!("{problem}, or all"))?),
-                };
+                *field(of) = Self::parsed(text, all)?;
                 Ok(())
             },
         )
         .said("boundary,silhouette,crease; style lines: also non-manifold, material, marked, intersection, curve and point")
         .printed("D, Inking: boundary, crease and silhouette are what the listing asks for")
+    }
+}
+
+impl ClassSet {
+    /// Its names, separated by commas.
+    pub(crate) fn text(self) -> String {
+        self.classes().map(Class::name).collect::<Vec<_>>().join(",")
+    }
+
+    /// The set of these names, separated by commas; `all` are those of the name `all`.
+    pub(crate) fn parsed(text: &str, all: Self) -> std::result::Result<Self, ParseError> {
+        let named: std::result::Result<Vec<Class>, ParseError> =
+            text.split(',').map(|name| name.trim().parse()).collect();
+        match text {
+            "all" => Ok(all),
+            _ => Ok(Self::of(&named.map_err(|problem| format!("{problem}, or all"))?)),
+        }
     }
 }
 
@@ -281,6 +294,8 @@ pub struct ClassCounts {
     pub texture: usize,
     /// Between different vertex normals.
     pub normal: usize,
+    /// Between two parts.
+    pub part: usize,
     /// Marked as an edge by the file.
     pub marked: usize,
     /// Intersections of faces; not counted among edges.
@@ -313,6 +328,7 @@ impl ClassCounts {
             Class::Material => &mut self.material,
             Class::Texture => &mut self.texture,
             Class::Normal => &mut self.normal,
+            Class::Part => &mut self.part,
             Class::Marked => &mut self.marked,
             Class::Intersection => &mut self.intersection,
             Class::Suggestive => &mut self.suggestive,
@@ -426,6 +442,7 @@ struct Seams {
     material: bool,
     texture: bool,
     normal: bool,
+    part: bool,
 }
 
 impl Seams {
@@ -434,11 +451,12 @@ impl Seams {
             material: wanted.contains(Class::Material) && !mesh.triangle_materials.is_empty(),
             texture: wanted.contains(Class::Texture) && !mesh.triangle_texture_coordinates.is_empty(),
             normal: wanted.contains(Class::Normal) && !mesh.triangle_normals.is_empty(),
+            part: wanted.contains(Class::Part) && !mesh.triangle_parts.is_empty(),
         }
     }
 
     fn any(&self) -> bool {
-        self.material || self.texture || self.normal
+        self.material || self.texture || self.normal || self.part
     }
 }
 
@@ -482,9 +500,12 @@ impl Judge<'_> {
     fn seams_at(&self, edge: usize, faces: [usize; 2]) -> ClassSet {
         let mesh = self.mesh;
         let mut classes = ClassSet::default();
-        let material = |face: usize| mesh.triangle_materials.get(face).copied().unwrap_or(NONE);
-        if self.seams.material && material(faces[0]) != material(faces[1]) {
+        let differ = |list: &[u32]| list.get(faces[0]) != list.get(faces[1]);
+        if self.seams.material && differ(&mesh.triangle_materials) {
             classes = classes.or(ClassSet::of(&[Class::Material]));
+        }
+        if self.seams.part && differ(&mesh.triangle_parts) {
+            classes = classes.or(ClassSet::of(&[Class::Part]));
         }
         if self.seams.texture
             && self.differs(edge, faces, &mesh.triangle_texture_coordinates, &mesh.texture_coordinates)

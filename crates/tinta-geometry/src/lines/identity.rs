@@ -77,7 +77,7 @@ impl StrokeIds {
     pub fn new(scene: &Scene, settings: &LineSettings) -> Self {
         let mut curves = HashMap::new();
         let mut count = 0;
-        for (object, part) in object_edges(scene).iter().enumerate() {
+        for (object, part) in object_edges(scene, None).iter().enumerate() {
             add_curves(part, settings, &mut count, |edge, curve| {
                 curves.insert((object as u32, edge), curve);
             });

@@ -8,4 +8,5 @@ pub(super) mod features;
 pub(super) mod mesh_repair;
 mod normal_creases;
 pub(super) mod object_edges;
+pub(super) mod part_classes;
 pub(super) mod split_t_junctions;

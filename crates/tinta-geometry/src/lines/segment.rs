@@ -34,6 +34,10 @@ pub struct LineSegment {
     pub angle_degrees: Option<f64>,
     /// The number of its object in the scene.
     pub object: u32,
+    /// The number of its part in [`VisibleLines::parts`](super::VisibleLines::parts).
+    pub part: u32,
+    /// The number of its style in [`VisibleLines::looks`](super::VisibleLines::looks).
+    pub look: u32,
 }
 
 impl LineSegment {

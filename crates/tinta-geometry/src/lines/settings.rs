@@ -2,6 +2,7 @@
 
 use crate::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
+use crate::lines::parts::rules::PartRules;
 use crate::lines::smooth::forms::FormSettings;
 use crate::settings::{HasSettings, Setting, Table, Value as _, within};
 use std::sync::LazyLock;
@@ -29,6 +30,10 @@ pub struct LineSettings {
     /// to the depth. Default 1e-4: the rounding of coordinates with five digits. A larger value also lifts curves
     /// that cut below a coarse surface, and shows those behind a wall as thin.
     pub on_surface: f64,
+    /// Styles of parts: colour, width, classes, crease angle, role in hiding. Default none.
+    pub parts: PartRules,
+    /// Whether seams are left out where coplanar faces of one material meet across parts of one file. Default false.
+    pub joins_parts: bool,
     /// Whether hidden parts are found too. Default true. If false,
     /// [`VisibleLines::segments`](super::VisibleLines::segments) holds visible parts only, and hidden ones take no
     /// time.
@@ -65,6 +70,8 @@ impl Default for LineSettings {
             creases_by_normals: false,
             silhouette: SilhouetteRule::Exact,
             on_surface: 1e-4,
+            parts: PartRules::default(),
+            joins_parts: false,
             finds_hidden: true,
             finds_outline: false,
             forms: FormSettings::default(),
@@ -116,6 +123,22 @@ impl LineSettings {
                 |lines: &mut Self| &mut lines.on_surface,
             )
             .range(*ON_SURFACE.start(), *ON_SURFACE.end(), 5),
+            Setting::field(
+                "part",
+                "RULE",
+                "Style of some parts: PATTERN: SETTINGS, for instance 'bolt*: color=red, ghost'; the pattern names parts and \
+                 models, or with material: before it materials; settings are color, line-width, classes (with + between \
+                 them), crease-angle, hidden, and ghost (drawn, hides nothing) or occlude-only (hides, is not drawn); give it \
+                 again for more parts, later rules above earlier ones",
+                |lines: &mut Self| &mut lines.parts,
+            )
+            .repeated(PartRules::BETWEEN),
+            Setting::flag(
+                "join-parts",
+                "Leave out seams where coplanar faces of one material meet across parts of one file",
+                |lines: &Self| lines.joins_parts,
+                |lines, is_on| lines.joins_parts = is_on,
+            ),
         ];
         let forms = within(FormSettings::settings(), |lines: &mut Self| Some(&mut lines.forms));
         edges.into_iter().chain(forms).collect()

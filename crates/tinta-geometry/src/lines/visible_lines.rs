@@ -1,12 +1,16 @@
 //! The visible and hidden lines of a scene.
 
 use super::labels::Label;
+use super::parts::scene_parts::ScenePart;
+use super::parts::style::PartStyle;
 use super::segment::LineSegment;
 use crate::edges::ClassCounts;
 use crate::error::{Error, Result};
+use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::smooth::visibility_events::VisibilityChanges;
 use crate::scene::Size;
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// The visible and hidden lines of a scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +23,10 @@ pub struct VisibleLines {
     pub segments: Vec<LineSegment>,
     /// The labels of points inside the picture, in the points' order.
     pub labels: Vec<Label>,
+    /// The parts of the models: their names and styles.
+    pub parts: Vec<ScenePart>,
+    /// The different styles of parts; the first is that of parts without a rule.
+    pub looks: Vec<PartStyle>,
     /// Number of edges in each class; an edge counts in the first of its classes.
     pub edges: ClassCounts,
     /// Number of triangles covered by coplanar ones, as in models made to be seen from both sides; each region counts
@@ -59,6 +67,8 @@ impl VisibleLines {
             size,
             segments: Vec::new(),
             labels: Vec::new(),
+            parts: Vec::new(),
+            looks: Vec::new(),
             edges: ClassCounts::default(),
             covered_triangles: 0,
             changes: None,
@@ -79,6 +89,16 @@ impl VisibleLines {
             (true, true) => format!("{lines} decided and {specks}"),
         };
         Some(format!("partial: the time was over before {before}"))
+    }
+
+    /// The settings of a drawing for lines of a style, by its number in `looks`.
+    pub fn drawing<'d>(&self, look: u32, drawing: &'d DrawingSettings) -> Cow<'d, DrawingSettings> {
+        self.looks.get(look as usize).map_or(Cow::Borrowed(drawing), |look| look.drawing(drawing))
+    }
+
+    /// The settings of a drawing for each style; at least one.
+    pub(in crate::lines) fn drawings<'d>(&self, drawing: &'d DrawingSettings) -> Vec<Cow<'d, DrawingSettings>> {
+        (0..self.looks.len().max(1) as u32).map(|look| self.drawing(look, drawing)).collect()
     }
 
     /// Refuses lines that cannot be drawn: not finite, or outside the picture.

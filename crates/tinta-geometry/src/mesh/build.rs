@@ -137,6 +137,8 @@ impl Soup {
             materials: std::mem::take(&mut self.materials),
             triangle_materials: pieces.materials,
             file_faces: pieces.polygons,
+            parts: std::mem::take(&mut self.parts),
+            triangle_parts: pieces.parts,
             marked,
             curves,
             defects,

@@ -74,9 +74,11 @@ fn contents(
     }
     refuse_too_much(&outlines, bytes.len() + buffers.bytes_beside)?;
     let left_out = Omissions { unread_pictures, ..Omissions::of(&root) };
+    let (named, of_nodes) = nodes.parts(&root);
     for (outline, places) in &outlines {
-        parts::put(&mut soup, outline, places, &accessors, &nodes)?;
+        parts::put(&mut soup, outline, places, &accessors, &nodes, &of_nodes)?;
     }
+    soup.parts = named;
     remarks.extend(left_out.sentence(path));
     Ok(soup)
 }

@@ -10,6 +10,7 @@ mod agreement;
 mod lines;
 mod materials;
 mod chunk;
+mod parts;
 mod quick;
 
 use super::folder::Folder;
@@ -80,6 +81,7 @@ fn read_in_pieces(
         }
         remarks.push(format!("{path}: {left_out} not drawn; to see them, export them as polygons"));
     }
+    parts::put_on(&mut soup, &namings);
     materials::put_on(&mut soup, &namings, path, folder, remarks)?;
     Ok(soup)
 }
@@ -102,7 +104,7 @@ fn free_form_in_words([curves, surfaces]: [usize; 2]) -> Option<String> {
     (!all.is_empty()).then(|| all.join(" and "))
 }
 
-/// Joins all pieces, and returns the named materials with the number of faces before each.
+/// Joins all pieces, and returns the named materials and parts with the number of faces before each.
 fn joined(pieces: Vec<Chunk>) -> (Soup, Vec<(usize, Naming)>) {
     let mut soup = Soup::default();
     let mut namings = Vec::new();

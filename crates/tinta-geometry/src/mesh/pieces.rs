@@ -19,6 +19,7 @@ pub(super) struct Pieces {
     pub materials: Vec<u32>,
     /// Each triangle's polygon.
     pub polygons: Vec<u32>,
+    pub parts: Vec<u32>,
     /// How many triangles had no area.
     pub degenerate: usize,
     /// How many polygons had too many corners to be cut.
@@ -98,6 +99,9 @@ impl Pieces {
         if !soup.polygon_materials.is_empty() {
             self.materials.reserve_exact(count);
         }
+        if !soup.polygon_parts.is_empty() {
+            self.parts.reserve_exact(count);
+        }
     }
 
     /// Adds a triangle of a polygon, or counts it where it has no area.
@@ -117,6 +121,9 @@ impl Pieces {
         if !soup.polygon_materials.is_empty() {
             self.materials.push(soup.polygon_materials.get(polygon).copied().unwrap_or(NONE));
         }
+        if !soup.polygon_parts.is_empty() {
+            self.parts.push(soup.polygon_parts.get(polygon).copied().unwrap_or(NONE));
+        }
     }
 
     fn append(&mut self, mut other: Self) {
@@ -126,6 +133,7 @@ impl Pieces {
         self.texture_coordinates.append(&mut other.texture_coordinates);
         self.materials.append(&mut other.materials);
         self.polygons.append(&mut other.polygons);
+        self.parts.append(&mut other.parts);
         self.degenerate += other.degenerate;
         self.repeated_corners += other.repeated_corners;
     }
@@ -148,6 +156,7 @@ impl Pieces {
         retain(&mut self.texture_coordinates, &keep);
         retain(&mut self.materials, &keep);
         retain(&mut self.polygons, &keep);
+        retain(&mut self.parts, &keep);
     }
 }
 

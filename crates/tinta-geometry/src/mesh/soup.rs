@@ -1,6 +1,6 @@
 //! A polygon soup: a file's vertices and polygons as a reader found them.
 
-use super::{Defects, Material, NONE, UpAxis};
+use super::{Defects, Material, NONE, NamedPart, UpAxis};
 use crate::error::{Error, Result};
 use crate::limits::{MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
 use crate::memory;
@@ -27,6 +27,10 @@ pub(super) struct Soup {
     pub polygon_materials: Vec<u32>,
     /// The materials.
     pub materials: Vec<Material>,
+    /// Each polygon's part or [`NONE`]; empty without parts.
+    pub polygon_parts: Vec<u32>,
+    /// The parts, each after the one that holds it.
+    pub parts: Vec<NamedPart>,
     /// The names of the file's frames; the soup is one of them or between two. Empty if the format has none.
     pub frames: Vec<String>,
     /// Defects found by the reader.

@@ -37,12 +37,25 @@ pub struct Mesh {
     pub triangle_materials: Vec<u32>,
     /// Each triangle's 0-based face among those of the file; empty where that is the triangle's own number.
     pub file_faces: Vec<u32>,
+    /// The model's parts, each after the one that holds it; may be empty.
+    pub parts: Vec<NamedPart>,
+    /// Each triangle's part or [`NONE`]; empty or as long as `triangles`.
+    pub triangle_parts: Vec<u32>,
     /// The edges that the file marks as edges to draw, each by its two positions, the lower first; ascending.
     pub marked: Vec<[u32; 2]>,
     /// Curves and points beside the surface.
     pub curves: Curves,
     /// The file's defects.
     pub defects: Defects,
+}
+
+/// A part of a model: an object or a group of an OBJ file, a node of a glTF file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NamedPart {
+    /// Its name in the file.
+    pub name: String,
+    /// The part that holds it, by its number, which is lower; or [`NONE`].
+    pub within: u32,
 }
 
 /// A surface's material; the styles of the three texts use colour and texture only.
@@ -113,6 +126,8 @@ impl Mesh {
             materials: Vec::new(),
             triangle_materials: Vec::new(),
             file_faces: Vec::new(),
+            parts: Vec::new(),
+            triangle_parts: Vec::new(),
             marked: Vec::new(),
             curves: Curves::default(),
             defects: Defects::default(),
@@ -136,6 +151,7 @@ impl Mesh {
             + bytes_of(&self.triangle_texture_coordinates)
             + bytes_of(&self.triangle_materials)
             + bytes_of(&self.file_faces)
+            + bytes_of(&self.triangle_parts)
             + bytes_of(&self.marked)
             + bytes_of(&self.curves.positions)
             + bytes_of(&self.curves.file_vertices)

@@ -145,6 +145,8 @@ fn cut(mesh: &Mesh, pieces: usize) -> Mesh {
         materials: Vec::new(),
         triangle_materials: Vec::new(),
         file_faces: Vec::new(),
+        parts: Vec::new(),
+        triangle_parts: Vec::new(),
         position_colors: Vec::new(),
         marked: Vec::new(),
         curves: Default::default(),

@@ -1,7 +1,7 @@
 //! Chains line segments into polylines that a pen draws in one stroke.
 //!
-//! Input: the segments of [`crate::lines::VisibleLines`]. Output: [`LinePath`]s. Two segments of one layer and object
-//! are joined where their ends coincide bit for bit. Where more than two meet, the straightest continuations are
+//! Input: the segments of [`crate::lines::VisibleLines`]. Output: [`LinePath`]s. Two segments of one layer, object and
+//! style are joined where their ends coincide bit for bit. Where more than two meet, the straightest continuations are
 //! joined first. Meetings are found by sorting the ends, in O(n log n). Only sums, products and square roots decide,
 //! so every platform gives the same paths.
 
@@ -22,6 +22,8 @@ pub struct LinePath {
     pub is_outline: bool,
     /// Their object's number in the scene.
     pub object: u32,
+    /// The number of their style in [`VisibleLines::looks`](super::super::VisibleLines::looks).
+    pub look: u32,
     /// Their ends in order, pixels, y down; a closed path does not repeat its first point.
     pub points_px: Vec<DVec2>,
     /// Whether the last point is joined to the first.
@@ -41,6 +43,7 @@ impl LinePath {
             is_visible: true,
             is_outline: false,
             object: 0,
+            look: 0,
             points_px: ends_px.into(),
             is_closed: false,
             segments: Vec::new(),
@@ -78,6 +81,7 @@ const TRIED: usize = 4;
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct End {
     object: u32,
+    look: u32,
     layer: Layer,
     curve: u32,
     x: u64,
@@ -87,8 +91,8 @@ struct End {
 
 impl End {
     fn meets(&self, other: &Self) -> bool {
-        (self.object, self.layer, self.curve, self.x, self.y)
-            == (other.object, other.layer, other.curve, other.x, other.y)
+        (self.object, self.look, self.layer, self.curve, self.x, self.y)
+            == (other.object, other.look, other.layer, other.curve, other.x, other.y)
     }
 }
 
@@ -129,7 +133,8 @@ fn partners(segments: &[LineSegment], curve: impl Fn(&LineSegment) -> u32) -> Ve
             // Adding 0 turns -0 into 0, which is the same place.
             let [x, y] = [point.x, point.y].map(|value| (value + 0.0).to_bits());
             let layer = segment.layer();
-            ends.push(End { object: segment.object, layer, curve: curve(segment), x, y, number: index * 2 + which });
+            let LineSegment { object, look, .. } = *segment;
+            ends.push(End { object, look, layer, curve: curve(segment), x, y, number: index * 2 + which });
         }
     }
     ends.sort_unstable();
@@ -227,8 +232,8 @@ fn walk(segments: &[LineSegment], partners: &[usize], first: usize, is_drawn: &m
     if is_closed {
         points_px.pop();
     }
-    let LineSegment { class, is_visible, is_outline, object, .. } = segments[first];
-    LinePath { class, is_visible, is_outline, object, points_px, is_closed, segments: pieces, stroke: None }
+    let LineSegment { class, is_visible, is_outline, object, look, .. } = segments[first];
+    LinePath { class, is_visible, is_outline, object, look, points_px, is_closed, segments: pieces, stroke: None }
 }
 
 #[cfg(test)]
@@ -247,6 +252,8 @@ mod tests {
             edge: Some([0, 1]),
             angle_degrees: None,
             object: 0,
+            part: 0,
+            look: 0,
         }
     }
 
@@ -304,8 +311,13 @@ mod tests {
     fn classes_visibilities_and_objects_are_not_joined() {
         let meet = || [segment([1.0, 1.0], [2.0, 2.0]), segment([2.0, 2.0], [3.0, 1.0])];
         assert_eq!(chain(&meet()).len(), 1);
-        let changes: [fn(&mut LineSegment); 4] =
-            [|s| s.class = Class::Boundary, |s| s.is_visible = false, |s| s.is_outline = true, |s| s.object = 1];
+        let changes: [fn(&mut LineSegment); 5] = [
+            |s| s.class = Class::Boundary,
+            |s| s.is_visible = false,
+            |s| s.is_outline = true,
+            |s| s.object = 1,
+            |s| s.look = 1,
+        ];
         for change in changes {
             let mut segments = meet();
             change(&mut segments[1]);

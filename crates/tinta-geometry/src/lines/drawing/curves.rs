@@ -182,7 +182,17 @@ mod tests {
 
     fn path(points_px: Vec<DVec2>, is_closed: bool) -> LinePath {
         let (class, segments) = (Class::Silhouette, Vec::new());
-        LinePath { class, is_visible: true, is_outline: false, object: 0, points_px, is_closed, segments, stroke: None }
+        LinePath {
+            class,
+            is_visible: true,
+            is_outline: false,
+            object: 0,
+            look: 0,
+            points_px,
+            is_closed,
+            segments,
+            stroke: None,
+        }
     }
 
     /// Dense points along the drawn path.

@@ -15,6 +15,7 @@ use crate::lines::drawing::simplify::simplified;
 use crate::lines::{LineSegment, VisibleLines};
 use crate::scene::{Color, Size};
 use glam::DVec2;
+use std::collections::BTreeMap;
 
 /// Opacity of hidden lines drawn as ghosts.
 pub const GHOST_OPACITY: f32 = 0.3;
@@ -46,6 +47,10 @@ pub(in crate::lines) struct Drawing<'a> {
 pub struct DrawnLayer {
     /// The layer.
     pub layer: Layer,
+    /// The number of the style of its parts in [`VisibleLines::looks`], and its name there.
+    pub look: u32,
+    /// The patterns that name its parts; empty for parts without a rule.
+    pub part: String,
     /// The colour of its lines.
     pub color: Color,
     /// The width of its lines, pixels.
@@ -91,17 +96,24 @@ impl<'a> Drawing<'a> {
             return Err(Error::setting("hatch", "lines alone have no tones; leave it out, or choose --look print"));
         }
         let page = page(lines, areas, settings);
-        let hatches = areas.into_iter().flat_map(|areas| &areas.hatches);
-        let strokes = hatches
-            .flat_map(|hatch| hatch.strokes.iter().map(|ends| (Layer::Hatch(hatch.tone), LinePath::of_stroke(*ends))));
-        let paths = paths.into_iter().map(|path| (path.layer(), path));
-        let mut paths: Vec<(Layer, LinePath)> = strokes.chain(paths).collect();
-        let layers = Layer::upwards().filter(|layer| settings.draws(layer.is_visible())).filter_map(|layer| {
-            let of_it = paths.extract_if(.., |(of, _)| *of == layer).map(|(_, path)| path).collect();
-            let drawn = DrawnLayer::new(layer, of_it, &page, settings, lines.size);
-            (!drawn.paths.is_empty()).then_some(drawn)
-        });
-        let layers = layers.collect();
+        let looks = lines.drawings(settings);
+        looks.iter().try_for_each(|settings| settings.check())?;
+        let mut paths_of: BTreeMap<(Layer, u32), Vec<LinePath>> = BTreeMap::new();
+        for hatch in areas.into_iter().flat_map(|areas| &areas.hatches) {
+            let strokes = hatch.strokes.iter().map(|ends| LinePath::of_stroke(*ends));
+            paths_of.entry((Layer::Hatch(hatch.tone), 0)).or_default().extend(strokes);
+        }
+        paths.into_iter().for_each(|path| paths_of.entry((path.layer(), path.look)).or_default().push(path));
+        let mut layers = Vec::with_capacity(paths_of.len());
+        for layer in Layer::upwards() {
+            for (look, settings) in (0..).zip(&looks).filter(|(_, settings)| settings.draws(layer.is_visible())) {
+                if let Some(paths) = paths_of.remove(&(layer, look)) {
+                    let part = lines.looks.get(look as usize).map_or(String::new(), |look| look.name.clone());
+                    let drawn = DrawnLayer::new(layer, paths, &page, settings, lines.size);
+                    layers.push(DrawnLayer { look, part, ..drawn });
+                }
+            }
+        }
         let labels = drawn_labels(&lines.labels, settings, page.units);
         Ok(Self { segments: &lines.segments, note: lines.partial_note(), settings, page, layers, labels })
     }
@@ -109,12 +121,21 @@ impl<'a> Drawing<'a> {
 
 /// The drawing's page; if it is a sheet of paper, lines and areas fill it.
 pub(in crate::lines) fn page(lines: &VisibleLines, areas: Option<&Areas>, settings: &DrawingSettings) -> Page {
-    let is_drawn = |segment: &LineSegment| settings.draws(segment.is_visible) && !segment.is_covered;
+    let looks = lines.drawings(settings);
+    let is_drawn =
+        |segment: &LineSegment| looks[segment.look as usize].draws(segment.is_visible) && !segment.is_covered;
+    let drawn = lines.segments.iter().filter(|segment| is_drawn(segment));
     let corners = areas.and_then(|areas| areas.corners_px);
-    Page::new(lines, is_drawn, corners, settings.page_size, settings.margin.0)
+    Page::new(lines.size, drawn, corners, settings.page_size, settings.margin.0)
 }
 
 impl DrawnLayer {
+    /// Its label in programs that show layers: visibility, class, and the patterns of its parts.
+    pub fn label(&self) -> String {
+        let between = if self.part.is_empty() { "" } else { " " };
+        format!("{}{between}{}", self.layer.words().join(" "), self.part)
+    }
+
     fn new(layer: Layer, mut paths: Vec<LinePath>, page: &Page, settings: &DrawingSettings, size: Size) -> Self {
         let is_pens_own = settings.is_for_pen && !settings.says_width(layer);
         let width_px = if is_pens_own { PEN_WIDTH_PX } else { settings.width_px(layer, page.units) };
@@ -129,6 +150,8 @@ impl DrawnLayer {
         }
         Self {
             layer,
+            look: 0,
+            part: String::new(),
             color: settings.color(layer),
             width_px,
             dash_px: (is_dashed && !settings.is_for_pen).then(|| DASH_WIDTHS.map(|widths| widths * width_px)),

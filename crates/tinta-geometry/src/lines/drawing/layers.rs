@@ -170,6 +170,19 @@ impl<T: Copy> OfLayers<T> {
         self.0[Name::Hidden.index()] = Some(value);
     }
 
+    /// The same value for all visible lines.
+    pub(in crate::lines) fn of_visible(value: T) -> Self {
+        let mut values = Self::default();
+        Class::ALL.into_iter().for_each(|(_, class)| values.set_class(class, value));
+        values.set_outline(value);
+        values
+    }
+
+    /// Only the values that `is_kept` keeps.
+    pub(in crate::lines) fn only(self, is_kept: impl Fn(T) -> bool) -> Self {
+        Self(self.0.map(|value| value.filter(|value| is_kept(*value))))
+    }
+
     /// Returns a layer's value.
     pub fn of(&self, layer: Layer) -> Option<T> {
         layer.names().into_iter().flatten().find_map(|name| self.0[name.index()])

@@ -5,8 +5,8 @@
 //! same numbers on any paper.
 
 use crate::error::{Error, ParseError, Result};
+use crate::lines::LineSegment;
 use crate::lines::drawing::length::{Millimetres, Units};
-use crate::lines::{LineSegment, VisibleLines};
 use crate::scene::Size;
 use crate::settings::{Kind, Problem, Value};
 use glam::DVec2;
@@ -220,15 +220,14 @@ pub(in crate::lines) struct Page {
 }
 
 impl Page {
-    /// The page of a drawing; the lines and the corners around its areas matter only if a sheet is to be filled.
-    pub(in crate::lines) fn new(
-        lines: &VisibleLines,
-        is_drawn: impl Fn(&LineSegment) -> bool,
+    /// The page of a drawing of a picture's size; the drawn lines and the corners around its areas matter only if a sheet is to be filled.
+    pub(in crate::lines) fn new<'a>(
+        Size { width, height }: Size,
+        drawn: impl Iterator<Item = &'a LineSegment>,
         areas_px: Option<[DVec2; 2]>,
         size: PageSize,
         margin: f64,
     ) -> Self {
-        let Size { width, height } = lines.size;
         let picture = DVec2::new(f64::from(width), f64::from(height));
         let units = |px_per_mm| Units { px_per_mm, height_px: picture.y };
         let whole = |lengths, unit, px_per_mm| Self {
@@ -246,7 +245,6 @@ impl Page {
             }
             PageSize::Dpi(dpi) => whole(picture / dpi, "in", Some(dpi / MM_PER_INCH)),
             PageSize::Paper(paper) => {
-                let drawn = lines.segments.iter().filter(|segment| is_drawn(segment));
                 let (low, high) = bounds(drawn, areas_px).unwrap_or((DVec2::ZERO, picture));
                 let paper_mm = DVec2::from_array(paper.sides_mm(high - low));
                 // A horizontal or vertical line has an extent of 0 in one direction.
@@ -283,11 +281,12 @@ fn bounds<'a>(pieces: impl Iterator<Item = &'a LineSegment>, more: Option<[DVec2
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edges::{Class, ClassCounts};
-    use crate::lines::LineTimes;
+    use crate::edges::Class;
 
-    fn line(a: [f64; 2], b: [f64; 2]) -> VisibleLines {
-        let segment = LineSegment {
+    const SIZE: Size = Size { width: 600, height: 400 };
+
+    fn line(a: [f64; 2], b: [f64; 2]) -> LineSegment {
+        LineSegment {
             ends_world: [glam::DVec3::ZERO; 2],
             class: Class::Crease,
             is_visible: true,
@@ -298,23 +297,13 @@ mod tests {
             edge: None,
             angle_degrees: None,
             object: 0,
-        };
-        let size = Size { width: 600, height: 400 };
-        VisibleLines {
-            size,
-            segments: vec![segment],
-            edges: ClassCounts::default(),
-            changes: None,
-            covered_triangles: 0,
-            undecided: 0,
-            has_specks: false,
-            labels: Vec::new(),
-            times: LineTimes::default(),
+            part: 0,
+            look: 0,
         }
     }
 
-    fn page(lines: &VisibleLines, size: PageSize, margin: f64) -> Page {
-        Page::new(lines, |_| true, None, size, margin)
+    fn page(line: &LineSegment, size: PageSize, margin: f64) -> Page {
+        Page::new(SIZE, std::iter::once(line), None, size, margin)
     }
 
     #[test]
@@ -358,11 +347,11 @@ mod tests {
         assert_fits([[0.0, 0.0], [600.0, 400.0]], "100x300mm", 49.0, [100.0, 300.0]);
         assert_fits([[10.0, 50.0], [20.0, 50.0]], "letter", 15.0, [279.4, 215.9]);
         // An empty drawing shows the whole picture.
-        let nothing = Page::new(&line([1.0; 2], [2.0; 2]), |_| false, None, sheet("A4"), 15.0);
+        let nothing = Page::new(SIZE, std::iter::empty(), None, sheet("A4"), 15.0);
         assert_eq!(nothing.units.px_per_mm, Some(600.0 / 267.0));
         // Areas without lines fill it too.
         let corners = Some([DVec2::ZERO, DVec2::new(267.0, 100.0)]);
-        let areas = Page::new(&line([1.0; 2], [2.0; 2]), |_| false, corners, sheet("A4"), 15.0);
+        let areas = Page::new(SIZE, std::iter::empty(), corners, sheet("A4"), 15.0);
         assert_eq!(areas.units.px_per_mm, Some(1.0));
     }
 

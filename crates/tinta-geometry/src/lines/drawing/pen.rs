@@ -206,6 +206,7 @@ mod tests {
             is_visible: true,
             is_outline: false,
             object: 0,
+            look: 0,
             points_px,
             is_closed,
             segments,

@@ -53,6 +53,7 @@ impl VisibleLines {
             true => readable(&self.segments, settings.width_px(Layer::Outline, units), progress),
             false => self.segments.clone(),
         };
+        let looks = self.drawings(settings);
         let mut keeps = vec![true; segments.len()];
         // Hidden lines have separate layers, which may be switched off.
         for is_visible in [true, false] {
@@ -62,7 +63,7 @@ impl VisibleLines {
                 .filter(|(_, segment)| segment.is_visible == is_visible && !segment.is_covered)
                 // A model's own curves and points are no noise, and connect nothing.
                 .filter(|(_, segment)| !ClassSet::FREE.contains(segment.class))
-                .map(|(number, segment)| Stroke::new(number, segment, settings, units))
+                .map(|(number, segment)| Stroke::new(number, segment, &looks[segment.look as usize], units))
                 .collect();
             let border = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));
             match Strokes::new(&strokes, border).too_short(progress) {
@@ -83,6 +84,8 @@ impl VisibleLines {
             size: self.size,
             segments: Vec::new(),
             labels: self.labels.clone(),
+            parts: self.parts.clone(),
+            looks: self.looks.clone(),
             edges: self.edges,
             changes: self.changes.clone(),
             covered_triangles: self.covered_triangles,

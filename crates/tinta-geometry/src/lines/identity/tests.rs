@@ -82,6 +82,8 @@ fn creases(of: &[[f64; 2]]) -> VisibleLines {
         edge: Some([0, 1]),
         angle_degrees: None,
         object: 0,
+        part: 0,
+        look: 0,
     };
     VisibleLines {
         size: Size { width: 100, height: 100 },
@@ -92,6 +94,8 @@ fn creases(of: &[[f64; 2]]) -> VisibleLines {
         undecided: 0,
         has_specks: false,
         labels: Vec::new(),
+        parts: Vec::new(),
+        looks: Vec::new(),
         times: LineTimes::default(),
     }
 }

@@ -18,10 +18,12 @@ pub(in crate::lines) fn with_faces(mesh: &Mesh, faces: Vec<(usize, [u32; 3])>) -
         };
         faces.iter().filter_map(of_face).collect()
     };
+    let of_faces = |list: &[u32]| faces.iter().filter_map(|(face, _)| list.get(*face).copied()).collect();
     Mesh {
         triangle_normals: of_corners(&mesh.triangle_normals),
         triangle_texture_coordinates: of_corners(&mesh.triangle_texture_coordinates),
-        triangle_materials: faces.iter().filter_map(|(face, _)| mesh.triangle_materials.get(*face).copied()).collect(),
+        triangle_materials: of_faces(&mesh.triangle_materials),
+        triangle_parts: of_faces(&mesh.triangle_parts),
         file_faces: faces.iter().map(|(face, _)| mesh.file_face(*face as u32)).collect(),
         triangles: faces.into_iter().map(|(_, corners)| corners).collect(),
         ..mesh.clone()

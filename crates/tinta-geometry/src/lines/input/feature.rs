@@ -12,6 +12,10 @@ pub(in crate::lines) struct Feature {
     /// Whether a surface ends or turns away at it, so things behind may appear or disappear there.
     pub occludes: bool,
     pub object: u32,
+    /// The number of its part in the scene.
+    pub part: u32,
+    /// Whether it belongs to a ghost: it hides no other line.
+    pub is_ghost: bool,
     pub own: Own,
     pub ends: [DVec3; 2],
     /// The distance below which positions of its object coincide, file units.
@@ -26,9 +30,9 @@ pub(in crate::lines) struct Feature {
 }
 
 impl Feature {
-    /// Whether it is drawn and takes part where lines lie on one another in the picture: free lines do not, they hide nothing and
-    /// nothing but faces hides them.
+    /// Whether it is drawn and takes part where lines lie on one another in the picture: free lines and ghosts do not, they hide
+    /// nothing and nothing but faces hides them.
     pub(in crate::lines) fn overlaps(&self) -> bool {
-        self.class.is_some() && self.own != Own::Free
+        self.class.is_some() && self.own != Own::Free && !self.is_ghost
     }
 }

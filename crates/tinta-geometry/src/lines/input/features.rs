@@ -1,14 +1,14 @@
 //! The lines of a scene before their visibility is decided: edges by class, ends of surfaces, intersections.
 
 use crate::bvh::NO_GROUP;
-use crate::edges::{
-    Class, ClassCounts, ClassSet, Classes, EdgeList, Incidence, MeshEdges, SilhouetteRule, persistent_creases,
-};
+use crate::edges::{Class, ClassCounts, ClassSet, EdgeList, Incidence, SilhouetteRule};
 use crate::error::Result;
 use crate::lines::LineSettings;
 use crate::lines::input::feature::Feature;
 use crate::lines::input::normal_creases::creased_parts;
 use crate::lines::input::object_edges::ObjectEdges;
+use crate::lines::input::part_classes::{CREASES, PartClasses};
+use crate::lines::parts::scene_parts::SceneParts;
 use crate::lines::smooth::contours::{Contours, OnEdge, between};
 use crate::lines::visible::faces::{Faces, Own, near_crossing};
 use crate::lines::visible::intersections::Intersection;
@@ -21,15 +21,6 @@ use std::ops::Range;
 
 /// Classes at which a surface ends or turns away.
 const OCCLUDING: ClassSet = ClassSet::of(&[Class::Boundary, Class::NonManifold, Class::Silhouette]);
-
-/// Classes of edges that `lasting_creases` restricts.
-const CREASES: [Class; 3] = [Class::Crease, Class::ConvexCrease, Class::ConcaveCrease];
-
-/// For each edge of a mesh whether it is a lasting crease; `None` if all creases are drawn.
-fn lasting(edges: &MeshEdges, classes: &Classes, settings: &LineSettings) -> Option<Vec<bool>> {
-    let is_crease = |edge: u32| !classes.of_edges[edge as usize].and(ClassSet::of(&CREASES)).is_empty();
-    settings.lasting_creases.then(|| persistent_creases(edges.mesh(), edges.list(), is_crease))
-}
 
 /// The classes of a mesh's edges that these settings need.
 pub(in crate::lines) fn asked(settings: &LineSettings) -> ClassSet {
@@ -48,36 +39,52 @@ pub(in crate::lines) fn edge_features(
     scene: &Scene,
     space: &Space,
     faces: &Faces,
-    parts: &[ObjectEdges<'_>],
+    (parts, scene_parts): (&[ObjectEdges<'_>], &SceneParts),
     contours: Option<&Contours>,
     settings: &LineSettings,
 ) -> (Vec<Feature>, ClassCounts) {
+    let crease_angles = scene_parts.crease_angles();
     let mut features = Vec::new();
     let mut counts = ClassCounts::default();
     let (mut first_position, mut first_face) = (0, 0);
     for (number, part) in parts.iter().enumerate() {
         let edges = part.edges.get();
         let list = edges.list();
-        let classes = edges.classes(settings.crease_angle, asked(settings));
+        let classes = PartClasses::new(edges, settings, &crease_angles, asked(settings));
         let silhouette = part.silhouette(scene.eye(part.object, SilhouetteRule::Exact));
         let (mesh, first_number) = (edges.mesh(), first_face);
-        let lasting = lasting(edges, &classes, settings);
+        let part_of = |face: &u32| scene_parts.of_face(number, mesh, *face);
+        let is_ghost = |face: &u32| scene_parts.is_ghost(part_of(face));
+        // A surface ends where only ghosts continue it.
+        let ends_at_ghosts = |edge: &u32| {
+            let mut ghosts = list.faces(*edge).iter().map(is_ghost);
+            let first = ghosts.next();
+            ghosts.any(|is_ghost| Some(is_ghost) != first)
+        };
+        let at_ghosts: Vec<u32> = match scene_parts.has_ghosts() {
+            true => (0..list.len() as u32).filter(ends_at_ghosts).collect(),
+            false => Vec::new(),
+        };
         let number_of = |face: u32| first_number + part.whole_face(face);
         first_face += part.shape().triangles.len() as u32;
         let edge_on = edges_of_edge_on_faces(faces, list, first_number..first_face, number_of);
-        for edge in merged(merged(classes.marked.iter().copied(), silhouette.iter().copied()), edge_on.iter().copied())
-        {
-            let mut of_edge = classes.of_edges[edge as usize];
+        let marked = classes.marked();
+        let found = merged(merged(marked.iter().copied(), silhouette.iter().copied()), edge_on.iter().copied());
+        for edge in merged(found, at_ghosts.iter().copied()) {
             if part.is_within_a_face(edge) {
                 continue;
             }
-            if lasting.as_ref().is_some_and(|lasting| !lasting[edge as usize]) {
-                of_edge = of_edge.without(&CREASES);
-            }
+            let of_part = scene_parts.owner(list.faces(edge).iter().map(part_of));
+            let look = scene_parts.look_of(of_part);
+            let wanted = match settings.joins_parts && part.is_seam_of_parts(edge) {
+                true => ClassSet::default(),
+                false => scene_parts.classes(of_part),
+            };
+            let mut of_edge = classes.of(edge, look);
             let mut creased = Vec::new();
             if settings.creases_by_normals {
-                if of_edge.contains(Class::Normal) && settings.classes.contains(Class::Crease) {
-                    creased = creased_parts(mesh, list, edge, settings.crease_angle.cosine);
+                if of_edge.contains(Class::Normal) && wanted.contains(Class::Crease) {
+                    creased = creased_parts(mesh, list, edge, crease_angles[look as usize].cosine);
                 }
                 of_edge = of_edge.without(&CREASES);
             }
@@ -88,11 +95,13 @@ pub(in crate::lines) fn edge_features(
             if by_edge_on.unwrap_or_else(|| silhouette.binary_search(&edge).is_ok()) {
                 of_edge = of_edge.or(ClassSet::of(&[Class::Silhouette]));
             }
-            let occludes = !of_edge.and(OCCLUDING).is_empty() || edge_on.binary_search(&edge).is_ok();
+            let is_of_ghost = scene_parts.is_ghost(of_part);
+            let is_end = || !of_edge.and(OCCLUDING).is_empty() || edge_on.binary_search(&edge).is_ok();
+            let occludes = !is_of_ghost && (is_end() || at_ghosts.binary_search(&edge).is_ok());
             let on_edge = contours.map_or(OnEdge::ByFaces, |contours| {
                 contours.parts[number].on_edge(space, &faces.positions, list, edge)
             });
-            let mut parts_by_class = parts_by_class(of_edge, on_edge, settings.classes);
+            let mut parts_by_class = parts_by_class(of_edge, on_edge, wanted);
             if !creased.is_empty() {
                 parts_by_class = with_creases(&parts_by_class, &creased);
             }
@@ -109,6 +118,8 @@ pub(in crate::lines) fn edge_features(
                     class,
                     occludes,
                     object: number as u32,
+                    part: of_part,
+                    is_ghost: is_of_ghost,
                     own: Own::Edge(ends.map(|position| position + first_position)),
                     ends: [from, to].map(|share| between(low, high, share)),
                     weld: faces.weld(first_position),
@@ -179,22 +190,43 @@ fn plane_of(faces: &Faces, at_edge: &[u32], number_of: impl Fn(u32) -> u32) -> u
     planes.reduce(|first, second| if first == second { first } else { NO_GROUP }).unwrap_or(NO_GROUP)
 }
 
+/// The intersections of faces whose parts have this class, or the class of lines between parts; counts them.
 pub(in crate::lines) fn intersection_features(
     faces: &Faces,
-    parts: &[ObjectEdges<'_>],
+    (parts, scene_parts): (&[ObjectEdges<'_>], &SceneParts),
     intersections: &[Intersection],
+    counts: &mut ClassCounts,
 ) -> Vec<Feature> {
     let starts: Vec<u32> = parts
         .iter()
         .scan(0, |next, part| Some(std::mem::replace(next, *next + part.shape().triangles.len() as u32)))
         .collect();
-    let feature = |intersection: &Intersection| {
+    let object_of = |number: u32| starts.partition_point(|start| *start <= number) - 1;
+    let part_of = |face: u32| {
+        let number = faces.numbers[face as usize];
+        let object = object_of(number);
+        scene_parts.of_face(object, parts[object].shape(), number - starts[object])
+    };
+    // The object and its part in the file.
+    let in_file = |face: u32| {
+        let number = faces.numbers[face as usize];
+        let object = object_of(number);
+        (object, parts[object].shape().triangle_parts.get((number - starts[object]) as usize))
+    };
+    let mut feature = |intersection: &Intersection| {
+        let of_faces = intersection.faces.map(part_of);
+        let part = scene_parts.owner(of_faces.into_iter());
+        let [first, second] = intersection.faces.map(in_file);
+        let between = ClassSet::of(if first == second { &[] } else { &[Class::Part] });
+        let class = between.or(ClassSet::of(&[Class::Intersection])).and(scene_parts.classes(part)).first()?;
+        *counts.of(class) += 1;
         let [first, second] = intersection.faces.map(|face| triangle_normal(faces.corners(face)));
-        Feature {
-            class: Some(Class::Intersection),
+        Some(Feature {
+            class: Some(class),
             occludes: false,
-            object: (starts.partition_point(|start| *start <= faces.numbers[intersection.faces[0] as usize]) - 1)
-                as u32,
+            object: object_of(faces.numbers[intersection.faces[0] as usize]) as u32,
+            part,
+            is_ghost: of_faces.into_iter().any(|part| scene_parts.is_ghost(part)),
             own: Own::Faces(intersection.faces),
             ends: intersection.ends,
             weld: faces.weld(faces.triangles[intersection.faces[0] as usize][0]),
@@ -202,9 +234,9 @@ pub(in crate::lines) fn intersection_features(
             plane: NO_GROUP,
             edge: None,
             angle_degrees: first.zip(second).map(|(first, second)| degrees_between(first, second)),
-        }
+        })
     };
-    intersections.iter().map(feature).collect()
+    intersections.iter().filter_map(&mut feature).collect()
 }
 
 /// The curves and points of all parts, lifted by [`LineSettings::on_surface`]; counts them.
@@ -214,16 +246,18 @@ pub(in crate::lines) fn intersection_features(
 /// [`Error::Setting`](crate::Error::Setting) for more than memory holds.
 pub(in crate::lines) fn free_features(
     space: &Space,
-    parts: &[ObjectEdges<'_>],
+    (parts, scene_parts): (&[ObjectEdges<'_>], &SceneParts),
     settings: &LineSettings,
     counts: &mut ClassCounts,
 ) -> Result<Vec<Feature>> {
     /// Of a line, its image, its piece and its path, measured.
     const BYTES: usize = 800;
-    let wanted = |class: Class, count: usize| if settings.classes.contains(class) { count } else { 0 };
-    let curves = || parts.iter().map(|part| &part.object.mesh.curves);
-    counts.curve = wanted(Class::Curve, curves().map(|curves| curves.segments.len()).sum());
-    counts.point = wanted(Class::Point, curves().map(|curves| curves.points.len()).sum());
+    let is_wanted = |object: usize, class: Class| scene_parts.classes(scene_parts.of_curves(object)).contains(class);
+    for (number, part) in parts.iter().enumerate() {
+        let curves = &part.object.mesh.curves;
+        counts.curve += if is_wanted(number, Class::Curve) { curves.segments.len() } else { 0 };
+        counts.point += if is_wanted(number, Class::Point) { curves.points.len() } else { 0 };
+    }
     let count = counts.curve + counts.point;
     memory::check_lines(count.saturating_mul(BYTES), memory::free())?;
     let mut features = Vec::with_capacity(count);
@@ -237,6 +271,8 @@ pub(in crate::lines) fn free_features(
             class: Some(class),
             occludes: false,
             object: number as u32,
+            part: scene_parts.of_curves(number),
+            is_ghost: false,
             own: Own::Free,
             ends: positions.map(view),
             weld: 0.0,
@@ -245,10 +281,10 @@ pub(in crate::lines) fn free_features(
             edge: Some(positions.map(|position| curves.file_vertices[position as usize])),
             angle_degrees: None,
         };
-        if settings.classes.contains(Class::Curve) {
+        if is_wanted(number, Class::Curve) {
             features.extend(curves.segments.iter().map(|ends| free(Class::Curve, *ends)));
         }
-        if settings.classes.contains(Class::Point) {
+        if is_wanted(number, Class::Point) {
             features.extend(curves.points.iter().map(|point| free(Class::Point, [*point; 2])));
         }
     }
@@ -264,6 +300,8 @@ pub(in crate::lines) fn near_plane_features(space: &Space, faces: &Faces) -> Vec
             class: None,
             occludes: true,
             object: 0,
+            part: 0,
+            is_ghost: false,
             own: Own::Faces([*face; 2]),
             ends: [points.next()?, points.next()?],
             weld: 0.0,

@@ -32,12 +32,25 @@ pub(in crate::lines) struct RepairedMesh {
     pub covered: usize,
 }
 
-/// Returns the repaired mesh; `None` if it needs no repair.
-pub(in crate::lines) fn repaired(mesh: &Arc<Mesh>, edges: &EdgeList) -> Option<RepairedMesh> {
+/// Tells which faces of a mesh hide nothing.
+type IsGhost<'a> = &'a dyn Fn(&Mesh, u32) -> bool;
+
+/// Returns the repaired mesh; `None` if it needs no repair. Ghosts and other faces do not cover one another.
+pub(in crate::lines) fn repaired(
+    mesh: &Arc<Mesh>,
+    edges: &EdgeList,
+    ghosts: Option<IsGhost<'_>>,
+) -> Option<RepairedMesh> {
     let lines = faces_without_height(mesh, edges);
     let mut shape = WorkingMesh { mesh: mesh.clone(), edges: Cow::Borrowed(edges) };
     shape.leave_out(&lines);
-    let covered = covered_faces(&shape.mesh, &shape.edges, &chains(&shape.mesh, &shape.edges));
+    let covered = match ghosts {
+        None => covered_faces(&shape.mesh, &shape.edges, &chains(&shape.mesh, &shape.edges)),
+        Some(is_ghost) => [true, false]
+            .into_iter()
+            .flat_map(|are_ghosts| covered_among(&shape.mesh, |face| is_ghost(&shape.mesh, face) == are_ghosts))
+            .collect(),
+    };
     shape.leave_out(&covered);
     let split = split_at_junctions(&shape.mesh, &shape.edges);
     let is_repaired = !lines.is_empty() || !covered.is_empty() || split.is_some();
@@ -52,6 +65,14 @@ pub(in crate::lines) fn repaired(mesh: &Arc<Mesh>, edges: &EdgeList) -> Option<R
             RepairedMesh { split: shape.clone(), shape, whole_faces, on_edges: BTreeMap::new(), covered }
         }
     })
+}
+
+/// The covered faces among some of a mesh.
+fn covered_among(mesh: &Mesh, is_of_them: impl Fn(u32) -> bool) -> Vec<u32> {
+    let numbers: Vec<u32> = (0..mesh.triangles.len() as u32).filter(|face| is_of_them(*face)).collect();
+    let some = keep_faces(mesh, is_of_them);
+    let edges = EdgeList::new(&some);
+    covered_faces(&some, &edges, &chains(&some, &edges)).into_iter().map(|face| numbers[face as usize]).collect()
 }
 
 /// A mesh with some of its faces removed, and its edges.

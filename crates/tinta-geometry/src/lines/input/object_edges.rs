@@ -2,7 +2,7 @@
 
 use crate::edges::{Eye, Incidence, MeshEdges, Side, SilhouetteRule, side_of_face};
 use crate::lines::input::mesh_repair::{self, RepairedMesh};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::{Object, Scene};
 use crate::tolerances::CONTACT;
 use std::collections::{BTreeMap, HashMap};
@@ -131,6 +131,34 @@ impl ObjectEdges<'_> {
         others.len() < faces.len() && (others.is_empty() || self.lie_flat(edge, &others))
     }
 
+    /// Whether coplanar faces of one material and two parts meet at an edge, and all other faces at it lie behind them.
+    pub(in crate::lines) fn is_seam_of_parts(&self, edge: u32) -> bool {
+        let (list, mesh) = (self.edges.get().list(), self.edges.get().mesh());
+        let of = |list: &[u32], face: u32| list.get(face as usize).copied();
+        let at_edge = list.faces(edge);
+        let are_joined = |first: u32, second: u32| {
+            of(&mesh.triangle_parts, first) != of(&mesh.triangle_parts, second)
+                && of(&mesh.triangle_materials, first) == of(&mesh.triangle_materials, second)
+                && self.lie_flat(edge, &[first, second])
+        };
+        let mut pairs = at_edge.iter().flat_map(|first| at_edge.iter().map(|second| [*first, *second]));
+        let Some(joined) = pairs.find(|[first, second]| first < second && are_joined(*first, *second)) else {
+            return false;
+        };
+        let ends = list.positions()[edge as usize];
+        let start = mesh.positions[ends[0] as usize];
+        let Some(outwards) =
+            triangle_normal(mesh.triangles[joined[0] as usize].map(|corner| mesh.positions[corner as usize]))
+        else {
+            return false;
+        };
+        let is_behind = |face: u32| {
+            let third = mesh.triangles[face as usize].into_iter().find(|corner| !ends.contains(corner));
+            third.is_some_and(|third| (mesh.positions[third as usize] - start).dot(outwards) < 0.0)
+        };
+        at_edge.iter().filter(|face| !joined.contains(face)).all(|face| is_behind(*face))
+    }
+
     /// Whether two faces at an edge are coplanar, on opposite sides of it.
     fn lie_flat(&self, edge: u32, faces: &[u32]) -> bool {
         let &[first, second] = faces else { return false };
@@ -146,14 +174,30 @@ impl ObjectEdges<'_> {
     }
 }
 
-/// The scene's objects with their edges, repaired if needed; objects with the same mesh share them.
-pub(in crate::lines) fn object_edges(scene: &Scene) -> Vec<ObjectEdges<'_>> {
+/// Tells which faces hide nothing, by the number of the object, the mesh and its face.
+pub(in crate::lines) type IsGhost<'a> = &'a (dyn Fn(usize, &Mesh, u32) -> bool + Sync);
+
+/// For each face that may hide others, by its number in the scene, whether it hides nothing.
+pub(in crate::lines) fn ghost_faces(parts: &[ObjectEdges<'_>], is_ghost: IsGhost<'_>) -> Vec<bool> {
+    let of_part = |(object, part): (usize, &ObjectEdges<'_>)| {
+        let shape = part.shape().clone();
+        (0..shape.triangles.len() as u32).map(move |face| is_ghost(object, &shape, face))
+    };
+    parts.iter().enumerate().flat_map(of_part).collect()
+}
+
+/// The scene's objects with their edges, repaired if needed; objects with the same mesh share them. Ghosts are repaired apart:
+/// none of them stands for a face that hides others.
+pub(in crate::lines) fn object_edges<'a>(scene: &'a Scene, ghosts: Option<IsGhost<'_>>) -> Vec<ObjectEdges<'a>> {
     let mut known: HashMap<*const Mesh, Option<Arc<RepairedEdges>>> = HashMap::new();
     let mut parts = Vec::with_capacity(scene.objects.len());
-    for object in &scene.objects {
+    for (number, object) in scene.objects.iter().enumerate() {
+        let of_mesh = |mesh: &Mesh, face: u32| ghosts.is_some_and(|is_ghost| is_ghost(number, mesh, face));
+        let of_mesh = ghosts.is_some().then_some(&of_mesh as &dyn Fn(&Mesh, u32) -> bool);
         let (mesh, edges) = (&object.mesh, scene.edges(object));
-        let repair =
-            || mesh_repair::repaired(mesh, edges.list()).map(|repaired| Arc::new(RepairedEdges::new(repaired)));
+        let repair = || {
+            mesh_repair::repaired(mesh, edges.list(), of_mesh).map(|repaired| Arc::new(RepairedEdges::new(repaired)))
+        };
         let edges = match known.entry(Arc::as_ptr(mesh)).or_insert_with(repair) {
             None => Edges::OfScene(edges),
             Some(edges) => Edges::Repaired(edges.clone()),

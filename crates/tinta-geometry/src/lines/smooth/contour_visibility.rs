@@ -24,6 +24,7 @@ use crate::bvh::{Box3, NO_GROUP, steps};
 use crate::edges::Class;
 use crate::lines::LineSegment;
 use crate::lines::input::object_edges::ObjectEdges;
+use crate::lines::parts::scene_parts::SceneParts;
 use crate::lines::progress::{Phase, Progress};
 use crate::lines::smooth::contours::{ContourPiece, Contours, between};
 use crate::lines::visible::faces::{Own, Probe, ProbedLine};
@@ -56,6 +57,7 @@ pub(in crate::lines) struct ContourLines<'a> {
     pub lines: &'a LineIndex<'a>,
     pub contours: &'a Contours,
     pub parts: &'a [ObjectEdges<'a>],
+    pub scene_parts: &'a SceneParts,
 }
 
 impl ContourLines<'_> {
@@ -78,6 +80,10 @@ impl ContourLines<'_> {
     pub(in crate::lines) fn segments(&self, decided: &[ContourIntervals]) -> Vec<LineSegment> {
         let mut segments = Vec::new();
         for ContourIntervals { piece, image, intervals } in decided {
+            let part = self.part_of(&self.contours.pieces[*piece]);
+            if !self.scene_parts.classes(part).contains(Class::Silhouette) {
+                continue;
+            }
             let drawn = intervals.iter().filter(|interval| interval.is_visible || self.lines.finds_hidden);
             segments.extend(drawn.map(|interval| LineSegment {
                 class: Class::Silhouette,
@@ -90,9 +96,17 @@ impl ContourLines<'_> {
                 edge: self.edge_in_file(&self.contours.pieces[*piece]),
                 angle_degrees: None,
                 object: self.contours.pieces[*piece].part,
+                part,
+                look: 0,
             }));
         }
         segments
+    }
+
+    /// The part in the scene that a segment belongs to.
+    fn part_of(&self, piece: &ContourPiece) -> u32 {
+        let object = piece.part as usize;
+        self.scene_parts.of_face(object, self.parts[object].edges.get().mesh(), piece.face)
     }
 
     /// The edge that a segment lies on, by its vertices in the file.
@@ -111,7 +125,8 @@ impl ContourLines<'_> {
         }
         let whole = |intervals| Some(ContourIntervals { piece: number, image, intervals });
         let [from, to] = inside;
-        if self.contours.is_inside(piece) {
+        let is_ghost = self.scene_parts.is_ghost(self.part_of(piece));
+        if self.contours.is_inside(piece) && !is_ghost {
             return whole(vec![Interval { from, to, is_visible: false, background: [false; 2] }]);
         }
         let places = lines.places(&image, inside, self.cuts(piece, &image, inside));
@@ -119,8 +134,11 @@ impl ContourLines<'_> {
         for place in places.windows(2) {
             let probe = self.probe(piece, &image, (place[0] + place[1]) * 0.5);
             let is_visible = self.is_seen(&probe);
-            let background =
-                if lines.finds_outline && is_visible { self.background(&image, &probe) } else { [false; 2] };
+            let background = if lines.finds_outline && is_visible && !is_ghost {
+                self.background(&image, &probe)
+            } else {
+                [false; 2]
+            };
             match intervals.last_mut() {
                 Some(last) if last.is_visible == is_visible && last.background == background => last.to = place[1],
                 _ => intervals.push(Interval { from: place[0], to: place[1], is_visible, background }),

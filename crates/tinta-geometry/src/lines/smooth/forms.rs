@@ -32,6 +32,7 @@ use crate::edges::{Class, ClassCounts, ClassSet, Eye, SilhouetteRule};
 use crate::lines::LineSettings;
 use crate::lines::input::feature::Feature;
 use crate::lines::input::object_edges::{Edges, ObjectEdges};
+use crate::lines::parts::scene_parts::SceneParts;
 use crate::lines::visible::faces::{Faces, Own};
 use crate::lines::visible::space::Space;
 use crate::mesh::{Mesh, NONE};
@@ -57,7 +58,7 @@ pub(in crate::lines) fn form_features(
     scene: &Scene,
     space: &Space,
     faces: &Faces,
-    parts: &[ObjectEdges<'_>],
+    (parts, scene_parts): (&[ObjectEdges<'_>], &SceneParts),
     settings: &LineSettings,
     counts: &mut ClassCounts,
 ) -> Vec<Feature> {
@@ -78,17 +79,25 @@ pub(in crate::lines) fn form_features(
                     let view = mesh.triangles[face].map(|corner| faces.positions[(corner + first_position) as usize]);
                     let normal = (view[1] - view[0]).cross(view[2] - view[0]);
                     let is_front = normal.dot(space.to_eye(view[0])) >= 0.0;
-                    forms.trace(face, view, is_front, |class, ends| pieces.push((class, place, ends)));
+                    let part = scene_parts.of_face(number, mesh, face as u32);
+                    let wanted = scene_parts.classes(part);
+                    forms.trace(face, view, is_front, |class, ends| {
+                        if wanted.contains(class) {
+                            pieces.push((class, part, place, ends));
+                        }
+                    });
                 }
             }
             pieces
         });
-        for (class, place, ends) in pieces.concat() {
+        for (class, part, place, ends) in pieces.concat() {
             *counts.of(class) += 1;
             features.push(Feature {
                 class: Some(class),
                 occludes: false,
                 object: number as u32,
+                part,
+                is_ghost: scene_parts.is_ghost(part),
                 own: Own::Faces([place; 2]),
                 ends,
                 weld: faces.weld(first_position),

@@ -34,6 +34,8 @@ pub(in crate::lines) struct Faces {
     pub high_valence: Vec<u32>,
     /// For each number the plane that it shares with many faces, or [`NO_GROUP`]; empty without such planes.
     pub planes: Vec<u32>,
+    /// For each place whether the face hides nothing; empty without such faces.
+    ghosts: Vec<bool>,
     /// Each object's first position and the distance below which its positions count as one, file units.
     welds: Vec<(u32, f64)>,
 }
@@ -69,9 +71,10 @@ impl ProbedLine {
         Self { own, own_ends: own.corners(faces), length: own.contact_length(ends), weld }
     }
 
-    /// Which corners of a face the line ends in; `None` where the line belongs to the face: such a face never hides it.
+    /// Which corners of a face the line ends in; `None` where the face never hides it: the line belongs to the face, or the face
+    /// hides nothing.
     pub(in crate::lines) fn own_corners(&self, faces: &Faces, face: u32) -> Option<[bool; 3]> {
-        if matches!(self.own, Own::Faces(own) if own.contains(&face)) {
+        if faces.is_ghost(face) || matches!(self.own, Own::Faces(own) if own.contains(&face)) {
             return None;
         }
         let [a, b, c] = faces.triangles[face as usize];
@@ -218,6 +221,7 @@ impl Faces {
             high_valence,
             planes,
             numbers,
+            ghosts: Vec::new(),
             welds,
         };
         let limits = (space.size.max_element() / 512.0, faces.smallest_weld());
@@ -228,6 +232,16 @@ impl Faces {
             faces.tree.set_planes(&of_places);
         }
         faces
+    }
+
+    /// Lets faces hide nothing, by their numbers.
+    pub(in crate::lines) fn set_ghosts(&mut self, ghosts: &[bool]) {
+        self.ghosts = self.numbers.iter().map(|number| ghosts[*number as usize]).collect();
+    }
+
+    /// Whether the face at this place hides nothing.
+    pub(in crate::lines) fn is_ghost(&self, face: u32) -> bool {
+        self.ghosts.get(face as usize).copied().unwrap_or(false)
     }
 
     /// Returns the plane that the face with this number shares with many, or [`NO_GROUP`].

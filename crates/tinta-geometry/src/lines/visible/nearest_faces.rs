@@ -66,7 +66,7 @@ impl NearestFaces {
                 break;
             }
             let [low, high] = around.corners();
-            if high.y < top_px || low.y > bottom_px || is_cut(face) {
+            if high.y < top_px || low.y > bottom_px || is_cut(face) || faces.is_ghost(face) {
                 continue;
             }
             let image = self.image(space, faces, face);
@@ -219,7 +219,7 @@ mod tests {
         let space = Space::of(&scene);
         let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
         let nearest_faces = NearestFaces::new(&space, &faces, &Progress::default()).unwrap();
-        let parts = crate::lines::input::object_edges::object_edges(&scene);
+        let parts = crate::lines::input::object_edges::object_edges(&scene, None);
         let all = intersections(&space, &faces, &parts, (None, None), &Progress::default()).lines;
         let (mut hidden, mut points) = (0, 0);
         for line in &all {

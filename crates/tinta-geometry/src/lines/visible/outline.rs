@@ -136,7 +136,7 @@ impl Faces {
 
     fn covers(&self, space: &Space, face: u32, probe: &Probe, touch: f64) -> [bool; 2] {
         const NEITHER: [bool; 2] = [false; 2];
-        if self.edge_on.binary_search(&self.numbers[face as usize]).is_ok() {
+        if self.is_ghost(face) || self.edge_on.binary_search(&self.numbers[face as usize]).is_ok() {
             return NEITHER;
         }
         let corners = self.corners(face);

@@ -58,7 +58,7 @@ struct Occluder {
 impl Occluder {
     /// Projects a face; `None` if it cannot hide anything for sure.
     fn new(space: &Space, faces: &Faces, place: u32) -> Option<Self> {
-        if faces.cut_by_near.binary_search(&place).is_ok() {
+        if faces.cut_by_near.binary_search(&place).is_ok() || faces.is_ghost(place) {
             return None;
         }
         let corners = faces.corners(place);

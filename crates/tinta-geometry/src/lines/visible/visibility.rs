@@ -125,6 +125,8 @@ impl LineIndex<'_> {
             edge: feature.edge,
             angle_degrees: feature.angle_degrees,
             object: feature.object,
+            part: feature.part,
+            look: 0,
         };
         match self.finds_outline && piece.is_visible && feature.overlaps() {
             true => self.with_outline(index, &image, piece).into_iter().map(segment).collect(),

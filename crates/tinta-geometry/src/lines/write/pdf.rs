@@ -131,8 +131,8 @@ fn written(drawing: &Drawing<'_>, fills: &[FillGroup], labels: &[Text], scale: f
     pdf.stream(CONTENT, &content.finish());
 
     for (layer, drawn) in layers.iter().zip(&drawing.layers) {
-        let words = drawn.layer.words().join(" ");
-        pdf.indirect(*layer).dict().pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr(&words));
+        let label = drawn.label();
+        pdf.indirect(*layer).dict().pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr(&label));
     }
     let mut information = pdf.document_info(INFORMATION);
     information.creator(TextStr("tinta"));

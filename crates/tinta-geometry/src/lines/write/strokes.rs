@@ -115,6 +115,8 @@ mod tests {
             edge: Some([0, 1]),
             angle_degrees: Some(90.0),
             object: 0,
+            part: 0,
+            look: 0,
         };
         VisibleLines {
             size: Size { width: 100, height: 100 },
@@ -125,6 +127,8 @@ mod tests {
             undecided: 0,
             has_specks: false,
             labels: Vec::new(),
+            parts: Vec::new(),
+            looks: Vec::new(),
             times: LineTimes::default(),
         }
     }

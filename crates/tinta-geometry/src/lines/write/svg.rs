@@ -159,9 +159,11 @@ fn write_fills(group: &FillGroup, out: &mut String) {
 
 fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, out: &mut String) {
     let [visibility, name] = drawn.layer.words();
+    let of_part = if drawn.look == 0 { String::new() } else { format!("-{}", drawn.look) };
+    let label = escaped(&drawn.label());
     let _ = write!(
         out,
-        r#"<g id="{visibility}-{name}" inkscape:groupmode="layer" inkscape:label="{visibility} {name}" fill="none" stroke="{}" stroke-width="{}" stroke-linecap="round" stroke-linejoin="round""#,
+        r#"<g id="{visibility}-{name}{of_part}" inkscape:groupmode="layer" inkscape:label="{label}" fill="none" stroke="{}" stroke-width="{}" stroke-linecap="round" stroke-linejoin="round""#,
         hexadecimal(drawn.color),
         number(drawn.width_px)
     );

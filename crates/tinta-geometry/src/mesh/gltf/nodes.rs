@@ -1,6 +1,7 @@
 //! A glTF file's nodes: which of them its scene shows, and where each lies.
 
 use crate::limits::NODE_LEVELS;
+use crate::mesh::{NONE, NamedPart};
 use glam::{DMat4, DQuat, DVec3};
 use gltf_json::{Index, Node, Root, Scene};
 
@@ -10,6 +11,8 @@ pub(super) struct Nodes {
     pub scene_from_node: Vec<DMat4>,
     /// The nodes of the scene, each once.
     pub shown: Vec<usize>,
+    /// The node that each node lies below.
+    parents: Vec<Option<usize>>,
 }
 
 impl Nodes {
@@ -33,7 +36,25 @@ impl Nodes {
         if reached < root.nodes.len() {
             return Err("its nodes form a cycle; export it again".to_owned());
         }
-        Ok(Self { scene_from_node, shown: shown(root)? })
+        Ok(Self { scene_from_node, shown: shown(root)?, parents })
+    }
+
+    /// The nodes that show a mesh and those above them, as parts, each after the one above it; for each node its part.
+    pub(super) fn parts(&self, root: &Root) -> (Vec<NamedPart>, Vec<u32>) {
+        let (mut parts, mut of_nodes) = (Vec::new(), vec![NONE; root.nodes.len()]);
+        for shown in self.shown.iter().filter(|node| root.nodes[**node].mesh.is_some()) {
+            let above = std::iter::successors(Some(*shown), |node| self.parents[*node]);
+            let mut unknown: Vec<usize> = above.take_while(|node| of_nodes[*node] == NONE).collect();
+            while let Some(number) = unknown.pop() {
+                let within = self.parents[number].map_or(NONE, |parent| of_nodes[parent]);
+                let node = &root.nodes[number];
+                let of_mesh = || root.meshes.get(node.mesh?.value())?.name.clone();
+                let name = node.name.clone().or_else(of_mesh).unwrap_or_else(|| format!("node {number}"));
+                of_nodes[number] = parts.len() as u32;
+                parts.push(NamedPart { name, within });
+            }
+        }
+        (parts, of_nodes)
     }
 }
 

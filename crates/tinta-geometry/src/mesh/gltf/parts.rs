@@ -144,13 +144,14 @@ pub(super) fn outlines<'a>(
     places.into_iter().map(outline).collect()
 }
 
-/// Adds a mesh in all its places.
+/// Adds a mesh in all its places; each place is a part.
 pub(super) fn put(
     soup: &mut Soup,
     outline: &Outline<'_>,
     places: &[usize],
     accessors: &Accessors<'_>,
     nodes: &Nodes,
+    part_of_node: &[u32],
 ) -> Result<(), String> {
     let indices: Vec<Vec<u32>> = outline
         .pieces
@@ -193,6 +194,7 @@ pub(super) fn put(
                 }
                 _ => {
                     placed.put_faces(soup, &triangles(indices, piece.mode), piece.material);
+                    soup.polygon_parts.resize(soup.polygon_materials.len(), part_of_node[*place]);
                     placed.put_marks(soup, &every_triangle(indices, piece.mode), piece.edges, accessors)?;
                 }
             }

@@ -62,13 +62,17 @@ impl AddAssign for Counts {
     }
 }
 
-/// A statement about materials.
+/// A statement about the materials or the part of the following faces.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Naming {
     /// The following faces have this material.
     Use(String),
     /// Materials are described in this file.
     Library(String),
+    /// The following faces belong to this object.
+    Object(String),
+    /// The following faces belong to this group; of several, all names.
+    Group(String),
 }
 
 /// A line that cannot be read.
@@ -94,7 +98,7 @@ pub(super) struct Chunk {
     pub polygons: usize,
     /// Each face's number of corners; empty while all have three.
     pub polygon_sizes: Vec<u32>,
-    /// The materials named, each with the number of the piece's faces before it.
+    /// The materials and parts named, each with the number of the piece's faces before it.
     pub namings: Vec<(usize, Naming)>,
     /// Faces of fewer than three corners, left out.
     pub degenerate_faces: usize,
@@ -161,9 +165,21 @@ impl Chunk {
                     self.namings.push((self.polygons, naming(name.to_owned())));
                 }
             }
+            "o" | "g" => {
+                let naming = if keyword == "o" { Naming::Object } else { Naming::Group };
+                self.name_part(naming(rest.trim().to_owned()));
+            }
             _ => {}
         }
         Ok(())
+    }
+
+    /// Records a part of the following faces, in place of a group without faces.
+    fn name_part(&mut self, naming: Naming) {
+        if matches!(self.namings.last(), Some((before, Naming::Group(_))) if *before == self.polygons) {
+            self.namings.pop();
+        }
+        self.namings.push((self.polygons, naming));
     }
 
     /// Reads a line of the common form; returns whether it was one.

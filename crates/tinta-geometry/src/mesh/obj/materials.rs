@@ -80,6 +80,7 @@ pub(super) fn put_on(
                 numbers.extend(names.zip(found.len()..));
                 found.extend(more);
             }
+            Naming::Object(_) | Naming::Group(_) => {}
             Naming::Use(name) => {
                 soup.polygon_materials.resize(*before, current);
                 current = numbers.get(name).map_or(NONE, |number| *number as u32);
