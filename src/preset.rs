@@ -193,6 +193,10 @@ fn refused(name: &str, problem: impl Into<String>) -> Error {
     Error::file(FileKind::Preset, name, problem.into())
 }
 
+/// The error for anything else in place of a value.
+const NO_VALUE: &str = "write a text, a number, true or false, or several numbers or texts in brackets; only rules for parts are \
+                        tables: [part.\"bolt*\"]";
+
 /// A value of the file as an option takes it.
 fn option_value(value: &DeValue<'_>) -> std::result::Result<OptionValue, String> {
     match value {
@@ -205,7 +209,7 @@ fn option_value(value: &DeValue<'_>) -> std::result::Result<OptionValue, String>
                     let settings = in_order(settings).map(setting).collect::<std::result::Result<Vec<_>, String>>()?;
                     Ok(rule_text(name, settings))
                 }
-                value => scalar(value),
+                _ => Err(NO_VALUE.to_owned()),
             };
             in_order(rules).map(rule).collect::<std::result::Result<_, String>>().map(OptionValue::Texts)
         }
@@ -240,9 +244,7 @@ fn scalar(value: &DeValue<'_>) -> std::result::Result<String, String> {
             .map(|number| number.to_string())
             .map_err(|_| "this number is too long; write a shorter one".to_owned()),
         DeValue::Float(number) => Ok(number.as_str().trim_start_matches('+').to_owned()),
-        _ => Err("write a text, a number, true or false, or several numbers or texts in brackets; only rules for \
-             parts are tables: [part.\"bolt*\"]"
-            .to_owned()),
+        _ => Err(NO_VALUE.to_owned()),
     }
 }
 
