@@ -8,10 +8,13 @@
 //! ```
 
 mod camera;
+mod json;
 mod lines;
+mod regions;
 
 pub use camera::CameraRecord;
-pub use lines::{LineCounts, LinesMade, lines_json};
+pub use lines::{LineCounts, LinesMade, drawing_json};
+pub use regions::regions_json;
 
 use crate::edges::{ClassCounts, ClassSet, SilhouetteRule};
 use crate::gl::ContextInfo;

@@ -70,7 +70,7 @@ pub use show::Show;
 pub use suggestive::Suggestive;
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
-pub use vectors::Vectors;
+pub use vectors::{Vectors, ViewAreas};
 
 use crate::choice::{Choice, meant_or};
 use crate::error::{Error, ParseError, Result};

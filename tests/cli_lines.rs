@@ -59,6 +59,74 @@ fn lines_are_written_as_json_and_their_record_is_printed() {
     assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(9));
 }
 
+/// The JSON file of a drawing with these options.
+fn json(folder: &Folder, options: &[&str]) -> serde_json::Value {
+    let out = folder.path("areas.json");
+    // The look print tells that it leaves out the soldier's texture.
+    let output =
+        tinta(&[&["render", "builtin:soldier", "builtin:open-box", "-o", &out, "--size", "96x64"], options].concat());
+    assert_eq!(output.status.code(), Some(0), "{options:?}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap()
+}
+
+#[test]
+fn areas_are_written_as_json_and_fill_the_picture() {
+    let folder = Folder::new();
+    let alone = json(&folder, &["--style", "lines"]);
+    assert!(alone.get("regions").is_none() && alone.get("objects").is_none());
+    let cases: [(&[&str], &[&str]); 5] = [
+        (&["--areas", "face"], &["object", "material", "face", "area_px", "loops"]),
+        (&["--areas", "material"], &["object", "material", "area_px", "loops"]),
+        (&["--areas", "object"], &["object", "area_px", "loops"]),
+        (&["--areas", "object", "--no-borders"], &["object", "area_px", "loops"]),
+        (&["--look", "print"], &["object", "material", "tone", "area_px", "loops"]),
+    ];
+    for (options, keys) in cases {
+        let drawing = json(&folder, options);
+        let regions = drawing["regions"].as_array().unwrap();
+        let area: f64 = regions.iter().map(|region| region["area_px"].as_f64().unwrap()).sum();
+        assert!((area - 96.0 * 64.0).abs() < 1e-9 * area, "{options:?}: {area}");
+        let names: Vec<_> = drawing["objects"].as_array().unwrap().iter().map(|object| &object["name"]).collect();
+        assert_eq!(names, ["builtin:soldier", "builtin:open-box"]);
+        // The background has no more than its place, and the box no materials.
+        let all: std::collections::BTreeSet<_> =
+            regions.iter().flat_map(|region| region.as_object().unwrap().keys().map(String::as_str)).collect();
+        assert_eq!(all, keys.iter().copied().collect(), "{options:?}");
+        assert_eq!(drawing["segments"].as_array().unwrap().is_empty(), options.contains(&"--no-borders"));
+        for region in regions {
+            let object = region["object"].as_u64();
+            assert!(object.is_none_or(|object| object < 2) && !region["loops"].as_array().unwrap().is_empty());
+        }
+        let camera = &drawing["camera"];
+        assert_eq!((camera, &drawing["size"]), (&alone["camera"], &alone["size"]));
+    }
+}
+
+#[test]
+fn areas_are_written_as_paths_of_their_objects() {
+    let folder = Folder::new();
+    let out = folder.path("areas.svg");
+    let drawn = |options: &[&str]| {
+        made(&[&["render", "builtin:open-box", "builtin:gear", "-o", &out], options].concat());
+        std::fs::read_to_string(&out).unwrap()
+    };
+    let text = drawn(&["--areas", "object", "--no-borders"]);
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let groups: Vec<_> = document.root_element().children().filter(|node| node.has_tag_name("g")).collect();
+    let ids: Vec<_> = groups.iter().filter_map(|group| group.attribute("id")).collect();
+    assert_eq!(ids, ["fill-0", "fill-1"]);
+    for group in groups {
+        assert_eq!(group.attribute("shape-rendering"), Some("crispEdges"));
+        assert!(group.children().filter(|node| node.is_element()).all(|path| path.attribute("fill") != Some("none")));
+    }
+    let text = drawn(&["--areas", "face"]);
+    assert!(text.contains(r#"data-face="0""#) && text.contains("visible-crease") && !text.contains("crispEdges"));
+    assert!(text.contains(r#"<g id="fill-seams""#) && text.find("fill-seams") < text.find("fill-0"));
+    let pdf = folder.path("areas.pdf");
+    made(&["render", "builtin:gear", "-o", &pdf, "--areas", "material", "--page", "A4"]);
+    assert!(std::fs::read(&pdf).unwrap().starts_with(b"%PDF"));
+}
+
 #[test]
 fn the_hidden_lines_that_are_drawn_are_counted_and_the_others_marked() {
     let folder = Folder::new();

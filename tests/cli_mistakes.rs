@@ -26,7 +26,7 @@ const FILES: [(&str, &str); 15] = [
 ];
 
 /// Command lines and their errors.
-const MISTAKES: [(&str, &str); 88] = [
+const MISTAKES: [(&str, &str); 92] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
     ("render triangle.obj", "--output is missing; name the picture to write: -o triangle.png; see --help"),
@@ -153,8 +153,24 @@ const MISTAKES: [(&str, &str); 88] = [
         "out.svg: style phong draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture such as drawing.png",
     ),
     (
-        "render triangle.obj -o out.json --look print",
-        "out.json: look print draws areas and lines, for which this format has no place; name a .svg, a .pdf or a picture such as drawing.png",
+        "render triangle.obj -o out.json --look charcoal",
+        "out.json: look charcoal draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture such as drawing.png",
+    ),
+    (
+        "render triangle.obj -o out.svg --no-borders",
+        "--no-borders: style lines draws nothing but lines; leave it out, or add --areas object",
+    ),
+    (
+        "render triangle.obj -o out.svg --areas face --pen",
+        "--areas: a pen draws lines alone; leave out one of --areas and --pen",
+    ),
+    (
+        "render triangle.obj -o out.png --style lines --areas face",
+        "--areas: a picture of exact lines has no areas; leave it out, or write a .svg",
+    ),
+    (
+        "render triangle.obj -o out-%d.svg --areas object --turntable 3",
+        "--turntable: areas are drawn from one view; leave it out, or draw lines alone",
     ),
     (
         "render triangle.obj -o out.pdf --look charcoal --style sand",

@@ -12,7 +12,7 @@ use std::collections::HashSet;
 use std::time::Duration;
 use tinta::edges::Class;
 use tinta::lines::{DrawingSettings, LineSegment, LineSettings, Phase, Progress, VisibleLines};
-use tinta::record::lines_json;
+use tinta::record::drawing_json;
 use tinta::{Error, Scene, Size};
 
 /// A family's scene of about so many triangles, as the benchmark sees it.
@@ -202,7 +202,7 @@ fn a_part_is_marked_in_every_file_and_a_whole_is_not() {
         let pdf = tinta::lines::pdf(lines, &settings).unwrap();
         [
             tinta::lines::svg(lines, &settings).unwrap(),
-            lines_json(lines, &scene).unwrap(),
+            drawing_json(lines, None, &scene).unwrap(),
             String::from_utf8_lossy(&pdf).into_owned(),
         ]
     };

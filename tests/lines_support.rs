@@ -139,6 +139,7 @@ pub fn shuffled(mesh: &Mesh, random: &mut Random) -> Mesh {
         triangles: triangles.into_iter().map(|corners| corners.map(|corner| place[corner as usize])).collect(),
         triangle_normals: of_corners(&mesh.triangle_normals),
         triangle_texture_coordinates: of_corners(&mesh.triangle_texture_coordinates),
+        file_faces: of_faces.iter().map(|face| mesh.file_face(*face as u32)).collect(),
         triangle_materials: of_faces.iter().filter_map(|face| mesh.triangle_materials.get(*face).copied()).collect(),
         ..mesh.clone()
     }

@@ -5,7 +5,7 @@ use glam::DVec2;
 use serde_json::Value;
 use tinta::edges::{Class, SilhouetteRule};
 use tinta::lines::{LineSettings, first_hits};
-use tinta::record::lines_json;
+use tinta::record::drawing_json;
 use tinta::styles::{Border, Cartoon, Charcoal, Filter, Improvements, Inking, PaintMode, Tones};
 use tinta::{Background, CameraSettings, Color, Mesh, Picture, Scene, SceneSettings, Show, Size, Style, StyleName};
 use tinta_lab::measure::{INK_FROM, Ink, Reference, ReferenceLight, Verdict};
@@ -159,7 +159,7 @@ fn a_rows_error_is_found_again_from_the_picture_and_the_written_lines() {
     // Again, from the file: independently of the code above.
     let read = |settings: &LineSettings| -> Vec<([DVec2; 2], f64)> {
         let lines = tinta::VisibleLines::of(&scene, settings).unwrap();
-        let written: Value = serde_json::from_str(&lines_json(&lines, &scene).unwrap()).unwrap();
+        let written: Value = serde_json::from_str(&drawing_json(&lines, None, &scene).unwrap()).unwrap();
         let place = |value: &Value| DVec2::new(value[0].as_f64().unwrap(), value[1].as_f64().unwrap());
         let visible = written["segments"].as_array().unwrap().iter().filter(|segment| segment["visible"] == true);
         visible

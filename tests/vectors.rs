@@ -3,8 +3,8 @@
 use crate::support::{BACKENDS, public_models, renderer, scene_with};
 use resvg::{tiny_skia, usvg};
 use std::sync::Arc;
-use tinta::lines::{Progress, svg_of_paths};
-use tinta::styles::{Cartoon, Ink, Tones};
+use tinta::lines::{Areas, FillGroup, Joined, Progress, Regions, first_hits, painted, svg_of_paths};
+use tinta::styles::{Cartoon, Ink, LineStyle, Tones};
 use tinta::{
     Background, CameraSettings, Color, DrawingSettings, LoadOptions, Picture, Scene, SceneSettings, Size, Style,
     VisibleLines, load,
@@ -14,8 +14,17 @@ use tinta::{
 fn areas(scene: &Scene, style: &Style) -> String {
     let lines = VisibleLines::none(scene.size);
     let areas = style.vectors(scene.size).unwrap().areas(scene, &lines, &Progress::default()).unwrap();
+    svg_of(scene, areas.drawn)
+}
+
+fn of_fills(fills: Vec<FillGroup>) -> Areas {
+    Areas { fills, ..Areas::default() }
+}
+
+/// Areas alone as SVG.
+fn svg_of(scene: &Scene, areas: Areas) -> String {
     let settings = DrawingSettings { background: scene.background, ..DrawingSettings::default() };
-    svg_of_paths(&lines, Vec::new(), Some(&areas), &settings).unwrap()
+    svg_of_paths(&VisibleLines::none(scene.size), Vec::new(), Some(&areas), &settings).unwrap()
 }
 
 /// An SVG's pixels at a zoom.
@@ -102,6 +111,60 @@ fn areas_of_public_models_are_the_pixels_of_the_style() {
         let camera = CameraSettings { view: "30,23".parse().unwrap(), ..CameraSettings::default() };
         let settings = SceneSettings { camera, ..SceneSettings::default() };
         check(file, &Scene::new(vec![Arc::new(mesh)], &settings).unwrap());
+    }
+}
+
+/// Masks of objects: each pixel has the colour of the object that a ray hits there, and no other colour.
+#[test]
+fn outlines_of_objects_are_masks() {
+    let ground = Color([1.0; 3]);
+    let settings = SceneSettings { background: Background::Color(ground), copies: 4, ..SceneSettings::default() };
+    let scene = scene_with("builtin:bust", settings);
+    let style = LineStyle { areas: Some(Joined::Object), is_of_areas_alone: true, ..LineStyle::default() };
+    let vectors = Style::Lines(style).vectors(scene.size).unwrap();
+    let lines = VisibleLines::none(scene.size);
+    let fills = vectors.areas(&scene, &lines, &Progress::default()).unwrap().drawn.fills;
+    assert_eq!(fills.iter().map(|group| group.object).collect::<Vec<_>>(), [0, 1, 2, 3]);
+    let bytes = |Color(color): Color| color.map(|channel| (channel * 255.0).round() as u8);
+    let colors: Vec<[u8; 3]> = fills.iter().map(|group| bytes(group.fills[0].color)).collect();
+    let found = drawn(&svg_of(&scene, of_fills(fills)), 1.0);
+    let (mut wrong, mut count) = (0, 0);
+    for (pixel, hit) in first_hits(&scene).into_iter().enumerate() {
+        let rgb = <[u8; 3]>::try_from(&found.pixels[pixel * 4..][..3]).unwrap();
+        assert!(colors.contains(&rgb) || rgb == [255; 3], "{rgb:?} at {pixel}: edges are not smoothed");
+        let expected = hit.map_or([255; 3], |hit| colors[hit.object as usize]);
+        wrong += usize::from(rgb != expected);
+        count += usize::from(expected != [255; 3]);
+    }
+    // The renderer rounds places, which moves a border by less than a pixel.
+    println!("{wrong} of {count} pixels differ");
+    assert!(wrong * 1000 <= count, "{wrong} of {count}");
+}
+
+/// Faces in one colour, on another, look like one area: no ground shines through between them at any zoom.
+#[test]
+fn no_ground_shines_through_between_faces() {
+    let settings = SceneSettings { background: Background::Color(Color([1.0, 0.0, 1.0])), ..SceneSettings::default() };
+    let scene = scene_with("builtin:bust", settings);
+    let regions = Regions::joined_by(&scene, Joined::Face, &Progress::default()).unwrap();
+    let grey = |has_traps: bool| svg_of(&scene, of_fills(painted(&regions, has_traps, |_| Color([0.5; 3]))));
+    let objects = Regions::joined_by(&scene, Joined::Object, &Progress::default()).unwrap();
+    let whole = svg_of(&scene, of_fills(painted(&objects, true, |_| Color([0.5; 3]))));
+    let smoothed = grey(false).replace("shape-rendering", "data-not");
+    for zoom in [0.5, 1.0, 2.5] {
+        let [faces, seams, whole] = [&grey(true), &smoothed, &whole].map(|text| drawn(text, zoom));
+        let (mut worst, mut of_seams, mut count) = (0, 0, 0);
+        beside_no_border(&whole, |pixel, rgb| {
+            let differs = |picture: &Picture| {
+                let of_faces = &picture.pixels[pixel * 4..][..3];
+                rgb.iter().zip(of_faces).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
+            };
+            worst = worst.max(differs(&faces));
+            of_seams = of_seams.max(differs(&seams));
+            count += 1;
+        });
+        println!("zoom {zoom}: {worst} with traps, {of_seams} without, over {count} pixels");
+        assert!(worst <= 1 && of_seams > 20 && count > 1000, "zoom {zoom}: {worst} with traps, {of_seams} without");
     }
 }
 

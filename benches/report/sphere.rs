@@ -44,6 +44,7 @@ pub fn bumpy_sphere(triangles: usize) -> Mesh {
         triangle_materials: Vec::new(),
         parts: Vec::new(),
         triangle_parts: Vec::new(),
+        file_faces: Vec::new(),
         position_colors: Vec::new(),
         marked: Vec::new(),
         curves: Default::default(),

@@ -14,6 +14,13 @@ tinta_npr.pv.export_svg(plotter, "pyvista.svg")
 tinta_npr.pv.export_svg(plotter, "pyvista-hidden.svg", hidden="dashed", line_width=1.5)
 tinta_npr.pv.export_svg(plotter, "pyvista.pdf", class_widths={"outline": 3}, width_mm=85)
 
+# %% With the colours of its actors below the lines: the height of the torus, and tan.
+plotter.clear_actors()
+torus = pv.ParametricTorus(ringradius=1.0, crosssectionradius=0.4)
+plotter.add_mesh(torus, scalars=torus.points[:, 2], cmap="viridis", show_scalar_bar=False)
+plotter.add_mesh(pv.Cube(x_length=0.7, y_length=0.7, z_length=0.7), color="tan")
+tinta_npr.pv.export_svg(plotter, "pyvista-filled.svg", fill=True, classes="boundary,silhouette")
+
 # %% In ink, with the same camera.
 torus = pv.ParametricTorus(ringradius=1.0, crosssectionradius=0.4)
 tinta_npr.render(torus, camera=plotter.camera, style="ink", size=(480, 360)).save("pyvista-ink.png")

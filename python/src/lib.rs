@@ -16,6 +16,7 @@ mod judging;
 mod lines;
 mod mesh;
 mod picture;
+mod regions;
 mod request;
 mod settings;
 mod studio;
@@ -39,6 +40,8 @@ mod _native {
     use super::mesh::{Mesh, is_read};
     #[pymodule_export]
     use super::picture::{Picture, png, render, save, write};
+    #[pymodule_export]
+    use super::regions::{Regions, regions};
     #[pymodule_export]
     use super::request::reading;
     #[pymodule_export]

@@ -12,18 +12,20 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::sync::{Arc, OnceLock};
 use tinta::glam::DVec3;
-use tinta::lines::{GHOST_OPACITY, LineSegment, Progress, Raster, drawn_layers, pdf, raster, svg};
+use tinta::lines::{
+    Areas, GHOST_OPACITY, LineSegment, Progress, Raster, chain, drawn_layers, pdf_of_paths, raster, svg_of_paths,
+};
 use tinta::picture::Note;
 use tinta::recipe::KEYWORD;
-use tinta::record::lines_json;
+use tinta::record::drawing_json;
 use tinta::{DrawingSettings, Error, Recipe, Request, Result, Scene, VisibleLines};
 
 /// The lines found in a scene.
 #[pyclass(frozen, module = "tinta_npr._native")]
 pub(crate) struct Lines {
     lines: Arc<VisibleLines>,
-    scene: Arc<Scene>,
-    asked: Asked,
+    pub scene: Arc<Scene>,
+    pub asked: Asked,
     /// All pieces, hidden ones and outlines too, on first access.
     all: OnceLock<Arc<VisibleLines>>,
 }
@@ -50,11 +52,38 @@ pub(crate) fn lines(
             Ok((lines, scene))
         },
     )?;
-    if !lines.segments.iter().any(|segment| segment.is_visible) {
+    let has_areas = asked.request.vectors().map_err(raised)?.is_some();
+    if !has_areas && !lines.segments.iter().any(|segment| segment.is_visible) {
         let nothing = "no line of these classes is visible in this picture; see classes, eye and target";
         warn(py, &[nothing.to_owned()])?;
     }
     Ok(Lines { lines: Arc::new(lines), scene: Arc::new(scene), asked, all: OnceLock::new() })
+}
+
+/// What a drawing is made of.
+pub(crate) struct Found<'a> {
+    pub lines: &'a VisibleLines,
+    pub drawing: &'a DrawingSettings,
+    request: &'a Request,
+    scene: &'a Scene,
+    progress: &'a Progress,
+}
+
+impl Found<'_> {
+    /// The areas below the lines.
+    fn areas(&self) -> Result<Option<Areas>> {
+        Ok(self.request.areas(self.scene, self.lines, self.progress)?.map(|areas| areas.drawn))
+    }
+
+    /// Refuses areas where there are only lines.
+    fn refuse_areas(&self) -> Result<()> {
+        match self.request.vectors()? {
+            Some(_) => {
+                Err(Error::setting("areas", "pixels and layers are of lines alone; leave it out, or write a .svg"))
+            }
+            None => Ok(()),
+        }
+    }
 }
 
 /// The lines of another request: the existing ones, or new ones if it shows more of them.
@@ -107,12 +136,12 @@ impl Lines {
     }
 
     /// Processes the lines with the settings of a drawing of them; `file` is its name.
-    fn drawn<T: Send + 'static>(
+    pub(crate) fn drawn<T: Send + 'static>(
         &self,
         py: Python<'_>,
         given: &Bound<'_, PyDict>,
         file: Option<(&'static str, Option<String>)>,
-        work: impl FnOnce(&VisibleLines, &DrawingSettings) -> Result<T> + Send + 'static,
+        work: impl FnOnce(Found<'_>) -> Result<T> + Send + 'static,
     ) -> PyResult<T> {
         let asked = self.asked.with(options("Lines.svg", given)?).map_err(raised)?;
         let (lines, scene, before) = (self.lines.clone(), self.scene.clone(), self.asked.request.clone());
@@ -131,7 +160,13 @@ impl Lines {
                     recipe: recipe.as_ref().and_then(Recipe::json).unwrap_or_default(),
                     ..asked.request.line_style().unwrap_or_default().drawing
                 };
-                work(&lines, &settings)
+                work(Found {
+                    lines: &lines,
+                    drawing: &settings,
+                    request: &asked.request,
+                    scene: &scene,
+                    progress: &watched,
+                })
             },
         )
     }
@@ -176,7 +211,10 @@ impl Lines {
     /// The SVG file's text.
     #[pyo3(signature = (given, title=None))]
     fn svg(&self, py: Python<'_>, given: &Bound<'_, PyDict>, title: Option<String>) -> PyResult<String> {
-        self.drawn(py, given, Some(("drawing.svg", title)), svg)
+        self.drawn(py, given, Some(("drawing.svg", title)), |found| {
+            let lines = found.lines.without_specks(found.drawing)?;
+            svg_of_paths(&lines, chain(&lines.segments), found.areas()?.as_ref(), found.drawing)
+        })
     }
 
     /// The PDF file's bytes.
@@ -187,7 +225,11 @@ impl Lines {
         given: &Bound<'py, PyDict>,
         title: Option<String>,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        Ok(PyBytes::new(py, &self.drawn(py, given, Some(("drawing.pdf", title)), pdf)?))
+        let bytes = self.drawn(py, given, Some(("drawing.pdf", title)), |found| {
+            let lines = found.lines.without_specks(found.drawing)?;
+            pdf_of_paths(&lines, chain(&lines.segments), found.areas()?.as_ref(), found.drawing)
+        })?;
+        Ok(PyBytes::new(py, &bytes))
     }
 
     /// The PNG file's bytes, as large as the lines' picture.
@@ -198,8 +240,10 @@ impl Lines {
         given: &Bound<'py, PyDict>,
         title: Option<String>,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = self.drawn(py, given, Some(("drawing.png", title)), |lines, settings| {
-            let Raster { size, pixels } = raster(lines, settings)?;
+        let bytes = self.drawn(py, given, Some(("drawing.png", title)), |found| {
+            found.refuse_areas()?;
+            let settings = found.drawing;
+            let Raster { size, pixels } = raster(found.lines, settings)?;
             let recipe =
                 (!settings.recipe.is_empty()).then(|| Note { keyword: KEYWORD, text: settings.recipe.clone() });
             tinta::Picture { size, pixels }.png_bytes(recipe.as_ref())
@@ -210,8 +254,14 @@ impl Lines {
     /// The JSON file's text: all pieces and the camera.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
         self.one_view()?;
-        let (all, scene) = (self.everything(py)?, self.scene.clone());
-        done(py, || (), move || lines_json(&all, &scene))
+        let (all, scene, request) = (self.everything(py)?, self.scene.clone(), self.asked.request.clone());
+        let progress = Arc::new(Progress::default());
+        let watched = progress.clone();
+        let written = move || {
+            let areas = request.areas(&scene, &all, &watched)?;
+            drawing_json(&all, areas.as_ref().map(|areas| &areas.regions), &scene)
+        };
+        done(py, || progress.cancel(), written)
     }
 
     /// Where the camera shows points of the drawn scene: pixels, y down; NaN behind the eye.
@@ -231,7 +281,7 @@ impl Lines {
 
     /// The drawing as plain values: its layers from the lowest to the highest.
     fn layers<'py>(&self, py: Python<'py>, given: &Bound<'py, PyDict>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let layers = self.drawn(py, given, None, drawn_layers)?;
+        let layers = self.drawn(py, given, None, |found| drawn_layers(found.lines, found.drawing))?;
         let described = |drawn: tinta::lines::DrawnLayer| -> PyResult<Bound<'py, PyDict>> {
             let layer = PyDict::new(py);
             let [visibility, name] = drawn.layer.words();

@@ -32,11 +32,12 @@ pub(crate) struct Mesh {
 /// Three numbers of an array.
 type ArrayRow<'a> = numpy::ndarray::ArrayView1<'a, f64>;
 
-/// Vertices and their numbers in the given mesh, triangles, normals and triangles of normals.
+/// Vertices and their numbers in the given mesh, triangles and their faces in the given mesh, normals and triangles of normals.
 type PickledArrays<'py> = (
     PyReadonlyArray2<'py, f64>,
     PyReadonlyArray1<'py, u32>,
     PyReadonlyArray2<'py, u32>,
+    PyReadonlyArray1<'py, u32>,
     PyReadonlyArray2<'py, f32>,
     PyReadonlyArray2<'py, u32>,
 );
@@ -213,6 +214,14 @@ impl Mesh {
         Ok(Self::new(mesh, None, self.options.clone(), self.files.clone(), self.remarks.clone()))
     }
 
+    /// This mesh, made of the triangles of another, with the numbers of the other's given faces.
+    fn with_faces_of(&self, other: &Self) -> Self {
+        let face = |triangle: u32| other.mesh.file_face(self.mesh.file_face(triangle));
+        let file_faces = (0..self.mesh.triangles.len() as u32).map(face).collect();
+        let mesh = tinta::Mesh { file_faces, ..(*self.mesh).clone() };
+        Self::new(mesh, None, self.options.clone(), self.files.clone(), self.remarks.clone())
+    }
+
     /// Reads a mesh from a file.
     #[staticmethod]
     fn of_file(py: Python<'_>, path: String, given: &Bound<'_, PyDict>) -> PyResult<Self> {
@@ -287,6 +296,7 @@ impl Mesh {
             self.vertices(py)?,
             shaped(py, mesh.file_vertices.clone(), &[mesh.file_vertices.len()])?,
             self.faces(py)?,
+            shaped(py, mesh.file_faces.clone(), &[mesh.file_faces.len()])?,
             shaped(py, normals, &[mesh.normals.len(), 3])?,
             shaped(py, mesh.triangle_normals.as_flattened().to_vec(), &[mesh.triangle_normals.len(), 3])?,
         );
@@ -306,7 +316,7 @@ impl Mesh {
         remarks: Vec<String>,
     ) -> PyResult<Self> {
         let options = options("mesh", given)?;
-        let (vertices, file_vertices, faces, normals, face_normals) = arrays;
+        let (vertices, file_vertices, faces, file_faces, normals, face_normals) = arrays;
         let vectors = |array: PyReadonlyArray2<'_, f64>| -> Vec<f64> { array.as_array().iter().copied().collect() };
         let corners = |array: PyReadonlyArray2<'_, u32>| -> Vec<[u32; 3]> {
             array.as_array().iter().copied().collect::<Vec<_>>().as_chunks::<3>().0.to_vec()
@@ -333,6 +343,7 @@ impl Mesh {
             triangle_materials: Vec::new(),
             parts: Vec::new(),
             triangle_parts: Vec::new(),
+            file_faces: file_faces.as_array().to_vec(),
             defects: tinta::mesh::Defects::default(),
         };
         let is_within = |rows: &[[u32; 3]], count: usize| rows.as_flattened().iter().all(|row| (*row as usize) < count);
@@ -347,6 +358,7 @@ impl Mesh {
                 .all(|end| (*end as usize) < free.positions.len())
             && free.labels.iter().all(|(point, _)| (*point as usize) < free.points.len())
             && mesh.triangle_normals.len() == mesh.triangles.len()
+            && [0, mesh.triangles.len()].contains(&mesh.file_faces.len())
             && !(mesh.triangles.is_empty() && free.is_empty())
             && is_within(&mesh.triangles, mesh.positions.len())
             && is_within(&mesh.triangle_normals, mesh.normals.len());

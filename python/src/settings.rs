@@ -12,7 +12,7 @@ use tinta::lines::PartRules;
 use tinta::preset::{LOOKS, Look};
 use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, names_of, refuse_exclusive, rule_text};
 use tinta::styles::{StyleName, is_of_lines_alone};
-use tinta::{Backend, DrawingSettings, Error, LineSettings, LoadOptions, Request, SceneSettings, Show, Style};
+use tinta::{Backend, Error, LineSettings, LoadOptions, Request, SceneSettings, Show, Style};
 
 /// The settings of a drawing that a function takes.
 #[derive(Clone, Copy)]
@@ -25,16 +25,18 @@ struct Taken {
 }
 
 /// Python functions by their settings, with their names in help.
-const FUNCTIONS: [(&str, Taken); 8] = {
+const FUNCTIONS: [(&str, Taken); 9] = {
     const ALL: Taken = Taken { style: None, of_style: |_| true, has_scene: true, has_reading: true };
     const NONE: fn(&str) -> bool = |_| false;
     const LINES: Taken = Taken { style: Some(StyleName::Lines), ..ALL };
-    let drawing: fn(&str) -> bool = |name| DrawingSettings::table().has(name);
+    let drawing: fn(&str) -> bool = |name| !LineSettings::table().has(name);
+    let tones: fn(&str) -> bool = |name| name.starts_with("tone") && name != "tone-lookup";
     let finding: fn(&str) -> bool = |name| LineSettings::table().has(name);
     let reading = Taken { of_style: NONE, has_scene: false, ..ALL };
     [
         ("lines", LINES),
         ("Lines.svg", Taken { of_style: drawing, has_scene: false, has_reading: false, ..LINES }),
+        ("Lines.regions", Taken { of_style: tones, has_scene: false, has_reading: false, ..ALL }),
         ("render", ALL),
         ("mesh", reading),
         ("edges", Taken { of_style: finding, has_scene: false, ..LINES }),

@@ -1,5 +1,6 @@
 """The package is the command line's twin: the same bytes, the same sentences."""
 
+import functools
 import json
 import re
 import subprocess
@@ -188,7 +189,7 @@ def test_every_setting_of_the_tables_is_taken_and_told(tinta):
         settings = tn._native.settings(function)
         names = [setting["name"] for setting in settings]
         assert names and len(set(names)) == len(names)
-        owner = getattr(tn, function) if "." not in function else tn.Lines.svg
+        owner = functools.reduce(getattr, function.split("."), tn)
         for setting in settings:
             assert f"  {setting['name']} : " in owner.__doc__ and setting["help"] in owner.__doc__
     told = {setting["name"] for setting in tn._native.settings("lines")}

@@ -11,7 +11,7 @@ WRITTEN = {
     "figure_for_a_paper": ["paper.pdf", "paper.svg", "paper-tones.pdf", "paper-tones.png"],
     "matplotlib_axes": ["matplotlib.pdf", "matplotlib.svg", "matplotlib.png"],
     "meshio_volume": ["meshio.svg"],
-    "pyvista_export": ["pyvista.svg", "pyvista-hidden.svg", "pyvista.pdf", "pyvista-ink.png"],
+    "pyvista_export": ["pyvista.svg", "pyvista-hidden.svg", "pyvista.pdf", "pyvista-filled.svg", "pyvista-ink.png"],
     "trimesh_silhouette": ["trimesh.svg"],
 }
 NEEDS = {"matplotlib_axes": "matplotlib", "meshio_volume": "meshio", "pyvista_export": "pyvista", "trimesh_silhouette": "trimesh", "figure_for_a_paper": "matplotlib"}

@@ -53,15 +53,16 @@ def test_every_function_has_its_arguments_and_settings():
 
 
 def test_every_method_is_in_them():
-    for name in ("Lines", "Picture", "Edges", "Comparison", "Mesh"):
+    for name in ("Lines", "Regions", "Picture", "Edges", "Comparison", "Mesh"):
         own = {method for method in vars(getattr(tinta_npr, name)) if not method.startswith("_") or method.startswith("_repr_")}
         stubs = {node.name for node in CLASSES[name].body if isinstance(node, ast.FunctionDef)}
         fields = {node.target.id for node in CLASSES[name].body if isinstance(node, ast.AnnAssign)}
-        inside = {"of_file", "of_arrays", "of_pickle", "was_read_with", "turned"}
+        inside = {"of_file", "of_arrays", "of_curves", "of_pickle", "was_read_with", "turned", "free", "with_curves_of", "with_faces_of"}
         assert own - inside <= stubs | fields, name
-    methods = {node.name: node for node in CLASSES["Lines"].body if isinstance(node, ast.FunctionDef)}
-    for name in ("svg", "pdf", "png", "save", "layers"):
-        check_signature(methods[name], getattr(tinta_npr.Lines, name), "Lines.svg")
+    for owner, tables in _stubs._METHODS.items():
+        methods = {node.name: node for node in CLASSES[owner].body if isinstance(node, ast.FunctionDef)}
+        for name, table in tables.items():
+            check_signature(methods[name], getattr(getattr(tinta_npr, owner), name), table)
 
 
 def test_choices_are_those_of_the_tables():
@@ -111,6 +112,11 @@ picture = tinta_npr.render(mesh, look="print", style="three-pass", size=(64, 48)
 picture.save("a.png")
 drawn = tinta_npr.mpl.draw(Figure().add_subplot(), lines, color="C0")
 drawn.set_label("lines")
+areas = lines.regions("tone", style="ink", tones=2)
+areas.save("areas.svg", colors=np.ones((len(areas), 3)), hidden="ghost")
+stress: float = float(lines.regions().of_faces([1.0]).max())
+tinta_npr.mpl.fill(Figure().add_subplot(), lines, values=[1.0], cmap="magma", vmin=0).set_label("areas")
+tinta_npr.pv.export_svg(object(), "b.svg", fill=True)
 rows = tinta_npr.measure(mesh, styles=["ink"])
 numbers = tinta_npr.compare(mesh, left="ink").numbers["only_left_px"]
 tinta_npr.pv.export_svg(object(), "a.svg", hidden="ghost", title="A")

@@ -18,7 +18,7 @@ from . import _native
 from ._camera import settings_of as _camera_settings
 from ._curves import mesh_of as _mesh_of_curves
 from ._mesh import meshes_of as _meshes_of
-from ._results import Comparison, Edges, Lines, Picture
+from ._results import Comparison, Edges, Lines, Picture, Regions
 
 __version__ = _native.VERSION
 
@@ -32,7 +32,7 @@ LOOKS = tuple(_native.names("look"))
 Mesh = _native.Mesh
 
 __all__ = [
-    "CLASSES", "LOOKS", "STYLES", "Comparison", "Edges", "Lines", "Mesh", "Picture",
+    "CLASSES", "LOOKS", "STYLES", "Comparison", "Edges", "Lines", "Mesh", "Picture", "Regions",
     "compare", "edges", "lines", "measure", "mesh", "render", "silhouette",
 ]
 
@@ -98,8 +98,8 @@ def lines(
     Returns
     -------
     Lines
-        With ``segments``, ``cls``, ``visible`` and other arrays, ``labels``, ``svg()``, ``pdf()``, ``png()``, ``save()``, and
-        ``project()`` for labels of your own.
+        With ``segments``, ``cls``, ``visible`` and other arrays, ``labels``, ``svg()``, ``pdf()``, ``png()``, ``save()``,
+        ``project()`` for labels of your own, and ``regions()``, the areas between the lines.
 
     Settings
     --------
@@ -311,6 +311,9 @@ for _function in (mesh, lines, edges, silhouette, render, measure, compare):
     _with_settings(_function, _function.__name__)
 for _name in ("svg", "pdf", "png", "save", "layers"):
     _with_settings(getattr(Lines, _name), "Lines.svg")
+_with_settings(Lines.regions, "Lines.regions")
+for _name in ("svg", "pdf", "save"):
+    _with_settings(getattr(Regions, _name), "Lines.svg")
 
 
 def __getattr__(name):

@@ -141,7 +141,7 @@ class Matrix:
         def in_view(mesh):
             surface = mesh
             if len(mesh.faces):
-                surface = _mesh.of_arrays((mesh.vertices - eye) @ through.T, mesh.faces, mesh.name, kept)
+                surface = _mesh.of_arrays((mesh.vertices - eye) @ through.T, mesh.faces, mesh.name, kept).with_faces_of(mesh)
             return surface.with_curves_of(mesh, np.ascontiguousarray((mesh.free - eye) @ through.T)) if len(mesh.free) else surface
 
         meshes = [in_view(mesh) for mesh in meshes]

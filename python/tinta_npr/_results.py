@@ -8,6 +8,7 @@ from . import _native
 from ._arrays import rows as _rows
 
 
+_COLUMNS = frozenset(["object", "material", "tone", "face", "area"])
 _ARRAYS = frozenset(["segments", "visible", "_code", "edge", "angle", "object", "outline", "covered"])
 
 
@@ -141,6 +142,27 @@ class Lines:
         """All pieces and the camera as JSON: a str."""
         return self._found.json()
 
+    def regions(self, by="face", *, style=None, look=None, **settings):
+        """Cut the view into exact areas: closed polygons with holes.
+
+        Parameters
+        ----------
+        by : {"face", "material", "object", "tone"}
+            One area for each visible part of a face of the given mesh, of a material or of an object, whose outlines they are; or
+            of each tone of a cartoon style.
+        style, look : str, optional
+            With ``by="tone"``: the style of the tones, one of three-pass, two-pass, mrt and ink, or a look; by default the look
+            print.
+
+        Returns
+        -------
+        Regions
+
+        Settings
+        --------
+        """
+        return Regions(self, by, settings, style, look)
+
     def project(self, points):
         """Where points of the mesh's space are in the picture, for labels.
 
@@ -171,9 +193,7 @@ class Lines:
         Settings
         --------
         """
-        is_path = not hasattr(file, "write")
-        path = os.fspath(file) if is_path else ""
-        format = (format or (os.path.splitext(path)[1] if is_path else "svg")).lower().removeprefix(".")
+        path, format = _place(file, format)
         if format == "svg":
             content = self.svg(title=title, **settings).encode()
         elif format == "pdf":
@@ -188,7 +208,7 @@ class Lines:
             raise ValueError(
                 f"file: lines are written as .svg, .pdf, .png or .json, not as {'.' + format if format else 'a file without ending'}"
             )
-        _native.write(path, content) if is_path else file.write(content)
+        _written(file, path, content)
 
     def layers(self, **settings):
         """The drawing as plain values, from the lowest layer to the highest, as in the SVG.
@@ -200,6 +220,182 @@ class Lines:
         --------
         """
         return self._found.layers(settings)
+
+
+class Regions:
+    """The exact areas of a view. With the background they fill the picture without gaps and overlaps.
+
+    Attributes
+    ----------
+    object : ndarray (N,) of int64
+        The number of the mesh in the given list; -1 for background.
+    face : ndarray (N,) of int64
+        The face by its number in the given mesh; -1 for background, and unless the areas are of faces.
+    material : ndarray (N,) of int64
+        The material in a model file; -1 for none, and in areas of objects.
+    tone : ndarray (N,) of int64
+        0 for the darkest; -1 for background, and unless the areas are of tones.
+    area : ndarray (N,) of float64
+        Without holes, square pixels.
+    loops : list of N lists of ndarray (K, 2)
+        Each area's corners, pixels, y down: the outer loop first, then holes, which run the other way.
+    by : str
+        What the areas are of.
+    lines : Lines
+        The lines of the same view.
+    size : (width, height)
+        The size of the picture, pixels.
+    """
+
+    def __init__(self, lines, by, settings, style, look):
+        self.lines = lines
+        self.by = by
+        self._asked = settings, style, look
+        self.size = lines.size
+        for name, value in self._found.arrays().items():
+            setattr(self, name, value)
+
+    def __getattr__(self, name):
+        if name == "_found":
+            self._found = _native.regions(self.lines._found, self.by, *self._asked)
+            return self._found
+        if name != "loops":
+            raise AttributeError(f"{type(self).__name__} has no attribute {name}")
+        self.loops = self._found.loops()
+        return self.loops
+
+    def __getstate__(self):
+        """A pickle holds the lines, the arrays and the loops; a drawing of it finds the areas again, the same ones."""
+        self.loops
+        return {name: value for name, value in self.__dict__.items() if name != "_found"}
+
+    def __copy__(self):
+        copy = object.__new__(type(self))
+        copy.__dict__.update(self.__dict__)
+        return copy
+
+    def __deepcopy__(self, memo):
+        copy = self.__copy__()
+        for name in _COLUMNS:
+            setattr(copy, name, getattr(self, name).copy())
+        copy.loops = [[corners.copy() for corners in loops] for loops in self.loops]
+        return copy
+
+    def __len__(self):
+        return len(self.area)
+
+    def __repr__(self):
+        width, height = self.size
+        return f"<tinta_npr.Regions {width}x{height}: {len(self)} areas by {self.by}>"
+
+    def _repr_svg_(self):
+        return self.svg()
+
+    def of_faces(self, values):
+        """The values of the faces that the areas show.
+
+        Parameters
+        ----------
+        values : array_like (M,) or (M, K), or a list of them
+            One for each face of the given mesh; a list for several meshes, each with its own.
+
+        Returns
+        -------
+        ndarray (N,) or (N, K) of float64
+            NaN for background.
+        """
+        if self.by != "face":
+            raise ValueError(f"values: these areas are by {self.by}; ask for by=\"face\"")
+        several = isinstance(values, (list, tuple)) and len(values) > 0 and np.ndim(values[0]) > 0
+        count = int(self.object.max(initial=-1)) + 1
+        if several and len(values) >= max(count, 2):
+            lists = [np.asarray(of_mesh, dtype=np.float64) for of_mesh in values]
+        else:
+            lists = [np.asarray(values, dtype=np.float64)]
+        if len(lists) < count:
+            raise ValueError("values: there are several meshes; give a list with the values of each")
+        found = np.full((len(self), *lists[0].shape[1:]), np.nan)
+        for number, of_mesh in enumerate(lists):
+            chosen = self.object == number
+            faces = self.face[chosen]
+            if faces.size and faces.max() >= len(of_mesh):
+                raise ValueError(f"values: there are {len(of_mesh)}, but face {faces.max()} is seen; give one for each face")
+            found[chosen] = of_mesh[faces]
+        return found
+
+    def svg(self, *, colors=None, title=None, **settings):
+        """The areas below their lines as SVG: a str.
+
+        Parameters
+        ----------
+        colors : array_like (N, 3) or (N, 4), optional
+            A colour for each area, red, green and blue from 0 to 1; opacity is ignored. By default those of tones and materials,
+            and one for each number of a face or an object.
+        title : str, optional
+
+        Settings
+        --------
+        """
+        return self._found.svg(settings, title, self._colors(colors))
+
+    def pdf(self, *, colors=None, title=None, **settings):
+        """The areas below their lines as PDF: bytes. Arguments as in `svg`.
+
+        Settings
+        --------
+        """
+        return self._found.pdf(settings, title, self._colors(colors))
+
+    def json(self):
+        """The areas and the camera as JSON: a str."""
+        return self._found.json()
+
+    def save(self, file, *, format=None, colors=None, title=None, **settings):
+        """Write a file: .svg, .pdf or .json. `file` and `format` as in `Lines.save`, other arguments as in `svg`.
+
+        Settings
+        --------
+        """
+        path, format = _place(file, format)
+        if format == "svg":
+            content = self.svg(colors=colors, title=title, **settings).encode()
+        elif format == "pdf":
+            content = self.pdf(colors=colors, title=title, **settings)
+        elif format == "json" and not settings and colors is None:
+            content = self.json().encode()
+        elif format == "json":
+            raise ValueError(f"{next(iter(settings), 'colors')}: a .json file holds areas but no appearance; leave it out")
+        else:
+            said = "." + format if format else "a file without ending"
+            raise ValueError(f"file: areas are written as .svg, .pdf or .json, not as {said}")
+        _written(file, path, content)
+
+    def _colors(self, colors):
+        if colors is None:
+            return None
+        found = np.asarray(colors)
+        if found.dtype.kind not in "fiu":
+            raise TypeError(f"colors: these are of type {found.dtype}; give real numbers")
+        if found.ndim != 2 or len(found) != len(self) or found.shape[1] not in (3, 4):
+            raise ValueError(f"colors: the shape is {found.shape}; give ({len(self)}, 3)")
+        found = np.ascontiguousarray(found[:, :3], dtype=np.float64)
+        # The background has no colour.
+        found[self.object < 0] = 0
+        if not ((found >= 0) & (found <= 1)).all():
+            raise ValueError("colors: the numbers of a colour are from 0 to 1; divide those from 0 to 255 by 255")
+        return found
+
+
+def _place(file, format):
+    """The path of a file, empty for an object with ``write``, and the format."""
+    is_path = not hasattr(file, "write")
+    path = os.fspath(file) if is_path else ""
+    return path, (format or (os.path.splitext(path)[1] if is_path else "svg")).lower().removeprefix(".")
+
+
+def _written(file, path, content):
+    """Writes a path's file, or to an object."""
+    file.write(content) if hasattr(file, "write") else _native.write(path, content)
 
 
 class Edges:

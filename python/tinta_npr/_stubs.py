@@ -44,7 +44,8 @@ from collections.abc import Sequence
 from typing import Any, Literal
 
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PathCollection
+from matplotlib.colors import Colormap, Normalize
 from numpy.typing import ArrayLike
 
 from . import _Color, _Camera, _Number, _Numbers, _Path, _Text
@@ -54,8 +55,11 @@ __all__: list[str]
 class ExactLines(LineCollection):
     def do_3d_projection(self) -> float: ...
 
+class ExactAreas(PathCollection):
+    def do_3d_projection(self) -> float: ...
+
 ''',
-        {"draw": "LineCollection"},
+        {"draw": "LineCollection", "fill": "PathCollection"},
     ),
     "pv": (
         '''"""{doc}"""
@@ -71,6 +75,9 @@ __all__: list[str]
         {"lines": "Lines", "export_svg": "None"},
     ),
 }
+
+#: What areas are of.
+_BY = 'Literal["face", "material", "object", "tone"]'
 
 #: Types of the arguments other than settings; all others are `Any`.
 _ARGUMENTS = {
@@ -90,6 +97,14 @@ _ARGUMENTS = {
     "extent": "Sequence[float] | None",
     "zorder": "float",
     "color": "_Color | None",
+    "colors": "ArrayLike | None",
+    "values": "ArrayLike | Sequence[ArrayLike] | None",
+    "cmap": "str | Colormap | None",
+    "norm": "str | Normalize | None",
+    "vmin": "float | None",
+    "vmax": "float | None",
+    "fill": "bool",
+    "by": _BY,
     "styles": "Sequence[str | Mapping[str, Any]]",
 }
 _CHOICES = {"style": "style", "look": "look", "show": "show", "backend": "backend", "left": "style", "right": "style"}
@@ -106,6 +121,7 @@ _RETURNS = {
     "png": "bytes",
     "save": "None",
     "layers": "list[dict[str, Any]]",
+    "regions": "Regions",
 }
 _CLASSES = '''
 class Mesh:
@@ -159,6 +175,27 @@ class Lines:
     def project(self, points: ArrayLike) -> NDArray[np.float64]: ...
     def _repr_svg_(self) -> str: ...
 '''
+_REGIONS = '''
+class Regions:
+    object: NDArray[np.int64]
+    face: NDArray[np.int64]
+    material: NDArray[np.int64]
+    tone: NDArray[np.int64]
+    area: NDArray[np.float64]
+    loops: list[list[NDArray[np.float64]]]
+    by: str
+    lines: Lines
+    size: tuple[int, int]
+    def __len__(self) -> int: ...
+    def of_faces(self, values: ArrayLike | Sequence[ArrayLike]) -> NDArray[np.float64]: ...
+    def json(self) -> str: ...
+    def _repr_svg_(self) -> str: ...
+'''
+#: The methods with settings of each class, and the tables of these.
+_METHODS = {
+    "Lines": {"svg": "Lines.svg", "pdf": "Lines.svg", "png": "Lines.svg", "save": "Lines.svg", "layers": "Lines.svg", "regions": "Lines.regions"},
+    "Regions": {"svg": "Lines.svg", "pdf": "Lines.svg", "save": "Lines.svg"},
+}
 
 
 def _literal(names):
@@ -217,10 +254,16 @@ def _signature(function, table, returns, is_method=False):
 
 def stubs():
     """The texts of the files by their modules' names."""
-    methods = [getattr(tinta_npr.Lines, name) for name in ("svg", "pdf", "png", "save", "layers")]
+    methods = {
+        owner: [
+            _signature(getattr(getattr(tinta_npr, owner), name), table, _RETURNS[name], True)
+            for name, table in tables.items()
+        ]
+        for owner, tables in _METHODS.items()
+    }
     functions = [getattr(tinta_npr, name) for name in _native.names("function") if "." not in name]
     parts = [_HEAD.format(doc=tinta_npr.__doc__.splitlines()[0]), _CLASSES]
-    parts += [_signature(method, "Lines.svg", _RETURNS[method.__name__], True) for method in methods]
+    parts += [*methods["Lines"], _REGIONS, *methods["Regions"]]
     parts += ["\n" + _signature(function, function.__name__, _RETURNS[function.__name__]) for function in functions]
     texts = {"__init__": "".join(parts)}
     for name, (head, returned) in _MODULES.items():

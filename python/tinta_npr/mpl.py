@@ -1,14 +1,18 @@
-"""Exact lines in matplotlib's axes: vectors in PDF and SVG."""
+"""Exact lines and areas in matplotlib's axes: vectors in PDF and SVG."""
 
 import numpy as np
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.colors import to_rgb
+from matplotlib.path import Path
 
-from . import CLASSES, Lines, _native, _reading, _with_settings
+from . import CLASSES, Lines, Regions, _native, _reading, _with_settings
 from . import lines as _lines
 from ._mesh import meshes_of
 
-__all__ = ["ExactLines", "draw"]
+__all__ = ["ExactAreas", "ExactLines", "draw", "fill"]
+
+#: Width of an area's edge in its own colour, points: without it the ground shines through between neighbours.
+_EDGE = 0.4
 
 
 def draw(ax, mesh, faces=None, *, camera=None, extent=None, zorder=2, look=None, preset=None, color=None, **settings):
@@ -43,22 +47,91 @@ def draw(ax, mesh, faces=None, *, camera=None, extent=None, zorder=2, look=None,
     """
     settings = {"look": look, "preset": preset, **_with_colors(settings, color)}
     if ax.name == "3d":
-        if camera is not None or extent is not None:
-            raise ValueError("camera: 3-D axes have a camera and limits of their own; leave camera and extent out")
-        reading = {**_native.reading("lines", None, look, preset), **_reading(dict(settings))}
-        collection = ExactLines(ax, meshes_of(mesh, faces, None, reading), settings, zorder)
-        ax.add_collection(collection, autolim=False)
-        return collection
+        return _added_3d(ax, ExactLines(ax, *_of_axes(mesh, faces, camera, extent, settings), zorder=zorder))
     if isinstance(mesh, Lines):
         found, layers = mesh, mesh.layers(**{name: value for name, value in settings.items() if value is not None})
     else:
         found = _lines(mesh, faces, camera=camera, **settings)
         layers = found.layers()
-    width, height = found.size
+    collection = LineCollection([], zorder=zorder, capstyle="round", joinstyle="round")
+    _fill(collection, layers, _placed(found.size, extent))
+    return _added(ax, collection, extent)
+
+
+def fill(
+    ax, mesh, faces=None, *, by="face", values=None, colors=None, cmap=None, norm=None, vmin=None, vmax=None, camera=None,
+    extent=None, zorder=1, look=None, preset=None, **settings
+):
+    """Add the visible areas of a mesh to axes, below its lines: opaque polygons, cut exactly where faces in front hide them.
+
+    Parameters
+    ----------
+    ax : Axes or Axes3D
+        As in `draw`.
+    mesh, faces
+        As in `tinta_npr.lines`; for 2-D axes also its result, and that of `tinta_npr.Lines.regions`.
+    by : {"face", "material", "object", "tone"}
+        As in `tinta_npr.Lines.regions`.
+    values : array_like (M,), or a list of them, optional
+        A scalar for each face of the mesh, mapped to colours by `cmap`, `norm`, `vmin` and `vmax` as everywhere in matplotlib; a
+        list for several meshes. ``figure.colorbar`` takes the result.
+    colors : array_like (M, 3) or (M, 4), or a list of them, optional
+        A colour for each face of the mesh, from 0 to 1. Without values and colours, tones are grey, and faces, materials and
+        objects have the colours of `cmap` by their numbers.
+    camera, extent, look, preset, **settings
+        As in `draw`; only the camera and the size matter.
+    zorder : float
+        matplotlib's order of drawing.
+
+    Returns
+    -------
+    ExactAreas or PathCollection
+        Added to 3-D or 2-D axes. Each area has an edge of 0.4 points in its own colour.
+
+    Settings
+    --------
+    """
+    settings = {"look": look, "preset": preset, **settings}
+    shown = {"by": by, "values": values, "colors": colors}
+    scale = {"cmap": cmap, "norm": norm, "zorder": zorder}
+    if values is not None and colors is not None:
+        raise ValueError("values: they become colours; leave out one of values and colors")
+    if ax.name == "3d":
+        collection = ExactAreas(ax, *_of_axes(mesh, faces, camera, extent, settings), shown=shown, **scale)
+    elif isinstance(mesh, Regions):
+        collection = _show(PathCollection([], **scale), mesh, shown, _placed(mesh.size, extent))
+    else:
+        found = mesh if isinstance(mesh, Lines) else _lines(mesh, faces, camera=camera, **_of_areas(settings))
+        collection = _show(PathCollection([], **scale), found.regions(by), shown, _placed(found.size, extent))
+    if vmin is not None or vmax is not None:
+        collection.set_clim(vmin, vmax)
+    return _added_3d(ax, collection) if ax.name == "3d" else _added(ax, collection, extent)
+
+
+def _of_areas(settings):
+    """Settings that find no lines."""
+    return {**settings, "areas": "object", "no_borders": True}
+
+
+def _of_axes(mesh, faces, camera, extent, settings):
+    """The meshes of 3-D axes, and the settings of their drawing."""
+    if camera is not None or extent is not None:
+        raise ValueError("camera: 3-D axes have a camera and limits of their own; leave camera and extent out")
+    if isinstance(mesh, (Lines, Regions)):
+        raise TypeError("mesh: 3-D axes find lines and areas in each view; give the mesh itself")
+    reading = {**_native.reading("lines", None, settings["look"], settings["preset"]), **_reading(dict(settings))}
+    return meshes_of(mesh, faces, None, reading), settings
+
+
+def _placed(size, extent):
+    """The function from pixels to 2-D axes."""
+    width, height = size
     left, right, bottom, top = (0, width, 0, height) if extent is None else extent
     scale = np.array([(right - left) / width, (bottom - top) / height])
-    collection = LineCollection([], zorder=zorder, capstyle="round", joinstyle="round")
-    _fill(collection, layers, lambda points: points * scale + (left, top))
+    return lambda points: points * scale + (left, top)
+
+
+def _added(ax, collection, extent):
     ax.add_collection(collection)
     if extent is None:
         ax.set_aspect("equal")
@@ -66,11 +139,15 @@ def draw(ax, mesh, faces=None, *, camera=None, extent=None, zorder=2, look=None,
     return collection
 
 
-class ExactLines(LineCollection):
-    """The visible lines of meshes in the view of 3-D axes."""
+def _added_3d(ax, collection):
+    ax.add_collection(collection, autolim=False)
+    return collection
 
-    def __init__(self, axes, meshes, settings, zorder):
-        super().__init__([], zorder=zorder, capstyle="round", joinstyle="round")
+
+class _InView:
+    """A collection that 3-D axes find again in each view."""
+
+    def _begin(self, axes, meshes, settings):
         self._meshes, self._settings = meshes, settings
         ends = [[mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)] for mesh in meshes]
         self._ends = np.concatenate(ends)
@@ -80,9 +157,9 @@ class ExactLines(LineCollection):
         self._find(axes)
 
     def do_3d_projection(self):
-        """Finds the lines again if the view has changed; 3-D axes call it before they draw."""
+        """Finds them again if the view has changed; 3-D axes call it before they draw."""
         self._find(self.axes)
-        # In front of everything with a depth: the lines already exclude hidden parts.
+        # In front of everything with a depth: hidden parts are excluded already.
         return 0.0
 
     def _find(self, axes):
@@ -94,7 +171,7 @@ class ExactLines(LineCollection):
         found = _lines(self._meshes, camera=axes, **self._settings)
         corners = axes.transData.inverted().transform([(box.x0, box.y1), (box.x1, box.y0)])
         scale = (corners[1] - corners[0]) / found.size
-        _fill(self, found.layers(), lambda points: points * scale + corners[0])
+        self._take(found, lambda points: points * scale + corners[0])
         self._seen = seen
 
     def _warn_of_limits(self, axes):
@@ -103,6 +180,59 @@ class ExactLines(LineCollection):
         if not self._is_warned and ((self._ends < low - slack) | (self._ends > high + slack)).any():
             self._is_warned = True
             _native.warn("the mesh reaches beyond the limits of the axes, and is drawn there, too; widen the limits")
+
+
+class ExactLines(_InView, LineCollection):
+    """The visible lines of meshes in the view of 3-D axes."""
+
+    def __init__(self, axes, meshes, settings, zorder):
+        super().__init__([], zorder=zorder, capstyle="round", joinstyle="round")
+        self._begin(axes, meshes, settings)
+
+    def _take(self, found, placed):
+        _fill(self, found.layers(), placed)
+
+
+class ExactAreas(_InView, PathCollection):
+    """The visible areas of meshes in the view of 3-D axes."""
+
+    def __init__(self, axes, meshes, settings, shown, **scale):
+        super().__init__([], **scale)
+        self._shown = shown
+        self._begin(axes, meshes, _of_areas(settings))
+
+    def _take(self, found, placed):
+        _show(self, found.regions(self._shown["by"]), self._shown, placed)
+
+
+def _show(collection, regions, shown, placed):
+    """Gives a collection the areas except the background, with their values or colours."""
+    chosen = np.flatnonzero(regions.object >= 0)
+    loops = regions.loops
+    collection.set_paths([_path([placed(corners) for corners in loops[index]]) for index in chosen])
+    collection.set_linewidth(_EDGE)
+    values, colors = shown["values"], shown["colors"]
+    if colors is not None:
+        collection.set_facecolor(regions.of_faces(colors)[chosen])
+    elif values is not None:
+        collection.set_array(regions.of_faces(values)[chosen])
+    elif regions.by == "tone":
+        greys = (0.55 + 0.45 * regions.tone[chosen] / max(1, regions.tone.max(initial=0))).astype(str)
+        collection.set_facecolor(greys.tolist())
+    else:
+        numbers = {"face": regions.face, "material": regions.material, "object": regions.object}[regions.by]
+        collection.set_array(numbers[chosen].astype(float))
+    collection.set_edgecolor("face")
+    return collection
+
+
+def _path(loops):
+    """Closed polygons as one path."""
+    codes = [np.full(len(corners) + 1, Path.LINETO, dtype=Path.code_type) for corners in loops]
+    for code in codes:
+        code[0], code[-1] = Path.MOVETO, Path.CLOSEPOLY
+    corners = [np.concatenate([corners, corners[:1]]) for corners in loops]
+    return Path(np.concatenate(corners), np.concatenate(codes))
 
 
 def _with_colors(settings, color):
@@ -143,4 +273,5 @@ def _fill(collection, layers, placed):
     collection.set_linestyle(styles or "solid")
 
 
-_with_settings(draw, "lines")
+for _function in (draw, fill):
+    _with_settings(_function, "lines")

@@ -1,9 +1,11 @@
 //! Exact lines as JSON: their record, and the file that holds all of them.
 
 use super::CameraRecord;
+use super::json::json;
+use super::regions::write_regions;
 use crate::edges::ClassCounts;
-use crate::error::{Error, Result};
-use crate::lines::{LinePath, LineTimes, VisibilityChanges, VisibleLines};
+use crate::error::Result;
+use crate::lines::{LinePath, LineTimes, Regions, Surface, VisibilityChanges, VisibleLines};
 use crate::scene::Scene;
 use serde::Serialize;
 use std::fmt::Write;
@@ -81,13 +83,13 @@ struct LabelRecord<'a> {
     object: u32,
 }
 
-/// Returns all lines as one JSON object: `size`, `camera`, `labels` if points have any, and `segments`, one per line of the text;
-/// pixels, y down. A partial result also has `partial`, a sentence, and `undecided`, the number of missing lines.
+/// Returns all lines as one JSON object: `size`, `camera`, `labels` if points have any, `segments`, one per line of the text, and
+/// areas as [`regions_json`](super::regions_json) writes them; pixels, y down. A partial result also has `partial`, a sentence, and `undecided`, the number of missing lines.
 ///
 /// # Errors
 ///
-/// [`Error::Lines`] for lines that are not finite or leave the picture.
-pub fn lines_json(lines: &VisibleLines, scene: &Scene) -> Result<String> {
+/// [`crate::Error::Lines`] for lines that are not finite or leave the picture.
+pub fn drawing_json(lines: &VisibleLines, regions: Option<&Regions<Option<Surface>>>, scene: &Scene) -> Result<String> {
     lines.check()?;
     let mut text = format!("{{\"size\": {},\n", json(&lines.size)?);
     if let Some(note) = lines.partial_note() {
@@ -122,11 +124,11 @@ pub fn lines_json(lines: &VisibleLines, scene: &Scene) -> Result<String> {
         text.push_str(if index == 0 { "\n" } else { ",\n" });
         text.push_str(&json(&record)?);
     }
-    text.push_str("\n]}\n");
+    text.push_str("\n]");
+    if let Some(regions) = regions {
+        text.push_str(",\n");
+        write_regions(regions, scene, &mut text)?;
+    }
+    text.push_str("}\n");
     Ok(text)
-}
-
-fn json(value: &impl Serialize) -> Result<String> {
-    serde_json::to_string(value)
-        .map_err(|error| Error::Lines { problem: format!("the lines cannot be written as JSON ({error}); write .svg") })
 }

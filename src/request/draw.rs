@@ -5,7 +5,7 @@ use crate::clock::Instant;
 use crate::edges::SilhouetteRule;
 use crate::error::{Error, Result};
 use crate::glsl;
-use crate::lines::{Areas, DrawingSettings, LineSettings, Progress, VisibleLines};
+use crate::lines::{DrawingSettings, LineSettings, Progress, VisibleLines};
 use crate::mesh::{LoadStage, Mesh};
 use crate::picture::Picture;
 use crate::plan::Plan;
@@ -13,7 +13,7 @@ use crate::plan::prune::{Kept, Omission, Pruned, prune};
 use crate::renderer::{Renderer, milliseconds_since};
 use crate::scene::Scene;
 use crate::settings::HasSettings;
-use crate::styles::{LineStyle, Vectors, is_of_vectors};
+use crate::styles::{LineStyle, Vectors, ViewAreas, is_of_vectors};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -80,8 +80,8 @@ pub struct DrawnLines {
     pub style: LineStyle,
     /// The lines.
     pub lines: VisibleLines,
-    /// The areas below them; `None` in styles of lines alone.
-    pub areas: Option<Areas>,
+    /// The areas below them; `None` in a drawing of lines alone.
+    pub areas: Option<ViewAreas>,
     /// Remarks for the user, a sentence each.
     pub remarks: Vec<String>,
     /// How long reading took, milliseconds.
@@ -123,23 +123,40 @@ impl Request {
         }
         let ReadModels { meshes, files, ms: load_ms, .. } = self.models(&session.models)?;
         let scene = Scene::new(meshes, &self.scene)?;
-        let remarks = vectors.as_ref().map_or(Vec::new(), |vectors| vectors.remarks(&scene));
-        let lines = match &vectors {
-            Some(vectors) if vectors.lines.is_none() => VisibleLines::none(scene.size),
-            _ => self.lines(&scene, progress)?,
-        };
-        let areas = vectors.map(|vectors| vectors.areas(&scene, &lines, progress)).transpose()?;
         let style = self.line_style().unwrap_or_default();
+        style.check()?;
+        let remarks = vectors.map_or(Vec::new(), |vectors| vectors.remarks(&scene));
+        let lines = self.lines(&scene, progress)?;
+        let areas = self.areas(&scene, &lines, progress)?;
         Ok(Drawn::Lines(Box::new(DrawnLines { scene, files, style, lines, areas, remarks, load_ms })))
     }
 
-    /// The vectors of this request's style of passes, drawn with the options of drawings; `None` where it draws pixels.
-    fn vectors(&self) -> Result<Option<Vectors>> {
-        let mut vectors = self.as_vectors.then(|| self.style.vectors(self.scene.size)).flatten();
-        if let Some(vectors) = &mut vectors {
+    /// The areas, and the lines above them, of a style that has areas, drawn with the options of drawings; `None` where it draws pixels.
+    ///
+    /// # Errors
+    ///
+    /// Those of the options of drawings.
+    pub fn vectors(&self) -> Result<Option<Vectors>> {
+        let is_of_lines = self.style.lines().is_some();
+        let mut vectors = (self.as_vectors || is_of_lines).then(|| self.style.vectors(self.scene.size)).flatten();
+        if let (Some(vectors), false) = (&mut vectors, is_of_lines) {
             DrawingSettings::table().apply(&mut vectors.drawing, &self.options)?;
         }
         Ok(vectors)
+    }
+
+    /// Whether the drawing has areas and no lines.
+    fn is_of_areas_alone(&self) -> bool {
+        self.vectors().ok().flatten().is_some_and(|vectors| vectors.lines.is_none())
+    }
+
+    /// Finds the areas of a scene below these lines; `None` in a drawing of lines alone.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Vectors::areas`].
+    pub fn areas(&self, scene: &Scene, lines: &VisibleLines, progress: &Progress) -> Result<Option<ViewAreas>> {
+        self.vectors()?.map(|vectors| vectors.areas(scene, lines, progress)).transpose()
     }
 
     /// Reads the models.
@@ -170,11 +187,12 @@ impl Request {
     pub fn line_style(&self) -> Option<LineStyle> {
         let of_vectors = || {
             let vectors = self.vectors().ok().flatten()?;
-            Some(LineStyle { lines: vectors.lines.unwrap_or_default(), drawing: vectors.drawing, sheet: None })
+            let lines = vectors.lines.unwrap_or_default();
+            Some(LineStyle { lines, drawing: vectors.drawing, ..LineStyle::default() })
         };
-        let LineStyle { lines, drawing, sheet } = self.style.lines().or_else(of_vectors)?;
-        let drawing = DrawingSettings { title: self.title(), background: self.scene.background, ..drawing };
-        Some(LineStyle { lines, drawing, sheet })
+        let style = self.style.lines().or_else(of_vectors)?;
+        let drawing = DrawingSettings { title: self.title(), background: self.scene.background, ..style.drawing };
+        Some(LineStyle { drawing, ..style })
     }
 
     /// The lines to find for this style.
@@ -189,8 +207,10 @@ impl Request {
     /// Whether the result of this request also serves another request for the same lines, whichever parts that one shows.
     pub fn finds_all_for(&self, other: &Self) -> bool {
         let wanted = [self, other].map(|request| request.line_style().map(|style| request.wanted(&style)));
-        let [Some(own), Some(other)] = wanted else { return false };
-        own.finds_hidden >= other.finds_hidden && own.finds_outline >= other.finds_outline
+        let [Some(of_own), Some(of_other)] = wanted else { return false };
+        self.is_of_areas_alone() == other.is_of_areas_alone()
+            && of_own.finds_hidden >= of_other.finds_hidden
+            && of_own.finds_outline >= of_other.finds_outline
     }
 
     /// Finds the lines of a scene that the drawing shows, short ones too.
@@ -203,8 +223,10 @@ impl Request {
             let problem = "this style draws a picture in passes; choose a style of lines";
             return Err(Error::value("style", self.style.name(), problem));
         };
-        style.drawing.check()?;
-        style.lines.parts.check(&style.drawing)?;
+        style.check()?;
+        if self.is_of_areas_alone() {
+            return Ok(VisibleLines::none(scene.size));
+        }
         match style.sheet {
             Some(angle) => VisibleLines::on_sheet(scene, &self.wanted(&style), angle, progress),
             None => VisibleLines::with_progress(scene, &self.wanted(&style), progress),

@@ -1,10 +1,15 @@
 //! Exact visible lines as a style: the lines to find and how to draw them.
 
-use crate::lines::{DrawingSettings, Hidden, LineSettings, ProjectionAngle};
+use super::headings::no_borders;
+use crate::error::{Error, Result};
+use crate::lines::{DrawingSettings, Hidden, Joined, LineSettings, ProjectionAngle};
 use crate::settings::{Setting, under, within};
 
 /// The heading of edge settings.
 const LINES: &str = "Style lines: which lines";
+
+/// The heading of settings of areas.
+const AREAS: &str = "Style lines: areas below the lines";
 
 /// Exact visible lines.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -15,10 +20,14 @@ pub struct LineStyle {
     pub drawing: DrawingSettings,
     /// The views of a sheet in place of the camera's. Default none.
     pub sheet: Option<ProjectionAngle>,
+    /// By what the areas below the lines are joined. Default `None`: no areas.
+    pub areas: Option<Joined>,
+    /// Whether the areas are drawn without lines. Default no.
+    pub is_of_areas_alone: bool,
 }
 
 impl LineStyle {
-    /// Returns the settings of the lines, then of the drawing.
+    /// Returns the settings of the lines, of the areas, then of the drawing.
     pub(super) fn settings() -> Vec<Setting<Self>> {
         let lines = within(LineSettings::settings(), |style: &mut Self| Some(&mut style.lines));
         // Settings of edges have no heading here because other styles share them.
@@ -26,6 +35,16 @@ impl LineStyle {
             setting.heading = if setting.heading.is_empty() { LINES } else { setting.heading };
             setting
         });
+        let areas = Setting::open_field(
+            "areas",
+            "WHAT",
+            "none",
+            "Exact areas below the lines: of each face, of each material, or of each object, whose outlines they are; a .json \
+             file lists them",
+            |style: &mut Self| &mut style.areas,
+        );
+        let alone = no_borders(|style: &Self| style.is_of_areas_alone, |style, is_it| style.is_of_areas_alone = is_it);
+        let lines = lines.chain(under(AREAS, vec![areas, alone]));
         let drawing: Vec<_> =
             within(DrawingSettings::settings(), |style: &mut Self| Some(&mut style.drawing)).collect();
         let sheet = Setting::open_field(
@@ -39,6 +58,22 @@ impl LineStyle {
         .said("none, one view");
         let heading = drawing[0].heading;
         lines.chain(drawing).chain(under(heading, vec![sheet])).collect()
+    }
+
+    /// Refuses a drawing of nothing, and areas by a pen.
+    pub(crate) fn check(&self) -> Result<()> {
+        if self.is_of_areas_alone && self.areas.is_none() {
+            let problem = "style lines draws nothing but lines; leave it out, or add --areas object";
+            return Err(Error::setting("no-borders", problem));
+        }
+        if self.drawing.is_for_pen && self.areas.is_some() {
+            return Err(Error::setting("areas", "a pen draws lines alone; leave out one of --areas and --pen"));
+        }
+        if self.sheet.is_some() && self.areas.is_some() {
+            return Err(Error::setting("sheet", "areas are of one view; leave out one of --areas and --sheet"));
+        }
+        self.drawing.check()?;
+        self.lines.parts.check(&self.drawing)
     }
 
     /// Returns the lines to find for this drawing: outlines and hidden lines only if they show.

@@ -1,26 +1,43 @@
-//! What a cartoon style draws into a file of vectors: exact areas of tone or strokes that stand for them, and exact lines above. No
-//! GL here.
+//! What a style draws into a file of vectors: exact areas, or strokes that stand for them, and exact lines above. No GL here.
 
-use super::{Cartoon, CreaseBy, Ink, LineWidth, Mrt, Style, Tones};
+use super::{Cartoon, CreaseBy, Ink, LineStyle, LineWidth, Mrt, Style, Tones};
 use crate::error::{Error, Result};
 use crate::lines::{
-    Areas, DrawingSettings, LineSettings, Progress, Regions, ToneLight, ToneRule, TonedSurface, VisibleLines, fills,
-    hatches,
+    Areas, DrawingSettings, Joined, LineSettings, Progress, Regions, Surface, ToneLight, ToneRule, TonedSurface,
+    VisibleLines, fills, hatches, painted,
 };
+use crate::mesh::NONE;
 use crate::scene::{Color, Scene, Size};
 use glam::DVec3;
+use std::f64::consts::TAU;
 use tinta_geometry::lines::Length;
 
-/// The vectors of a style of passes.
+/// The vectors of a style.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vectors {
-    /// The tones.
-    tones: Tones,
-    light: ToneLight,
+    rule: AreaRule,
     /// The lines above; `None` without.
     pub lines: Option<LineSettings>,
     /// How they are drawn, with the style's line widths; and whether tones are hatched.
     pub drawing: DrawingSettings,
+}
+
+/// What an area is.
+#[derive(Debug, Clone, PartialEq)]
+enum AreaRule {
+    /// A tone of an object's material.
+    Tones(Tones, ToneLight),
+    /// A face, a material or an object.
+    Joined(Joined),
+}
+
+/// The areas of a view.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewAreas {
+    /// The areas with the background, which fill the picture.
+    pub regions: Regions<Option<Surface>>,
+    /// The areas as they are drawn.
+    pub drawn: Areas,
 }
 
 /// Place of the light in `toon.vert`, scene radii from the eye.
@@ -30,11 +47,10 @@ const LISTED_LIGHT: DVec3 = DVec3::ONE;
 const LISTED_WIDTH: LineWidth = LineWidth::Pixels(2);
 
 impl Style {
-    /// What this style draws into a file of vectors of this size; `None` for a style that has no areas of tone.
+    /// What this style draws into a file of vectors of this size; `None` for a style without areas.
     pub fn vectors(&self, size: Size) -> Option<Vectors> {
         let of_cartoon = |tones: &Tones, border: Option<Option<LineWidth>>| Vectors {
-            tones: tones.clone(),
-            light: ToneLight::Near(LISTED_LIGHT),
+            rule: AreaRule::Tones(tones.clone(), ToneLight::Near(LISTED_LIGHT)),
             // The listing's filter compares normals.
             lines: border.map(|_| LineSettings { creases_by_normals: true, ..LineSettings::default() }),
             drawing: drawing([border.flatten().unwrap_or(LISTED_WIDTH); 2], size),
@@ -44,6 +60,7 @@ impl Style {
             | Self::TwoPass(Cartoon { tones, border, .. })
             | Self::Mrt(Mrt { tones, border, .. }) => Some(of_cartoon(tones, border.map(|border| border.width))),
             Self::Ink(ink) => Some(of_ink(ink, size)),
+            Self::Lines(style) => style.areas.map(|joined| of_lines(style, joined)),
             _ => None,
         }
     }
@@ -55,12 +72,17 @@ fn of_ink(ink: &Ink, size: Size) -> Vectors {
     // The pixels' creases are where the model's normals are split.
     let settings = LineSettings { creases_by_normals: ink.crease_by == CreaseBy::Normals, ..all };
     let widths = [ink.line_width, ink.inner_width.unwrap_or(ink.line_width)];
+    let light = ink.tone_light.map_or(ToneLight::Near(LISTED_LIGHT), |light| ToneLight::Far(direction(light)));
     Vectors {
-        tones: ink.tones.clone(),
-        light: ink.tone_light.map_or(ToneLight::Near(LISTED_LIGHT), |light| ToneLight::Far(direction(light))),
+        rule: AreaRule::Tones(ink.tones.clone(), light),
         lines: ink.is_inked.then_some(settings),
         drawing: drawing(widths, size),
     }
+}
+
+fn of_lines(style: &LineStyle, joined: Joined) -> Vectors {
+    let lines = (!style.is_of_areas_alone).then(|| style.lines.clone());
+    Vectors { rule: AreaRule::Joined(joined), lines, drawing: style.drawing.clone() }
 }
 
 /// A drawing with lines of these widths: the outline's, and those inside.
@@ -77,62 +99,65 @@ impl Vectors {
     /// Returns the areas of a scene as they are drawn below these lines.
     ///
     /// Where strokes stand for tones, what has a colour keeps the brightest tone's as one area, and all else is paper. A pen paints
-    /// no areas.
+    /// no areas. Areas of faces, materials and objects without lines above them are their polygons alone.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for invalid tones and settings of the drawing, and for too many strokes; those of [`Regions::toned`].
-    pub fn areas(&self, scene: &Scene, lines: &VisibleLines, progress: &Progress) -> Result<Areas> {
-        self.tones.check()?;
+    /// [`Error::Setting`] for invalid tones and settings of the drawing, and for too many strokes; those of [`Regions::toned`] and
+    /// [`Regions::joined_by`].
+    pub fn areas(&self, scene: &Scene, lines: &VisibleLines, progress: &Progress) -> Result<ViewAreas> {
         self.drawing.check()?;
-        let regions = self.regions(scene, progress)?;
-        if regions.broken > 0 {
-            let problem = format!(
-                "{} borders of areas do not close; this is a bug in tinta: report it with the model",
-                regions.broken
-            );
-            return Err(Error::Lines { problem });
+        let spacing = self.drawing.hatching.spacing;
+        match &self.rule {
+            AreaRule::Tones(tones, light) => {
+                tones.check()?;
+                let regions = whole(Regions::toned(scene, &tone_rule(tones, *light), progress)?)?;
+                let color = |TonedSurface { object, material, tone }| {
+                    let Color(color) = own_color(scene, object, material);
+                    Color(color.map(|channel| channel * tones.levels[usize::from(tone)]))
+                };
+                let brightest = tones.count - 1;
+                let is_colored =
+                    |it: &TonedSurface| !scene.is_bare(&scene.objects[it.object as usize].mesh, it.material);
+                let flat = |seen: Option<TonedSurface>| {
+                    seen.filter(is_colored).map(|it| Some(TonedSurface { tone: brightest, ..it }))
+                };
+                let fills = match spacing {
+                    _ if self.drawing.is_for_pen => Vec::new(),
+                    Some(_) => fills(&regions.joined(flat), color),
+                    None => fills(&regions, color),
+                };
+                let hatches = hatches(scene, &regions, brightest, lines, &self.drawing)?;
+                let drawn = Areas { fills, hatches, ..Areas::around(&regions) };
+                Ok(ViewAreas { regions: regions.labelled(|seen| seen.map(Surface::from)), drawn })
+            }
+            AreaRule::Joined(_) if spacing.is_some() => Err(Error::setting(
+                "hatch",
+                "strokes stand for tones; leave it out, or choose --look print instead of --areas",
+            )),
+            AreaRule::Joined(joined) => {
+                let regions = whole(Regions::joined_by(scene, *joined, progress)?)?;
+                let fills =
+                    painted(&regions, self.lines.is_some(), |number| joined_color(scene, &regions, number, *joined));
+                Ok(ViewAreas { drawn: Areas { fills, ..Areas::around(&regions) }, regions })
+            }
         }
-        let brightest = self.tones.count - 1;
-        let is_colored = |it: &TonedSurface| !scene.is_bare(&scene.objects[it.object as usize].mesh, it.material);
-        let flat =
-            |seen: Option<TonedSurface>| seen.filter(is_colored).map(|it| Some(TonedSurface { tone: brightest, ..it }));
-        let fills = match self.drawing.hatching.spacing {
-            _ if self.drawing.is_for_pen => Vec::new(),
-            Some(_) => fills(&regions.joined(flat), |surface| self.color(scene, surface)),
-            None => fills(&regions, |surface| self.color(scene, surface)),
-        };
-        let hatches = hatches(scene, &regions, brightest, lines, &self.drawing)?;
-        Ok(Areas { fills, hatches, ..Areas::around(&regions) })
     }
 
-    /// Returns the areas of a scene by object, material and tone.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Regions::toned`].
-    pub fn regions(&self, scene: &Scene, progress: &Progress) -> Result<Regions<Option<TonedSurface>>> {
-        Regions::toned(scene, &self.rule(), progress)
-    }
-
-    /// How light becomes tones.
-    pub fn rule(&self) -> ToneRule {
-        ToneRule { light: self.light, thresholds: self.tones.thresholds().map(f64::from) }
-    }
-
-    /// The colour of a surface: its material's, times its tone.
-    pub fn color(&self, scene: &Scene, surface: TonedSurface) -> Color {
-        let mesh = &scene.objects[surface.object as usize].mesh;
-        let Color(color) = scene.material_color(mesh, surface.material);
-        let level = self.tones.levels[usize::from(surface.tone)];
-        // Under vertex colours a material is white; an area has one colour, so their mean.
-        let own = if scene.shows_vertex_colors(mesh) { mean(&mesh.position_colors) } else { [1.0; 3] };
-        Color([0, 1, 2].map(|channel| color[channel] * own[channel] * level))
+    /// How light becomes tones; `None` for areas of faces, materials and objects.
+    pub fn rule(&self) -> Option<ToneRule> {
+        match &self.rule {
+            AreaRule::Tones(tones, light) => Some(tone_rule(tones, *light)),
+            AreaRule::Joined(_) => None,
+        }
     }
 
     /// Returns remarks on what the areas leave out, a sentence each.
     pub fn remarks(&self, scene: &Scene) -> Vec<String> {
         let mut remarks = Vec::new();
+        if matches!(self.rule, AreaRule::Joined(Joined::Face | Joined::Object)) {
+            return remarks;
+        }
         if scene.objects.iter().any(|object| scene.shows_vertex_colors(&object.mesh)) {
             remarks.push("vectors draw each object in the mean of its colours at vertices".to_owned());
         }
@@ -141,6 +166,46 @@ impl Vectors {
         }
         remarks
     }
+}
+
+fn tone_rule(tones: &Tones, light: ToneLight) -> ToneRule {
+    ToneRule { light, thresholds: tones.thresholds().map(f64::from) }
+}
+
+/// Refuses regions with borders that do not close.
+fn whole<T>(regions: Regions<T>) -> Result<Regions<T>> {
+    if regions.broken == 0 {
+        return Ok(regions);
+    }
+    let problem =
+        format!("{} borders of areas do not close; this is a bug in tinta: report it with the model", regions.broken);
+    Err(Error::Lines { problem })
+}
+
+/// The colour of an area: its material's, or one for its face's or its object's number.
+fn joined_color(scene: &Scene, regions: &Regions<Option<Surface>>, number: usize, joined: Joined) -> Color {
+    let Some(Surface { object, material, face, .. }) = regions.regions[number].seen else { return Color([1.0; 3]) };
+    match joined {
+        Joined::Face => numbered(face.unwrap_or_default()),
+        Joined::Material => own_color(scene, object, material.unwrap_or(NONE)),
+        Joined::Object => numbered(object),
+    }
+}
+
+/// A light colour for a number, unlike those of the numbers next to it.
+fn numbered(number: u32) -> Color {
+    /// The golden ratio: its multiples divide the circle of hues evenly.
+    const TURN: f64 = 0.618_033_988_749_895;
+    let channel = |third: f64| 0.68 + 0.24 * ((f64::from(number) * TURN + third / 3.0) * TAU).cos();
+    Color([0.0, 1.0, 2.0].map(|third| channel(third) as f32))
+}
+
+/// The colour of an object's material. Under vertex colours a material is white; an area has one colour, so their mean.
+fn own_color(scene: &Scene, object: u32, material: u32) -> Color {
+    let mesh = &scene.objects[object as usize].mesh;
+    let Color(color) = scene.material_color(mesh, material);
+    let own = if scene.shows_vertex_colors(mesh) { mean(&mesh.position_colors) } else { [1.0; 3] };
+    Color([0, 1, 2].map(|channel| color[channel] * own[channel]))
 }
 
 /// The mean of colours.

@@ -97,7 +97,9 @@ impl Model {
             ..request.line_style().unwrap_or_default().drawing
         };
         let visible = request.all_lines(&scene, &Progress::default()).map_err(said)?;
-        lines::svg(&visible, &drawing).map_err(said)
+        let areas = request.areas(&scene, &visible, &Progress::default()).map_err(said)?.map(|areas| areas.drawn);
+        let visible = visible.without_specks(&drawing).map_err(said)?;
+        lines::svg_of_paths(&visible, lines::chain(&visible.segments), areas.as_ref(), &drawing).map_err(said)
     }
 
     /// How well ink agrees with the exact lines of a view, F1 from 0 to 1, as the command line measures it; `ink` is how dark each

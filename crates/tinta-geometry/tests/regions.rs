@@ -20,15 +20,19 @@ use glam::{DVec2, DVec3};
 use lines_families::FAMILIES;
 use lines_support::{scenes_wanted, view};
 use shapes::{Random, mesh};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::time::Duration;
 use tinta::camera::Projection;
 use tinta::lines::{
-    Areas, Hit, Progress, Region, Regions, SeenFace, ToneLight, ToneRule, TonedSurface, fills, first_hits, svg_of_paths,
+    Areas, Hit, Joined, Progress, Region, Regions, SeenFace, Surface, ToneLight, ToneRule, TonedSurface, fills,
+    first_hits, painted, svg_of_paths,
 };
 use tinta::mesh::NONE;
 use tinta::tolerances::{CONTACT, WELD};
-use tinta::{CameraSettings, Color, DrawingSettings, Error, LoadOptions, Scene, SceneSettings, VisibleLines, load};
+use tinta::{
+    CameraSettings, Color, DrawingSettings, Error, LoadOptions, Scene, SceneSettings, Size, VisibleLines, load,
+};
 
 /// The families, and four kinds of randomly oriented scenes.
 const KINDS: usize = FAMILIES.len() + 4;
@@ -346,19 +350,113 @@ fn tones_of_public_models_are_those_that_rays_find() {
     }
 }
 
-#[test]
-fn joined_regions_are_the_outlines_of_objects() {
-    let scene = scene(0, &mut Random::seeded(1)).1;
-    let found = Regions::of(&scene).unwrap();
-    let outlines = found.joined(|seen| seen.map(|seen| seen.object));
-    assert_eq!(outlines.broken, 0);
-    let area = |object: u32| {
-        let of_object = found.regions.iter().filter(|it| it.seen.is_some_and(|seen| seen.object == object));
-        of_object.map(|region| region.area_px).sum::<f64>()
+/// What a region joined so shows where a face is seen.
+fn surface(scene: &Scene, seen: SeenFace, joined: Joined) -> Surface {
+    let mesh = &scene.objects[seen.object as usize].mesh;
+    let material = mesh.triangle_materials.get(seen.face as usize).copied().filter(|material| *material != NONE);
+    let material = material.filter(|_| joined != Joined::Object);
+    let face = (joined == Joined::Face).then(|| mesh.file_face(seen.face));
+    Surface { object: seen.object, material, tone: None, face }
+}
+
+/// The directed sides of regions that no other of them has the other way: the borders of their union.
+fn border(regions: &[&Vec<Vec<DVec2>>]) -> BTreeSet<[[u64; 2]; 2]> {
+    let bits = |point: DVec2| point.to_array().map(f64::to_bits);
+    let of_loop = |corners: &Vec<DVec2>| {
+        let next = corners.iter().cycle().skip(1);
+        corners.iter().zip(next).map(|(a, b)| [bits(*a), bits(*b)]).collect::<Vec<_>>()
     };
-    for object in 0..scene.objects.len() as u32 {
-        let joined = outlines.regions.iter().filter(|region| region.seen == object);
-        assert!((joined.map(|region| region.area_px).sum::<f64>() - area(object)).abs() < 1e-6, "{object}");
+    let all: BTreeSet<_> = regions.iter().flat_map(|loops| loops.iter().flat_map(of_loop)).collect();
+    all.iter().filter(|[a, b]| !all.contains(&[*b, *a])).copied().collect()
+}
+
+/// Joined regions show what rays hit, and fill the picture; the outline of an object is that of all of its regions.
+fn check_joined(name: &str, scene: &Scene) -> Checked {
+    let mut all = Checked::default();
+    let of_faces = Regions::of(scene).unwrap();
+    for joined in [Joined::Face, Joined::Material, Joined::Object] {
+        let found = Regions::joined_by(scene, joined, &Progress::default()).unwrap();
+        let label = |hit: Hit| surface(scene, SeenFace { object: hit.object, face: hit.face }, joined);
+        let is_as_right = |hit: &Hit, seen: Surface| {
+            let point = world(scene, hit);
+            let faces = 0..scene.objects[seen.object as usize].mesh.triangles.len() as u32;
+            faces
+                .map(|face| SeenFace { object: seen.object, face })
+                .any(|face| surface(scene, face, joined) == seen && touches(scene, point, face))
+        };
+        add(&mut all, check_labels(name, scene, &found, label, is_as_right));
+        for object in 0..scene.objects.len() as u32 {
+            let is_it = |seen: Option<u32>| seen == Some(object);
+            let of_map: Vec<_> = found.regions.iter().filter(|it| is_it(it.seen.map(|seen| seen.object))).collect();
+            let of_object: Vec<_> =
+                of_faces.regions.iter().filter(|it| is_it(it.seen.map(|seen| seen.object))).collect();
+            let area = |sum: f64, area_px: f64| sum + area_px;
+            let areas = [
+                of_map.iter().map(|it| it.area_px).fold(0.0, area),
+                of_object.iter().map(|it| it.area_px).fold(0.0, area),
+            ];
+            assert!((areas[0] - areas[1]).abs() <= 1e-9 * areas[1].max(1.0), "{name}: {areas:?}");
+            let [joined_border, face_border] = [
+                border(&of_map.iter().map(|it| &it.loops).collect::<Vec<_>>()),
+                border(&of_object.iter().map(|it| &it.loops).collect::<Vec<_>>()),
+            ];
+            assert_eq!(joined_border, face_border, "{name}, {joined:?}: the outline of object {object}");
+        }
+    }
+    all
+}
+
+#[test]
+fn joined_regions_of_every_family_show_what_rays_hit() {
+    let mut all = Checked::default();
+    for seed in 1..=KINDS as u64 {
+        let mut random = Random::seeded(seed);
+        let (name, scene) = scene(seed as usize, &mut random);
+        add(&mut all, check_joined(&format!("{name}, seed {seed}"), &scene));
+    }
+    judge(&all);
+}
+
+#[test]
+fn joined_regions_of_public_models_show_what_rays_hit() {
+    let mut all = Checked::default();
+    let models = models(&["cow.obj", "teapot.obj", "suzanne.obj", "doll.obj"]);
+    for (name, mesh) in &models {
+        let camera = view("30,23", false);
+        let settings =
+            SceneSettings { camera, copies: 2, size: Size { width: 256, height: 192 }, ..SceneSettings::default() };
+        add(&mut all, check_joined(name, &Scene::new([mesh.clone()], &settings).unwrap()));
+    }
+    if !models.is_empty() {
+        judge(&all);
+    }
+}
+
+/// Three sides of a box in squares, the first of all its faces without area.
+#[test]
+fn the_triangles_of_a_polygon_are_one_region() {
+    let positions: Vec<DVec3> = (0..8)
+        .map(|corner| DVec3::new(f64::from(corner & 1), f64::from(corner >> 1 & 1), f64::from(corner >> 2)))
+        .collect();
+    let corners = [0, 1, 1, 0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5];
+    let sizes = vec![3, 4, 4, 4, 4, 4, 4];
+    let mesh = tinta::Mesh::of_polygons("a box", positions, &corners, sizes, &LoadOptions::default()).unwrap();
+    let settings = SceneSettings { camera: view("30,30", true), ..SceneSettings::default() };
+    let scene = Scene::new([mesh], &settings).unwrap();
+    let found = Regions::joined_by(&scene, Joined::Face, &Progress::default()).unwrap();
+    let mut seen: Vec<_> = found.regions.iter().filter_map(|region| region.seen?.face).collect();
+    seen.sort_unstable();
+    assert_eq!(seen, [2, 4, 6], "in front, on top, on the right");
+    for (traps, is_crisp) in [(true, false), (false, true)] {
+        let groups = painted(&found, traps, |_| Color([0.5; 3]));
+        let areas = groups.last().unwrap();
+        assert_eq!((areas.fills.len(), areas.is_crisp, groups.len()), (3, is_crisp, 1 + usize::from(traps)));
+        assert!(areas.fills.iter().all(|fill| fill.trap.is_empty() && fill.loops.len() == 1));
+        if traps {
+            // Three borders meet in the box's corner: two with the region of the lowest number, which are one stroke.
+            assert_eq!(groups[0].fills.iter().map(|fill| fill.trap.len()).collect::<Vec<_>>(), [1, 1]);
+            assert_eq!(groups[0].clip.len(), 1);
+        }
     }
 }
 

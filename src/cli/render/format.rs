@@ -51,12 +51,7 @@ impl Format {
             (true, None) => refuse(format!(
                 "style {style} writes .svg, .pdf, .json or a still picture such as .png; name the file so, or leave out --style {style}"
             )),
-            (false, Some(format @ (Self::Svg | Self::Pdf))) if has_vectors => Ok(Some(format)),
-            (false, Some(_)) if has_vectors => refuse(format!(
-                "{} draws areas and lines, for which this format has no place; name a .svg, a .pdf or a picture such as \
-                 drawing.png",
-                request.style_said()
-            )),
+            (false, Some(format)) if has_vectors => Ok(Some(format)),
             (false, Some(_)) => refuse(format!(
                 "{} draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture \
                  such as drawing.png",

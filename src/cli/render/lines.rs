@@ -35,8 +35,8 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     // A job of a batch leaves signals to its run.
     let stop = (!is_captured()).then(Stop::on_signals);
     if let Some(views) = views {
-        if request.style.lines().is_none() {
-            let problem = "areas are drawn from one view; leave it out, or choose --look technical";
+        if request.style.lines().is_none_or(|style| style.areas.is_some()) {
+            let problem = "areas are drawn from one view; leave it out, or draw lines alone";
             return Err(Error::setting("turntable", problem));
         }
         return turn::run(rendering, format, views, session, stop.as_ref());
@@ -51,7 +51,7 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     let Drawn::Lines(drawn) = drawn else { return Ok(Verdict::Good) };
     let DrawnLines { scene, files, style, lines, areas, remarks, load_ms } = *drawn;
     scene.crack_remarks().iter().chain(&remarks).for_each(|remark| say(&format!("tinta: {remark}")));
-    let has_areas = areas.as_ref().is_some_and(|areas| areas.corners_px.is_some());
+    let has_areas = areas.as_ref().is_some_and(|areas| areas.drawn.corners_px.is_some());
     if !has_areas && !lines.segments.iter().any(|segment| segment.is_visible) {
         say("tinta: no line of these classes is visible in this picture; see --classes, --eye and --target");
     }
@@ -78,7 +78,9 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
         return Ok(stopped(stop.as_ref()));
     }
     let pens = match run.explain && drawn.is_for_pen {
-        true => explain::pens(&strokes_of_paths(&lines, paths.clone(), areas.as_ref(), &drawn)?),
+        true => {
+            explain::pens(&strokes_of_paths(&lines, paths.clone(), areas.as_ref().map(|areas| &areas.drawn), &drawn)?)
+        }
         false => String::new(),
     };
     let said = note.map(comment).or_else(|| recipe.as_ref().and_then(Recipe::note));
@@ -136,9 +138,6 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Resu
         None => Ok(()),
     };
     run.refuse_for_lines()?;
-    if request.style.lines().is_some() {
-        refuse(&["no-borders"], "style lines draws nothing but lines; leave it out")?;
-    }
     refuse(&["full", "keep"], "style lines is computed, not drawn by passes; leave it out here")?;
     let problem =
         "style lines has no passes and no model's frames; leave it out, or name a picture such as drawing.png";
@@ -165,6 +164,7 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Resu
         Format::Picture => {
             let problem = "a picture has pixels and no paths; leave it out, or write a .svg";
             refuse(&["provenance", "pen", "fit-curves"], problem)?;
+            refuse(&["areas"], "a picture of exact lines has no areas; leave it out, or write a .svg")?;
             refuse(&OF_PAPER, &pixels_on_paper(&request.options))
         }
         Format::Json => {

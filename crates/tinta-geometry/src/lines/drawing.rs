@@ -11,6 +11,7 @@ pub(super) mod hatches;
 pub(super) mod layers;
 pub(super) mod length;
 pub(super) mod page;
+pub(super) mod painted;
 pub(super) mod pen;
 pub(super) mod settings;
 pub(super) mod simplify;

@@ -34,8 +34,10 @@ mod planar_map;
 mod region;
 mod sheets;
 mod snap;
+mod surface;
 mod tones;
 mod view;
 
 pub use region::{Region, Regions, SeenFace};
+pub use surface::{Joined, Surface};
 pub use tones::{ToneLight, ToneRule, TonedSurface};

@@ -138,6 +138,7 @@ impl Soup {
             triangle_materials: pieces.materials,
             parts: std::mem::take(&mut self.parts),
             triangle_parts: pieces.parts,
+            file_faces: pieces.polygons,
             marked,
             curves,
             defects,
@@ -147,6 +148,9 @@ impl Soup {
         }
         if mesh.triangle_materials.iter().all(|index| *index == NONE) {
             mesh.triangle_materials.clear();
+        }
+        if mesh.file_faces.iter().zip(0..).all(|(face, triangle)| *face == triangle) {
+            mesh.file_faces = Vec::new();
         }
         if mesh.position_colors.len() != mesh.positions.len() {
             mesh.position_colors.clear();

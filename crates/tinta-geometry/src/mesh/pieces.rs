@@ -18,6 +18,8 @@ pub(super) struct Pieces {
     pub texture_coordinates: Vec<[u32; 3]>,
     pub materials: Vec<u32>,
     pub parts: Vec<u32>,
+    /// Each triangle's polygon.
+    pub polygons: Vec<u32>,
     /// How many triangles had no area.
     pub degenerate: usize,
     /// How many polygons had too many corners to be cut.
@@ -90,6 +92,7 @@ impl Pieces {
         self.triangles.reserve_exact(count);
         self.face_normals.reserve_exact(count);
         self.normals.reserve_exact(count);
+        self.polygons.reserve_exact(count);
         if !soup.texture_coordinates.is_empty() {
             self.texture_coordinates.reserve_exact(count);
         }
@@ -111,6 +114,7 @@ impl Pieces {
         self.triangles.push(triangle);
         self.face_normals.push(face_normal);
         self.normals.push(corners.map(|corner| corner.normal));
+        self.polygons.push(polygon as u32);
         if !soup.texture_coordinates.is_empty() {
             self.texture_coordinates.push(corners.map(|corner| corner.texture));
         }
@@ -129,6 +133,7 @@ impl Pieces {
         self.texture_coordinates.append(&mut other.texture_coordinates);
         self.materials.append(&mut other.materials);
         self.parts.append(&mut other.parts);
+        self.polygons.append(&mut other.polygons);
         self.degenerate += other.degenerate;
         self.repeated_corners += other.repeated_corners;
     }
@@ -151,6 +156,7 @@ impl Pieces {
         retain(&mut self.texture_coordinates, &keep);
         retain(&mut self.materials, &keep);
         retain(&mut self.parts, &keep);
+        retain(&mut self.polygons, &keep);
     }
 }
 

@@ -39,6 +39,8 @@ pub struct Mesh {
     pub parts: Vec<NamedPart>,
     /// Each triangle's part or [`NONE`]; empty or as long as `triangles`.
     pub triangle_parts: Vec<u32>,
+    /// Each triangle's 0-based face among those of the file; empty where that is the triangle's own number.
+    pub file_faces: Vec<u32>,
     /// The edges that the file marks as edges to draw, each by its two positions, the lower first; ascending.
     pub marked: Vec<[u32; 2]>,
     /// Curves and points beside the surface.
@@ -125,10 +127,16 @@ impl Mesh {
             triangle_materials: Vec::new(),
             parts: Vec::new(),
             triangle_parts: Vec::new(),
+            file_faces: Vec::new(),
             marked: Vec::new(),
             curves: Curves::default(),
             defects: Defects::default(),
         }
+    }
+
+    /// The 0-based face of the file that a triangle is, or is cut from.
+    pub fn file_face(&self, triangle: u32) -> u32 {
+        self.file_faces.get(triangle as usize).copied().unwrap_or(triangle)
     }
 
     /// Returns the mesh's main memory, bytes, without materials' names.
@@ -143,6 +151,7 @@ impl Mesh {
             + bytes_of(&self.triangle_texture_coordinates)
             + bytes_of(&self.triangle_materials)
             + bytes_of(&self.triangle_parts)
+            + bytes_of(&self.file_faces)
             + bytes_of(&self.marked)
             + bytes_of(&self.curves.positions)
             + bytes_of(&self.curves.file_vertices)

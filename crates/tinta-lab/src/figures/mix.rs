@@ -146,6 +146,7 @@ fn cut(mesh: &Mesh, pieces: usize) -> Mesh {
         triangle_materials: Vec::new(),
         parts: Vec::new(),
         triangle_parts: Vec::new(),
+        file_faces: Vec::new(),
         position_colors: Vec::new(),
         marked: Vec::new(),
         curves: Default::default(),

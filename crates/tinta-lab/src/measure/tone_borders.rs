@@ -7,10 +7,10 @@ use glam::DVec2;
 use rstar::RTree;
 use std::collections::HashMap;
 use tinta::error::Result;
-use tinta::lines::{Progress, Regions, TonedSurface};
+use tinta::lines::{Progress, Regions, ToneRule, TonedSurface};
 use tinta::picture::Picture;
 use tinta::scene::Scene;
-use tinta::styles::{Tones, Vectors};
+use tinta::styles::Tones;
 
 /// Distance between points along an exact border, pixels: fine beside the hundredths that distances are stated in.
 const STEP_PX: f64 = 1.0 / 32.0;
@@ -28,9 +28,9 @@ impl ToneBorders {
     ///
     /// # Errors
     ///
-    /// Those of [`Vectors::regions`].
-    pub(super) fn of(vectors: &Vectors, scene: &Scene) -> Result<Self> {
-        let borders = borders(&vectors.regions(scene, &Progress::default())?);
+    /// Those of [`Regions::toned`].
+    pub(super) fn of(rule: &ToneRule, scene: &Scene) -> Result<Self> {
+        let borders = borders(&Regions::toned(scene, rule, &Progress::default())?);
         let of_border = |ends: [DVec2; 2]| {
             let points: Vec<DVec2> = middles(ends, STEP_PX).collect();
             let length = ends[0].distance(ends[1]) / points.len() as f64;

@@ -6,11 +6,10 @@ use super::super::format::Format;
 use super::super::rendering::Rendering;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
-use tinta::lines::{
-    Areas, LinePath, Phase, Progress as LineProgress, Raster, pdf_of_paths, raster_of_paths, svg_of_paths,
-};
+use tinta::lines::{LinePath, Phase, Progress as LineProgress, Raster, pdf_of_paths, raster_of_paths, svg_of_paths};
 use tinta::picture::Note;
-use tinta::record::lines_json;
+use tinta::record::drawing_json;
+use tinta::styles::ViewAreas;
 use tinta::{DrawingSettings, Picture, Result, Scene, Target, TextTarget, VisibleLines};
 
 /// Writes a drawing, a picture with its notes.
@@ -19,15 +18,16 @@ pub(super) fn write(
     output: &str,
     scene: &Scene,
     (lines, paths): (&VisibleLines, Vec<LinePath>),
-    areas: Option<&Areas>,
+    areas: Option<&ViewAreas>,
     drawn: &DrawingSettings,
     said: Option<&Note>,
 ) -> Result<()> {
     let write = |bytes: Vec<u8>| TextTarget::check(output)?.write_bytes(&bytes);
+    let below = areas.map(|areas| &areas.drawn);
     match format {
-        Format::Svg => write(svg_of_paths(lines, paths, areas, drawn)?.into_bytes()),
-        Format::Pdf => write(pdf_of_paths(lines, paths, areas, drawn)?),
-        Format::Json => write(lines_json(lines, scene)?.into_bytes()),
+        Format::Svg => write(svg_of_paths(lines, paths, below, drawn)?.into_bytes()),
+        Format::Pdf => write(pdf_of_paths(lines, paths, below, drawn)?),
+        Format::Json => write(drawing_json(lines, areas.map(|areas| &areas.regions), scene)?.into_bytes()),
         Format::Picture => {
             let Raster { size, pixels } = raster_of_paths(lines, paths, drawn)?;
             let is_transparent = scene.background == tinta::Background::Transparent;

@@ -6,7 +6,7 @@
 //! colour along the border, below the upper one.
 
 use crate::lines::drawing::simplify::simplified;
-use crate::lines::regions::{Regions, TonedSurface};
+use crate::lines::regions::{Regions, Surface, TonedSurface};
 use crate::scene::Color;
 use glam::{DVec2, I64Vec2};
 use std::collections::BTreeSet;
@@ -15,22 +15,26 @@ use std::collections::HashMap;
 /// The width of a trap, pixels: half of it is seen while the upper area is not painted.
 pub const TRAP_PX: f64 = 4.0;
 
-/// The areas of an object's material, from the darkest tone to the brightest.
+/// The areas of an object's material, or strokes below all areas.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FillGroup {
-    /// The object in the scene.
+    /// The object in the scene; [`crate::mesh::NONE`] for strokes below all areas.
     pub object: u32,
     /// The material in the object's mesh, or [`crate::mesh::NONE`].
     pub material: u32,
+    /// Whether edges are not smoothed: then each pixel is of one area.
+    pub is_crisp: bool,
+    /// Closed polygons by the even-odd rule, pixels, outside of which nothing of the group is drawn; empty: all of it is.
+    pub clip: Vec<Vec<DVec2>>,
     /// The areas, in the order in which they are painted.
     pub fills: Vec<Fill>,
 }
 
-/// An area of one tone, and below it those of brighter tones.
+/// An area of one colour. One of a tone includes those of brighter tones, which are painted above it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fill {
-    /// 0 is the darkest tone.
-    pub tone: u8,
+    /// What it shows.
+    pub surface: Surface,
     /// The colour.
     pub color: Color,
     /// Closed polygons and their holes by the even-odd rule, pixels.
@@ -43,7 +47,7 @@ pub struct Fill {
 pub fn fills(regions: &Regions<Option<TonedSurface>>, color: impl Fn(TonedSurface) -> Color) -> Vec<FillGroup> {
     let surfaces: BTreeSet<TonedSurface> = regions.regions.iter().filter_map(|region| region.seen).collect();
     let surfaces: Vec<TonedSurface> = surfaces.into_iter().collect();
-    let neighbours = neighbours(regions);
+    let neighbours = neighbours(regions, |_, seen| *seen);
     let groups = surfaces.chunk_by(|a, b| (a.object, a.material) == (b.object, b.material));
     let group = |of_group: &[TonedSurface]| {
         let lowest = of_group[0];
@@ -52,15 +56,19 @@ pub fn fills(regions: &Regions<Option<TonedSurface>>, color: impl Fn(TonedSurfac
             let area = regions.joined(|seen| seen.filter(|it| is_of_group(it) && it.tone >= surface.tone).map(|_| ()));
             let loops = area.regions.into_iter().flat_map(|region| region.loops);
             let loops = loops.map(|corners| simplified(&corners, true)).filter(|corners| corners.len() > 2).collect();
-            Fill { tone: surface.tone, color: color(*surface), loops, trap: trap(regions, &neighbours, *surface) }
+            let own = regions.regions.iter().filter(|region| region.seen == Some(*surface));
+            let is_above = |other: TonedSurface| (other.object, other.material) > (surface.object, surface.material);
+            let trap = trap(own.flat_map(|region| &region.loops), &neighbours, is_above);
+            Fill { surface: (*surface).into(), color: color(*surface), loops, trap }
         };
-        FillGroup { object: lowest.object, material: lowest.material, fills: of_group.iter().map(fill).collect() }
+        let fills = of_group.iter().map(fill).collect();
+        FillGroup { object: lowest.object, material: lowest.material, is_crisp: false, clip: Vec::new(), fills }
     };
     groups.map(group).collect()
 }
 
 /// What lies to the left of each side of a region.
-type Neighbours = HashMap<[I64Vec2; 2], TonedSurface>;
+pub(super) type Neighbours<V> = HashMap<[I64Vec2; 2], V>;
 
 /// A point's numbers: regions share their corners to the last bit.
 fn bits(point: DVec2) -> I64Vec2 {
@@ -72,24 +80,26 @@ fn sides(corners: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(from, to)| [*from, *to])
 }
 
-fn neighbours(regions: &Regions<Option<TonedSurface>>) -> Neighbours {
-    let of_region = |region: &crate::lines::Region<Option<TonedSurface>>| {
-        let seen = region.seen;
-        let all: Vec<_> = region.loops.iter().flat_map(|corners| sides(corners)).collect();
-        all.into_iter().filter_map(move |side| Some((side.map(bits), seen?)))
-    };
-    regions.regions.iter().flat_map(of_region).collect()
+/// The values of the regions at each side, by their number and what they show.
+pub(super) fn neighbours<T, V: Copy>(regions: &Regions<T>, value: impl Fn(usize, &T) -> Option<V>) -> Neighbours<V> {
+    let mut neighbours = Neighbours::new();
+    for (number, region) in regions.regions.iter().enumerate() {
+        let Some(value) = value(number, &region.seen) else { continue };
+        let of_region = region.loops.iter().flat_map(|corners| sides(corners));
+        neighbours.extend(of_region.map(|side| (side.map(bits), value)));
+    }
+    neighbours
 }
 
-/// The stretches along which later groups meet a surface.
-fn trap(regions: &Regions<Option<TonedSurface>>, neighbours: &Neighbours, surface: TonedSurface) -> Vec<Vec<DVec2>> {
-    let group = |it: &TonedSurface| (it.object, it.material);
-    let is_below = |[from, to]: [DVec2; 2]| {
-        neighbours.get(&[bits(to), bits(from)]).is_some_and(|other| group(other) > group(&surface))
-    };
+/// The stretches of polygons along which they meet what is painted above them.
+pub(super) fn trap<'a, V: Copy>(
+    loops: impl Iterator<Item = &'a Vec<DVec2>>,
+    neighbours: &Neighbours<V>,
+    is_above: impl Fn(V) -> bool,
+) -> Vec<Vec<DVec2>> {
+    let is_below = |[from, to]: [DVec2; 2]| neighbours.get(&[bits(to), bits(from)]).copied().is_some_and(&is_above);
     let mut stretches: Vec<Vec<DVec2>> = Vec::new();
-    let of_surface = regions.regions.iter().filter(|region| region.seen == Some(surface));
-    for corners in of_surface.flat_map(|region| &region.loops) {
+    for corners in loops {
         let mut is_open = false;
         for side in sides(corners) {
             match (is_below(side), stretches.last_mut().filter(|_| is_open)) {

@@ -24,6 +24,7 @@ pub(in crate::lines) fn with_faces(mesh: &Mesh, faces: Vec<(usize, [u32; 3])>) -
         triangle_texture_coordinates: of_corners(&mesh.triangle_texture_coordinates),
         triangle_materials: of_faces(&mesh.triangle_materials),
         triangle_parts: of_faces(&mesh.triangle_parts),
+        file_faces: faces.iter().map(|(face, _)| mesh.file_face(*face as u32)).collect(),
         triangles: faces.into_iter().map(|(_, corners)| corners).collect(),
         ..mesh.clone()
     }

@@ -65,6 +65,13 @@ pub(super) fn walked<T: Copy + PartialEq>(borders: Vec<Border<T>>, grid: &Grid) 
 }
 
 impl<T: Copy> Regions<T> {
+    /// The same regions with other labels.
+    #[must_use]
+    pub fn labelled<U>(self, label: impl Fn(T) -> U) -> Regions<U> {
+        let of_region = |Region { seen, loops, area_px }: Region<T>| Region { seen: label(seen), loops, area_px };
+        Regions { size: self.size, regions: self.regions.into_iter().map(of_region).collect(), broken: self.broken }
+    }
+
     /// Joins neighbouring regions that get the same label; leaves out those that get none. So the outlines of objects come about, or
     /// the area of several tones.
     #[must_use]

@@ -112,7 +112,7 @@ fn written(drawing: &Drawing<'_>, fills: &[FillGroup], labels: &[Text], scale: f
     let origin = page.origin_px;
     let matrix = [scale, 0.0, 0.0, -scale, -origin.x * scale, (origin.y + page.extent_px.y) * scale];
     content.transform(matrix.map(|number| number as f32));
-    fills.iter().flat_map(|group| &group.fills).for_each(|fill| write_fill(fill, &mut content));
+    fills.iter().for_each(|group| write_fills(group, &mut content));
     content.set_line_cap(LineCapStyle::RoundCap).set_line_join(LineJoinStyle::RoundJoin);
     for (number, layer) in drawing.layers.iter().enumerate() {
         write_layer(drawing, layer, number, &mut content);
@@ -170,12 +170,27 @@ fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, number: usize, content
     content.end_marked_content();
 }
 
+/// Writes the areas of a group.
+fn write_fills(group: &FillGroup, content: &mut Content) {
+    if !group.clip.is_empty() {
+        content.save_state();
+        group.clip.iter().for_each(|corners| write_polyline(corners, true, content));
+        content.clip_even_odd().end_path();
+    }
+    group.fills.iter().for_each(|fill| write_fill(fill, content));
+    if !group.clip.is_empty() {
+        content.restore_state();
+    }
+}
+
 /// Writes an area and its trap.
 fn write_fill(fill: &Fill, content: &mut Content) {
     let [red, green, blue] = fill.color.0;
     content.set_fill_rgb(red, green, blue);
-    fill.loops.iter().for_each(|corners| write_polyline(corners, true, content));
-    content.fill_even_odd();
+    if !fill.loops.is_empty() {
+        fill.loops.iter().for_each(|corners| write_polyline(corners, true, content));
+        content.fill_even_odd();
+    }
     if !fill.trap.is_empty() {
         content.set_stroke_rgb(red, green, blue).set_line_width(TRAP_PX as f32);
         fill.trap.iter().for_each(|points| write_polyline(points, false, content));

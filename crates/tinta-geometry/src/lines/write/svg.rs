@@ -17,6 +17,7 @@ use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::page::PAGE_DECIMALS;
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::drawing::text::{curve_data, decimal, hexadecimal, number, path_data};
+use crate::lines::regions::Surface;
 use crate::markup::escaped;
 use crate::markup::recipe_element;
 use crate::mesh::NONE;
@@ -112,23 +113,43 @@ fn begin(drawing: &Drawing<'_>, out: &mut String) {
     }
 }
 
-/// Writes an object's material as a layer of areas.
+/// Writes an object's material as a layer of areas, each with the numbers of its tone and its face.
 fn write_fills(group: &FillGroup, out: &mut String) {
     let object = group.object;
-    let (name, label) = match group.material {
-        NONE => (format!("fill-{object}"), format!("object {object}")),
-        material => (format!("fill-{object}-{material}"), format!("object {object} material {material}")),
-    };
-    let _ = writeln!(
-        out,
-        r#"<g id="{name}" inkscape:groupmode="layer" inkscape:label="{label}" fill-rule="evenodd" stroke="none" stroke-width="{TRAP_PX}" stroke-linejoin="round">"#
-    );
     let data = |polylines: &[Vec<DVec2>], is_closed: bool| {
         polylines.iter().map(|points| path_data(points, is_closed, false)).collect::<String>()
     };
+    let (name, label) = match group.material {
+        _ if object == NONE => ("fill-seams".to_owned(), "below seams".to_owned()),
+        NONE => (format!("fill-{object}"), format!("object {object}")),
+        material => (format!("fill-{object}-{material}"), format!("object {object} material {material}")),
+    };
+    let edges = match group.is_crisp {
+        true => r#"shape-rendering="crispEdges""#.to_owned(),
+        false => format!(r#"stroke-width="{TRAP_PX}" stroke-linejoin="round""#),
+    };
+    let mut clip = String::new();
+    if !group.clip.is_empty() {
+        clip = format!(r#" clip-path="url(#{name}-clip)""#);
+        let outline = data(&group.clip, true);
+        let _ = writeln!(out, r#"<clipPath id="{name}-clip"><path clip-rule="evenodd" d="{outline}"/></clipPath>"#);
+    }
+    let _ = writeln!(
+        out,
+        r#"<g id="{name}" inkscape:groupmode="layer" inkscape:label="{label}" fill-rule="evenodd" stroke="none" {edges}{clip}>"#
+    );
     for fill in &group.fills {
         let color = hexadecimal(fill.color);
-        let _ = writeln!(out, r#"<path data-tone="{}" fill="{color}" d="{}"/>"#, fill.tone, data(&fill.loops, true));
+        if fill.loops.is_empty() {
+            let _ = writeln!(out, r#"<path fill="none" stroke="{color}" d="{}"/>"#, data(&fill.trap, false));
+            continue;
+        }
+        let Surface { tone, face, .. } = fill.surface;
+        out.push_str("<path ");
+        for (name, number) in [("tone", tone.map(u32::from)), ("face", face)] {
+            let _ = number.map_or(Ok(()), |number| write!(out, r#"data-{name}="{number}" "#));
+        }
+        let _ = writeln!(out, r#"fill="{color}" d="{}"/>"#, data(&fill.loops, true));
         if !fill.trap.is_empty() {
             let _ = writeln!(out, r#"<path fill="none" stroke="{color}" d="{}"/>"#, data(&fill.trap, false));
         }

@@ -24,6 +24,25 @@ fn a_square_becomes_two_triangles_over_four_positions() {
 }
 
 #[test]
+fn triangles_know_the_polygon_that_they_are_cut_from() {
+    let mut soup = square();
+    soup.positions.push(DVec3::X * 2.0);
+    let mut face = |indices: &[u32]| {
+        soup.corners.extend(indices.iter().map(|index| Corner::at(*index)));
+        soup.polygon_sizes.push(indices.len() as u32);
+    };
+    face(&[0, 1, 4]); // on one line
+    face(&[2, 1, 4]);
+    face(&[1, 2, 0]); // repeats half of the square, turned
+    face(&[3, 2, 1, 0]);
+    let mixed = mesh(soup);
+    assert_eq!(mixed.file_faces, [0, 0, 2, 4, 4]);
+    assert_eq!((0..5).map(|triangle| mixed.file_face(triangle)).collect::<Vec<_>>(), mixed.file_faces);
+    let alone = mesh(Soup { corners: [0, 1, 2].map(Corner::at).to_vec(), polygon_sizes: Vec::new(), ..square() });
+    assert!(alone.file_faces.is_empty() && alone.file_face(0) == 0);
+}
+
+#[test]
 fn defects_are_counted_and_left_out() {
     let mut soup = square();
     soup.positions.extend([DVec3::splat(9.0), DVec3::new(f64::NAN, 0.0, 0.0), DVec3::X * 2.0]);

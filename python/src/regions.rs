@@ -1,0 +1,166 @@
+//! Exact areas: arrays of them, SVG, PDF and JSON with the lines above.
+
+use crate::arrays::{points, shaped};
+use crate::errors::raised;
+use crate::lines::{Found, Lines};
+use crate::request::{Basis, asked};
+use crate::settings::options;
+use crate::work::done;
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyList};
+use std::sync::Arc;
+use tinta::choice::Choice;
+use tinta::lines::{Areas, Joined, Progress, Surface, chain, painted, pdf_of_paths, svg_of_paths};
+use tinta::record::regions_json;
+use tinta::styles::{LineStyle, Vectors, ViewAreas};
+use tinta::{Color, Error, Result, Scene, Size, Style};
+
+/// The areas of the lines' view.
+#[pyclass(frozen, module = "tinta_npr._native")]
+pub(crate) struct Regions {
+    areas: Arc<ViewAreas>,
+    scene: Arc<Scene>,
+    lines: Py<Lines>,
+    is_alone: bool,
+}
+
+/// The rule of areas: `by` is a name of [`Joined`], or `tone` for those of a style.
+fn vectors(
+    by: &str,
+    given: &Bound<'_, PyDict>,
+    (style, look): (Option<&str>, Option<&str>),
+    is_alone: bool,
+    size: Size,
+) -> PyResult<Vectors> {
+    let given = options("Lines.regions", given)?;
+    let asked_style = if by == "tone" {
+        asked("Lines.regions", given, &Basis { style, look, ..Basis::default() }).map_err(raised)?.style
+    } else {
+        if let Some(name) =
+            given.keys().map(String::as_str).chain(style.and(Some("style"))).chain(look.and(Some("look"))).next()
+        {
+            return Err(raised(Error::setting(
+                name,
+                "only areas of tone have this; give by=\"tone\", or leave it out",
+            )));
+        }
+        let joined = Joined::NAMED.iter().find(|(name, _)| *name == by).map(|(_, joined)| *joined);
+        let names: Vec<&str> = Joined::NAMED.iter().map(|(name, _)| *name).chain(["tone"]).collect();
+        let problem = format!("choose one of {}", names.join(", "));
+        let joined = joined.ok_or_else(|| raised(Error::value("by", by, problem)))?;
+        Style::Lines(LineStyle { areas: Some(joined), is_of_areas_alone: is_alone, ..LineStyle::default() })
+    };
+    let name = asked_style.name();
+    let problem = "it has no areas of tone; choose three-pass, two-pass, mrt or ink";
+    asked_style.vectors(size).ok_or_else(|| raised(Error::value("style", name, problem)))
+}
+
+/// Finds the areas of a view whose lines are known.
+#[pyfunction]
+pub(crate) fn regions(
+    py: Python<'_>,
+    lines: Py<Lines>,
+    by: &str,
+    given: &Bound<'_, PyDict>,
+    style: Option<&str>,
+    look: Option<&str>,
+) -> PyResult<Regions> {
+    let of = lines.get();
+    let is_alone = of.asked.request.line_style().is_some_and(|style| style.is_of_areas_alone);
+    let vectors = vectors(by, given, (style, look), is_alone, of.scene.size)?;
+    let (scene, found) = (of.scene.clone(), of.lines.clone());
+    let progress = Arc::new(Progress::default());
+    let (watched, seen) = (progress.clone(), scene.clone());
+    let areas = done(py, || progress.cancel(), move || vectors.areas(&seen, &found, &watched))?;
+    Ok(Regions { areas: Arc::new(areas), scene, lines, is_alone })
+}
+
+impl Regions {
+    /// The drawing, in its own colours or in these, one for each region.
+    fn drawn<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        given: &Bound<'_, PyDict>,
+        (name, title): (&'static str, Option<String>),
+        colors: Option<PyReadonlyArray2<'_, f64>>,
+        write: impl FnOnce(Found<'_>, &Areas) -> Result<T> + Send + 'static,
+    ) -> PyResult<T> {
+        let (areas, is_alone) = (self.areas.clone(), self.is_alone);
+        let colors: Option<Vec<Color>> = colors.map(|colors| {
+            let rows = colors.as_array();
+            rows.rows().into_iter().map(|row| Color([row[0] as f32, row[1] as f32, row[2] as f32])).collect()
+        });
+        self.lines.get().drawn(py, given, Some((name, title)), move |found| match colors {
+            Some(colors) => {
+                let fills = painted(&areas.regions, !is_alone, |number| colors[number]);
+                write(found, &Areas { fills, ..Areas::around(&areas.regions) })
+            }
+            None => write(found, &areas.drawn),
+        })
+    }
+}
+
+#[pymethods]
+impl Regions {
+    /// Every column of the regions as an array, under its name: -1 for none.
+    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let of = &self.areas.regions.regions;
+        let arrays = PyDict::new(py);
+        let column = |name: &str, value: &dyn Fn(Surface) -> Option<u32>| {
+            let values =
+                of.iter().map(|region| region.seen.and_then(value).map_or(-1, i64::from)).collect::<Vec<i64>>();
+            arrays.set_item(name, shaped(py, values, &[of.len()])?)
+        };
+        column("object", &|surface| Some(surface.object))?;
+        column("material", &|surface| surface.material)?;
+        column("tone", &|surface| surface.tone.map(u32::from))?;
+        column("face", &|surface| surface.face)?;
+        arrays.set_item("area", shaped(py, of.iter().map(|region| region.area_px).collect(), &[of.len()])?)?;
+        Ok(arrays)
+    }
+
+    /// The loops of each region, arrays of points.
+    fn loops<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyList>>> {
+        let of_region = |region: &tinta::lines::Region<Option<Surface>>| {
+            let loops = region.loops.iter().map(|corners| points(py, corners)).collect::<PyResult<Vec<_>>>()?;
+            PyList::new(py, loops)
+        };
+        self.areas.regions.regions.iter().map(of_region).collect()
+    }
+
+    /// The SVG file's text.
+    fn svg(
+        &self,
+        py: Python<'_>,
+        given: &Bound<'_, PyDict>,
+        title: Option<String>,
+        colors: Option<PyReadonlyArray2<'_, f64>>,
+    ) -> PyResult<String> {
+        self.drawn(py, given, ("drawing.svg", title), colors, |found, areas| {
+            let lines = found.lines.without_specks(found.drawing)?;
+            svg_of_paths(&lines, chain(&lines.segments), Some(areas), found.drawing)
+        })
+    }
+
+    /// The PDF file's bytes.
+    fn pdf<'py>(
+        &self,
+        py: Python<'py>,
+        given: &Bound<'py, PyDict>,
+        title: Option<String>,
+        colors: Option<PyReadonlyArray2<'_, f64>>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = self.drawn(py, given, ("drawing.pdf", title), colors, |found, areas| {
+            let lines = found.lines.without_specks(found.drawing)?;
+            pdf_of_paths(&lines, chain(&lines.segments), Some(areas), found.drawing)
+        })?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// The JSON file's text.
+    fn json(&self, py: Python<'_>) -> PyResult<String> {
+        let (areas, scene) = (self.areas.clone(), self.scene.clone());
+        done(py, || (), move || regions_json(&areas.regions, &scene))
+    }
+}

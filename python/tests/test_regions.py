@@ -1,0 +1,225 @@
+"""Exact areas: arrays, files, matplotlib's patches and PyVista's colours."""
+
+import copy
+import io
+import json
+import pickle
+import re
+
+import numpy as np
+import pytest
+import tinta_npr
+
+
+def signed_area(corners):
+    x, y = np.asarray(corners).T
+    return 0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+
+
+def is_inside(loops, point):
+    """Whether a point is inside closed polygons, by the even-odd rule."""
+    crossings = 0
+    for corners in loops:
+        ends = np.roll(corners, -1, axis=0)
+        for (x1, y1), (x2, y2) in zip(corners, ends):
+            if (y1 > point[1]) != (y2 > point[1]) and point[0] < x1 + (x2 - x1) * (point[1] - y1) / (y2 - y1):
+                crossings += 1
+    return crossings % 2 == 1
+
+
+@pytest.fixture
+def lines(cube):
+    return tinta_npr.lines(*cube, camera=(30, 20), size=(160, 120))
+
+
+@pytest.mark.parametrize("by", ["face", "material", "object", "tone"])
+def test_areas_fill_the_picture(lines, by):
+    areas = lines.regions(by)
+    assert areas.by == by and areas.size == (160, 120) and len(areas) == len(areas.loops)
+    assert areas.area.sum() == pytest.approx(160 * 120, rel=1e-9)
+    for loops, area in zip(areas.loops, areas.area):
+        assert abs(sum(signed_area(corners) for corners in loops)) == pytest.approx(area, rel=1e-9)
+    assert {"face": 3, "material": 1, "object": 1}.get(by, int(areas.tone.max()) + 1) == (areas.object == 0).sum()
+    assert (areas.face >= 0).any() == (by == "face") and (areas.tone >= 0).any() == (by == "tone")
+    places = np.random.default_rng(1).uniform((0, 0), (160, 120), (200, 2))
+    assert all(sum(is_inside(loops, place) for loops in areas.loops) == 1 for place in places)
+
+
+def test_a_face_is_that_of_the_given_mesh(cube):
+    """Each face's middle is in the area of that face, and nowhere else among visible ones."""
+    vertices, faces = cube
+    lines = tinta_npr.lines(vertices, faces, camera=(30, 20), size=(160, 120))
+    areas = lines.regions()
+    seen = areas.face[areas.object >= 0]
+    assert len(set(seen)) == 3
+    for index in np.flatnonzero(areas.object >= 0):
+        middle = lines.project(vertices[faces[areas.face[index]]].mean(axis=0))
+        assert is_inside(areas.loops[index], middle)
+    values = np.arange(6) * 10.0
+    found = areas.of_faces(values)
+    assert np.isnan(found[areas.object < 0]).all() and (found[areas.object >= 0] == seen * 10).all()
+    assert areas.of_faces(np.ones((6, 3))).shape == (len(areas), 3)
+    with pytest.raises(ValueError, match="values: there are 2, but face"):
+        areas.of_faces([1, 2])
+    with pytest.raises(ValueError, match="by object; ask for by="):
+        lines.regions("object").of_faces(values)
+
+
+def test_several_meshes_have_values_of_their_own(cube):
+    vertices, faces = cube
+    beside = vertices + (2, 0, 0)
+    areas = tinta_npr.lines([cube, (beside, faces)], camera=(30, 20)).regions()
+    found = areas.of_faces([np.zeros(6), np.arange(6) + 1])
+    assert (found[areas.object == 0] == 0).all() and (found[areas.object == 1] == areas.face[areas.object == 1] + 1).all()
+    with pytest.raises(ValueError, match="give a list with the values of each"):
+        areas.of_faces(np.zeros(6))
+
+
+def test_tones_are_those_of_a_style(lines):
+    assert set(lines.regions("tone", style="three-pass", tones=1).tone) == {-1, 0}
+    assert lines.regions("tone", tones=2, tone_thresholds=(0, 0.5)).tone.max() == 1
+    with pytest.raises(ValueError, match="style charcoal: it has no areas of tone; choose three-pass"):
+        lines.regions("tone", style="charcoal")
+    with pytest.raises(ValueError, match="tones: only areas of tone have this"):
+        lines.regions("face", tones=2)
+    with pytest.raises(ValueError, match="by faces: choose one of face, material, object, tone"):
+        lines.regions("faces")
+
+
+def test_files_have_the_areas_below_the_lines(lines):
+    areas = lines.regions()
+    text = areas.svg(colors=np.full((len(areas), 3), 0.5), title="A cube")
+    assert len(re.findall(r'<path data-face="\d" fill="#808080"', text)) == 3 and "visible-crease" in text and "A cube" in text
+    assert "visible-crease" in areas.svg() and areas._repr_svg_() == areas.svg()
+    file = io.BytesIO()
+    areas.save(file, format="pdf")
+    assert file.getvalue().startswith(b"%PDF") and areas.pdf() == file.getvalue()
+    areas.save("areas.json")
+    written = json.load(open("areas.json"))
+    assert [region["area_px"] for region in written["regions"]] == areas.area.tolist() and written["objects"][0]["name"] == "mesh"
+    for colors, problem in [([[2, 0, 0]] * len(areas), "from 0 to 1"), ([[0, 0, 0]], "give \\(4, 3\\)")]:
+        with pytest.raises(ValueError, match=problem):
+            areas.svg(colors=colors)
+    with pytest.raises(ValueError, match="written as .svg, .pdf or .json, not as .png"):
+        areas.save("areas.png")
+
+
+def test_settings_of_areas_are_those_of_the_command_line(tinta, lines):
+    drawn = dict(size=(96, 64), areas="object", no_borders=True)
+    tinta_npr.lines("builtin:gear", **drawn).save("ours.svg")
+    assert tinta("render", "builtin:gear", "-o", "theirs.svg", "--areas", "object", "--no-borders", "--size", "96x64") == (0, "")
+    assert open("ours.svg").read() == open("theirs.svg").read()
+    alone = lines.svg(areas="face", no_borders=True)
+    assert "visible-" not in alone and "crispEdges" in alone and "visible-" in lines.svg()
+    assert json.loads(tinta_npr.lines("builtin:gear", **drawn).json())["segments"] == []
+    with pytest.raises(ValueError, match="areas: pixels and layers are of lines alone"):
+        lines.png(areas="face")
+    with pytest.raises(ValueError, match="no_borders: lines\\(\\) draws nothing but lines"):
+        tinta_npr.lines("builtin:gear", no_borders=True)
+
+
+def test_copies_and_pickles_are_the_same(lines):
+    areas = lines.regions("tone", tones=2)
+    for other in (copy.copy(areas), copy.deepcopy(areas), pickle.loads(pickle.dumps(areas))):
+        assert (other.area == areas.area).all() and (other.tone == areas.tone).all() and other.svg() == areas.svg()
+        assert all((a == b).all() for one, two in zip(other.loops, areas.loops) for a, b in zip(one, two))
+    quads = pickle.loads(pickle.dumps(lines)).regions()
+    assert sorted(quads.face) == sorted(lines.regions().face)
+
+
+def test_matplotlib_fills_faces(lines, cube):
+    pytest.importorskip("matplotlib").use("agg")
+    import matplotlib.pyplot as plt
+
+    figure, ax = plt.subplots()
+    areas = tinta_npr.mpl.fill(ax, lines, values=np.arange(6), cmap="viridis", vmin=0, vmax=5)
+    found = lines.regions()
+    faces = found.face[found.object >= 0]
+    assert areas.get_array().tolist() == faces.tolist() and areas.get_clim() == (0, 5)
+    figure.colorbar(areas)
+    figure.savefig("faces.svg")
+    # The picture has the colours of the faces at their middles.
+    tinta_npr.mpl.draw(ax, lines, color="k")
+    figure.canvas.draw()
+    pixels = np.asarray(figure.canvas.buffer_rgba())
+    vertices, corners = cube
+    for face in faces:
+        x, y = lines.project(vertices[corners[face]].mean(axis=0))
+        column, row = ax.transData.transform((x, 120 - y))
+        expected = np.round(np.array(plt.get_cmap("viridis")(face / 5)[:3]) * 255)
+        assert abs(pixels[int(len(pixels) - row), int(column), :3] - expected).max() <= 1
+    for by in ("face", "material", "object", "tone"):
+        assert len(tinta_npr.mpl.fill(ax, lines.regions(by)).get_paths()) == (lines.regions(by).object >= 0).sum()
+    colored = tinta_npr.mpl.fill(ax, *cube, colors=np.eye(6, 3), camera=(30, 20))
+    assert colored.get_facecolor().shape == (3, 4)
+    with pytest.raises(ValueError, match="leave out one of values and colors"):
+        tinta_npr.mpl.fill(ax, lines, values=np.arange(6), colors=np.eye(6, 3))
+    plt.close(figure)
+
+
+def test_matplotlib_finds_areas_again_in_each_view(cube):
+    pytest.importorskip("matplotlib").use("agg")
+    import matplotlib.pyplot as plt
+
+    figure = plt.figure()
+    ax = figure.add_subplot(projection="3d")
+    areas = tinta_npr.mpl.fill(ax, *cube, values=np.arange(6))
+    seen = set()
+    for azimuth in (-60, 120):
+        ax.view_init(20, azimuth)
+        figure.canvas.draw()
+        seen |= set(areas.get_array().tolist())
+    assert len(areas.get_paths()) == 3 and len(seen) == 5, "the bottom is never seen"
+    plt.close(figure)
+
+
+def fills_of(file):
+    """The colours of faces in an SVG, by the number of the object and of the face."""
+    found = {}
+    for group in re.findall(r'<g id="fill-(\d+)".*?</g>', open(file).read(), re.S):
+        text = re.search(rf'<g id="fill-{group}".*?</g>', open(file).read(), re.S).group(0)
+        for face, color in re.findall(r'data-face="(\d+)" fill="(#\w+)"', text):
+            found[int(group), int(face)] = color
+    return found
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_pyvista_fills_have_the_colours_of_its_mappers():
+    pv = pytest.importorskip("pyvista")
+    matplotlib = pytest.importorskip("matplotlib")
+    sphere = pv.Sphere(theta_resolution=12, phi_resolution=8)
+    sphere.cell_data["number"] = np.arange(sphere.n_cells, dtype=float)
+    sphere.point_data["height"] = sphere.points[:, 2]
+    plotter = pv.Plotter(off_screen=True, window_size=(160, 120))
+    plotter.add_mesh(sphere.copy(), scalars="number", cmap="viridis", clim=[0, sphere.n_cells - 1], show_scalar_bar=False)
+    plotter.add_mesh(sphere.translate((2, 0, 0)), scalars="height", cmap="viridis", show_scalar_bar=False)
+    plotter.add_mesh(pv.Cube(center=(4, 0, 0)).cast_to_unstructured_grid(), color="red")
+    plotter.view_xz()
+    tinta_npr.pv.export_svg(plotter, "filled.svg", fill=True)
+    found = fills_of("filled.svg")
+    viridis = matplotlib.colormaps["viridis"]
+
+    def is_near(color, share):
+        rgb = [int(color[at : at + 2], 16) for at in (1, 3, 5)]
+        return np.abs(np.array(viridis(share)[:3]) * 255 - rgb).max() <= 4
+
+    heights = sphere.point_data["height"][sphere.faces.reshape(-1, 4)[:, 1:]].mean(axis=1)
+    assert {object for object, _ in found} == {0, 1, 2}
+    for (object, face), color in found.items():
+        if object == 0:
+            assert is_near(color, face / (sphere.n_cells - 1)), (face, color)
+        elif object == 1:
+            assert is_near(color, (heights[face] + 0.5)), (face, color)
+        else:
+            assert color == "#ff0000"
+    colored = sphere.copy()
+    colored.cell_data["own"] = (np.full((sphere.n_cells, 3), 255 * np.array([0, 1, 0]))).astype(np.uint8)
+    other = pv.Plotter(off_screen=True)
+    other.add_mesh(colored, scalars="own", rgb=True)
+    other.add_mesh(sphere.translate((2, 0, 0)), scalars="number")
+    with pytest.warns(UserWarning, match="its scalar bar is left out"):
+        tinta_npr.pv.export_svg(other, "other.pdf", fill=True)
+        tinta_npr.pv.export_svg(other, "other.svg", fill=True)
+    assert {color for (object, _), color in fills_of("other.svg").items() if object == 0} == {"#00ff00"}
+    for each in (plotter, other):
+        each.close()
