@@ -184,6 +184,7 @@ fn all_options_together_survive_too() {
         "page",
         "ink-threshold",
         "pen",
+        "sheet",
         "fit-curves",
         "turntable",
         "animate",

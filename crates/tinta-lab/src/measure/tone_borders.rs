@@ -137,7 +137,8 @@ mod tests {
         let tones = Tones { levels: [0.2, 0.6, 1.0], ..Tones::default() };
         let size = Size { width: 4, height: 1 };
         let (hard, colors) = picture(size, |x, _| if x < 2 { 0.2 } else { 0.6 });
-        assert_eq!(crossings(&hard, &tones, &colors), [DVec2::new(2.0, 0.5)]);
+        let found = crossings(&hard, &tones, &colors);
+        assert!(matches!(found[..], [place] if place.distance(DVec2::new(2.0, 0.5)) < 1e-6), "{found:?}");
         // The third pixel is covered to three quarters by the brighter tone: its border is at 2.25.
         let (mixed, colors) = picture(size, |x, _| [0.2, 0.2, 0.5, 0.6][x as usize]);
         let found = crossings(&mixed, &tones, &colors);
