@@ -109,6 +109,7 @@ impl Soup {
         }
         // A large model's corners are most of its soup.
         self.corners = Vec::new();
+        self.polygon_parts = Vec::new();
         let mut unused: Vec<bool> = finite.iter().zip(&used).map(|(finite, used)| *finite && !*used).collect();
         curves.file_vertices.iter().for_each(|vertex| unused[*vertex as usize] = false);
         defects.unused_vertices += unused.into_iter().filter(|unused| *unused).count();
@@ -148,9 +149,6 @@ impl Soup {
         }
         if mesh.triangle_materials.iter().all(|index| *index == NONE) {
             mesh.triangle_materials.clear();
-        }
-        if mesh.file_faces.iter().zip(0..).all(|(face, triangle)| *face == triangle) {
-            mesh.file_faces = Vec::new();
         }
         if mesh.position_colors.len() != mesh.positions.len() {
             mesh.position_colors.clear();

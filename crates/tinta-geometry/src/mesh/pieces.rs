@@ -17,8 +17,12 @@ pub(super) struct Pieces {
     pub normals: Vec<[u32; 3]>,
     pub texture_coordinates: Vec<[u32; 3]>,
     pub materials: Vec<u32>,
-    /// Each triangle's polygon.
+    /// Each triangle's polygon; empty unless numbered.
     pub polygons: Vec<u32>,
+    /// Whether a triangle has another number than its polygon, counted from the first.
+    is_numbered: bool,
+    /// The first polygon.
+    first: usize,
     pub parts: Vec<u32>,
     /// How many triangles had no area.
     pub degenerate: usize,
@@ -36,7 +40,7 @@ impl Pieces {
         let starts = starts(soup);
         let count = soup.polygon_count();
         let pieces = in_parallel(count, threads_for(count), |polygons| {
-            let mut pieces = Self::default();
+            let mut pieces = Self { first: polygons.start, ..Self::default() };
             pieces.reserve(polygons.len(), soup);
             let (mut earcut, mut cut, mut points, mut once) = (Earcut::new(), Vec::new(), Vec::new(), Vec::new());
             for polygon in polygons {
@@ -92,7 +96,6 @@ impl Pieces {
         self.triangles.reserve_exact(count);
         self.face_normals.reserve_exact(count);
         self.normals.reserve_exact(count);
-        self.polygons.reserve_exact(count);
         if !soup.texture_coordinates.is_empty() {
             self.texture_coordinates.reserve_exact(count);
         }
@@ -111,10 +114,15 @@ impl Pieces {
             self.degenerate += 1;
             return;
         };
+        if polygon != self.first + self.triangles.len() {
+            self.number();
+        }
+        if self.is_numbered {
+            self.polygons.push(polygon as u32);
+        }
         self.triangles.push(triangle);
         self.face_normals.push(face_normal);
         self.normals.push(corners.map(|corner| corner.normal));
-        self.polygons.push(polygon as u32);
         if !soup.texture_coordinates.is_empty() {
             self.texture_coordinates.push(corners.map(|corner| corner.texture));
         }
@@ -126,7 +134,18 @@ impl Pieces {
         }
     }
 
+    /// Writes down each triangle's polygon.
+    fn number(&mut self) {
+        if !std::mem::replace(&mut self.is_numbered, true) {
+            self.polygons = (self.first as u32..).take(self.triangles.len()).collect();
+        }
+    }
+
     fn append(&mut self, mut other: Self) {
+        if self.is_numbered || other.is_numbered || other.first != self.first + self.triangles.len() {
+            self.number();
+            other.number();
+        }
         self.triangles.append(&mut other.triangles);
         self.face_normals.append(&mut other.face_normals);
         self.normals.append(&mut other.normals);
@@ -147,6 +166,7 @@ impl Pieces {
             return;
         }
         repeated.sort_unstable();
+        self.number();
         self.duplicate += repeated.len();
         let keep: Vec<bool> =
             (0..self.triangles.len() as u32).map(|index| repeated.binary_search(&index).is_err()).collect();
