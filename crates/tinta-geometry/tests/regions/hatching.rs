@@ -156,7 +156,10 @@ fn check(name: &str, scene: &Scene, random: &mut Random, most_strokes: usize, al
             );
             all.length_times_spacing += total * spacing;
             all.area += whole;
-            let centre = image(scene, scene.camera.view_from_world().transform_point3(scene.centre));
+            let view = scene.camera.view_from_world().transform_point3(scene.centre);
+            // What lies before the near plane has no image: then lines run through the picture's middle.
+            let middle = DVec2::new(f64::from(scene.size.width), f64::from(scene.size.height)) * 0.5;
+            let centre = if -view.z > scene.camera.near { image(scene, view) } else { middle };
             for [from, to] in strokes {
                 assert!(
                     (*to - *from).normalize().dot(along) > 1.0 - 1e-6 || from.distance(*to) < 1e-3,

@@ -62,7 +62,7 @@ pub fn hatches(
     Ok(areas.into_iter().map(hatch).collect())
 }
 
-/// The image of the scene's centre; the picture's middle where the centre is not in front of the eye.
+/// The image of the scene's centre; the picture's middle where the centre lies before the near plane.
 fn anchor_px(scene: &Scene) -> DVec2 {
     let space = Space::of(scene);
     let centre = space.view(scene.centre);
