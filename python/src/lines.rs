@@ -305,8 +305,12 @@ impl Lines {
         layers.into_iter().map(described).collect()
     }
 
-    /// The labels of points, each a dict.
+    /// The labels of points, hidden ones too, each a dict.
     fn labels<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        // Without any, all pieces need not be found.
+        if self.scene.objects.iter().all(|object| object.mesh.curves.labels.is_empty()) {
+            return Ok(Vec::new());
+        }
         let described = |label: &tinta::lines::Label| {
             let described = PyDict::new(py);
             described.set_item("text", &label.text)?;
@@ -315,7 +319,7 @@ impl Lines {
             described.set_item("object", label.object)?;
             Ok(described)
         };
-        self.lines.labels.iter().map(described).collect()
+        self.everything(py)?.labels.iter().map(described).collect()
     }
 
     /// The camera: eye, target, up, and either fov in degrees or height in the mesh's units.
