@@ -51,8 +51,17 @@ export async function testPage(tables) {
     return settled();
   };
 
+  /** A place of the left side where the model is drawn: the middle of those whose colour is not the corner's. */
+  const covered = () => {
+    const { width, height } = at("left");
+    const colors = new Uint32Array(picture(at("left")).buffer);
+    const drawn = [...colors.keys()].filter((place) => place % width < width * 0.45 && colors[place] !== colors[0]);
+    const place = drawn[drawn.length >> 1];
+    return [((place % width) + 0.5) / width, (Math.floor(place / width) + 0.5) / height];
+  };
+
   await test("a pixel is explained where the picture is pressed, until the picture changes", async () => {
-    await pointer("pointerdown", 0.25, 0.5, { altKey: true });
+    await pointer("pointerdown", ...covered(), { altKey: true });
     const said = () => at("why").querySelector("pre").textContent;
     assert(!at("why").hidden && /leaves [0-9]/.test(said()) && /the driver/.test(said()), said());
     // What is recomputed is what the browser drew.
@@ -338,7 +347,8 @@ export async function testPage(tables) {
       const { page, at, settled } = lecture;
       const article = at("text-of-lecture");
       await until(() => article.querySelectorAll("h2").length > 3, "its sections");
-      assert([...article.querySelectorAll("h2")].some((heading) => heading.textContent === "To try"), "a question");
+      assert([...article.querySelectorAll("details")].every((answer) => !answer.open && answer.textContent.length > 40), "answers are folded");
+      assert(article.querySelectorAll("details").length === 3, "three exercises");
       assert(at("original").textContent.startsWith("#version 120"), "a shader");
       const buffers = () => [...article.querySelectorAll("canvas.buffer")];
       if (name !== "dachsbacher") {
