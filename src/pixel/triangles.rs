@@ -51,7 +51,9 @@ pub(super) struct Cover<'a> {
 /// All triangles of a draw, in drawing order.
 pub(super) struct Triangles<'a> {
     pub(super) groups: Vec<Group<'a>>,
-    pub(super) all: Vec<Triangle>,
+    all: Vec<Triangle>,
+    /// For each row of the picture, from the lowest: the triangles that may cover pixels of it, in drawing order.
+    rows: Vec<Vec<u32>>,
     size: [f64; 2],
     /// Parts of a pixel that the driver places corners at.
     steps: f64,
@@ -74,8 +76,9 @@ impl<'a> Triangles<'a> {
     /// Returns the triangles of a draw; none for edges. `subpixel_bits` is the driver's.
     pub(super) fn of(scene: &'a Scene, draw: &'a Draw, material_unit: Option<usize>, subpixel_bits: u32) -> Self {
         let size = [f64::from(scene.size.width), f64::from(scene.size.height)];
-        let mut triangles =
-            Self { groups: Vec::new(), all: Vec::new(), size, steps: f64::from(1_u32 << subpixel_bits.min(16)) };
+        let rows = vec![Vec::new(); scene.size.height as usize];
+        let steps = f64::from(1_u32 << subpixel_bits.min(16));
+        let mut triangles = Self { groups: Vec::new(), all: Vec::new(), rows, size, steps };
         if let Some(square) = Square::of(&draw.geometry) {
             triangles.groups.push(Group {
                 object: None,
@@ -156,6 +159,9 @@ impl<'a> Triangles<'a> {
                 bounds[1][axis] = places.iter().map(|place| place[axis]).fold(f64::NEG_INFINITY, f64::max) + 1.0;
             }
         }
+        let number_here = self.all.len() as u32;
+        let (lowest, highest) = (bounds[0][1].max(0.0) as usize, bounds[1][1].max(0.0) as usize);
+        self.rows.iter_mut().take(highest + 1).skip(lowest).for_each(|row| row.push(number_here));
         self.all.push(Triangle { group: self.groups.len() - 1, number, corners, material, color, clip, bounds });
     }
 
@@ -175,7 +181,8 @@ impl<'a> Triangles<'a> {
             let [low, high] = &triangle.bounds;
             (0..2).all(|axis| low[axis] <= middle[axis] && middle[axis] <= high[axis])
         };
-        self.all.iter().filter(is_near).filter_map(move |triangle| {
+        let row = self.rows.get(y as usize).map_or(&[][..], Vec::as_slice);
+        row.iter().map(|number| &self.all[*number as usize]).filter(is_near).filter_map(move |triangle| {
             let cover = self.at(triangle, middle)?;
             let is_within = match triangle.clip.iter().all(|corner| corner.w > 0.0) {
                 true => self.covers(triangle, middle),
