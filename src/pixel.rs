@@ -28,6 +28,7 @@
 
 mod explainer;
 mod explanation;
+mod listing;
 mod fragment;
 mod recomputation;
 mod textures;
@@ -38,6 +39,7 @@ mod verdict;
 pub use explainer::{Explainer, PixelStep, is_background};
 pub use explanation::{Explanation, tap};
 pub use fragment::{Corner, Fragment};
+pub use listing::{LineState, ListedLine};
 pub use recomputation::{Filtering, Recomputation};
 pub use tinta_glsl::{Base, Comparison, Event, Mistake, Precision, Sample, Texel, Type, Value, What};
 pub use variable::Variable;

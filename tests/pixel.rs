@@ -1,8 +1,9 @@
 //! Pixels recomputed by the interpreter against the driver's: every step of every style, pixel by pixel.
 
 use crate::support::{BACKENDS, renderer, scene_with};
+use std::process::Command;
 use tinta::gl::Backend;
-use tinta::pixel::{Explainer, Filtering, Recomputation};
+use tinta::pixel::{Explainer, Filtering, Fragment, PixelStep, Recomputation};
 use tinta::scene::Rectangle;
 use tinta::styles::{Border, Cartoon, Charcoal, Filter, Inking, MapEncoding, PaintMode};
 use tinta::{SceneSettings, Show, Size, Style, StyleName};
@@ -13,8 +14,26 @@ struct Row {
     step: String,
     /// Pixels that differ by no step of 8 bits, by one, by more.
     counts: [usize; 3],
+    /// Pixels beyond a step where the driver left what was there and a triangle is expected, or the other way round.
+    of_coverage: usize,
     largest: f64,
     where_largest: [u32; 2],
+    /// The last statement that ran there.
+    statement: String,
+}
+
+impl Row {
+    fn add(&mut self, explained: &PixelStep, at: [u32; 2], difference: f64) {
+        self.counts[if difference < 0.01 { 0 } else { usize::from(difference > ONE_STEP) + 1 }] += 1;
+        let is_written = explained.decisive().is_some_and(Fragment::is_written);
+        let is_left = explained.before == explained.drawn;
+        self.of_coverage += usize::from(difference > ONE_STEP && is_written == is_left);
+        if difference > self.largest {
+            (self.largest, self.where_largest) = (difference, at);
+            let last = explained.decisive().and_then(|fragment| fragment.events.last());
+            self.statement = last.map_or_else(String::new, |event| format!("{}, line {}", event.shader, event.line));
+        }
+    }
 }
 
 /// A step of 8 bits; values read back are floats.
@@ -33,15 +52,12 @@ fn rows(model: &str, style: &Style, side: u32, every: u32, backend: Backend) -> 
     let mut rows: Vec<Row> = Vec::new();
     for y in (0..side).step_by(every as usize) {
         for x in (0..side).step_by(every as usize) {
-            let steps = explainer.pixel([x, y], false).unwrap();
+            let steps = explainer.pixel([x, y], true).unwrap();
             rows.resize(steps.len(), Row::default());
             for (step, row) in steps.iter().zip(&mut rows) {
                 row.step = format!("{} {}", step.pass, step.step);
                 let Some(difference) = step.difference else { continue };
-                row.counts[if difference < 0.01 { 0 } else { usize::from(difference > ONE_STEP) + 1 }] += 1;
-                if difference > row.largest {
-                    (row.largest, row.where_largest) = (difference, [x, y]);
-                }
+                row.add(step, [x, y], difference);
             }
         }
     }
@@ -134,6 +150,54 @@ fn every_pixel_of_llvmpipe_is_the_interpreter_s() {
     }
     all_within_a_step("builtin:soldier", &Style::named(StyleName::Sand), 160, 1, BACKENDS[0]);
     all_within_a_step("builtin:bust", &Style::named(StyleName::ThreePass), 160, 1, BACKENDS[1]);
+}
+
+/// Whether this process draws with softpipe. If not, the test runs again in a process that does.
+fn is_softpipe(test: &str) -> bool {
+    if std::env::var("GALLIUM_DRIVER").is_ok_and(|driver| driver == "softpipe") {
+        return true;
+    }
+    let mut again = Command::new(std::env::current_exe().unwrap());
+    again.args([&format!("pixel::{test}"), "--exact", "--include-ignored", "--nocapture"]);
+    let output = again.env("GALLIUM_DRIVER", "softpipe").output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    assert!(output.status.success() && text(&output.stdout).contains("1 passed"), "{}", text(&output.stderr));
+    false
+}
+
+/// Compares styles with softpipe, and fails with all rows if one has too many pixels beyond a step.
+fn softpipe_differs_little(side: u32, every: u32) {
+    let pixels = side.div_ceil(every).pow(2) as usize;
+    let mut wrong = String::new();
+    for style in styles() {
+        for row in rows("builtin:bust", &with_textures(style.clone(), side), side, every, BACKENDS[0]) {
+            let allowed = allowed_of_softpipe(&style) * pixels / 100_000;
+            if row.counts[2] > allowed {
+                wrong.push_str(&format!("{}, {allowed} allowed: {row:?}\n", style.name()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+/// How many of a hundred thousand pixels may differ by more than a step of 8 bits.
+fn allowed_of_softpipe(_: &Style) -> usize {
+    0
+}
+
+#[test]
+fn softpipe_s_values_are_those_of_the_interpreter() {
+    if is_softpipe("softpipe_s_values_are_those_of_the_interpreter") {
+        softpipe_differs_little(64, 3);
+    }
+}
+
+#[test]
+#[ignore = "exhaustive: every pixel of the goldens' size, all styles on the bust"]
+fn every_pixel_of_softpipe_is_the_interpreter_s() {
+    if is_softpipe("every_pixel_of_softpipe_is_the_interpreter_s") {
+        softpipe_differs_little(160, 1);
+    }
 }
 
 /// Errata V7: charcoal as published, with textures of their own size, differs from exact arithmetic by the weights of the driver's

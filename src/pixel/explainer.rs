@@ -87,12 +87,24 @@ impl<'a> Explainer<'a> {
         how: Recomputation,
         replaced: &HashMap<String, String>,
     ) -> Result<Self> {
+        Self::at(scene, plan, values, how, replaced, None)
+    }
+
+    /// Like [`Explainer::with_shaders`], for this pixel alone if one is given, which takes less time.
+    pub(super) fn at(
+        scene: &'a Scene,
+        plan: &'a Plan,
+        values: &'a [StepValues],
+        how: Recomputation,
+        replaced: &HashMap<String, String>,
+        only_at: Option<[u32; 2]>,
+    ) -> Result<Self> {
         if plan.supersample > 1 {
             let problem = "a pixel of it has several colours; explain a pixel of the picture drawn once, without this";
             return Err(Error::value("supersample", plan.supersample, problem));
         }
         let draws = (0..values.len())
-            .map(|number| prepared(scene, plan, values, (number, replaced), how))
+            .map(|number| prepared(scene, plan, values, (number, replaced), (how, only_at)))
             .collect::<Result<_>>()?;
         Ok(Self { plan, values, draws })
     }
@@ -110,7 +122,7 @@ impl<'a> Explainer<'a> {
         (number, at): (usize, [u32; 2]),
     ) -> Result<PixelStep> {
         let mut draws: Vec<Option<PreparedDraw<'a>>> = (0..number).map(|_| None).collect();
-        draws.push(prepared(scene, plan, values, (number, &HashMap::new()), how)?);
+        draws.push(prepared(scene, plan, values, (number, &HashMap::new()), (how, Some(at)))?);
         Self { plan, values, draws }.at_step(number, at, Trace::Nothing)
     }
 
@@ -221,7 +233,7 @@ fn prepared<'a>(
     plan: &'a Plan,
     values: &'a [StepValues],
     (number, replaced): (usize, &HashMap<String, String>),
-    how: Recomputation,
+    (how, only_at): (Recomputation, Option<[u32; 2]>),
 ) -> Result<Option<PreparedDraw<'a>>> {
     let Some((pass, Step::Draw(draw))) = all_steps(plan).nth(number) else { return Ok(None) };
     if matches!(draw.geometry, Geometry::Edges { .. }) {
@@ -245,7 +257,7 @@ fn prepared<'a>(
         program: program.to_string(),
         vertex: stage(&[text(program.vertex)?])?,
         fragment: stage(&fragments)?,
-        triangles: Triangles::of(scene, draw, material, how.subpixel_bits),
+        triangles: Triangles::of(scene, draw, material, how.subpixel_bits, only_at),
         samplers: samplers.collect(),
         images: Images::of(scene, plan, values, (number, draw), how.filtering)?,
         precision: how.precision,

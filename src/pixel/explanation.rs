@@ -54,6 +54,23 @@ impl Explanation {
     /// [`Error::CommandLine`] for a place outside of the picture or of background; those of [`Renderer::step_values`] and of
     /// [`Explainer`].
     pub fn of(style: &Style, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<Self> {
+        let mut explained = Self::without_lines(style, scene, renderer, place)?;
+        if style.style_name().has_lines() && explained.texts.is_empty() {
+            let (at, plan) = (explained.place_in_textures, style.plan(scene, Show::Borders)?);
+            let values = renderer.step_values(scene, &plan, around(at, scene))?;
+            let lines = VisibleLines::of(scene, &LineSettings::default())?;
+            let how = Recomputation::like(renderer.context());
+            explained.lines = Some(against_lines(scene, style, (&plan, &values), &lines, at, how)?);
+        }
+        Ok(explained)
+    }
+
+    /// Like [`Explanation::of`], without the verdict of the exact lines, which take longer.
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn without_lines(style: &Style, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<Self> {
         let size = scene.size;
         let refuse = |problem: String| Error::CommandLine { problem: format!("{},{}: {problem}", place.x, place.y) };
         let is_within = |at: f64, count: u32| (0.0..f64::from(count)).contains(&at);
@@ -65,27 +82,14 @@ impl Explanation {
         }
         let pixel = [place.x as u32, place.y as u32];
         let at = [pixel[0], size.height - 1 - pixel[1]];
-        let (x, y) = (at[0].saturating_sub(MARGIN_PX), at[1].saturating_sub(MARGIN_PX));
-        let until = |at: u32, count: u32| (at + MARGIN_PX + 1).min(count);
-        let part = Rectangle { x, y, width: until(at[0], size.width) - x, height: until(at[1], size.height) - y };
-
         let plan = style.plan(scene, Show::Final)?;
-        let values = renderer.step_values(scene, &plan, part)?;
+        let values = renderer.step_values(scene, &plan, around(at, scene))?;
         let how = Recomputation::like(renderer.context());
         let replaced = renderer.replaced_shaders();
-        let steps = Explainer::with_shaders(scene, &plan, &values, how, &replaced)?.pixel(at, true)?;
+        let steps = Explainer::at(scene, &plan, &values, how, &replaced, Some(at))?.pixel(at, true)?;
         if is_background(&steps) {
             return Err(refuse("this is background, where nothing is drawn; choose a pixel of the model".to_owned()));
         }
-        let lines = match style.style_name().has_lines() && replaced.is_empty() {
-            true => {
-                let plan = style.plan(scene, Show::Borders)?;
-                let values = renderer.step_values(scene, &plan, part)?;
-                let lines = VisibleLines::of(scene, &LineSettings::default())?;
-                Some(against_lines(scene, style, (&plan, &values), &lines, at, how)?)
-            }
-            false => None,
-        };
         let color = steps.last().and_then(|step| step.drawn.first()).copied().unwrap_or_default();
         Ok(Self {
             style: style.name(),
@@ -95,15 +99,20 @@ impl Explanation {
             renderer: renderer.context().renderer.clone(),
             objects: scene.objects.iter().map(|object| object.mesh.name.clone()).collect(),
             steps,
-            lines,
+            lines: None,
             texts: replaced.into_iter().collect(),
         })
     }
 
+    /// The text of a shader that ran.
+    pub(super) fn text(&self, shader: &str) -> &str {
+        let replaced = self.texts.iter().find(|(path, _)| path == shader).map(|(_, text)| text.as_str());
+        replaced.or_else(|| crate::glsl::source(shader)).unwrap_or_default()
+    }
+
     /// The line of a shader that an event comes from, shortened.
     pub fn source(&self, event: &Event) -> String {
-        let replaced = self.texts.iter().find(|(path, _)| *path == event.shader).map(|(_, text)| text.as_str());
-        let text = replaced.or_else(|| crate::glsl::source(&event.shader)).unwrap_or_default();
+        let text = self.text(&event.shader);
         let line = text.lines().nth((event.line as usize).saturating_sub(1)).unwrap_or_default();
         line.trim().chars().take(SOURCE_LENGTH).collect()
     }
@@ -198,6 +207,13 @@ impl Display for AgainstLines {
 
 fn three_digits(value: f64) -> String {
     format!("{value:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// The pixels to read back around one.
+fn around(at: [u32; 2], scene: &Scene) -> Rectangle {
+    let (x, y) = (at[0].saturating_sub(MARGIN_PX), at[1].saturating_sub(MARGIN_PX));
+    let until = |at: u32, count: u32| (at + MARGIN_PX + 1).min(count);
+    Rectangle { x, y, width: until(at[0], scene.size.width) - x, height: until(at[1], scene.size.height) - y }
 }
 
 /// The letter of the texts' filters for a texel around the pixel: A to I from the lower left.

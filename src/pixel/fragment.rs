@@ -157,12 +157,7 @@ impl PreparedDraw<'_> {
     }
 
     /// What the vertex shader did for a corner, if everything is traced, and what it passed on.
-    fn corner(
-        &self,
-        cover: &Cover<'_>,
-        corner: u32,
-        trace: Trace<'_>,
-    ) -> Result<(Vec<Event>, Vec<(String, Value)>)> {
+    fn corner(&self, cover: &Cover<'_>, corner: u32, trace: Trace<'_>) -> Result<(Vec<Event>, Vec<(String, Value)>)> {
         if trace == Trace::Everything {
             let run = self.run_vertex(cover, corner, trace)?;
             let varyings = self.passed(&run);

@@ -149,7 +149,10 @@ impl Variable {
 impl Display for Variable {
     fn fmt(&self, out: &mut Formatter<'_>) -> std::fmt::Result {
         let Self { name, pass, step, of, pixels, not_finite, range: [low, high], shown: [black, white], .. } = self;
-        write!(out, "{name}, a {of} of {pass}, {step}: {low:.6} to {high:.6} in {pixels} pixels; black is {black:.6}, white {white:.6}")?;
+        write!(
+            out,
+            "{name}, a {of} of {pass}, {step}: {low:.6} to {high:.6} in {pixels} pixels; black is {black:.6}, white {white:.6}"
+        )?;
         if *not_finite > 0 {
             write!(out, "; {not_finite} pixels have no finite number and are magenta")?;
         }
@@ -168,11 +171,16 @@ fn unknown(name: &str, known: &[(usize, &str, &str)]) -> String {
         }
     }
     if passes.is_empty() {
-        return "no fragment shader of this style has variables that can be recomputed; choose another style".to_owned();
+        return "no fragment shader of this style has variables that can be recomputed; choose another style"
+            .to_owned();
     }
     let all: Vec<&str> = known.iter().map(|(.., variable)| *variable).collect();
     let listed: Vec<String> = passes.iter().map(|(pass, names)| format!("{pass} has {}", names.join(", "))).collect();
-    meant_or(name.split_once('.').map_or(name, |(_, rest)| rest), &all, &format!("choose another: {}", listed.join("; ")))
+    meant_or(
+        name.split_once('.').map_or(name, |(_, rest)| rest),
+        &all,
+        &format!("choose another: {}", listed.join("; ")),
+    )
 }
 
 /// The last value of a variable in every pixel, top row first.
@@ -232,7 +240,8 @@ mod tests {
         let start = 10 + usize::from(bytes[8]);
         assert_eq!(start % 64, 0);
         assert!(String::from_utf8_lossy(&bytes[..start]).contains("'shape': (1, 2, 2)"));
-        let floats: Vec<f32> = bytes[start..].chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect();
+        let floats: Vec<f32> =
+            bytes[start..].chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect();
         assert_eq!(floats[..2], [0.5, -2.0]);
         assert!(floats[2..].iter().all(|float| float.is_nan()) && floats.len() == 4);
     }

@@ -9,7 +9,11 @@ pub(crate) fn assigned(program: &Program) -> Vec<&str> {
     let bodies = program.shaders.iter().flat_map(|shader| &shader.functions).filter_map(|f| f.body.as_ref());
     bodies.flatten().for_each(|statement| of_statement(statement, &mut names));
     let mut once: Vec<&str> = Vec::new();
-    names.into_iter().for_each(|name| if !once.contains(&name) { once.push(name) });
+    names.into_iter().for_each(|name| {
+        if !once.contains(&name) {
+            once.push(name)
+        }
+    });
     once
 }
 

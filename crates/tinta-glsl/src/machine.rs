@@ -54,7 +54,16 @@ pub(crate) fn run(
     settings: &Settings<'_>,
 ) -> Result<Run, Mistake> {
     let variables = Variables::given(inputs);
-    let mut machine = Machine { program, textures, settings, variables, statements: 0, calls: 0, compared: None, run: Run::default() };
+    let mut machine = Machine {
+        program,
+        textures,
+        settings,
+        variables,
+        statements: 0,
+        calls: 0,
+        compared: None,
+        run: Run::default(),
+    };
     match machine.start() {
         Ok(()) => {}
         Err(Stop::Discard) => machine.run.is_discarded = true,

@@ -6,15 +6,18 @@
 use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
 use crate::picture::Picture;
+use crate::pixel::Explanation;
 use crate::renderer::{Renderer, median, milliseconds_since};
 use crate::request::Request;
 use crate::scene::Scene;
 use crate::styles::{Show, Style};
 use crate::window::threads::coarse;
+use crate::window::threads::explain::PixelJob;
 use crate::window::threads::job::{Cost, Drawing, Job};
 use crate::window::threads::line_measure::LineMeasure;
 use crate::window::threads::report::{Report, Reporter};
 use crate::window::values::event::Side;
+use glam::DVec2;
 use std::collections::HashMap;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
@@ -26,6 +29,8 @@ pub(in crate::window) enum Order {
     Draw(Box<Job>),
     /// Time this and draw its lines alone.
     MeasureCost(Box<Job>, Option<LineMeasure>),
+    /// Explain this pixel.
+    Explain(Box<PixelJob>),
     /// Use these shaders instead of those built in, by their paths below `glsl/`.
     Shaders(HashMap<String, String>),
 }
@@ -126,6 +131,17 @@ impl Drawer {
         Request::of_picture(style, show).picture_of(scene, &mut self.renderer)
     }
 
+    /// Explains a pixel.
+    ///
+    /// # Errors
+    ///
+    /// As [`Explanation::of`].
+    pub fn explain(&mut self, job: &PixelJob) -> Result<Explanation> {
+        let scene = Job { is_coarse: false, ..job.view.clone() }.scene()?;
+        let place = DVec2::from(job.pixel.map(f64::from));
+        Explanation::without_lines(&job.style, &scene, &mut self.renderer, place)
+    }
+
     fn frame_ms(&mut self, scene: &Scene, style: &Style) -> Result<f64> {
         let start = Instant::now();
         self.draw_scene(scene, style, Show::Final)?;
@@ -186,6 +202,7 @@ fn work(backend: Backend, number: usize, orders: &Receiver<Order>, reporter: &Re
                 Ok((scene, costs)) => Report::Cost { scene: Box::new(scene), costs },
                 Err(error) => Report::NotPriced(error),
             },
+            Order::Explain(job) => Report::Explained(Box::new(drawer.explain(&job))),
             Order::Shaders(shaders) => match drawer.replace_shaders(shaders) {
                 Ok(()) => Report::ShadersTaken,
                 Err(error) => Report::ShadersRefused(error),

@@ -133,7 +133,11 @@ impl Output {
         tinta::cli::messages::check_output(path)?;
         inputs.keep(path)?;
         if path == "-" && arguments.json {
-            return Err(Error::value("output", "-", "the picture and --json cannot share standard output; name a file"));
+            return Err(Error::value(
+                "output",
+                "-",
+                "the picture and --json cannot share standard output; name a file",
+            ));
         }
         let is_numbers = Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npy"));
         match arguments.variable.is_some() && is_numbers {

@@ -106,7 +106,10 @@ impl<'a> Sheet<'a> {
         self.top += 32;
         let objects = objects.join(", ");
         let [red, green, blue, _] = color;
-        self.line(&format!("{objects}, {size} pixels; red {red}, green {green}, blue {blue} of 255; drawn by {renderer}"), SOFT);
+        self.line(
+            &format!("{objects}, {size} pixels; red {red}, green {green}, blue {blue} of 255; drawn by {renderer}"),
+            SOFT,
+        );
         if let Some(lines) = lines {
             lines.to_string().lines().for_each(|line| self.line(line, TEXT));
         }
@@ -219,7 +222,9 @@ impl<'a> Sheet<'a> {
         self.canvas.write(MARGIN, self.top, &format!("{:>4}", event.line), &self.code, SOFT);
         self.canvas.write(source, self.top, &self.why.source(event), &self.code, SOFT);
         let swatch = match &event.what {
-            What::Set { value, .. } if value.of.base == Base::Float && !value.of.is_matrix() => color_of(value.numbers()),
+            What::Set { value, .. } if value.of.base == Base::Float && !value.of.is_matrix() => {
+                color_of(value.numbers())
+            }
             What::Read { sample, .. } => color_of(&sample.value),
             _ => None,
         };
@@ -259,7 +264,8 @@ impl<'a> Sheet<'a> {
         self.canvas.fill(at(threshold), middle - bar.height / 2, bar, opaque(TEXT));
         let dot = Size { width: 7, height: 7 };
         self.canvas.fill(at(value).saturating_sub(2), middle - dot.height / 2, dot, opaque(MARK));
-        let ends = [low, high].map(|number| format!("{number:.3}").trim_end_matches('0').trim_end_matches('.').to_owned());
+        let ends =
+            [low, high].map(|number| format!("{number:.3}").trim_end_matches('0').trim_end_matches('.').to_owned());
         let before = left.saturating_sub(self.small.width(&ends[0]) + 4);
         self.canvas.write(before, self.top + 2, &ends[0], &self.small, SOFT);
         self.canvas.write(left + SCALE.width + 4, self.top + 2, &ends[1], &self.small, SOFT);
