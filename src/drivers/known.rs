@@ -22,7 +22,7 @@ pub struct KnownFault {
 }
 
 /// All that are known.
-pub const KNOWN: [KnownFault; 6] = [
+pub const KNOWN: [KnownFault; 7] = [
     KnownFault {
         name: "two contexts of one screen crash when they work at once",
         first_seen: "Mesa 22.3.6, llvmpipe",
@@ -50,10 +50,20 @@ pub const KNOWN: [KnownFault; 6] = [
     KnownFault {
         name: "published charcoal and sand change shade",
         first_seen: "Mesa 20.3.5, llvmpipe",
-        last_seen: "Mesa 22.3.6, softpipe",
+        last_seen: "NVIDIA 580.159.04, H100",
         workaround: "none; less so with texture-size as large as the picture",
-        detected_by: "the renderer's name and version",
-        is_of: |info| info.renderer.contains("softpipe") || info.version.contains("Mesa 20.3"),
+        detected_by: "the renderer's name and version, and the vendor",
+        is_of: |info| {
+            info.renderer.contains("softpipe") || info.version.contains("Mesa 20.3") || info.vendor.starts_with("NVIDIA")
+        },
+    },
+    KnownFault {
+        name: "smoothed lines shade the pixels of their sides otherwise",
+        first_seen: "NVIDIA 580.159.04, H100",
+        last_seen: "NVIDIA 580.159.04, H100",
+        workaround: "none, as OpenGL leaves the shade to the driver; line-drawing quads draws as the reference driver does",
+        detected_by: "the vendor",
+        is_of: |info| info.vendor.starts_with("NVIDIA"),
     },
     KnownFault {
         name: "the points that join wide lines cover other pixels",

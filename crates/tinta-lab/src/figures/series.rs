@@ -119,6 +119,9 @@ pub(super) fn take_turns(
     step: &mut impl FnMut(),
 ) -> Result<()> {
     let is_program = renderer.context().is_software();
+    if let Some(first) = contestants.first() {
+        renderer.raise_clock(&first.scene, &first.plan)?;
+    }
     for _ in 0..frames {
         for Contestant { scene, plan, times } in contestants.iter_mut() {
             // A frame that follows one of another kind also clears up after that one: up to a fifth of a large scene's frame on a

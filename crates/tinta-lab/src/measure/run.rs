@@ -175,6 +175,10 @@ pub fn measure(
         }
         step(MeasureStep::Errors);
     }
+    // Looking for errors took the processor alone.
+    if let Some(first) = contestants.first() {
+        renderer.raise_clock(&subject.scene, &first.plan)?;
+    }
     for turn in 0..turns(how.frames) {
         let frames = FRAMES_A_TURN.min(how.frames - turn * FRAMES_A_TURN);
         for contestant in &mut contestants {

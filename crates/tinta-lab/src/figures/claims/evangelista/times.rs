@@ -14,6 +14,9 @@ use tinta::mesh::Mesh;
 use tinta::scene::{Scene, SceneSettings};
 use tinta::styles::{Border, Cartoon, Filter, MapEncoding, Show, Style};
 
+/// The text's graphics card, as its driver names it.
+const CARD: &str = "GeForce FX 5200";
+
 /// Least share of a printed percentage that counts as reproducing it.
 const FOUND_AGAIN: f64 = 0.5;
 
@@ -49,11 +52,11 @@ pub(super) fn nine_reads(numbers: &Numbers) -> Finding {
     Finding::of_repeats(longer.is_positive(), vec![Number::percents("longer with nine reads", longer)])
 }
 
-/// A rule on a rate or a percentage that the text measured on its graphics card: a program that draws decides nothing.
+/// A rule on a rate or a percentage that the text measured on its graphics card: only that card decides it.
 fn on_a_card(numbers: &Numbers, holds: Option<bool>, measured: Vec<Number>) -> Finding {
-    match numbers.host.is_software {
-        true => Finding::undecided("the text's number is a graphics card's, and here a program draws", measured),
-        false => Finding::of_repeats(holds, measured),
+    match numbers.host.renderer.contains(CARD) {
+        true => Finding::of_repeats(holds, measured),
+        false => Finding::undecided("the text's number is that of a GeForce FX 5200, and another renderer draws here", measured),
     }
 }
 
