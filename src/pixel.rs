@@ -37,7 +37,7 @@ mod variable;
 mod verdict;
 
 pub use explainer::{Explainer, PixelStep, is_background};
-pub use explanation::{Explanation, tap};
+pub use explanation::{Explanation, around, tap};
 pub use fragment::{Corner, Fragment};
 pub use listing::{LineState, ListedLine};
 pub use recomputation::{Filtering, Recomputation};

@@ -3,7 +3,8 @@
 use crate::support::{BACKENDS, renderer, scene_with};
 use std::process::Command;
 use tinta::gl::Backend;
-use tinta::pixel::{Explainer, Filtering, Fragment, PixelStep, Recomputation};
+use tinta::glam::DVec2;
+use tinta::pixel::{Explainer, Explanation, Filtering, Fragment, LineState, PixelStep, Recomputation, What};
 use tinta::scene::Rectangle;
 use tinta::styles::{Border, Cartoon, Charcoal, Filter, Inking, MapEncoding, PaintMode};
 use tinta::{SceneSettings, Show, Size, Style, StyleName};
@@ -152,6 +153,55 @@ fn every_pixel_of_llvmpipe_is_the_interpreter_s() {
     all_within_a_step("builtin:bust", &Style::named(StyleName::ThreePass), 160, 1, BACKENDS[1]);
 }
 
+#[test]
+fn a_listing_has_every_line_s_last_value_and_tells_branches_apart() {
+    let side = 64;
+    let size = Size { width: side, height: side };
+    let scene = scene_with("builtin:bust", SceneSettings { size, ..SceneSettings::default() });
+    let mut renderer = renderer(BACKENDS[0]);
+    let (mut not_taken, mut skipped) = (0, 0);
+    for style in styles() {
+        let style = with_textures(style, side);
+        for at in [[32, 20], [28, 30], [36, 44], [25, 50]] {
+            let place = DVec2::from(at.map(f64::from));
+            let explained = Explanation::without_lines(&style, &scene, &mut renderer, place).unwrap();
+            for (number, step) in explained.steps.iter().enumerate() {
+                let Some(fragment) = step.decisive() else {
+                    assert!(explained.listing(number).is_empty());
+                    continue;
+                };
+                let listing = explained.listing(number);
+                let lines = || listing.iter().flat_map(|(path, lines)| lines.iter().map(move |line| (path, line)));
+                for (path, line) in lines() {
+                    let source = tinta::glsl::source(path).unwrap().lines().nth(line.number as usize - 1).unwrap();
+                    assert_eq!(line.text, source.trim_end());
+                    let here =
+                        fragment.events.iter().filter(|event| event.shader == *path && event.line == line.number);
+                    let taken: Vec<bool> = here
+                        .filter_map(|event| match event.what {
+                            What::Branched { is_taken, .. } => Some(is_taken),
+                            _ => None,
+                        })
+                        .collect();
+                    let is_false = !taken.is_empty() && !taken.contains(&true);
+                    assert_eq!(line.state == LineState::NotTaken, is_false, "{path} {line:?}");
+                    not_taken += usize::from(is_false);
+                    skipped += usize::from(line.state == LineState::Skipped);
+                }
+                for event in &fragment.events {
+                    let What::Set { .. } = event.what else { continue };
+                    let told = explained.in_words(event);
+                    let is_told = |(path, line): (&String, &tinta::pixel::ListedLine)| {
+                        *path == event.shader && line.number == event.line && line.values.contains(&told)
+                    };
+                    assert!(lines().any(is_told), "{told} of {} line {}", event.shader, event.line);
+                }
+            }
+        }
+    }
+    assert!(not_taken > 20 && skipped > 0, "{not_taken} {skipped}");
+}
+
 /// Whether this process draws with softpipe. If not, the test runs again in a process that does.
 fn is_softpipe(test: &str) -> bool {
     if std::env::var("GALLIUM_DRIVER").is_ok_and(|driver| driver == "softpipe") {
@@ -165,13 +215,12 @@ fn is_softpipe(test: &str) -> bool {
     false
 }
 
-/// Compares styles with softpipe, and fails with all rows if one has too many pixels beyond a step.
-fn softpipe_differs_little(side: u32, every: u32) {
-    let pixels = side.div_ceil(every).pow(2) as usize;
+/// Compares styles with softpipe, and fails with all rows that have more pixels beyond a step than allowed.
+fn softpipe_differs_little(side: u32, every: u32, allowed: impl Fn(StyleName) -> usize) {
     let mut wrong = String::new();
     for style in styles() {
+        let allowed = allowed(style.style_name());
         for row in rows("builtin:bust", &with_textures(style.clone(), side), side, every, BACKENDS[0]) {
-            let allowed = allowed_of_softpipe(&style) * pixels / 100_000;
             if row.counts[2] > allowed {
                 wrong.push_str(&format!("{}, {allowed} allowed: {row:?}\n", style.name()));
             }
@@ -180,15 +229,11 @@ fn softpipe_differs_little(side: u32, every: u32) {
     assert!(wrong.is_empty(), "{wrong}");
 }
 
-/// How many of a hundred thousand pixels may differ by more than a step of 8 bits.
-fn allowed_of_softpipe(_: &Style) -> usize {
-    0
-}
-
 #[test]
 fn softpipe_s_values_are_those_of_the_interpreter() {
     if is_softpipe("softpipe_s_values_are_those_of_the_interpreter") {
-        softpipe_differs_little(64, 3);
+        // Derivatives of depth, at the rims of triangles.
+        softpipe_differs_little(64, 3, |style| if style == StyleName::Ink { 2 } else { 0 });
     }
 }
 
@@ -196,7 +241,15 @@ fn softpipe_s_values_are_those_of_the_interpreter() {
 #[ignore = "exhaustive: every pixel of the goldens' size, all styles on the bust"]
 fn every_pixel_of_softpipe_is_the_interpreter_s() {
     if is_softpipe("every_pixel_of_softpipe_is_the_interpreter_s") {
-        softpipe_differs_little(160, 1);
+        softpipe_differs_little(160, 1, |style| match style {
+            // Derivatives of depth, at the rims of triangles: plane-map.frag, line 22.
+            StyleName::Ink => 5,
+            // facing.frag, line 14.
+            StyleName::Suggestive => 2,
+            // The paper's last texel, whose weight lies between two steps: paper.frag, line 11.
+            StyleName::Charcoal => 1,
+            _ => 0,
+        });
     }
 }
 

@@ -6,8 +6,9 @@ use super::{
 };
 use crate::error::{Error, Result};
 use crate::lines::{LineSettings, VisibleLines};
-use crate::renderer::Renderer;
-use crate::scene::{Rectangle, Scene};
+use crate::plan::Plan;
+use crate::renderer::{Renderer, StepValues};
+use crate::scene::{Rectangle, Scene, Size};
 use crate::styles::{Show, Style};
 use glam::DVec2;
 use serde::Serialize;
@@ -57,7 +58,7 @@ impl Explanation {
         let mut explained = Self::without_lines(style, scene, renderer, place)?;
         if style.style_name().has_lines() && explained.texts.is_empty() {
             let (at, plan) = (explained.place_in_textures, style.plan(scene, Show::Borders)?);
-            let values = renderer.step_values(scene, &plan, around(at, scene))?;
+            let values = renderer.step_values(scene, &plan, around(at, scene.size, 0))?;
             let lines = VisibleLines::of(scene, &LineSettings::default())?;
             let how = Recomputation::like(renderer.context());
             explained.lines = Some(against_lines(scene, style, (&plan, &values), &lines, at, how)?);
@@ -81,12 +82,31 @@ impl Explanation {
             )));
         }
         let pixel = [place.x as u32, place.y as u32];
-        let at = [pixel[0], size.height - 1 - pixel[1]];
         let plan = style.plan(scene, Show::Final)?;
-        let values = renderer.step_values(scene, &plan, around(at, scene))?;
+        let at = [pixel[0], size.height - 1 - pixel[1]];
+        let values = renderer.step_values(scene, &plan, around(at, size, 0))?;
+        Self::of_values(style, scene, (&plan, &values), renderer, pixel)
+    }
+
+    /// Explains a pixel of the finished picture, right and down from the upper left corner, from what the steps of its plan left
+    /// there ([`around`]).
+    ///
+    /// # Errors
+    ///
+    /// As [`Explanation::of`].
+    pub fn of_values(
+        style: &Style,
+        scene: &Scene,
+        (plan, values): (&Plan, &[StepValues]),
+        renderer: &Renderer,
+        pixel: [u32; 2],
+    ) -> Result<Self> {
+        let [x, y] = pixel;
+        let refuse = |problem: String| Error::CommandLine { problem: format!("{x},{y}: {problem}") };
+        let at = [x, scene.size.height - 1 - y];
         let how = Recomputation::like(renderer.context());
         let replaced = renderer.replaced_shaders();
-        let steps = Explainer::at(scene, &plan, &values, how, &replaced, Some(at))?.pixel(at, true)?;
+        let steps = Explainer::at(scene, plan, values, how, &replaced, Some(at))?.pixel(at, true)?;
         if is_background(&steps) {
             return Err(refuse("this is background, where nothing is drawn; choose a pixel of the model".to_owned()));
         }
@@ -209,11 +229,12 @@ fn three_digits(value: f64) -> String {
     format!("{value:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The pixels to read back around one.
-fn around(at: [u32; 2], scene: &Scene) -> Rectangle {
-    let (x, y) = (at[0].saturating_sub(MARGIN_PX), at[1].saturating_sub(MARGIN_PX));
-    let until = |at: u32, count: u32| (at + MARGIN_PX + 1).min(count);
-    Rectangle { x, y, width: until(at[0], scene.size.width) - x, height: until(at[1], scene.size.height) - y }
+/// The pixels to read back to explain one, counted from the lower left, and those up to `reach_px` from it.
+pub fn around(at: [u32; 2], size: Size, reach_px: u32) -> Rectangle {
+    let margin = MARGIN_PX + reach_px;
+    let (x, y) = (at[0].saturating_sub(margin), at[1].saturating_sub(margin));
+    let until = |at: u32, count: u32| (at + margin + 1).min(count);
+    Rectangle { x, y, width: until(at[0], size.width) - x, height: until(at[1], size.height) - y }
 }
 
 /// The letter of the texts' filters for a texel around the pixel: A to I from the lower left.

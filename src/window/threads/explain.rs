@@ -17,8 +17,13 @@ pub struct PixelJob {
 }
 
 impl PixelJob {
+    /// Whether it is of the same picture as another.
+    pub fn is_of_same_picture(&self, other: &Self) -> bool {
+        self.style == other.style && self.view.is_of_same_picture(&other.view)
+    }
+
     fn is_same(&self, other: &Self) -> bool {
-        self.pixel == other.pixel && self.style == other.style && self.view.is_of_same_picture(&other.view)
+        self.pixel == other.pixel && self.is_of_same_picture(other)
     }
 }
 
