@@ -12,8 +12,6 @@ tinta_geometry::choices! {
         Exact = "exact",
         /// By weights rounded to 1/256, each mixture of two texels rounded to 8 bits: as llvmpipe reads textures of 8 bits.
         Bytes = "bytes",
-        /// By weights rounded to 1/256, mixed exactly: as NVIDIA's cards read textures.
-        Weights = "weights",
     }
 }
 
@@ -31,11 +29,7 @@ pub struct Recomputation {
 impl Recomputation {
     /// Returns how this context computes: in 32 bits, with textures and corners as its driver has them.
     pub fn like(context: &ContextInfo) -> Self {
-        let filtering = match () {
-            () if context.renderer.contains("llvmpipe") => Filtering::Bytes,
-            () if context.vendor.starts_with("NVIDIA") => Filtering::Weights,
-            () => Filtering::Exact,
-        };
+        let filtering = if context.renderer.contains("llvmpipe") { Filtering::Bytes } else { Filtering::Exact };
         // softpipe says 4 and places corners as floats.
         let subpixel_bits = if context.renderer.contains("softpipe") { 16 } else { context.subpixel_bits };
         Self { precision: Precision::Single, filtering, subpixel_bits }
