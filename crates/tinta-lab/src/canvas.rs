@@ -164,9 +164,51 @@ impl Canvas {
     }
 }
 
+/// A picture made to fit into a square, and its scale: each pixel is the mean of those that it covers.
+pub(crate) fn fitted(picture: &Picture, side: u32) -> (Picture, f64) {
+    let Size { width, height } = picture.size;
+    let scale = f64::from(side) / f64::from(width.max(height));
+    let scaled = |count: u32| ((f64::from(count) * scale).round() as u32).max(1);
+    let size = Size { width: scaled(width), height: scaled(height) };
+    let range = |at: u32, count: u32| {
+        let first = ((f64::from(at) / scale) as u32).min(count - 1);
+        first..((f64::from(at + 1) / scale) as u32).clamp(first + 1, count)
+    };
+    let mut pixels = Vec::with_capacity(size.pixel_count() * 4);
+    for y in 0..size.height {
+        for x in 0..size.width {
+            let (columns, rows) = (range(x, width), range(y, height));
+            let count = (columns.len() * rows.len()) as u32;
+            let mut sums = [0_u32; 4];
+            for (row, column) in rows.flat_map(|row| columns.clone().map(move |column| (row, column))) {
+                let pixel = picture.pixel(column.into(), row.into());
+                sums.iter_mut().zip(pixel).for_each(|(sum, channel)| *sum += u32::from(channel));
+            }
+            pixels.extend(sums.map(|sum| ((sum + count / 2) / count) as u8));
+        }
+    }
+    (Picture { size, pixels }, scale)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_fitted_picture_keeps_its_shape_and_its_mean_colour() {
+        for (width, height) in [(512, 512), (1000, 300), (7, 20), (1, 1), (368, 368)] {
+            let size = Size { width, height };
+            let pixels: Vec<u8> = (0..size.pixel_count()).flat_map(|place| [(place * 37 % 251) as u8; 4]).collect();
+            let picture = Picture { size, pixels };
+            let (small, scale) = fitted(&picture, 368);
+            assert_eq!(small.size.width.max(small.size.height), 368);
+            assert!((f64::from(small.size.width) - f64::from(width) * scale).abs() <= 0.5, "{size}");
+            let mean = |picture: &Picture| {
+                picture.pixels.iter().map(|byte| f64::from(*byte)).sum::<f64>() / picture.pixels.len() as f64
+            };
+            assert!((mean(&small) - mean(&picture)).abs() < 3.0, "{size}: {} {}", mean(&small), mean(&picture));
+        }
+    }
 
     #[test]
     fn a_text_is_as_wide_as_its_letters_and_every_letter_is_in_the_font_or_a_question_mark() {

@@ -51,6 +51,7 @@ fn place(context: &Context, corner: Align2, content: impl FnOnce(&mut Ui)) {
     let area = egui::Area::new("why".into()).pivot(corner).fixed_pos(at).interactable(false);
     area.constrain_to(within).show(context, |ui| {
         egui::Frame::popup(ui.style()).show(ui, |ui| {
+            ui.style_mut().interaction.selectable_labels = false;
             ui.set_max_width(WIDTH.min(within.width() - 40.0));
             content(ui);
         });

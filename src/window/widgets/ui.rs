@@ -194,7 +194,9 @@ fn panes(ui: &mut Ui, viewer: &Viewer, textures: &Textures, follows_window: bool
         }
     }
     label::show(ui, state, area, scale);
-    if let Some(pointer) = response.hover_pos().filter(|_| state.explains) {
+    // Also below the listing, which the pointer goes through.
+    let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|place| area.contains(*place));
+    if let Some(pointer) = pointer.filter(|_| state.explains) {
         let at = (pointer - corner) * scale;
         let pointed = pixel_at(state, [f64::from(at.x), f64::from(at.y)]);
         events.extend(pointed.filter(|_| pointed != state.pointed).map(|(side, at)| ViewerEvent::Point(side, at)));
