@@ -213,8 +213,8 @@ fn a_variable_over_the_picture_has_the_value_that_each_pixel_s_explanation_tells
             let fragments = steps.flat_map(|step| step["fragments"].as_array().unwrap());
             let written = fragments.filter(|fragment| fragment["is_nearer"] != false);
             let events = written.flat_map(|fragment| fragment["events"].as_array().unwrap());
-            let set = events.filter_map(|event| event.get("set").filter(|set| set["variable"] == short));
-            let Some(last) = set.last().map(|set| &set["value"]) else { continue };
+            let mut set = events.filter_map(|event| event.get("set").filter(|set| set["variable"] == short));
+            let Some(last) = set.next_back().map(|set| &set["value"]) else { continue };
             let told: Vec<f64> = last.as_array().map_or_else(
                 || vec![last.as_f64().unwrap()],
                 |list| list.iter().map(|number| number.as_f64().unwrap()).collect(),

@@ -70,7 +70,7 @@ pub(super) struct PreparedDraw<'a> {
     pub(super) images: Images<'a>,
     pub(super) precision: Precision,
     /// What vertices passed on to untraced pixels, by group, vertex and material.
-    pub(super) corners: Mutex<HashMap<(usize, u32, u32), Vec<(String, Value)>>>,
+    pub(super) corners: Mutex<HashMap<(usize, u32, u32), Varyings>>,
     /// Rows of the surface.
     pub(super) height: u32,
     /// Whether it draws into textures, whose rows drivers count from below.
@@ -78,6 +78,9 @@ pub(super) struct PreparedDraw<'a> {
 }
 
 type Named<'a> = Vec<(&'a str, Value)>;
+
+/// What a vertex passes on, by name.
+type Varyings = Vec<(String, Value)>;
 
 impl PreparedDraw<'_> {
     /// Runs every triangle that covers a pixel, in drawing order, from the depth that the driver held before.
@@ -157,7 +160,7 @@ impl PreparedDraw<'_> {
     }
 
     /// What the vertex shader did for a corner, if everything is traced, and what it passed on.
-    fn corner(&self, cover: &Cover<'_>, corner: u32, trace: Trace<'_>) -> Result<(Vec<Event>, Vec<(String, Value)>)> {
+    fn corner(&self, cover: &Cover<'_>, corner: u32, trace: Trace<'_>) -> Result<(Vec<Event>, Varyings)> {
         if trace == Trace::Everything {
             let run = self.run_vertex(cover, corner, trace)?;
             let varyings = self.passed(&run);
