@@ -48,7 +48,7 @@ from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.colors import Colormap, Normalize
 from numpy.typing import ArrayLike
 
-from . import _Color, _Camera, _Number, _Numbers, _Path, _Text
+from . import Lines, _Color, _Camera, _Number, _Numbers, _Path, _Text
 
 __all__: list[str]
 
@@ -58,8 +58,13 @@ class ExactLines(LineCollection):
 class ExactAreas(PathCollection):
     def do_3d_projection(self) -> float: ...
 
+class ExactScene(PathCollection):
+    lines: Lines
+    def do_3d_projection(self) -> float: ...
+    def remove(self) -> None: ...
+
 ''',
-        {"draw": "LineCollection", "fill": "PathCollection"},
+        {"draw": "LineCollection", "draw3d": "ExactScene", "fill": "PathCollection"},
     ),
     "pv": (
         '''"""{doc}"""
