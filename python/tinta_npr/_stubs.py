@@ -232,7 +232,8 @@ def _argument(parameter, function, settings):
         kind = _literal(_native.names(("look of lines" if of_lines else "look of pictures") if names == "look" else names))
         kind += " | None" if parameter.default is None else ""
     else:
-        kind = _ARGUMENTS.get(parameter.name, "Any")
+        of_setting = f"{_type(settings[parameter.name])} | None" if parameter.name in settings else "Any"
+        kind = _ARGUMENTS.get(parameter.name, of_setting)
     default = "" if parameter.default is parameter.empty else f" = {_default(parameter.default)}"
     return f"    {parameter.name}: {kind}{default},\n"
 
