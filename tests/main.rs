@@ -27,6 +27,7 @@ mod faults;
 mod figures;
 mod floors;
 mod gltf;
+mod gltf_edges;
 mod gltf_files;
 mod gltf_refused;
 mod goldens;
