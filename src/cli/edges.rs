@@ -136,7 +136,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
         planes_ms,
         silhouette_ms,
     };
-    if arguments.json { super::print_json(&record) } else { super::print(&in_words(&record)) }
+    if arguments.json { super::print_json(&record) } else { super::print(&in_words(&record, wanted)) }
 }
 
 /// Checks the file to write.
@@ -149,10 +149,10 @@ fn check_output(output: &str) -> Result<TextTarget> {
     TextTarget::check(output)
 }
 
-fn in_words(record: &EdgeRecord) -> String {
+fn in_words(record: &EdgeRecord, wanted: ClassSet) -> String {
     let mut counts = record.classes;
     let mut text = format!("{:<16}{:>10}\n", "edges", record.edges);
-    for class in ClassSet::EDGES.classes() {
+    for class in wanted.and(ClassSet::EDGES).classes() {
         let name = class.name();
         let what = match class {
             Class::Boundary => "one face",
