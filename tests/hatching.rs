@@ -46,7 +46,6 @@ fn every_style_of_tones_is_hatched_below_its_lines() {
         assert!(!lines(&painted).is_empty() && lines(&painted) == lines(&hatched), "{style}");
         let two = of(&["--hatch", "auto", "--tones", "2", "--no-borders"]);
         assert!(has(&two, "hatch-0") && !has(&two, "hatch-1") && !has(&two, "visible"), "{style}");
-        assert!(!has(&of(&["--hatch", "auto", "--tones", "1"]), "hatch"), "{style}");
     }
 }
 
@@ -138,6 +137,7 @@ fn nonsense_for_strokes_is_refused_by_the_options_name() {
     refuse("a.svg", &["--hatch", "auto"], &["--hatch", "lines alone have no tones", "--look print"]);
     refuse("a.png", &["--look", "print", "--hatch", "auto"], &["--hatch", "write a .svg"]);
     refuse("a.svg", &["--look", "charcoal", "--hatch", "auto"], &["--hatch", "write a .svg"]);
+    refuse("a.svg", &["--look", "print", "--hatch", "auto", "--tones", "1"], &["--hatch", "--tones", "2 or 3 tones"]);
 }
 
 #[test]

@@ -109,6 +109,10 @@ impl Vectors {
         self.drawing.check()?;
         let spacing = self.drawing.hatching.spacing;
         match &self.rule {
+            AreaRule::Tones(tones, _) if spacing.is_some() && tones.count == 1 => Err(Error::settings(
+                &["hatch", "tones"],
+                "the one tone stays paper, so no stroke is drawn; choose 2 or 3 tones, or leave the strokes out",
+            )),
             AreaRule::Tones(tones, light) => {
                 tones.check()?;
                 let regions = whole(Regions::toned(scene, &tone_rule(tones, *light), progress)?)?;

@@ -271,11 +271,14 @@ pub(super) fn grid(canvas: &Canvas<'_>, axes: &Axes, scale: &Scale, inner: &Rect
     canvas.line(&[(inner.left, inner.top), (inner.left, inner.bottom), (inner.right, inner.bottom)], MIDDLE, 1)
 }
 
-/// A setting's points at several picture sizes, from the smallest: each a line of the plot.
+/// The points that differ only in the picture's size, and those that differ only in the numbers of their options: each a line of
+/// the plot.
 fn curves(points: &[Point]) -> Vec<Vec<usize>> {
-    let mut curves: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    let mut curves: BTreeMap<(usize, &str), Vec<usize>> = BTreeMap::new();
     for (index, point) in points.iter().enumerate() {
-        curves.entry(&point.curve).or_default().push(index);
+        for (axis, curve) in point.curves.iter().enumerate() {
+            curves.entry((axis, curve)).or_default().push(index);
+        }
     }
     let mut curves: Vec<Vec<usize>> = curves.into_values().filter(|curve| curve.len() > 1).collect();
     curves.iter_mut().for_each(|curve| curve.sort_by_key(|index| points[*index].size));
@@ -377,7 +380,7 @@ fn legend(points: &[Point], layout: &Layout) -> Vec<Item> {
     }
     items.push((Mark::Line(BAR), "quartiles: of a frame's time, and of the models' errors".to_owned()));
     if !curves(points).is_empty() {
-        items.push((Mark::Line(CURVE), "a setting at several picture sizes".to_owned()));
+        items.push((Mark::Line(CURVE), "a setting at several sizes or values".to_owned()));
     }
     items.push((Mark::Front, "Pareto front: no setting is both faster and closer".to_owned()));
     let mut left = MARGIN;

@@ -152,8 +152,8 @@ pub struct Point {
     pub style: String,
     /// Whether these are the published program's settings.
     pub is_faithful: bool,
-    /// Its name without the picture's size: the points of one curve share it.
-    pub curve: String,
+    /// Its name without the picture's size, and its name without the numbers of its options: the points of a curve share one.
+    pub curves: [String; 2],
     /// Width and height of the picture.
     pub size: [u32; 2],
     /// Geometric mean over models of the time, milliseconds; of frames the median.
@@ -220,12 +220,17 @@ pub fn points(rows: &[&Row], measure: Measure, time: Time) -> Points {
         let errors: Vec<f64> = of_models.iter().filter_map(|row| measure.error(row)).collect();
         let error = errors.iter().sum::<f64>() / count;
         let size = first.size;
+        let size_said = format!("{}×{}", size[0], size[1]);
+        let without = |word: &str| word != size_said;
+        let words = |is_kept: &dyn Fn(&str) -> bool| {
+            names[key].split(' ').filter(|word| is_kept(word.trim_end_matches(','))).collect::<Vec<_>>().join(" ")
+        };
         points.push(Point {
             name: names[key].clone(),
-            curve: names[key]
-                .replace(&format!("{}×{}", size[0], size[1]), "")
-                .trim_end_matches([',', ':', ' '])
-                .to_owned(),
+            curves: [
+                words(&without).trim_end_matches([',', ':']).to_owned(),
+                words(&|word| word.parse::<f64>().is_err()),
+            ],
             size,
             style: first.style.clone(),
             is_faithful: first.is_faithful,

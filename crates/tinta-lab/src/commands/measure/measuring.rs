@@ -2,7 +2,7 @@
 
 use super::groups::{Group, KINDS};
 use super::results::Results;
-use super::settings::{HowMeasured, settings, smooth_inking};
+use super::settings::{HowMeasured, settings, smooth_inking, varied};
 use crate::measure::{
     Against, MeasureSettings, MeasureStep, Setting, Subject, line_options, measure, measure_lines, turns,
 };
@@ -46,7 +46,10 @@ impl Measuring {
         how.check()?;
         let of_scene = scene_options(of_scene);
         let against = asked.against.unwrap_or_default();
-        let mut settings = settings(&asked.styles, asked.quick)?;
+        let mut settings = match &asked.vary {
+            Some(vary) => varied(&asked.styles, vary)?,
+            None => settings(&asked.styles, asked.quick)?,
+        };
         if against == Against::Smooth && settings.iter().any(|setting| matches!(setting.style, Style::Inking(_))) {
             settings.push(smooth_inking()?);
         }

@@ -19,6 +19,7 @@ pub(in crate::commands) struct HowMeasured {
     pub suite: Option<Suite>,
     pub sizes: Vec<Size>,
     pub styles: Vec<StyleName>,
+    pub vary: Option<String>,
     pub frames: Option<u32>,
     pub quick: bool,
     pub tolerance_px: f64,
@@ -34,6 +35,7 @@ impl Default for HowMeasured {
             suite: None,
             sizes: vec![Size { width: 512, height: 512 }],
             styles: Vec::new(),
+            vary: None,
             frames: None,
             quick: false,
             tolerance_px: LINE_TOLERANCE_PX,
@@ -118,6 +120,13 @@ fn of_how() -> Vec<settings::Setting<HowMeasured>> {
             Ok(())
         },
     );
+    let vary = Of::open_field(
+        "vary",
+        "OPTION=VALUES",
+        "",
+        "Measure only each style's default with these values of an option, separated by commas, as a curve",
+        |how| &mut how.vary,
+    );
     let frames = Of::open_field("frames", "N", "auto", "Frames to time for each setting", |how| &mut how.frames);
     let machine = Of::open_field("machine", "NAME", "", "Name of this machine in the report", |how| &mut how.machine)
         .like("desk");
@@ -130,6 +139,7 @@ fn of_how() -> Vec<settings::Setting<HowMeasured>> {
         Of::open_field("suite", "SUITE", "", suite, |how| &mut how.suite).said("none").common(),
         sizes.common(),
         styles.common(),
+        vary.like("detection-factor=0.5,1,2").said("nothing").common(),
         frames.whole(1..=100_000).range(1.0, 101.0, 0).said("21, with --quick 7").common(),
         Of::flag("quick", "Measure fewer settings and frames", |how| how.quick, |how, is_on| how.quick = is_on)
             .common(),
@@ -222,6 +232,29 @@ pub(super) fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setti
         .collect()
 }
 
+/// The settings of `OPTION=VALUE,VALUE`: each style's default with each value, of those styles that have the option.
+pub(super) fn varied(styles: &[StyleName], vary: &str) -> Result<Vec<Setting>> {
+    let Some((option, values)) = vary.split_once('=').filter(|(option, values)| !option.is_empty() && !values.is_empty())
+    else {
+        return Err(Error::value("vary", vary, "it is an option of a style, = and values, as detection-factor=0.5,1,2"));
+    };
+    let (mut all, mut refused) = (Vec::new(), None);
+    let lines_first = StyleName::lines_first().into_iter().filter(|style| !style.draws_lines());
+    for style in lines_first.filter(|style| styles.is_empty() || styles.contains(style)) {
+        let of_value = |value: &str| setting(format!("--style {} --{option} {}", style.name(), value.trim()), false);
+        let of_style: Vec<Result<(StyleName, Setting)>> = values.split(',').map(of_value).collect();
+        // A style that takes no value of them lacks the option.
+        match of_style.iter().any(Result::is_ok) {
+            true => all.extend(of_style.into_iter().map(|one| Ok(one?.1)).collect::<Result<Vec<Setting>>>()?),
+            false => refused = refused.or(of_style.into_iter().find_map(Result::err)),
+        }
+    }
+    match refused.filter(|_| all.is_empty()) {
+        Some(error) => Err(error),
+        None => Ok(all),
+    }
+}
+
 fn setting(text: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let mut options: Options = words
@@ -280,6 +313,19 @@ mod tests {
         for setting in settings(&[], true).unwrap().iter().filter(|setting| setting.is_faithful) {
             let name = setting.options.trim_start_matches("--style ").parse().unwrap();
             assert_eq!(setting.style, Style::named(name));
+        }
+    }
+
+    #[test]
+    fn an_option_is_varied_in_the_styles_that_have_it() {
+        let all = varied(&[], "detection-factor=0.5,1,2").unwrap();
+        for style in ["three-pass", "two-pass", "mrt"] {
+            let of_style = all.iter().filter(|setting| setting.options.contains(&format!("--style {style} ")));
+            assert_eq!(of_style.count(), 3, "{style}");
+        }
+        assert!(all.iter().all(|setting| !setting.options.contains("phong")));
+        for wrong in ["detection-factor", "=1", "detection-factor=", "nothing=1", "detection-factor=1,much"] {
+            assert!(varied(&[StyleName::ThreePass], wrong).is_err(), "{wrong}");
         }
     }
 
