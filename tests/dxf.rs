@@ -17,7 +17,7 @@ type Polylines = BTreeMap<String, Vec<(Vec<DVec2>, bool)>>;
 /// The entities of a file, read pair by pair.
 fn read(text: &str) -> Polylines {
     let lines: Vec<&str> = text.lines().collect();
-    assert!(lines.len() % 2 == 0 && text.ends_with("  0\nEOF\n".trim_start()));
+    assert!(lines.len().is_multiple_of(2) && text.ends_with("0\nEOF\n"));
     let mut pairs = lines.chunks(2).map(|pair| (pair[0].parse::<u32>().unwrap(), pair[1]));
     pairs.by_ref().find(|pair| *pair == (2, "ENTITIES")).unwrap();
     let (mut polylines, mut kind, mut layer, mut x) = (Polylines::new(), "", String::new(), 0.0);
