@@ -12,8 +12,6 @@ tinta_geometry::choices! {
         Exact = "exact",
         /// By weights rounded to 1/256, each mixture of two texels rounded to 8 bits: as llvmpipe reads textures of 8 bits.
         Bytes = "bytes",
-        /// By weights rounded to 1/256, mixed exactly: as NVIDIA's cards read textures.
-        Weights = "weights",
     }
 }
 
@@ -31,11 +29,7 @@ pub struct Recomputation {
 impl Recomputation {
     /// Returns how this context computes: in 32 bits, and textures as its driver reads them.
     pub fn like(context: &ContextInfo) -> Self {
-        let filtering = match () {
-            () if context.renderer.contains("llvmpipe") => Filtering::Bytes,
-            () if context.vendor.starts_with("NVIDIA") => Filtering::Weights,
-            () => Filtering::Exact,
-        };
+        let filtering = if context.renderer.contains("llvmpipe") { Filtering::Bytes } else { Filtering::Exact };
         Self { precision: Precision::Single, filtering, subpixel_bits: context.subpixel_bits }
     }
 }

@@ -176,10 +176,10 @@ fn linear(picture: &Picture, at: [f64; 2], filtering: Filtering) -> Sample {
                 let place = at[axis] * side - 0.5;
                 (first[axis], share[axis]) = (place.floor() as i64, place - place.floor());
             }
-            Filtering::Bytes | Filtering::Weights => {
+            Filtering::Bytes => {
                 // In 1/256 of a texel, rounded, from a coordinate of 32 bits.
                 let place = f64::from((at[axis] as f32 * side as f32 - 0.5) * 256.0).round() as i64;
-                (first[axis], share[axis]) = (place.div_euclid(256), place.rem_euclid(256) as f64 / 256.0);
+                (first[axis], share[axis]) = (place.div_euclid(256), place.rem_euclid(256) as f64);
             }
         }
     }
@@ -190,14 +190,15 @@ fn linear(picture: &Picture, at: [f64; 2], filtering: Filtering) -> Sample {
     let [a, b, c, d] = texels.map(|(_, _, value)| value);
     let value = [0, 1, 2, 3].map(|channel| {
         let mixed = |first: f64, second: f64, share: f64| match filtering {
-            Filtering::Exact | Filtering::Weights => first + (second - first) * share,
-            Filtering::Bytes => first + (share * (second - first) + 0.5).floor(),
+            Filtering::Exact => first + (second - first) * share,
+            Filtering::Bytes => first + ((share * (second - first) + 128.0) / 256.0).floor(),
         };
         let (below, above) = (mixed(a[channel], b[channel], share[0]), mixed(c[channel], d[channel], share[0]));
         mixed(below, above, share[1]) / 255.0
     });
+    let whole = if filtering == Filtering::Bytes { 256.0 } else { 1.0 };
     let weight = |step: [i64; 2]| {
-        let along = |axis: usize| if step[axis] == 1 { share[axis] } else { 1.0 - share[axis] };
+        let along = |axis: usize| if step[axis] == 1 { share[axis] / whole } else { 1.0 - share[axis] / whole };
         along(0) * along(1)
     };
     let texels =
