@@ -34,7 +34,6 @@ mod standard_output;
 mod textures;
 #[cfg(feature = "window")]
 mod view;
-mod why;
 
 pub use command::{Call, Command, Program, Task, Verdict, given};
 pub use messages::{json_text, make_folder, plain, print, print_json, say};
@@ -52,7 +51,6 @@ const COMMANDS: &[Command] = &[
     page::COMMAND,
     again::COMMAND,
     edges::COMMAND,
-    why::COMMAND,
     textures::COMMAND,
     batch::COMMAND,
     info::COMMAND,

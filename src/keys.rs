@@ -37,6 +37,10 @@ pub enum Action {
     OtherSide,
     /// The next buffer.
     Buffer,
+    /// The pixel under the pointer explained, or not.
+    Explain,
+    /// The pass whose listing is shown: so many passes on.
+    Pass(i32),
     /// The panel of settings.
     Panel,
     /// Coarser pictures while the model moves, or not.
@@ -59,7 +63,7 @@ pub enum Action {
     FullScreen,
     /// The sheet of keys.
     KeySheet,
-    /// Close the sheet, times, panel or full screen.
+    /// Close the sheet, the explanation, times, panel or full screen.
     Close,
     /// Quit.
     Quit,
@@ -107,8 +111,8 @@ const fn window(keys: &'static str, what: &'static str, bindings: &'static [(&'s
 }
 
 use Action::{
-    Buffer, Close, Coarse, Divide, FullScreen, KeySheet, Layout, Lines, Move, OtherSide, Overlay, Panel, Price,
-    Projection, Quit, Reset, SaveLines, SavePicture, SavePreset, SaveTurn, Style, Turn, View, Zoom,
+    Buffer, Close, Coarse, Divide, Explain, FullScreen, KeySheet, Layout, Lines, Move, OtherSide, Overlay, Panel, Pass,
+    Price, Projection, Quit, Reset, SaveLines, SavePicture, SavePreset, SaveTurn, Style, Turn, View, Zoom,
 };
 use With::{Ctrl, Nothing, Shift};
 
@@ -136,6 +140,8 @@ const ROWS: &[Row] = &[
     window("S", "one style; two with a divider to drag; two and their difference", &[("S", Nothing, Layout)]),
     row("O", "the other side: its style by number, its settings in the panel", &[("O", Nothing, OtherSide)]),
     row("B", "buffers: map, normals, depth, borders, tones, edge classes", &[("B", Nothing, Buffer)]),
+    window("W", "why: the shader at the pixel under the pointer, with its values", &[("W", Nothing, Explain)]),
+    window("N, Shift N", "there the next pass, the one before", &[("N", Nothing, Pass(1)), ("N", Shift, Pass(-1))]),
     window("Space", "panel with every setting", &[("Space", Nothing, Panel)]),
     window("C", "coarser pictures while the model moves, or not", &[("C", Nothing, Coarse)]),
     window("M", "time of each pass, error against the exact lines", &[("M", Nothing, Price)]),
@@ -176,7 +182,7 @@ const ROWS: &[Row] = &[
     window("drop a file", "show that model; a preset (.toml): its style and settings", &[]),
     window("F11", "full screen", &[("F11", Nothing, FullScreen)]),
     row("H", "this sheet", &[("H", Nothing, KeySheet)]),
-    window("Esc", "close the sheet, times, panel or full screen", &[("Escape", Nothing, Close)]),
+    window("Esc", "close the sheet, why, times, panel or full screen", &[("Escape", Nothing, Close)]),
     window("Q", "quit", &[("Q", Nothing, Quit), ("Q", Ctrl, Quit)]),
 ];
 

@@ -28,15 +28,19 @@
 
 mod explainer;
 mod explanation;
+mod listing;
 mod fragment;
 mod recomputation;
 mod textures;
 mod triangles;
+mod variable;
 mod verdict;
 
 pub use explainer::{Explainer, PixelStep, is_background};
-pub use explanation::Explanation;
+pub use explanation::{Explanation, around, tap};
 pub use fragment::{Corner, Fragment};
+pub use listing::{LineState, ListedLine};
 pub use recomputation::{Filtering, Recomputation};
-pub use tinta_glsl::{Base, Event, Mistake, Precision, Sample, Texel, Type, Value, What};
+pub use tinta_glsl::{Base, Comparison, Event, Mistake, Precision, Sample, Texel, Type, Value, What};
+pub use variable::Variable;
 pub use verdict::{AgainstLines, Flip, INK_FROM, LINE_TOLERANCE_PX, Verdict, against_lines};

@@ -274,7 +274,8 @@ pub enum Depth {
 }
 
 /// How a colour is combined with the target's.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Blend {
     /// It takes its place.
     #[default]

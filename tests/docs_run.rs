@@ -47,6 +47,40 @@ fn the_answers_of_exercises_are_printed() {
 }
 
 #[test]
+fn the_lesson_for_teachers_goes_as_it_is_written() {
+    let page = std::fs::read_to_string(root().join("docs/guide/for-teachers.md")).unwrap();
+    let (_, lesson) = page.split_once("## A lesson").unwrap();
+    let lesson = lesson.split_once("\n## ").map_or(lesson, |(lesson, _)| lesson);
+    let folder = tempfile::tempdir().unwrap();
+    let (mut printed, mut commands, mut quoted) = (String::new(), 0, 0);
+    let mut is_new = true;
+    for line in lesson.lines() {
+        let Some(code) = line.strip_prefix("    ") else {
+            is_new |= !line.is_empty();
+            continue;
+        };
+        let Some(words) = code.strip_prefix("tinta ") else {
+            assert!(printed.contains(code), "{code:?} is not in\n{printed}");
+            quoted += 1;
+            continue;
+        };
+        if std::mem::take(&mut is_new) {
+            printed.clear();
+        }
+        let words: Vec<&str> = words.split(' ').collect();
+        let output =
+            Command::new(env!("CARGO_BIN_EXE_tinta")).args(&words).current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{code}: {output:?}");
+        printed.push_str(&String::from_utf8_lossy(&output.stdout));
+        if let Some(file) = words.iter().position(|word| *word == "-o").map(|place| words[place + 1]) {
+            assert!(folder.path().join(file).is_file(), "{code}");
+        }
+        commands += 1;
+    }
+    assert!(commands >= 8 && quoted >= 7, "{commands} {quoted}");
+}
+
+#[test]
 fn every_sentence_quoted_in_troubleshooting_is_said() {
     let folder = tempfile::tempdir().unwrap();
     ODD_FILES.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).unwrap());

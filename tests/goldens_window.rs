@@ -174,6 +174,21 @@ fn double_keys() {
 }
 
 #[test]
+fn window_1280x720_why() {
+    golden_of_sizes("1280x720-why");
+}
+
+#[test]
+fn window_640x480_why() {
+    golden_of_sizes("640x480-why");
+}
+
+#[test]
+fn double_why() {
+    golden_of_sizes("double-why");
+}
+
+#[test]
 fn every_picture_of_the_recordings_has_its_golden_and_its_test() {
     let Some((tour, sizes)) = tour().zip(sizes()) else { return };
     let mut goldens = names(Goldens::Window);

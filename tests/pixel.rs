@@ -1,8 +1,10 @@
 //! Pixels recomputed by the interpreter against the driver's: every step of every style, pixel by pixel.
 
 use crate::support::{BACKENDS, renderer, scene_with};
+use std::process::Command;
 use tinta::gl::Backend;
-use tinta::pixel::{Explainer, Filtering, Recomputation};
+use tinta::glam::DVec2;
+use tinta::pixel::{Explainer, Explanation, Filtering, Fragment, LineState, PixelStep, Recomputation, What};
 use tinta::scene::Rectangle;
 use tinta::styles::{Border, Cartoon, Charcoal, Filter, Inking, MapEncoding, PaintMode};
 use tinta::{SceneSettings, Show, Size, Style, StyleName};
@@ -13,8 +15,26 @@ struct Row {
     step: String,
     /// Pixels that differ by no step of 8 bits, by one, by more.
     counts: [usize; 3],
+    /// Pixels beyond a step where the driver left what was there and a triangle is expected, or the other way round.
+    of_coverage: usize,
     largest: f64,
     where_largest: [u32; 2],
+    /// The last statement that ran there.
+    statement: String,
+}
+
+impl Row {
+    fn add(&mut self, explained: &PixelStep, at: [u32; 2], difference: f64) {
+        self.counts[if difference < 0.01 { 0 } else { usize::from(difference > ONE_STEP) + 1 }] += 1;
+        let is_written = explained.decisive().is_some_and(Fragment::is_written);
+        let is_left = explained.before == explained.drawn;
+        self.of_coverage += usize::from(difference > ONE_STEP && is_written == is_left);
+        if difference > self.largest {
+            (self.largest, self.where_largest) = (difference, at);
+            let last = explained.decisive().and_then(|fragment| fragment.events.last());
+            self.statement = last.map_or_else(String::new, |event| format!("{}, line {}", event.shader, event.line));
+        }
+    }
 }
 
 /// A step of 8 bits; values read back are floats.
@@ -33,15 +53,12 @@ fn rows(model: &str, style: &Style, side: u32, every: u32, backend: Backend) -> 
     let mut rows: Vec<Row> = Vec::new();
     for y in (0..side).step_by(every as usize) {
         for x in (0..side).step_by(every as usize) {
-            let steps = explainer.pixel([x, y], false).unwrap();
+            let steps = explainer.pixel([x, y], true).unwrap();
             rows.resize(steps.len(), Row::default());
             for (step, row) in steps.iter().zip(&mut rows) {
                 row.step = format!("{} {}", step.pass, step.step);
                 let Some(difference) = step.difference else { continue };
-                row.counts[if difference < 0.01 { 0 } else { usize::from(difference > ONE_STEP) + 1 }] += 1;
-                if difference > row.largest {
-                    (row.largest, row.where_largest) = (difference, [x, y]);
-                }
+                row.add(step, [x, y], difference);
             }
         }
     }
@@ -134,6 +151,106 @@ fn every_pixel_of_llvmpipe_is_the_interpreter_s() {
     }
     all_within_a_step("builtin:soldier", &Style::named(StyleName::Sand), 160, 1, BACKENDS[0]);
     all_within_a_step("builtin:bust", &Style::named(StyleName::ThreePass), 160, 1, BACKENDS[1]);
+}
+
+#[test]
+fn a_listing_has_every_line_s_last_value_and_tells_branches_apart() {
+    let side = 64;
+    let size = Size { width: side, height: side };
+    let scene = scene_with("builtin:bust", SceneSettings { size, ..SceneSettings::default() });
+    let mut renderer = renderer(BACKENDS[0]);
+    let (mut not_taken, mut skipped) = (0, 0);
+    for style in styles() {
+        let style = with_textures(style, side);
+        for at in [[32, 20], [28, 30], [36, 44], [25, 50]] {
+            let place = DVec2::from(at.map(f64::from));
+            let explained = Explanation::without_lines(&style, &scene, &mut renderer, place).unwrap();
+            for (number, step) in explained.steps.iter().enumerate() {
+                let Some(fragment) = step.decisive() else {
+                    assert!(explained.listing(number).is_empty());
+                    continue;
+                };
+                let listing = explained.listing(number);
+                let lines = || listing.iter().flat_map(|(path, lines)| lines.iter().map(move |line| (path, line)));
+                for (path, line) in lines() {
+                    let source = tinta::glsl::source(path).unwrap().lines().nth(line.number as usize - 1).unwrap();
+                    assert_eq!(line.text, source.trim_end());
+                    let here =
+                        fragment.events.iter().filter(|event| event.shader == *path && event.line == line.number);
+                    let taken: Vec<bool> = here
+                        .filter_map(|event| match event.what {
+                            What::Branched { is_taken, .. } => Some(is_taken),
+                            _ => None,
+                        })
+                        .collect();
+                    let is_false = !taken.is_empty() && !taken.contains(&true);
+                    assert_eq!(line.state == LineState::NotTaken, is_false, "{path} {line:?}");
+                    not_taken += usize::from(is_false);
+                    skipped += usize::from(line.state == LineState::Skipped);
+                }
+                for event in &fragment.events {
+                    let What::Set { .. } = event.what else { continue };
+                    let told = explained.in_words(event);
+                    let is_told = |(path, line): (&String, &tinta::pixel::ListedLine)| {
+                        *path == event.shader && line.number == event.line && line.values.contains(&told)
+                    };
+                    assert!(lines().any(is_told), "{told} of {} line {}", event.shader, event.line);
+                }
+            }
+        }
+    }
+    assert!(not_taken > 20 && skipped > 0, "{not_taken} {skipped}");
+}
+
+/// Whether this process draws with softpipe. If not, the test runs again in a process that does.
+fn is_softpipe(test: &str) -> bool {
+    if std::env::var("GALLIUM_DRIVER").is_ok_and(|driver| driver == "softpipe") {
+        return true;
+    }
+    let mut again = Command::new(std::env::current_exe().unwrap());
+    again.args([&format!("pixel::{test}"), "--exact", "--include-ignored", "--nocapture"]);
+    let output = again.env("GALLIUM_DRIVER", "softpipe").output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    assert!(output.status.success() && text(&output.stdout).contains("1 passed"), "{}", text(&output.stderr));
+    false
+}
+
+/// Compares styles with softpipe, and fails with all rows that have more pixels beyond a step than allowed.
+fn softpipe_differs_little(side: u32, every: u32, allowed: impl Fn(StyleName) -> usize) {
+    let mut wrong = String::new();
+    for style in styles() {
+        let allowed = allowed(style.style_name());
+        for row in rows("builtin:bust", &with_textures(style.clone(), side), side, every, BACKENDS[0]) {
+            if row.counts[2] > allowed {
+                wrong.push_str(&format!("{}, {allowed} allowed: {row:?}\n", style.name()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn softpipe_s_values_are_those_of_the_interpreter() {
+    if is_softpipe("softpipe_s_values_are_those_of_the_interpreter") {
+        // Derivatives of depth, at the rims of triangles.
+        softpipe_differs_little(64, 3, |style| if style == StyleName::Ink { 2 } else { 0 });
+    }
+}
+
+#[test]
+#[ignore = "exhaustive: every pixel of the goldens' size, all styles on the bust"]
+fn every_pixel_of_softpipe_is_the_interpreter_s() {
+    if is_softpipe("every_pixel_of_softpipe_is_the_interpreter_s") {
+        softpipe_differs_little(160, 1, |style| match style {
+            // Derivatives of depth, at the rims of triangles: plane-map.frag, line 22.
+            StyleName::Ink => 5,
+            // facing.frag, line 14.
+            StyleName::Suggestive => 2,
+            // The paper's last texel, whose weight lies between two steps: paper.frag, line 11.
+            StyleName::Charcoal => 1,
+            _ => 0,
+        });
+    }
 }
 
 /// Errata V7: charcoal as published, with textures of their own size, differs from exact arithmetic by the weights of the driver's

@@ -54,7 +54,9 @@ pub const KNOWN: [KnownFault; 7] = [
         workaround: "none; less so with texture-size as large as the picture",
         detected_by: "the renderer's name and version, and the vendor",
         is_of: |info| {
-            info.renderer.contains("softpipe") || info.version.contains("Mesa 20.3") || info.vendor.starts_with("NVIDIA")
+            info.renderer.contains("softpipe")
+                || info.version.contains("Mesa 20.3")
+                || info.vendor.starts_with("NVIDIA")
         },
     },
     KnownFault {

@@ -7,11 +7,13 @@ use super::triangles::Triangles;
 use crate::error::{Error, Result};
 use crate::gl::fixed_function;
 use crate::glsl;
-use crate::plan::{self, Attachments, Draw, Format, Geometry, Pass, Plan, Step, Target};
+use crate::plan::{self, Attachments, Blend, Draw, Format, Geometry, Pass, Plan, Step, Target};
 use crate::renderer::StepValues;
 use crate::scene::Scene;
 use serde::Serialize;
 use std::collections::HashMap;
+use std::sync::Mutex;
+use tinta_glsl::Trace;
 
 /// A step of a plan at one pixel.
 #[derive(Debug, Clone, Serialize)]
@@ -26,6 +28,8 @@ pub struct PixelStep {
     pub reads_buffers: bool,
     /// The triangles that cover the pixel, in drawing order.
     pub fragments: Vec<Fragment>,
+    /// How they are combined with what is there; `None` if nothing is drawn.
+    pub blend: Option<Blend>,
     /// Red, green, blue and alpha that the driver held before, for each texture of the target; empty in a first step.
     pub before: Vec<[f32; 4]>,
     /// The same after the step, recomputed; `None` for steps that are not explained.
@@ -36,6 +40,14 @@ pub struct PixelStep {
     pub difference: Option<f64>,
     /// Why the step is not explained.
     pub remark: Option<&'static str>,
+}
+
+impl PixelStep {
+    /// The triangle that decides on the pixel: the last one written, or else the last one discarded.
+    pub fn decisive(&self) -> Option<&Fragment> {
+        let last = |is_it: fn(&Fragment) -> bool| self.fragments.iter().rfind(|fragment| is_it(fragment));
+        last(Fragment::is_written).or_else(|| last(|fragment| fragment.is_discarded))
+    }
 }
 
 /// A plan prepared for questions about its pixels.
@@ -75,12 +87,24 @@ impl<'a> Explainer<'a> {
         how: Recomputation,
         replaced: &HashMap<String, String>,
     ) -> Result<Self> {
+        Self::at(scene, plan, values, how, replaced, None)
+    }
+
+    /// Like [`Explainer::with_shaders`], for this pixel alone if one is given, which takes less time.
+    pub(super) fn at(
+        scene: &'a Scene,
+        plan: &'a Plan,
+        values: &'a [StepValues],
+        how: Recomputation,
+        replaced: &HashMap<String, String>,
+        only_at: Option<[u32; 2]>,
+    ) -> Result<Self> {
         if plan.supersample > 1 {
             let problem = "a pixel of it has several colours; explain a pixel of the picture drawn once, without this";
             return Err(Error::value("supersample", plan.supersample, problem));
         }
         let draws = (0..values.len())
-            .map(|number| prepared(scene, plan, values, (number, replaced), how))
+            .map(|number| prepared(scene, plan, values, (number, replaced), (how, only_at)))
             .collect::<Result<_>>()?;
         Ok(Self { plan, values, draws })
     }
@@ -98,8 +122,14 @@ impl<'a> Explainer<'a> {
         (number, at): (usize, [u32; 2]),
     ) -> Result<PixelStep> {
         let mut draws: Vec<Option<PreparedDraw<'a>>> = (0..number).map(|_| None).collect();
-        draws.push(prepared(scene, plan, values, (number, &HashMap::new()), how)?);
-        Self { plan, values, draws }.at_step(number, at, false)
+        draws.push(prepared(scene, plan, values, (number, &HashMap::new()), (how, Some(at)))?);
+        Self { plan, values, draws }.at_step(number, at, Trace::Nothing)
+    }
+
+    /// The names of the variables that a step's fragment shaders set or are given from the vertices.
+    pub(super) fn variables(&self, number: usize) -> Vec<&str> {
+        let Some(prepared) = self.draws.get(number).and_then(Option::as_ref) else { return Vec::new() };
+        [prepared.fragment.varyings(), prepared.fragment.assigned()].concat()
     }
 
     /// Explains a pixel, counted from the picture's lower left as GL does. It must lie within the values' part.
@@ -108,10 +138,12 @@ impl<'a> Explainer<'a> {
     ///
     /// [`Error::Shader`] with the line of a statement that cannot be carried out.
     pub fn pixel(&self, at: [u32; 2], is_traced: bool) -> Result<Vec<PixelStep>> {
-        (0..self.values.len()).map(|number| self.at_step(number, at, is_traced)).collect()
+        let trace = if is_traced { Trace::Everything } else { Trace::Nothing };
+        (0..self.values.len()).map(|number| self.at_step(number, at, trace)).collect()
     }
 
-    fn at_step(&self, number: usize, at: [u32; 2], is_traced: bool) -> Result<PixelStep> {
+    /// Explains one prepared step at a pixel.
+    pub(super) fn at_step(&self, number: usize, at: [u32; 2], trace: Trace<'_>) -> Result<PixelStep> {
         let steps: Vec<(&Pass, &Step)> = all_steps(self.plan).collect();
         let (pass, step) = steps[number];
         let StepValues { part, colors, .. } = &self.values[number];
@@ -142,13 +174,14 @@ impl<'a> Explainer<'a> {
             program: None,
             reads_buffers: matches!(step, Step::Draw(draw) if reads(draw)),
             fragments: Vec::new(),
+            blend: if let Step::Draw(draw) = step { Some(draw.blend) } else { None },
             before: before.collect(),
             computed: None,
             drawn: colors.iter().map(|color| color[place]).collect(),
             difference: None,
             remark: None,
         };
-        self.explain(step, (number, pass.target), (at, depth, is_traced), &mut explained)?;
+        self.explain(step, (number, pass.target), (at, depth, trace), &mut explained)?;
         explained.difference = explained.computed.as_ref().map(|computed| difference(computed, &explained.drawn));
         Ok(explained)
     }
@@ -157,7 +190,7 @@ impl<'a> Explainer<'a> {
         &self,
         step: &Step,
         (number, target): (usize, Target),
-        (at, depth, is_traced): ([u32; 2], Option<f32>, bool),
+        (at, depth, trace): ([u32; 2], Option<f32>, Trace<'_>),
         explained: &mut PixelStep,
     ) -> Result<()> {
         let before: Vec<[f64; 4]> = explained.before.iter().map(|color| color.map(f64::from)).collect();
@@ -180,7 +213,7 @@ impl<'a> Explainer<'a> {
                     return Ok(());
                 };
                 explained.program = Some(prepared.program.clone());
-                explained.fragments = prepared.fragments(at, depth, is_traced)?;
+                explained.fragments = prepared.fragments(at, depth, trace)?;
                 let mut colors = if before.is_empty() { vec![[0.0; 4]; count] } else { before };
                 for fragment in explained.fragments.iter().filter(|fragment| fragment.is_written()) {
                     for (number, (color, given)) in colors.iter_mut().zip(&fragment.colors).enumerate() {
@@ -200,7 +233,7 @@ fn prepared<'a>(
     plan: &'a Plan,
     values: &'a [StepValues],
     (number, replaced): (usize, &HashMap<String, String>),
-    how: Recomputation,
+    (how, only_at): (Recomputation, Option<[u32; 2]>),
 ) -> Result<Option<PreparedDraw<'a>>> {
     let Some((pass, Step::Draw(draw))) = all_steps(plan).nth(number) else { return Ok(None) };
     if matches!(draw.geometry, Geometry::Edges { .. }) {
@@ -224,10 +257,11 @@ fn prepared<'a>(
         program: program.to_string(),
         vertex: stage(&[text(program.vertex)?])?,
         fragment: stage(&fragments)?,
-        triangles: Triangles::of(scene, draw, material, how.subpixel_bits),
+        triangles: Triangles::of(scene, draw, material, how.subpixel_bits, only_at),
         samplers: samplers.collect(),
         images: Images::of(scene, plan, values, (number, draw), how.filtering)?,
         precision: how.precision,
+        corners: Mutex::default(),
         height: scene.size.height,
         is_texture: pass.target != Target::Framebuffer,
     }))

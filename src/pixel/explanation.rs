@@ -1,13 +1,14 @@
 //! A pixel explained in words: pass by pass, statement by statement, beside the driver's value and the exact lines.
 
 use super::{
-    AgainstLines, Event, Explainer, Fragment, PixelStep, Recomputation, Sample, Verdict, What, against_lines,
+    AgainstLines, Comparison, Event, Explainer, PixelStep, Recomputation, Sample, Verdict, What, against_lines,
     is_background,
 };
 use crate::error::{Error, Result};
 use crate::lines::{LineSettings, VisibleLines};
-use crate::renderer::Renderer;
-use crate::scene::{Rectangle, Scene};
+use crate::plan::Plan;
+use crate::renderer::{Renderer, StepValues};
+use crate::scene::{Rectangle, Scene, Size};
 use crate::styles::{Show, Style};
 use glam::DVec2;
 use serde::Serialize;
@@ -54,6 +55,23 @@ impl Explanation {
     /// [`Error::CommandLine`] for a place outside of the picture or of background; those of [`Renderer::step_values`] and of
     /// [`Explainer`].
     pub fn of(style: &Style, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<Self> {
+        let mut explained = Self::without_lines(style, scene, renderer, place)?;
+        if style.style_name().has_lines() && explained.texts.is_empty() {
+            let (at, plan) = (explained.place_in_textures, style.plan(scene, Show::Borders)?);
+            let values = renderer.step_values(scene, &plan, around(at, scene.size, 0))?;
+            let lines = VisibleLines::of(scene, &LineSettings::default())?;
+            let how = Recomputation::like(renderer.context());
+            explained.lines = Some(against_lines(scene, style, (&plan, &values), &lines, at, how)?);
+        }
+        Ok(explained)
+    }
+
+    /// Like [`Explanation::of`], without the verdict of the exact lines, which take longer.
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn without_lines(style: &Style, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<Self> {
         let size = scene.size;
         let refuse = |problem: String| Error::CommandLine { problem: format!("{},{}: {problem}", place.x, place.y) };
         let is_within = |at: f64, count: u32| (0.0..f64::from(count)).contains(&at);
@@ -64,28 +82,34 @@ impl Explanation {
             )));
         }
         let pixel = [place.x as u32, place.y as u32];
-        let at = [pixel[0], size.height - 1 - pixel[1]];
-        let (x, y) = (at[0].saturating_sub(MARGIN_PX), at[1].saturating_sub(MARGIN_PX));
-        let until = |at: u32, count: u32| (at + MARGIN_PX + 1).min(count);
-        let part = Rectangle { x, y, width: until(at[0], size.width) - x, height: until(at[1], size.height) - y };
-
         let plan = style.plan(scene, Show::Final)?;
-        let values = renderer.step_values(scene, &plan, part)?;
+        let at = [pixel[0], size.height - 1 - pixel[1]];
+        let values = renderer.step_values(scene, &plan, around(at, size, 0))?;
+        Self::of_values(style, scene, (&plan, &values), renderer, pixel)
+    }
+
+    /// Explains a pixel of the finished picture, right and down from the upper left corner, from what the steps of its plan left
+    /// there ([`around`]).
+    ///
+    /// # Errors
+    ///
+    /// As [`Explanation::of`].
+    pub fn of_values(
+        style: &Style,
+        scene: &Scene,
+        (plan, values): (&Plan, &[StepValues]),
+        renderer: &Renderer,
+        pixel: [u32; 2],
+    ) -> Result<Self> {
+        let [x, y] = pixel;
+        let refuse = |problem: String| Error::CommandLine { problem: format!("{x},{y}: {problem}") };
+        let at = [x, scene.size.height - 1 - y];
         let how = Recomputation::like(renderer.context());
         let replaced = renderer.replaced_shaders();
-        let steps = Explainer::with_shaders(scene, &plan, &values, how, &replaced)?.pixel(at, true)?;
+        let steps = Explainer::at(scene, plan, values, how, &replaced, Some(at))?.pixel(at, true)?;
         if is_background(&steps) {
             return Err(refuse("this is background, where nothing is drawn; choose a pixel of the model".to_owned()));
         }
-        let lines = match style.style_name().has_lines() && replaced.is_empty() {
-            true => {
-                let plan = style.plan(scene, Show::Borders)?;
-                let values = renderer.step_values(scene, &plan, part)?;
-                let lines = VisibleLines::of(scene, &LineSettings::default())?;
-                Some(against_lines(scene, style, (&plan, &values), &lines, at, how)?)
-            }
-            false => None,
-        };
         let color = steps.last().and_then(|step| step.drawn.first()).copied().unwrap_or_default();
         Ok(Self {
             style: style.name(),
@@ -95,25 +119,43 @@ impl Explanation {
             renderer: renderer.context().renderer.clone(),
             objects: scene.objects.iter().map(|object| object.mesh.name.clone()).collect(),
             steps,
-            lines,
+            lines: None,
             texts: replaced.into_iter().collect(),
         })
     }
 
+    /// The text of a shader that ran.
+    pub(super) fn text(&self, shader: &str) -> &str {
+        let replaced = self.texts.iter().find(|(path, _)| path == shader).map(|(_, text)| text.as_str());
+        replaced.or_else(|| crate::glsl::source(shader)).unwrap_or_default()
+    }
+
     /// The line of a shader that an event comes from, shortened.
-    fn source(&self, event: &Event) -> String {
-        let replaced = self.texts.iter().find(|(path, _)| *path == event.shader).map(|(_, text)| text.as_str());
-        let text = replaced.or_else(|| crate::glsl::source(&event.shader)).unwrap_or_default();
+    pub fn source(&self, event: &Event) -> String {
+        let text = self.text(&event.shader);
         let line = text.lines().nth((event.line as usize).saturating_sub(1)).unwrap_or_default();
         line.trim().chars().take(SOURCE_LENGTH).collect()
     }
 
+    /// What a statement did.
+    pub fn in_words(&self, event: &Event) -> String {
+        match &event.what {
+            What::Set { variable, value } => format!("{variable} = {value}"),
+            What::Branched { is_taken, compared: None } => format!("the condition is {is_taken}"),
+            What::Branched { is_taken, compared: Some(Comparison { left, operator, right }) } => {
+                format!("{left:.6} {operator} {right:.6} is {is_taken}")
+            }
+            What::Read { texture, sample, .. } => format!("{texture} {}", of_sample(sample, self.place_in_textures)),
+            What::Returned { function, value } => format!("{function} returns {value}"),
+            What::Discarded => "the pixel stays as it was".to_owned(),
+        }
+    }
+
     /// The triangles over the pixel: the one that stays statement by statement, the others as a number.
-    fn write_fragments(&self, text: &mut String, fragments: &[Fragment]) {
-        let last =
-            fragments.iter().rposition(Fragment::is_written).or_else(|| fragments.iter().rposition(|f| f.is_discarded));
-        let others = fragments.len() - usize::from(last.is_some());
-        let Some(fragment) = last.map(|place| &fragments[place]) else {
+    fn write_fragments(&self, text: &mut String, step: &PixelStep) {
+        let decisive = step.decisive();
+        let others = step.fragments.len() - usize::from(decisive.is_some());
+        let Some(fragment) = decisive else {
             if others > 0 {
                 let _ = writeln!(text, "  {others} triangles cover it, all behind what is there");
             }
@@ -131,7 +173,7 @@ impl Explanation {
             }
         }
         for event in fragment.events.iter().take(MOST_EVENTS) {
-            let (line, value) = (self.source(event), of_event(event, self.place_in_textures));
+            let (line, value) = (self.source(event), self.in_words(event));
             let _ = writeln!(text, "  {:>5}  {line:<SOURCE_LENGTH$} {value}", event.line);
         }
         if fragment.events.len() > MOST_EVENTS {
@@ -145,7 +187,7 @@ impl Display for Explanation {
         let Self { style, pixel: [x, y], color, renderer, steps, lines, .. } = self;
         let mut text = format!("Pixel {x},{y} of {style} is {color:?}, drawn by {renderer}.\n");
         if let Some(lines) = lines {
-            text.push_str(&of_lines(lines));
+            let _ = writeln!(text, "{lines}");
         }
         for step in steps {
             let _ = write!(text, "\n{}, {}", step.pass, step.step);
@@ -153,58 +195,62 @@ impl Display for Explanation {
                 let _ = write!(text, " with {program}");
             }
             text.push('\n');
-            self.write_fragments(&mut text, &step.fragments);
+            self.write_fragments(&mut text, step);
             let _ = writeln!(text, "  {}", written(step));
         }
         out.write_str(&text)
     }
 }
 
-/// What the exact lines say.
-fn of_lines(lines: &AgainstLines) -> String {
-    let AgainstLines { verdict, darkness, class, distance_px, flips } = lines;
-    let nearest = match (class, distance_px) {
-        (Some(class), Some(distance)) => format!("the nearest visible line is a {class} at {distance:.2} px"),
-        _ => "no line is visible".to_owned(),
-    };
-    let verdict = match verdict {
-        Verdict::Right => "as the exact lines",
-        Verdict::Invented => "invented",
-        Verdict::Missed => "missed",
-        Verdict::Empty => "no line here, as in the exact lines",
-    };
-    let mut text = format!("Its line is {darkness} of 255 dark: {verdict}; {nearest}.\n");
-    let becomes = if *darkness >= super::INK_FROM { "no ink" } else { "ink" };
-    for flip in flips {
-        let _ = writeln!(text, "It becomes {becomes} with --{} {}.", flip.setting, three_digits(flip.value));
+/// What the exact lines say, and what would turn the ink over, a line for each setting.
+impl Display for AgainstLines {
+    fn fmt(&self, out: &mut Formatter<'_>) -> std::fmt::Result {
+        let Self { verdict, darkness, class, distance_px, flips } = self;
+        let nearest = match (class, distance_px) {
+            (Some(class), Some(distance)) => format!("the nearest visible line is a {class} at {distance:.2} px"),
+            _ => "no line is visible".to_owned(),
+        };
+        let verdict = match verdict {
+            Verdict::Right => "as the exact lines",
+            Verdict::Invented => "invented",
+            Verdict::Missed => "missed",
+            Verdict::Empty => "no line here, as in the exact lines",
+        };
+        write!(out, "Its line is {darkness} of 255 dark: {verdict}; {nearest}.")?;
+        let becomes = if *darkness >= super::INK_FROM { "no ink" } else { "ink" };
+        for flip in flips {
+            write!(out, "\nIt becomes {becomes} with --{} {}.", flip.setting, three_digits(flip.value))?;
+        }
+        Ok(())
     }
-    text
 }
 
 fn three_digits(value: f64) -> String {
     format!("{value:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-fn of_event(event: &Event, at: [u32; 2]) -> String {
-    match &event.what {
-        What::Set { variable, value } => format!("{variable} = {value}"),
-        What::Branched { is_taken } => format!("the condition is {is_taken}"),
-        What::Read { texture, sample, .. } => format!("{texture} {}", of_sample(sample, at)),
-        What::Returned { function, value } => format!("{function} returns {value}"),
-        What::Discarded => "the pixel stays as it was".to_owned(),
-    }
+/// The pixels to read back to explain one, counted from the lower left, and those up to `reach_px` from it.
+pub fn around(at: [u32; 2], size: Size, reach_px: u32) -> Rectangle {
+    let margin = MARGIN_PX + reach_px;
+    let (x, y) = (at[0].saturating_sub(margin), at[1].saturating_sub(margin));
+    let until = |at: u32, count: u32| (at + margin + 1).min(count);
+    Rectangle { x, y, width: until(at[0], size.width) - x, height: until(at[1], size.height) - y }
 }
 
-/// The texels of a read; those around the pixel by the letters of the texts' filters, A to I from the lower left.
+/// The letter of the texts' filters for a texel around the pixel: A to I from the lower left.
+pub fn tap(place: [u32; 2], at: [u32; 2]) -> Option<char> {
+    let [across, up] = [0, 1].map(|axis| i64::from(place[axis]) - i64::from(at[axis]) + 1);
+    let letter = ((0..3).contains(&across) && (0..3).contains(&up)).then_some(3 * up + across)?;
+    "ABCDEFGHI".chars().nth(letter as usize)
+}
+
+/// The texels of a read; those around the pixel by their letters.
 fn of_sample(sample: &Sample, at: [u32; 2]) -> String {
     let color = |value: [f64; 4]| value.map(|channel| format!("{:.4}", channel)).join(", ");
     match sample.texels.as_slice() {
         [] => format!("has no picture here: {}", color(sample.value)),
         [texel] => {
-            let [across, up] = [0, 1].map(|axis| i64::from(texel.place[axis]) - i64::from(at[axis]) + 1);
-            let letter = ((0..3).contains(&across) && (0..3).contains(&up)).then(|| 3 * up + across);
-            let letter = letter.and_then(|place| "ABCDEFGHI".chars().nth(place as usize));
-            let tap = letter.map_or_else(String::new, |letter| format!("tap {letter}, "));
+            let tap = tap(texel.place, at).map_or_else(String::new, |letter| format!("tap {letter}, "));
             format!("{tap}texel {},{}: {}", texel.place[0], texel.place[1], color(texel.value))
         }
         texels => {

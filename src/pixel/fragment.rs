@@ -6,7 +6,9 @@ use crate::error::{Error, Result};
 use crate::plan::{self, Blend, Depth, Draw};
 use glam::{DMat3, Mat4};
 use serde::Serialize;
-use tinta_glsl::{Base, Event, Mistake, Precision, Run, Settings, Stage, Type, Value};
+use std::collections::HashMap;
+use std::sync::{Mutex, PoisonError};
+use tinta_glsl::{Base, Event, Mistake, Precision, Run, Settings, Stage, Trace, Type, Value};
 
 /// The steps of a depth buffer of 24 bits.
 const DEPTH_STEPS: f64 = 16_777_215.0;
@@ -67,6 +69,8 @@ pub(super) struct PreparedDraw<'a> {
     pub(super) samplers: Vec<&'static str>,
     pub(super) images: Images<'a>,
     pub(super) precision: Precision,
+    /// What vertices passed on to untraced pixels, by group, vertex and material.
+    pub(super) corners: Mutex<HashMap<(usize, u32, u32), Vec<(String, Value)>>>,
     /// Rows of the surface.
     pub(super) height: u32,
     /// Whether it draws into textures, whose rows drivers count from below.
@@ -77,7 +81,7 @@ type Named<'a> = Vec<(&'a str, Value)>;
 
 impl PreparedDraw<'_> {
     /// Runs every triangle that covers a pixel, in drawing order, from the depth that the driver held before.
-    pub(super) fn fragments(&self, at: [u32; 2], depth: Option<f32>, is_traced: bool) -> Result<Vec<Fragment>> {
+    pub(super) fn fragments(&self, at: [u32; 2], depth: Option<f32>, trace: Trace<'_>) -> Result<Vec<Fragment>> {
         if !self.draw.scissor.is_none_or(|part| {
             (part.x..part.x + part.width).contains(&at[0]) && (part.y..part.y + part.height).contains(&at[1])
         }) {
@@ -101,7 +105,7 @@ impl PreparedDraw<'_> {
                 Depth::TestAndWrite | Depth::TestOnly => Some(steps(depth) < steps(held)),
                 Depth::Equal => Some((steps(depth) - steps(held)).abs() <= EQUAL_DEPTH_STEPS),
             };
-            let fragment = self.fragment(&cover, at, depth, is_nearer, is_traced)?;
+            let fragment = self.fragment(&cover, at, depth, is_nearer, trace)?;
             if fragment.is_written() && self.draw.depth == Depth::TestAndWrite {
                 held = depth;
             }
@@ -116,7 +120,7 @@ impl PreparedDraw<'_> {
         at: [u32; 2],
         depth: f64,
         is_nearer: Option<bool>,
-        is_traced: bool,
+        trace: Trace<'_>,
     ) -> Result<Fragment> {
         let triangle = cover.triangle;
         let group = &self.triangles.groups[triangle.group];
@@ -136,14 +140,13 @@ impl PreparedDraw<'_> {
             return Ok(fragment);
         }
         for (corner, share) in triangle.corners.into_iter().zip(cover.shares.to_array()) {
-            let run = self.run_vertex(cover, corner, is_traced)?;
-            let varyings = self.passed(&run);
-            fragment.corners.push(Corner { share, events: run.events, varyings });
+            let (events, varyings) = self.corner(cover, corner, trace)?;
+            fragment.corners.push(Corner { share, events, varyings });
         }
         let changes =
             if self.fragment.asks_neighbours() { self.changes(cover, at, &fragment.corners)? } else { Vec::new() };
         let middle = [f64::from(at[0]) + 0.5, f64::from(at[1]) + 0.5];
-        let run = self.run_fragment(cover, middle, &fragment.corners, &changes, is_traced)?;
+        let run = self.run_fragment(cover, middle, &fragment.corners, &changes, trace)?;
         fragment.varyings = self.interpolated(cover, &fragment.corners);
         fragment.is_discarded = run.is_discarded;
         let color = |name: &str| run.output(name).map(|color| std::array::from_fn(|n| color.numbers()[n]));
@@ -153,8 +156,29 @@ impl PreparedDraw<'_> {
         Ok(fragment)
     }
 
+    /// What the vertex shader did for a corner, if everything is traced, and what it passed on.
+    fn corner(&self, cover: &Cover<'_>, corner: u32, trace: Trace<'_>) -> Result<(Vec<Event>, Vec<(String, Value)>)> {
+        if trace == Trace::Everything {
+            let run = self.run_vertex(cover, corner, trace)?;
+            let varyings = self.passed(&run);
+            return Ok((run.events, varyings));
+        }
+        let place = (cover.triangle.group, corner, cover.triangle.material);
+        let known = || self.corners.lock().unwrap_or_else(PoisonError::into_inner);
+        let varyings = known().get(&place).cloned();
+        let varyings = match varyings {
+            Some(varyings) => varyings,
+            None => {
+                let varyings = self.passed(&self.run_vertex(cover, corner, Trace::Nothing)?);
+                known().insert(place, varyings.clone());
+                varyings
+            }
+        };
+        Ok((Vec::new(), varyings))
+    }
+
     /// Runs the vertex shader for a corner.
-    fn run_vertex(&self, cover: &Cover<'_>, corner: u32, is_traced: bool) -> Result<Run> {
+    fn run_vertex(&self, cover: &Cover<'_>, corner: u32, trace: Trace<'_>) -> Result<Run> {
         let group = &self.triangles.groups[cover.triangle.group];
         let [x, y, z, nx, ny, nz] = group.vertices[corner as usize].map(f64::from);
         let matrix = |matrix: Mat4| Value::matrix(&matrix.to_cols_array().map(f64::from));
@@ -172,7 +196,7 @@ impl PreparedDraw<'_> {
             ("gl_NormalMatrix", Value::matrix(&turn.to_cols_array().map(|number| f64::from(number as f32)))),
         ];
         inputs.extend(self.uniforms());
-        let settings = Settings { precision: self.precision, is_traced, changes: &[] };
+        let settings = Settings { precision: self.precision, trace, changes: &[] };
         self.vertex.run(&inputs, &(), &settings).map_err(misunderstood)
     }
 
@@ -231,7 +255,7 @@ impl PreparedDraw<'_> {
         [x, y]: [f64; 2],
         corners: &[Corner],
         changes: &[[Value; 2]],
-        is_traced: bool,
+        trace: Trace<'_>,
     ) -> Result<Run> {
         let varyings = self.interpolated(cover, corners);
         let kept = |number: f64| if self.precision == Precision::Single { f64::from(number as f32) } else { number };
@@ -248,7 +272,7 @@ impl PreparedDraw<'_> {
         inputs.extend(self.uniforms());
         let group = &self.triangles.groups[cover.triangle.group];
         let textures = OfTriangle { images: &self.images, object: group.object, material: cover.triangle.material };
-        let settings = Settings { precision: self.precision, is_traced, changes };
+        let settings = Settings { precision: self.precision, trace, changes };
         self.fragment.run(&inputs, &textures, &settings).map_err(misunderstood)
     }
 
@@ -258,7 +282,7 @@ impl PreparedDraw<'_> {
         let asked = |x: i64, y: i64| -> Result<Vec<Value>> {
             let place = [x as f64 + 0.5, y as f64 + 0.5];
             let Some(there) = self.triangles.at(cover.triangle, place) else { return Ok(Vec::new()) };
-            Ok(self.run_fragment(&there, place, corners, &[], false)?.asked)
+            Ok(self.run_fragment(&there, place, corners, &[], Trace::Nothing)?.asked)
         };
         let [x, y] = at.map(i64::from);
         let (left, top) = (x & !1, i64::from(self.height) - 1);

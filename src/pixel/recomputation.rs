@@ -27,9 +27,11 @@ pub struct Recomputation {
 }
 
 impl Recomputation {
-    /// Returns how this context computes: in 32 bits, and textures as its driver reads them.
+    /// Returns how this context computes: in 32 bits, with textures and corners as its driver has them.
     pub fn like(context: &ContextInfo) -> Self {
         let filtering = if context.renderer.contains("llvmpipe") { Filtering::Bytes } else { Filtering::Exact };
-        Self { precision: Precision::Single, filtering, subpixel_bits: context.subpixel_bits }
+        // softpipe says 4 and places corners as floats.
+        let subpixel_bits = if context.renderer.contains("softpipe") { 16 } else { context.subpixel_bits };
+        Self { precision: Precision::Single, filtering, subpixel_bits }
     }
 }

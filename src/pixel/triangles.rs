@@ -51,8 +51,12 @@ pub(super) struct Cover<'a> {
 /// All triangles of a draw, in drawing order.
 pub(super) struct Triangles<'a> {
     pub(super) groups: Vec<Group<'a>>,
-    pub(super) all: Vec<Triangle>,
+    all: Vec<Triangle>,
+    /// For each row of the picture, from the lowest: the triangles that may cover pixels of it, in drawing order.
+    rows: Vec<Vec<u32>>,
     size: [f64; 2],
+    /// The pixel that will be asked for, if it is a single one.
+    only_at: Option<[u32; 2]>,
     /// Parts of a pixel that the driver places corners at.
     steps: f64,
 }
@@ -71,11 +75,18 @@ impl Group<'_> {
 }
 
 impl<'a> Triangles<'a> {
-    /// Returns the triangles of a draw; none for edges. `subpixel_bits` is the driver's.
-    pub(super) fn of(scene: &'a Scene, draw: &'a Draw, material_unit: Option<usize>, subpixel_bits: u32) -> Self {
+    /// Returns the triangles of a draw, or those near one pixel; none for edges. `subpixel_bits` is the driver's.
+    pub(super) fn of(
+        scene: &'a Scene,
+        draw: &'a Draw,
+        material_unit: Option<usize>,
+        subpixel_bits: u32,
+        only_at: Option<[u32; 2]>,
+    ) -> Self {
         let size = [f64::from(scene.size.width), f64::from(scene.size.height)];
-        let mut triangles =
-            Self { groups: Vec::new(), all: Vec::new(), size, steps: f64::from(1_u32 << subpixel_bits.min(16)) };
+        let rows = vec![Vec::new(); scene.size.height as usize];
+        let steps = f64::from(1_u32 << subpixel_bits.min(16));
+        let mut triangles = Self { groups: Vec::new(), all: Vec::new(), rows, size, steps, only_at };
         if let Some(square) = Square::of(&draw.geometry) {
             triangles.groups.push(Group {
                 object: None,
@@ -85,8 +96,9 @@ impl<'a> Triangles<'a> {
                 colors: &[],
                 coordinates: [&[]; 2],
             });
+            let clip = triangles.clip_of_last_group();
             for (number, corners) in [[0, 1, 2], [0, 2, 3]].into_iter().enumerate() {
-                triangles.push(number, corners, NONE, square.color);
+                triangles.push((number, corners), &clip, NONE, square.color);
             }
         }
         if let Geometry::Objects(paint) = &draw.geometry {
@@ -122,6 +134,7 @@ impl<'a> Triangles<'a> {
             colors,
             coordinates,
         });
+        let clip = self.clip_of_last_group();
         for part in parts {
             let color = match paint {
                 Paint::Materials => {
@@ -135,19 +148,21 @@ impl<'a> Triangles<'a> {
             for (place, corners) in indices[first..first + part.count as usize].as_chunks::<3>().0.iter().enumerate() {
                 let place = first / 3 + place;
                 let in_mesh = arrays.order.get(place).map_or(place, |number| *number as usize);
-                self.push(in_mesh, *corners, part.material, color);
+                self.push((in_mesh, *corners), &clip, part.material, color);
             }
         }
     }
 
-    /// Adds a triangle of the last group, at the camera's projection of its corners.
-    fn push(&mut self, number: usize, corners: [u32; 3], material: u32, color: [f32; 4]) {
-        let Some(group) = self.groups.last() else { return };
+    /// The camera's projection of the last group's vertices.
+    fn clip_of_last_group(&self) -> Vec<Vec4> {
+        let Some(group) = self.groups.last() else { return Vec::new() };
         let clip_from_object = group.clip_from_view * group.view_from_object;
-        let clip = corners.map(|corner| {
-            let [x, y, z, ..] = group.vertices[corner as usize];
-            clip_from_object * Vec4::new(x, y, z, 1.0)
-        });
+        group.vertices.iter().map(|[x, y, z, ..]| clip_from_object * Vec4::new(*x, *y, *z, 1.0)).collect()
+    }
+
+    /// Adds a triangle of the last group, by its number, corners and projected vertices.
+    fn push(&mut self, (number, corners): (usize, [u32; 3]), vertices: &[Vec4], material: u32, color: [f32; 4]) {
+        let clip = corners.map(|corner| vertices[corner as usize]);
         let mut bounds = [[0.0; 2], self.size];
         if clip.iter().all(|corner| corner.w > 0.0) {
             let places = clip.map(|corner| self.place(corner));
@@ -156,6 +171,12 @@ impl<'a> Triangles<'a> {
                 bounds[1][axis] = places.iter().map(|place| place[axis]).fold(f64::NEG_INFINITY, f64::max) + 1.0;
             }
         }
+        if self.only_at.is_some_and(|[x, y]| !is_within(&bounds, [f64::from(x) + 0.5, f64::from(y) + 0.5])) {
+            return;
+        }
+        let number_here = self.all.len() as u32;
+        let (lowest, highest) = (bounds[0][1].max(0.0) as usize, bounds[1][1].max(0.0) as usize);
+        self.rows.iter_mut().take(highest + 1).skip(lowest).for_each(|row| row.push(number_here));
         self.all.push(Triangle { group: self.groups.len() - 1, number, corners, material, color, clip, bounds });
     }
 
@@ -171,11 +192,9 @@ impl<'a> Triangles<'a> {
     /// Returns the triangles that cover a pixel's middle, in drawing order.
     pub(super) fn covering(&self, [x, y]: [u32; 2]) -> impl Iterator<Item = Cover<'_>> {
         let middle = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-        let is_near = move |triangle: &&Triangle| {
-            let [low, high] = &triangle.bounds;
-            (0..2).all(|axis| low[axis] <= middle[axis] && middle[axis] <= high[axis])
-        };
-        self.all.iter().filter(is_near).filter_map(move |triangle| {
+        let is_near = move |triangle: &&Triangle| is_within(&triangle.bounds, middle);
+        let row = self.rows.get(y as usize).map_or(&[][..], Vec::as_slice);
+        row.iter().map(|number| &self.all[*number as usize]).filter(is_near).filter_map(move |triangle| {
             let cover = self.at(triangle, middle)?;
             let is_within = match triangle.clip.iter().all(|corner| corner.w > 0.0) {
                 true => self.covers(triangle, middle),
@@ -234,6 +253,11 @@ impl<'a> Triangles<'a> {
         let here = depth([x, y]);
         (depth([x + 1.0, y]) - here).abs().max((depth([x, y + 1.0]) - here).abs())
     }
+}
+
+/// Whether a place lies between the lowest and the highest of both axes.
+fn is_within([low, high]: &[[f64; 2]; 2], place: [f64; 2]) -> bool {
+    (0..2).all(|axis| low[axis] <= place[axis] && place[axis] <= high[axis])
 }
 
 /// Twice the area to the left of `a` to `b`, seen with y up.

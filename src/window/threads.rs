@@ -6,6 +6,7 @@ pub(super) mod cost;
 pub(super) mod dialogue;
 pub(super) mod draw;
 pub(super) mod exact;
+pub(super) mod explain;
 pub(super) mod job;
 pub(super) mod line_job;
 pub(super) mod line_measure;

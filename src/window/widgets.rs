@@ -2,6 +2,7 @@
 
 pub(super) mod keys;
 pub(super) mod label;
+pub(super) mod listing;
 pub(super) mod panel;
 pub(super) mod plot;
 pub(super) mod ui;

@@ -7,15 +7,16 @@
 //! Not understood: arrays and structures of a shader's own, `#if`.
 //!
 //! ```
-//! use tinta_glsl::{Settings, Stage, Value, What};
+//! use tinta_glsl::{Settings, Stage, Trace, Value, What};
 //!
 //! let text = "#version 120\nuniform float threshold;\nvoid main() {\n    float tone = 0.25;\n    if (tone < threshold) discard;\n}";
 //! let stage = Stage::new(&[("tone.frag", text)]).expect("a shader");
 //! let inputs = [("threshold", Value::floats(&[0.5]))];
-//! let run = stage.run(&inputs, &(), &Settings { is_traced: true, ..Settings::default() }).expect("a run");
+//! let run = stage.run(&inputs, &(), &Settings { trace: Trace::Everything, ..Settings::default() }).expect("a run");
 //! assert!(run.is_discarded);
 //! assert_eq!(run.events[0].line, 4);
-//! assert_eq!(run.events[1].what, What::Branched { is_taken: true });
+//! let What::Branched { is_taken: true, compared: Some(tone) } = &run.events[1].what else { panic!("no branch") };
+//! assert_eq!((tone.left, tone.operator, tone.right), (0.25, "<", 0.5));
 //! ```
 
 mod value;
@@ -26,6 +27,7 @@ mod preprocess;
 mod syntax;
 mod parse;
 mod program;
+mod assigned;
 mod variables;
 mod trace;
 mod machine;
@@ -34,5 +36,5 @@ mod stage;
 pub use arithmetic::Precision;
 pub use mistake::Mistake;
 pub use stage::Stage;
-pub use trace::{Event, Run, Sample, Settings, Texel, Textures, What};
+pub use trace::{Comparison, Event, Run, Sample, Settings, Texel, Textures, Trace, What};
 pub use value::{Base, Type, Value};

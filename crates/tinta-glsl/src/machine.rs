@@ -4,7 +4,7 @@ use crate::arithmetic::{binary, call, construct, promoted, unary};
 use crate::mistake::Mistake;
 use crate::program::Program;
 use crate::syntax::{Expression, ExpressionKind, Function, Loop, Statement, StatementKind, Storage};
-use crate::trace::{Event, Run, Settings, Textures, What};
+use crate::trace::{Comparison, Event, Run, Settings, Textures, Trace, What};
 use crate::value::{Base, Type, Value};
 use crate::variables::{Place, Variables};
 
@@ -41,6 +41,8 @@ struct Machine<'a> {
     variables: Variables<'a>,
     statements: u32,
     calls: u32,
+    /// The operator of two numbers that was evaluated last.
+    compared: Option<Comparison>,
     run: Run,
 }
 
@@ -52,7 +54,16 @@ pub(crate) fn run(
     settings: &Settings<'_>,
 ) -> Result<Run, Mistake> {
     let variables = Variables::given(inputs);
-    let mut machine = Machine { program, textures, settings, variables, statements: 0, calls: 0, run: Run::default() };
+    let mut machine = Machine {
+        program,
+        textures,
+        settings,
+        variables,
+        statements: 0,
+        calls: 0,
+        compared: None,
+        run: Run::default(),
+    };
     match machine.start() {
         Ok(()) => {}
         Err(Stop::Discard) => machine.run.is_discarded = true,
@@ -97,9 +108,27 @@ impl<'a> Machine<'a> {
     }
 
     fn record(&mut self, line: u32, what: impl FnOnce() -> What) {
-        if self.settings.is_traced && self.run.events.len() < MOST_EVENTS {
+        if self.settings.trace == Trace::Everything {
+            self.push(line, what());
+        }
+    }
+
+    fn record_set(&mut self, line: u32, name: &str, value: Value) {
+        if [Trace::Everything, Trace::Variable(name)].contains(&self.settings.trace) {
+            self.push(line, What::Set { variable: name.to_owned(), value });
+        }
+    }
+
+    fn record_branch(&mut self, condition: &Expression, line: u32, is_taken: bool) {
+        let is_comparison = matches!(condition.kind, ExpressionKind::Binary("<" | ">" | "<=" | ">=", ..));
+        let compared = self.compared.take().filter(|_| is_comparison);
+        self.record(line, || What::Branched { is_taken, compared });
+    }
+
+    fn push(&mut self, line: u32, what: What) {
+        if self.run.events.len() < MOST_EVENTS {
             let shader = self.program.shaders[self.variables.shader].path.clone();
-            self.run.events.push(Event { shader, line, what: what() });
+            self.run.events.push(Event { shader, line, what });
         }
     }
 
@@ -143,7 +172,7 @@ impl<'a> Machine<'a> {
                         Some(expression) => {
                             let value = self.evaluate(expression)?;
                             let value = self.fitting(value, *of, expression.line)?;
-                            self.record(line, || What::Set { variable: name.clone(), value });
+                            self.record_set(line, name, value);
                             value
                         }
                         None => Value::new(*of, &[]),
@@ -156,7 +185,7 @@ impl<'a> Machine<'a> {
             StatementKind::Block(statements) => self.block(statements),
             StatementKind::If(condition, then, otherwise) => {
                 let is_taken = self.condition(condition)?;
-                self.record(line, || What::Branched { is_taken });
+                self.record_branch(condition, line, is_taken);
                 let count = self.variables.count();
                 let flow = match (is_taken, otherwise) {
                     (true, _) => self.statement(then),
@@ -244,6 +273,7 @@ impl<'a> Machine<'a> {
             }
             ExpressionKind::Binary(operator, left, right) => {
                 let (left, right) = (self.evaluate(left)?, self.evaluate(right)?);
+                self.compared = Some(Comparison { left: left.first(), operator, right: right.first() });
                 self.computed(line, binary(operator, left, right, precision))
             }
             ExpressionKind::Assign(operator, target, value) => {
@@ -265,7 +295,7 @@ impl<'a> Machine<'a> {
             }
             ExpressionKind::Conditional(condition, first, second) => {
                 let is_taken = self.condition(condition)?;
-                self.record(line, || What::Branched { is_taken });
+                self.record_branch(condition, line, is_taken);
                 self.evaluate(if is_taken { first } else { second })
             }
             ExpressionKind::Swizzle(of, places) => {
@@ -332,7 +362,7 @@ impl<'a> Machine<'a> {
     fn set(&mut self, place: &Place, value: Value, line: u32) -> Stepped<()> {
         let value = self.fitting(value, self.variables.value(place).of, line)?;
         let (name, whole) = self.variables.set(place, value);
-        self.record(line, || What::Set { variable: name.to_owned(), value: whole });
+        self.record_set(line, name, whole);
         Ok(())
     }
 

@@ -9,10 +9,22 @@ use serde::Serialize;
 pub struct Settings<'a> {
     /// How floats are kept.
     pub precision: Precision,
-    /// Whether to record events.
-    pub is_traced: bool,
+    /// What to record.
+    pub trace: Trace<'a>,
     /// For each value in [`Run::asked`], in order: its change to the pixel on the right and to the pixel above.
     pub changes: &'a [[Value; 2]],
+}
+
+/// What a run records as events.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Trace<'a> {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// The values that variables of this name get.
+    Variable(&'a str),
+    /// What every statement does.
+    Everything,
 }
 
 /// The result of a run.
@@ -62,6 +74,9 @@ pub enum What {
     Branched {
         /// Whether it was true.
         is_taken: bool,
+        /// The numbers compared, if the condition is one comparison.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        compared: Option<Comparison>,
     },
     /// A texture was read.
     Read {
@@ -81,6 +96,17 @@ pub enum What {
     },
     /// The pixel was discarded.
     Discarded,
+}
+
+/// A comparison of two numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Comparison {
+    /// The number on the left.
+    pub left: f64,
+    /// `<`, `>`, `<=` or `>=`.
+    pub operator: &'static str,
+    /// The number on the right.
+    pub right: f64,
 }
 
 /// What a texture returns for a coordinate.

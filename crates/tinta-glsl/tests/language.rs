@@ -1,6 +1,8 @@
 //! The language, statement by statement: values, lines, and mistakes with their lines.
 
-use tinta_glsl::{Event, Mistake, Precision, Run, Sample, Settings, Stage, Texel, Textures, Type, Value, What};
+use tinta_glsl::{
+    Comparison, Event, Mistake, Precision, Run, Sample, Settings, Stage, Texel, Textures, Trace, Type, Value, What,
+};
 
 fn run_in(text: &str, inputs: &[(&str, Value)], settings: &Settings<'_>) -> Result<Run, Mistake> {
     Stage::new(&[("a.frag", text)])?.run(inputs, &(), settings)
@@ -66,7 +68,7 @@ fn functions_may_lie_in_other_shaders_and_write_what_they_are_given() {
 #[test]
 fn macros_stand_for_their_text_on_the_line_that_names_them() {
     let text = "#version 120\n#define at(trans) ((place.x+trans)*UNIT.x) // a comment\n#define UNIT unit /* and\nanother */\nvoid main() {\n    vec2 place = vec2(1.0), unit = vec2(0.5);\n    gl_FragColor = vec4(at(-1), at(0),\n                        at(1), 4*UNIT.y);\n}";
-    let settings = Settings { is_traced: true, ..Settings::default() };
+    let settings = Settings { trace: Trace::Everything, ..Settings::default() };
     let run = run_in(text, &[], &settings).unwrap();
     assert_eq!(run.output("gl_FragColor").unwrap().numbers(), [0.0, 0.5, 1.0, 2.0]);
     let lines: Vec<u32> = run.events.iter().map(|event| event.line).collect();
@@ -85,14 +87,36 @@ fn the_trace_tells_what_each_statement_did() {
     let text = "uniform sampler2D map;\nfloat read(float x) { return texture2D(map, vec2(x, 0.0)).r; }\nvoid main() {\n    float a = read(0.25);\n    if (a > 0.5) gl_FragColor = vec4(1.0);\n    else discard;\n}";
     let stage = Stage::new(&[("a.frag", text)]).unwrap();
     let map = Value::new(Type::named("sampler2D").unwrap(), &[3.0]);
-    let run = stage.run(&[("map", map)], &One, &Settings { is_traced: true, ..Settings::default() }).unwrap();
+    let run = stage.run(&[("map", map)], &One, &Settings { trace: Trace::Everything, ..Settings::default() }).unwrap();
     assert!(run.is_discarded);
     let seen: Vec<&What> = run.events.iter().map(|Event { what, .. }| what).collect();
     let quarter = Value::floats(&[0.25]);
     assert!(matches!(seen[0], What::Read { texture, sample, .. } if texture == "map" && sample.value[0] == 0.25));
     assert_eq!(seen[1], &What::Returned { function: "read".to_owned(), value: quarter });
     assert_eq!(seen[2], &What::Set { variable: "a".to_owned(), value: quarter });
-    assert_eq!(seen[3..], [&What::Branched { is_taken: false }, &What::Discarded]);
+    let compared = Some(Comparison { left: 0.25, operator: ">", right: 0.5 });
+    assert_eq!(seen[3..], [&What::Branched { is_taken: false, compared }, &What::Discarded]);
+
+    let of_a = Settings { trace: Trace::Variable("a"), ..Settings::default() };
+    let run = stage.run(&[("map", map)], &One, &of_a).unwrap();
+    let seen: Vec<&What> = run.events.iter().map(|Event { what, .. }| what).collect();
+    assert_eq!(seen, [&What::Set { variable: "a".to_owned(), value: quarter }], "one variable alone");
+}
+
+#[test]
+fn assigned_variables_are_listed_once_wherever_a_statement_sets_them() {
+    let text = "varying float light; void shade(out vec4 color) { color.rgb = vec3(light); }\nvoid main() {\n    float a = 0.0, never;\n    for (int i = 0; i < 2; i++) { a += 1.0; if (a > 1.0) { vec2 b; b[0] = a; } }\n    shade(gl_FragColor);\n    gl_FragColor.a = a;\n}";
+    let stage = Stage::new(&[("a.frag", text)]).unwrap();
+    assert_eq!(stage.assigned(), ["color", "a", "i", "b", "gl_FragColor"]);
+}
+
+#[test]
+fn a_condition_of_several_comparisons_names_none_of_them() {
+    let text = "void main() { float a = 1.0; if (a > 0.5 && a < 2.0) a = 3.0; if (!(a < 2.0)) a = 4.0; }";
+    let run = run_in(text, &[], &Settings { trace: Trace::Everything, ..Settings::default() }).unwrap();
+    let branches = run.events.iter().filter(|event| matches!(event.what, What::Branched { .. }));
+    let compared = branches.map(|event| matches!(event.what, What::Branched { compared: Some(_), .. }));
+    assert_eq!(compared.collect::<Vec<_>>(), [false, false]);
 }
 
 #[test]

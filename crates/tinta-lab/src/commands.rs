@@ -16,11 +16,13 @@ mod option_pictures;
 mod provenance;
 #[cfg(feature = "measuring")]
 mod stress;
+mod why;
 
 use tinta::cli::{Command, Program};
 
 /// The commands of this package, as help lists them.
 const COMMANDS: &[Command] = &[
+    why::COMMAND,
     compare::COMMAND,
     #[cfg(feature = "measuring")]
     measure::COMMAND,

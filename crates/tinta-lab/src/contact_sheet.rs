@@ -1,5 +1,4 @@
-//! Contact sheets: pictures side by side with titles above and lines of text with colour swatches below. The one file that
-//! sets text into pictures: DejaVu Sans, which is in the program, with antialiased outlines.
+//! Contact sheets: pictures side by side with titles above and lines of text with colour swatches below.
 //!
 //! ```
 //! use tinta_lab::contact_sheet::{Caption, Panel, sheet};
@@ -12,7 +11,7 @@
 //! assert!(whole.size.width > 80 && whole.size.height > 30);
 //! ```
 
-use ab_glyph::{Font as _, FontRef, PxScale, ScaleFont, point};
+use crate::canvas::{Canvas, FRAME, Face, SOFT, TEXT};
 use tinta::picture::Picture;
 use tinta::scene::Size;
 
@@ -39,12 +38,6 @@ pub struct Caption {
 /// Pixels around and between things.
 const MARGIN: u32 = 16;
 
-const BACKGROUND: [u8; 4] = [255; 4];
-const FRAME: [u8; 4] = [200, 200, 200, 255];
-const TEXT: [u8; 3] = [28, 28, 30];
-/// The colour of the text below a title.
-const SOFT: [u8; 3] = [92, 92, 99];
-
 /// Puts panels next to each other, each as wide as its picture or its titles, and captions below.
 pub fn sheet(panels: &[Panel], captions: &[Caption]) -> Picture {
     let font = Font::for_width(panels.iter().map(|panel| panel.picture.size.width).max().unwrap_or_default());
@@ -65,7 +58,7 @@ pub fn sheet(panels: &[Panel], captions: &[Caption]) -> Picture {
         width: panels_width.max(captions_width) + MARGIN,
         height: captions_top + line_height * captions.len() as u32 + MARGIN,
     };
-    let mut canvas = Canvas { picture: Picture { size, pixels: BACKGROUND.repeat(size.pixel_count()) } };
+    let mut canvas = Canvas::new(size);
     let mut left = MARGIN;
     for panel in panels {
         canvas.write(left, MARGIN, &panel.title, &font.title, TEXT);
@@ -108,106 +101,10 @@ impl Font {
     }
 }
 
-/// One size of a font.
-struct Face {
-    /// `None` were the font broken; then texts are left out.
-    font: Option<FontRef<'static>>,
-    scale: PxScale,
-}
-
-impl Face {
-    /// The font in this size, pixels of its em.
-    fn new(file: &'static [u8], em_px: f32) -> Self {
-        let font = FontRef::try_from_slice(file).ok();
-        // ab_glyph's scale is that of a line's height.
-        let lines_a_em = font.as_ref().and_then(|font| Some(font.height_unscaled() / font.units_per_em()?));
-        Self { font, scale: PxScale::from(em_px * lines_a_em.unwrap_or(1.0)) }
-    }
-
-    /// Height of a line, pixels.
-    fn height(&self) -> u32 {
-        self.scale.y.ceil() as u32
-    }
-
-    fn width(&self, text: &str) -> u32 {
-        self.places(text).1.ceil() as u32
-    }
-
-    /// The glyphs of a text, each with its distance from the left, and the width of all.
-    fn places(&self, text: &str) -> (Vec<(ab_glyph::GlyphId, f32)>, f32) {
-        let Some(font) = &self.font else { return (Vec::new(), 0.0) };
-        let font = font.as_scaled(self.scale);
-        let (mut left, mut places): (f32, Vec<(ab_glyph::GlyphId, f32)>) = (0.0, Vec::new());
-        for character in text.chars() {
-            let known = font.glyph_id(character);
-            let glyph = if known.0 == 0 { font.glyph_id('?') } else { known };
-            left += places.last().map_or(0.0, |(before, _)| font.kern(*before, glyph));
-            places.push((glyph, left));
-            left += font.h_advance(glyph);
-        }
-        (places, left)
-    }
-}
-
-struct Canvas {
-    picture: Picture,
-}
-
-impl Canvas {
-    fn set(&mut self, x: u32, y: u32, pixel: [u8; 4]) {
-        let Size { width, height } = self.picture.size;
-        if x < width && y < height {
-            let start = (y as usize * width as usize + x as usize) * 4;
-            self.picture.pixels[start..start + 4].copy_from_slice(&pixel);
-        }
-    }
-
-    fn fill(&mut self, left: u32, top: u32, size: Size, pixel: [u8; 4]) {
-        for y in top..top + size.height {
-            (left..left + size.width).for_each(|x| self.set(x, y, pixel));
-        }
-    }
-
-    /// A transparent picture shows the sheet's background.
-    fn paste(&mut self, left: u32, top: u32, picture: &Picture) {
-        for y in 0..picture.size.height {
-            for x in 0..picture.size.width {
-                let [red, green, blue, alpha] = picture.pixel(x.into(), y.into());
-                let over = |channel: u8| (255 - (255 - u32::from(channel)) * u32::from(alpha) / 255) as u8;
-                self.set(left + x, top + y, [over(red), over(green), over(blue), u8::MAX]);
-            }
-        }
-    }
-
-    /// Lays ink of this share over a pixel.
-    fn ink(&mut self, x: u32, y: u32, [red, green, blue]: [u8; 3], share: f32) {
-        let behind = self.picture.pixel(x.into(), y.into());
-        let mixed = |ink: u8, channel: usize| {
-            (f32::from(ink) * share + f32::from(behind[channel]) * (1.0 - share)).round() as u8
-        };
-        self.set(x, y, [mixed(red, 0), mixed(green, 1), mixed(blue, 2), u8::MAX]);
-    }
-
-    fn write(&mut self, left: u32, top: u32, text: &str, face: &Face, ink: [u8; 3]) {
-        let Some(font) = &face.font else { return };
-        let baseline = top as f32 + font.as_scaled(face.scale).ascent().round();
-        for (glyph, place) in face.places(text).0 {
-            let at = glyph.with_scale_and_position(face.scale, point(left as f32 + place, baseline));
-            let Some(outline) = font.outline_glyph(at) else { continue };
-            let corner = outline.px_bounds().min;
-            outline.draw(|x, y, share| {
-                let [x, y] = [corner.x + x as f32, corner.y + y as f32];
-                if x >= 0.0 && y >= 0.0 {
-                    self.ink(x as u32, y as u32, ink, share.min(1.0));
-                }
-            });
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::canvas::BACKGROUND;
 
     #[test]
     fn a_sheet_holds_its_pictures_unscaled_and_its_text_in_full() {
@@ -227,23 +124,5 @@ mod tests {
             .rev()
             .find(|x| (0..sheet.size.height).any(|y| sheet.pixel((*x).into(), y.into()) != BACKGROUND));
         assert!(rightmost.is_some_and(|x| x + 4 < sheet.size.width), "nothing reaches the rim: {rightmost:?}");
-    }
-
-    #[test]
-    fn a_text_is_as_wide_as_its_letters_and_every_letter_is_in_the_font_or_a_question_mark() {
-        let face = Face::new(dejavu::sans::regular(), 16.0);
-        assert!(face.font.is_some());
-        assert_eq!(face.width(""), 0);
-        let [one, two] = ["n", "nn"].map(|text| face.places(text).1);
-        assert!((two - 2.0 * one).abs() < 1e-3, "{one} {two}");
-        assert!(face.places("AV").1 < face.places("A").1 + face.places("V").1, "what leans together is closer");
-        assert_eq!(face.places("\u{10ffff}"), face.places("?"));
-        // An em of 16 pixels: DejaVu's x is 1120 of 2048 units high.
-        let size = Size { width: 40, height: 40 };
-        let mut canvas = Canvas { picture: Picture { size, pixels: BACKGROUND.repeat(size.pixel_count()) } };
-        canvas.write(4, 4, "x", &face, [0; 3]);
-        let has_ink = |y: u32| (0..40).any(|x| canvas.picture.pixel(x, y.into())[0] < 128);
-        let rows: Vec<u32> = (0..40).filter(|y| has_ink(*y)).collect();
-        assert!(rows.len() == 9 || rows.len() == 8, "8.75 pixels: {rows:?}");
     }
 }

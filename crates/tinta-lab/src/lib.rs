@@ -21,6 +21,8 @@
 pub mod compare;
 pub mod provenance;
 #[cfg(feature = "cli")]
+mod canvas;
+#[cfg(feature = "cli")]
 pub mod contact_sheet;
 pub mod measure;
 #[cfg(feature = "judging")]

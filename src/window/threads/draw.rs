@@ -6,11 +6,14 @@
 use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
 use crate::picture::Picture;
-use crate::renderer::{Renderer, median, milliseconds_since};
+use crate::pixel::{Explanation, around};
+use crate::plan::Plan;
+use crate::renderer::{Renderer, StepValues, median, milliseconds_since};
 use crate::request::Request;
-use crate::scene::Scene;
+use crate::scene::{Rectangle, Scene};
 use crate::styles::{Show, Style};
 use crate::window::threads::coarse;
+use crate::window::threads::explain::PixelJob;
 use crate::window::threads::job::{Cost, Drawing, Job};
 use crate::window::threads::line_measure::LineMeasure;
 use crate::window::threads::report::{Report, Reporter};
@@ -26,6 +29,8 @@ pub(in crate::window) enum Order {
     Draw(Box<Job>),
     /// Time this and draw its lines alone.
     MeasureCost(Box<Job>, Option<LineMeasure>),
+    /// Explain this pixel.
+    Explain(Box<PixelJob>),
     /// Use these shaders instead of those built in, by their paths below `glsl/`.
     Shaders(HashMap<String, String>),
 }
@@ -33,9 +38,35 @@ pub(in crate::window) enum Order {
 /// Number of frames that time a pass.
 const TIMED_FRAMES: usize = 5;
 
+/// How far from an explained pixel others can be explained without another drawing.
+const REACH_PX: u32 = 96;
+
+/// What the steps of a picture left around a pixel, for the pixels beside it.
+#[derive(Debug)]
+struct ReadBack {
+    job: PixelJob,
+    scene: Scene,
+    plan: Plan,
+    values: Vec<StepValues>,
+}
+
+impl ReadBack {
+    /// Whether a pixel, counted from the lower left, can be explained from it.
+    fn has(&self, at: [u32; 2]) -> bool {
+        let needed = around(at, self.scene.size, 0);
+        let holds = |part: Rectangle| {
+            let is_within = |from: u32, count: u32, of: u32, held: u32| from >= of && from + count <= of + held;
+            is_within(needed.x, needed.width, part.x, part.width)
+                && is_within(needed.y, needed.height, part.y, part.height)
+        };
+        self.values.iter().all(|values| holds(values.part))
+    }
+}
+
 /// A renderer with possibly replaced shaders.
 #[derive(Debug)]
 pub struct Drawer {
+    read_back: Option<ReadBack>,
     renderer: Renderer,
     shaders: HashMap<String, String>,
     /// Whether the driver has drawn with them.
@@ -52,7 +83,7 @@ impl Drawer {
     /// As [`Renderer::new`].
     pub fn new(backend: Backend) -> Result<Self> {
         let renderer = Renderer::new(backend)?;
-        Ok(Self { renderer, shaders: HashMap::new(), are_tried: true, good_shaders: HashMap::new() })
+        Ok(Self { read_back: None, renderer, shaders: HashMap::new(), are_tried: true, good_shaders: HashMap::new() })
     }
 
     /// The context's own description.
@@ -71,6 +102,7 @@ impl Drawer {
     ///
     /// As [`Renderer::replace_shaders`].
     pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<()> {
+        self.read_back = None;
         self.renderer.replace_shaders(shaders.clone())?;
         self.shaders = shaders;
         self.are_tried = false;
@@ -85,6 +117,7 @@ impl Drawer {
     pub fn draw(&mut self, job: &Job) -> Result<(Vec<Drawing>, Option<String>)> {
         match self.draw_once(job) {
             Err(error @ Error::Shader { .. }) if !self.are_tried => {
+                self.read_back = None;
                 self.shaders = self.good_shaders.clone();
                 self.are_tried = true;
                 self.renderer.replace_shaders(self.shaders.clone())?;
@@ -124,6 +157,27 @@ impl Drawer {
     /// As [`Renderer::render`].
     pub fn draw_scene(&mut self, scene: &Scene, style: &Style, show: Show) -> Result<Picture> {
         Request::of_picture(style, show).picture_of(scene, &mut self.renderer)
+    }
+
+    /// Explains a pixel.
+    ///
+    /// # Errors
+    ///
+    /// As [`Explanation::of`].
+    pub fn explain(&mut self, job: &PixelJob) -> Result<Explanation> {
+        let height = job.view.settings.size.height;
+        let at = [job.pixel[0], height - 1 - job.pixel[1]];
+        if !self.read_back.as_ref().is_some_and(|known| known.job.is_of_same_picture(job) && known.has(at)) {
+            self.read_back = None;
+            let scene = Job { is_coarse: false, ..job.view.clone() }.scene()?;
+            let plan = job.style.plan(&scene, Show::Final)?;
+            let values = self.renderer.step_values(&scene, &plan, around(at, scene.size, REACH_PX))?;
+            self.read_back = Some(ReadBack { job: job.clone(), scene, plan, values });
+        }
+        let Some(ReadBack { scene, plan, values, .. }) = &self.read_back else {
+            return Err(Error::gl("explaining a pixel", "nothing was read back"));
+        };
+        Explanation::of_values(&job.style, scene, (plan, values), &self.renderer, job.pixel)
     }
 
     fn frame_ms(&mut self, scene: &Scene, style: &Style) -> Result<f64> {
@@ -186,6 +240,7 @@ fn work(backend: Backend, number: usize, orders: &Receiver<Order>, reporter: &Re
                 Ok((scene, costs)) => Report::Cost { scene: Box::new(scene), costs },
                 Err(error) => Report::NotPriced(error),
             },
+            Order::Explain(job) => Report::Explained(Box::new(drawer.explain(&job))),
             Order::Shaders(shaders) => match drawer.replace_shaders(shaders) {
                 Ok(()) => Report::ShadersTaken,
                 Err(error) => Report::ShadersRefused(error),

@@ -8,6 +8,7 @@
 use crate::gl::{Backend, ContextInfo};
 use crate::threads::cores;
 use crate::window::threads::draw::{self, Order};
+use crate::window::threads::explain::PixelJob;
 use crate::window::threads::job::Job;
 use crate::window::threads::line_measure::LineMeasure;
 use crate::window::threads::report::Reporter;
@@ -121,6 +122,15 @@ impl RenderThreads {
     /// When it has ended.
     pub(in crate::window) fn measure_cost(&self, job: Job, measure: Option<LineMeasure>) -> Result<(), Ended> {
         self.threads.first().map_or(Err(Ended), |thread| thread.send(Order::MeasureCost(Box::new(job), measure)))
+    }
+
+    /// Has a pixel explained by the first thread.
+    ///
+    /// # Errors
+    ///
+    /// When it has ended.
+    pub(in crate::window) fn explain(&self, job: PixelJob) -> Result<(), Ended> {
+        self.threads.first().map_or(Err(Ended), |thread| thread.send(Order::Explain(Box::new(job))))
     }
 
     /// Replaces shaders.

@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::gl::ContextInfo;
 use crate::mesh::LoadOptions;
+use crate::pixel::Explanation;
 use crate::scene::Scene;
 use crate::window::threads::job::{Cost, Drawing};
 use crate::window::threads::line_job::Found;
@@ -40,6 +41,8 @@ pub enum Report {
     },
     /// The measurement of a job's cost failed.
     NotPriced(Error),
+    /// A pixel explained, or why not.
+    Explained(Box<Result<Explanation>>),
     /// A drawing thread has new shaders.
     ShadersTaken,
     /// It has refused them and uses those before.

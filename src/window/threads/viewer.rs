@@ -11,6 +11,7 @@ use crate::picture::Picture;
 use crate::scene::Scene;
 use crate::window::threads::cost::Costs;
 use crate::window::threads::exact::ExactLines;
+use crate::window::threads::explain::{Explained, PixelJob};
 use crate::window::threads::job::{Drawing, Job};
 use crate::window::threads::line_job::LineJob;
 use crate::window::threads::line_measure::LineMeasure;
@@ -55,6 +56,8 @@ pub struct Viewer {
     pub costs: Costs,
     /// The exact lines of the view, where a side shows them.
     pub lines: ExactLines,
+    /// The pixel under the pointer.
+    pub explained: Explained,
     /// The current stage of loading.
     pub stage: Option<Stage>,
     /// A shader that was refused, with the driver's log.
@@ -129,6 +132,7 @@ impl Viewer {
             state: options.state,
             costs: Costs::default(),
             lines: ExactLines::default(),
+            explained: Explained::default(),
             stage: None,
             shader_log: None,
             problem: None,
@@ -219,6 +223,10 @@ impl Viewer {
         let is_picture = self.shows(LinesShown::Alone);
         self.lines.ask(self.line_job(&job), is_picture, &self.reporter);
         self.ink();
+        if let Some(pixel) = self.explained.next(self.pixel_job(&job)) {
+            let sent = self.render_threads.explain(pixel);
+            self.check(sent);
+        }
         if !self.is_pricing {
             self.ask_for_drawings(job);
         }
@@ -264,6 +272,7 @@ impl Viewer {
     /// Whether the viewer is idle: no reading, drawing or measuring.
     pub fn is_at_rest(&self) -> bool {
         let is_working = self.is_drawing() || self.is_pricing || self.costs.is_measuring() || self.lines.is_finding();
+        let is_working = is_working || self.explained.is_asking();
         self.loads_going_on == 0 && !is_working
     }
 
@@ -305,6 +314,16 @@ impl Viewer {
             drawings: self.state.sides().iter().filter_map(drawing).collect(),
             is_coarse: self.is_moving && self.state.is_coarse_while_moving,
         })
+    }
+
+    /// The pixel to explain: a side's finished picture of the style that it shows, if that has shaders.
+    fn pixel_job(&self, view: &Job) -> Option<PixelJob> {
+        let (side, pixel) = self.state.pointed.filter(|_| self.state.explains && !self.is_moving)?;
+        let size = view.settings.size;
+        let has_it = pixel[0] < size.width && pixel[1] < size.height;
+        let has_shaders = self.state.lines_shown(side) != LinesShown::Alone;
+        let style = self.state.style(side).clone();
+        (has_it && has_shaders).then(|| PixelJob { view: view.clone(), style, pixel })
     }
 
     /// The exact lines to find, if a visible side shows them.
@@ -441,8 +460,10 @@ impl Viewer {
                 self.is_pricing = false;
                 self.problem = Some(error.to_string());
             }
+            Report::Explained(answer) => self.explained.take(*answer),
             Report::ShadersTaken => {
                 self.shader_log = None;
+                self.explained.forget();
                 self.drawn = None;
             }
             // Those before them are still used.

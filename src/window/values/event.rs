@@ -76,6 +76,12 @@ pub enum ViewerEvent {
     SceneDefault(String),
     /// Coarser pictures while the view moves, or not.
     Coarse(bool),
+    /// The pixel under the pointer explained, or not.
+    Explain,
+    /// The pixel under the pointer: the side, and its place right and down from the upper left corner of the side's picture.
+    Point(Side, [u32; 2]),
+    /// The pass whose listing is shown: so many on.
+    Pass(i32),
     /// The panel, shown or not.
     Panel,
     /// The key sheet.

@@ -48,6 +48,12 @@ pub struct ViewerState {
     pub has_hint: bool,
     /// Whether the key sheet is.
     pub has_key_sheet: bool,
+    /// Whether the pixel under the pointer is explained.
+    pub explains: bool,
+    /// That pixel: its side, and its place right and down in the side's picture.
+    pub pointed: Option<(Side, [u32; 2])>,
+    /// The step whose listing is shown, counted from the last.
+    pub passes_on: i32,
     /// Whether times and errors are.
     pub has_price: bool,
     /// Whether the whole screen is covered.
@@ -85,6 +91,9 @@ impl Default for ViewerState {
             has_panel: false,
             has_hint: false,
             has_key_sheet: false,
+            explains: false,
+            pointed: None,
+            passes_on: 0,
             has_price: false,
             is_full_screen: false,
             message: None,
@@ -333,6 +342,9 @@ impl ViewerState {
                 return Ok(self.read_again());
             }
             ViewerEvent::Coarse(is_allowed) => self.is_coarse_while_moving = is_allowed,
+            ViewerEvent::Explain => (self.explains, self.passes_on) = (!self.explains, 0),
+            ViewerEvent::Point(side, place) => self.pointed = Some((side, place)),
+            ViewerEvent::Pass(passes) => self.passes_on = self.passes_on.wrapping_add(passes),
             ViewerEvent::Panel => self.has_panel = !self.has_panel,
             ViewerEvent::KeySheet => self.has_key_sheet = !self.has_key_sheet,
             ViewerEvent::Price => self.has_price = !self.has_price,

@@ -9,6 +9,7 @@ use crate::window::values::line_style::LinesShown;
 use crate::window::values::state::{Content, Pane, ViewerState};
 use crate::window::widgets::keys;
 use crate::window::widgets::label;
+use crate::window::widgets::listing;
 use crate::window::widgets::panel;
 use crate::window::widgets::plot;
 use egui::{Align2, Color32, Context, CursorIcon, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2};
@@ -131,6 +132,9 @@ pub(in crate::window) fn frame(
         panes(ui, viewer, textures, follows_window, &mut events);
     });
     sheets(context, viewer, &mut events);
+    if state.explains {
+        listing::show(context, viewer);
+    }
     if viewer.stage.is_some() {
         context.request_repaint_after(LOADING_INTERVAL);
     }
@@ -190,6 +194,13 @@ fn panes(ui: &mut Ui, viewer: &Viewer, textures: &Textures, follows_window: bool
         }
     }
     label::show(ui, state, area, scale);
+    // Also below the listing, which the pointer goes through.
+    let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|place| area.contains(*place));
+    if let Some(pointer) = pointer.filter(|_| state.explains) {
+        let at = (pointer - corner) * scale;
+        let pointed = pixel_at(state, [f64::from(at.x), f64::from(at.y)]);
+        events.extend(pointed.filter(|_| pointed != state.pointed).map(|(side, at)| ViewerEvent::Point(side, at)));
+    }
     let height = f64::from(area.height().max(1.0));
     let delta = response.drag_delta();
     if delta != Vec2::ZERO {
@@ -204,6 +215,25 @@ fn panes(ui: &mut Ui, viewer: &Viewer, textures: &Textures, follows_window: bool
             events.push(ViewerEvent::Zoom(factor));
         }
     }
+}
+
+/// The pixel of a side's picture at a place of the drawing area, pixels from its upper left corner.
+fn pixel_at(state: &ViewerState, [x, y]: [f64; 2]) -> Option<(Side, [u32; 2])> {
+    let (x, y) = ((x >= 0.0).then_some(x as u32)?, (y >= 0.0).then_some(y as u32)?);
+    let has_it = |pane: &Pane| (pane.left..pane.left + pane.size.width).contains(&x) && y < pane.size.height;
+    let pane = state.panes().into_iter().find(has_it)?;
+    let side = match pane.content {
+        Content::Picture(side) => side,
+        Content::Cut(column) => {
+            if x - pane.left < column {
+                Side::Left
+            } else {
+                Side::Right
+            }
+        }
+        Content::Difference => return None,
+    };
+    Some((side, [x - pane.left, y]))
 }
 
 fn paint(ui: &Ui, textures: &Textures, pane: Pane, corner: Pos2, scale: f32) {

@@ -3,6 +3,7 @@
 use super::*;
 use crate::gl::Backend;
 use crate::mesh::LoadOptions;
+use crate::scene::Size;
 use crate::window::{Layout, ViewerOptions, ViewerState};
 use egui::{Event, Modifiers, MouseWheelUnit, PointerButton, RawInput};
 
@@ -189,4 +190,45 @@ fn a_width_with_a_unit_and_colours_by_class_have_widgets_that_change_nothing_by_
     (0..3).for_each(|_| drop(frames.show(Vec::new())));
     assert_eq!(frames.show(Vec::new()), [], "what is shown is what there is");
     assert_eq!(frames.viewer.lines.problem(), None);
+}
+
+#[test]
+fn the_pixel_under_the_pointer_is_explained_until_w_or_esc_closes_it() {
+    let mut frames = Frames::new();
+    let key = |key| Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
+    let point = |x, y| vec![Event::PointerMoved(Pos2::new(x, y))];
+    assert_eq!(frames.show(point(200.0, 150.0)), [], "nothing is asked before");
+    assert_eq!(frames.show(vec![key(egui::Key::W)]), [ViewerEvent::Explain]);
+    assert_eq!(frames.show(Vec::new()), [ViewerEvent::Point(Side::Left, [200, 150])]);
+    let answer = frames.viewer.explained.answer().unwrap().as_ref().unwrap();
+    assert_eq!(answer.pixel, [200, 150]);
+    let same_as_the_library = crate::pixel::Explanation::without_lines(
+        frames.viewer.state.style(Side::Left),
+        &frames.viewer.job().unwrap().scene().unwrap(),
+        &mut crate::Renderer::new(Backend::Auto).unwrap(),
+        glam::DVec2::new(200.0, 150.0),
+    );
+    assert_eq!(answer.to_string(), same_as_the_library.unwrap().to_string());
+    assert_eq!(frames.show(point(210.0, 150.0)), [ViewerEvent::Point(Side::Left, [210, 150])]);
+    frames.show(point(1.0, 1.0));
+    assert!(frames.viewer.explained.answer().unwrap().as_ref().unwrap_err().contains("background"));
+    assert_eq!(frames.show(vec![key(egui::Key::N)]), [ViewerEvent::Pass(1)]);
+    assert_eq!(frames.show(vec![key(egui::Key::Escape)]), [ViewerEvent::Explain]);
+    assert_eq!(frames.show(point(205.0, 150.0)), []);
+    assert!(frames.viewer.explained.answer().is_none());
+}
+
+#[test]
+fn a_place_is_a_pixel_of_the_side_that_is_shown_there() {
+    let state =
+        |layout| ViewerState { layout, area: Size { width: 302, height: 100 }, divider: 0.5, ..Default::default() };
+    let at = |layout, x, y| pixel_at(&state(layout), [x, y]);
+    assert_eq!(at(Layout::Single, 301.5, 99.0), Some((Side::Left, [301, 99])));
+    assert_eq!(at(Layout::Single, 302.0, 99.0), None);
+    assert_eq!(at(Layout::Single, -0.5, 9.0), None);
+    assert_eq!(at(Layout::Split, 150.9, 0.0), Some((Side::Left, [150, 0])));
+    assert_eq!(at(Layout::Split, 151.0, 0.0), Some((Side::Right, [151, 0])));
+    let panes = state(Layout::Difference).panes();
+    assert_eq!(at(Layout::Difference, f64::from(panes[1].left) + 3.0, 7.0), Some((Side::Right, [3, 7])));
+    assert_eq!(at(Layout::Difference, f64::from(panes[2].left) + 3.0, 7.0), None);
 }

@@ -56,7 +56,17 @@ mod tests {
         let style = name.split(':').next().unwrap_or_default().to_owned();
         let (error, name) = (1.0 - f1, name.to_owned());
         let (times_ms, errors) = ([time_ms * 0.99, time_ms * 1.01], [error; 2]);
-        Point { curves: [name.clone(), name.clone()], name, style, is_faithful, size: [512; 2], time_ms, times_ms, error, errors }
+        Point {
+            curves: [name.clone(), name.clone()],
+            name,
+            style,
+            is_faithful,
+            size: [512; 2],
+            time_ms,
+            times_ms,
+            error,
+            errors,
+        }
     }
 
     fn of(points: &[Point], models: usize) -> Option<String> {

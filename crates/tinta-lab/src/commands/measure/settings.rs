@@ -234,9 +234,14 @@ pub(super) fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setti
 
 /// The settings of `OPTION=VALUE,VALUE`: each style's default with each value, of those styles that have the option.
 pub(super) fn varied(styles: &[StyleName], vary: &str) -> Result<Vec<Setting>> {
-    let Some((option, values)) = vary.split_once('=').filter(|(option, values)| !option.is_empty() && !values.is_empty())
+    let Some((option, values)) =
+        vary.split_once('=').filter(|(option, values)| !option.is_empty() && !values.is_empty())
     else {
-        return Err(Error::value("vary", vary, "it is an option of a style, = and values, as detection-factor=0.5,1,2"));
+        return Err(Error::value(
+            "vary",
+            vary,
+            "it is an option of a style, = and values, as detection-factor=0.5,1,2",
+        ));
     };
     let (mut all, mut refused) = (Vec::new(), None);
     let lines_first = StyleName::lines_first().into_iter().filter(|style| !style.draws_lines());

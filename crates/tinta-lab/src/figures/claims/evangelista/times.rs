@@ -56,7 +56,10 @@ pub(super) fn nine_reads(numbers: &Numbers) -> Finding {
 fn on_a_card(numbers: &Numbers, holds: Option<bool>, measured: Vec<Number>) -> Finding {
     match numbers.host.renderer.contains(CARD) {
         true => Finding::of_repeats(holds, measured),
-        false => Finding::undecided("the text's number is that of a GeForce FX 5200, and another renderer draws here", measured),
+        false => Finding::undecided(
+            "the text's number is that of a GeForce FX 5200, and another renderer draws here",
+            measured,
+        ),
     }
 }
 

@@ -1,7 +1,7 @@
 //! A line explained in words: what it is, and what hides each of its pieces.
 
-use super::super::plain;
 use std::fmt::Write;
+use tinta::cli::plain;
 use tinta::glam::DVec2;
 use tinta::lines::{Hider, Why, WhyLine, WhyPiece};
 

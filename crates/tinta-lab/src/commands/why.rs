@@ -1,0 +1,179 @@
+//! `tinta why`: why a pixel has its colour, or why the line at a place is visible or hidden; on a sheet, or a variable of the shaders over
+//! the whole picture.
+
+mod line;
+mod sheet;
+
+use std::path::Path;
+use tinta::cli::inputs::Inputs;
+use tinta::cli::models::load_meshes;
+use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, Selection};
+use tinta::cli::{Command, Verdict, given, print, print_json, say};
+use tinta::glam::DVec2;
+use tinta::pixel::{Explanation, Variable};
+use tinta::request::{Layer, Request, Session};
+use tinta::settings::{HasSettings, Setting};
+use tinta::styles::is_of_lines_alone;
+use tinta::{Error, LineSettings, Result, Scene, Style, StyleName, Target, TextTarget, VisibleLines};
+
+/// The command.
+pub(super) const COMMAND: Command = Command {
+    examples: &[
+        "tinta why cow.obj 240,310                       explain why a line is hidden",
+        "tinta why cow.obj 240,310 --style three-pass    explain a pixel",
+    ],
+    ..Command::new("why", <Arguments as clap::Args>::augment_args, |matches, call| {
+        run(&given::<Arguments>(matches)?, call.session).map(|()| Verdict::Good)
+    })
+};
+
+/// Explain a pixel of a style, or why a line is visible or hidden
+///
+/// Without --style, or with --style lines, the line nearest to the place is explained. In other styles every pass is recomputed for
+/// the pixel: each statement of its shaders with its value, beside what the driver drew.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Model file (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in model, or - for standard input
+    #[arg(value_name = "MODEL")]
+    model: String,
+
+    /// Place in the picture, pixels to the right and down from its upper left corner
+    #[arg(value_name = "X,Y", value_parser = place, allow_hyphen_values = true, required_unless_present = "variable")]
+    place: Option<DVec2>,
+
+    /// Recompute this variable of the fragment shaders in every pixel instead: NAME, or PASS.NAME where several passes have it [default: none]
+    #[arg(long, value_name = "NAME", conflicts_with = "place")]
+    variable: Option<String>,
+
+    /// Picture to write (.png .jpg .bmp .tga .ppm): a sheet that explains the pixel, or the variable, which can also be numbers for NumPy (.npy) [default: none, print the explanation]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<String>,
+
+    /// Print one JSON object [default: off]
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    camera: CameraFile,
+
+    #[command(flatten)]
+    drawing: Chosen<OfPicture>,
+}
+
+/// What is drawn in which style, from where, and how large.
+struct OfPicture;
+
+impl Selection for OfPicture {
+    type Of = Request;
+
+    fn has(setting: &Setting<Request>) -> bool {
+        let is_drawn = Style::table().has(setting.name) && !is_of_lines_alone(setting.name);
+        let is_other =
+            ["style", "size", "backend", "glsl"].contains(&setting.name) || LineSettings::table().has(setting.name);
+        OfSubject::has(setting) || is_other || (is_drawn && setting.name != "supersample")
+    }
+}
+
+/// Two numbers.
+fn place(text: &str) -> std::result::Result<DVec2, String> {
+    let numbers: Vec<f64> = text.split(',').map_while(|number| number.trim().parse().ok()).collect();
+    match numbers[..] {
+        [x, y] if text.split(',').count() == 2 && x.is_finite() && y.is_finite() => Ok(DVec2::new(x, y)),
+        _ => Err("name a pixel by two numbers, such as 240,310".to_owned()),
+    }
+}
+
+/// Explains a pixel, a variable or a line.
+pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
+    let camera = arguments.camera.camera.as_deref();
+    let style = Layer::Style(StyleName::Lines);
+    let below = Below { camera, ..Below::default() };
+    let (request, _) = arguments.drawing.request_over(style, std::slice::from_ref(&arguments.model), &below)?;
+    if request.line_style().is_some() {
+        let needed = [("variable", arguments.variable.is_some()), ("output", arguments.output.is_some())];
+        if let Some((option, _)) = needed.iter().find(|(_, is_given)| *is_given) {
+            let problem = "it explains the shaders of a style; add one, such as --style three-pass";
+            return Err(Error::setting(*option, problem));
+        }
+    }
+    let files: Vec<&str> = camera.and_then(Path::to_str).into_iter().collect();
+    let inputs = Inputs::new(&request.models, &request.options, &files);
+    let output = arguments.output.as_deref().map(|path| Output::check(path, arguments, &inputs)).transpose()?;
+    let scene = Scene::new(load_meshes(&request.models, &request.read)?, &request.scene)?;
+    match (&arguments.variable, arguments.place) {
+        (Some(name), _) => {
+            let variable = Variable::of(&request.style, &scene, request.renderer(session)?, name)?;
+            variable_out(&variable, output.as_ref(), arguments.json)
+        }
+        (None, Some(place)) if request.line_style().is_none() => {
+            let renderer = request.renderer(session)?;
+            let why = Explanation::of(&request.style, &scene, renderer, place)?;
+            if let Some(Output::Picture(target)) = &output {
+                target.write(&sheet::sheet(&why, &request.style, &scene, renderer)?)?;
+            }
+            match (arguments.json, output) {
+                (true, _) => print_json(&why),
+                (false, Some(_)) => Ok(()),
+                (false, None) => print(&why.to_string()),
+            }
+        }
+        (None, place) => line_out(&scene, &request, place.unwrap_or_default(), arguments.json),
+    }
+}
+
+/// Where a sheet or a variable is written.
+enum Output {
+    Picture(Target),
+    /// Of a variable.
+    Numbers(TextTarget),
+}
+
+impl Output {
+    fn check(path: &str, arguments: &Arguments, inputs: &Inputs) -> Result<Self> {
+        tinta::cli::messages::check_output(path)?;
+        inputs.keep(path)?;
+        if path == "-" && arguments.json {
+            return Err(Error::value(
+                "output",
+                "-",
+                "the picture and --json cannot share standard output; name a file",
+            ));
+        }
+        let is_numbers = Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npy"));
+        match arguments.variable.is_some() && is_numbers {
+            true => TextTarget::check(path).map(Self::Numbers),
+            false => Target::check(path, false).map(Self::Picture),
+        }
+    }
+}
+
+/// Writes a variable, and says what its picture shows.
+fn variable_out(variable: &Variable, output: Option<&Output>, is_json: bool) -> Result<()> {
+    match output {
+        Some(Output::Picture(target)) => target.write(&variable.picture())?,
+        Some(Output::Numbers(target)) => target.write_bytes(&variable.npy())?,
+        None => {}
+    }
+    if is_json {
+        return print_json(variable);
+    }
+    let is_on_standard_output = matches!(output, Some(Output::Picture(Target::Stdout)));
+    match is_on_standard_output {
+        true => say(&variable.to_string()),
+        false => print(&format!("{variable}\n"))?,
+    }
+    Ok(())
+}
+
+/// Explains the line nearest to a place.
+fn line_out(scene: &Scene, request: &Request, place: DVec2, is_json: bool) -> Result<()> {
+    let lines = request.line_style().map_or_else(LineSettings::default, |style| style.lines);
+    let why = VisibleLines::why(scene, &lines, place).map_err(|error| match error {
+        // The place is no option.
+        Error::Setting { name, value: Some(place), problem } if name == "place" => {
+            Error::CommandLine { problem: format!("{place}: {problem}") }
+        }
+        error => error,
+    })?;
+    if is_json { print_json(&why) } else { print(&line::in_words(&why)) }
+}
