@@ -91,7 +91,7 @@ pub(crate) fn check_name(file: &Path) -> Result<()> {
         return refuse(format!("this names a folder; name a file in it, such as {text}drawing.png"));
     }
     match name.strip_prefix('.') {
-        Some(ending) if ["png", "svg", "pdf", "json", "gif"].contains(&ending) => {
+        Some(ending) if ["png", "svg", "pdf", "dxf", "json", "gif"].contains(&ending) => {
             refuse(format!("this is an ending without a name; write drawing{name}"))
         }
         _ => Ok(()),

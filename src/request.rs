@@ -149,7 +149,7 @@ fn settings() -> Vec<Setting<Request>> {
             Ok(())
         },
     )
-    .said("three-pass; into .svg, .pdf and .json: lines")
+    .said("three-pass; into .svg, .pdf, .dxf and .json: lines")
     .common()
     .first();
     let show = Setting::field(

@@ -144,7 +144,7 @@ const MISTAKES: [(&str, &str); 92] = [
     ),
     (
         "render triangle.obj -o out.xyz",
-        "out.xyz: tinta writes no .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for lines, .gif or .apng for an animation",
+        "out.xyz: tinta writes no .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf or .json for lines, .gif or .apng for an animation",
     ),
     ("render triangle.obj -o nowhere/out.png", "nowhere/out.png: the folder nowhere does not exist; create it first"),
     ("render triangle.obj -o dir", "dir: this is a directory; name a file in it"),

@@ -19,6 +19,7 @@ mod cli_stdin;
 mod corpus;
 mod docs;
 mod docs_run;
+mod dxf;
 mod edges;
 mod examples;
 #[cfg(unix)]
@@ -27,6 +28,7 @@ mod faults;
 mod figures;
 mod floors;
 mod gltf;
+mod gltf_edges;
 mod gltf_files;
 mod gltf_refused;
 mod goldens;

@@ -122,15 +122,88 @@ fn a_turn_of_lines_is_numbered_drawings_whose_paths_have_ids_that_stay() {
     assert!(!std::fs::read_to_string(folder.path("one.svg")).unwrap().contains("stroke-1"));
 }
 
+/// The paths of a drawing: layer, number of the stroke, course.
+type Courses = std::collections::BTreeSet<(String, String, String)>;
+
+/// The paths of an animated drawing that are shown at a share of its turn, by the rules of SMIL.
+fn courses_at(text: &str, share: f64) -> Courses {
+    let document = roxmltree::Document::parse(text).unwrap();
+    let mut courses = Courses::new();
+    for path in document.descendants().filter(|node| node.has_tag_name("path")) {
+        let layer = path.parent().unwrap().attribute("id").unwrap();
+        let mut course = path.attribute("d").unwrap();
+        if let Some(animate) = path.children().find(|node| node.has_tag_name("animate")) {
+            let of = |name: &str| animate.attribute(name).unwrap();
+            assert_eq!([of("attributeName"), of("calcMode"), of("repeatCount")], ["d", "discrete", "indefinite"]);
+            let times: Vec<f64> = of("keyTimes").split(';').map(|time| time.parse().unwrap()).collect();
+            let values: Vec<&str> = of("values").split(';').collect();
+            assert!(
+                times.len() == values.len() && times[0] == 0.0 && times.is_sorted() && times.last().unwrap() < &1.0
+            );
+            assert_eq!(course, values[0], "without animation the first view is shown");
+            course = values[times.partition_point(|time| *time <= share) - 1];
+        }
+        if course != "M0 0" {
+            let stroke = path.attribute("id").unwrap().strip_prefix(&format!("{layer}-")).unwrap();
+            assert!(courses.insert((layer.to_owned(), stroke.to_owned(), course.to_owned())));
+        }
+    }
+    courses
+}
+
+#[test]
+fn an_animated_svg_shows_each_view_as_the_numbered_drawings_do() {
+    let folder = Folder::new();
+    for (model, views, options) in [
+        ("builtin:open-box", 5, &["--hidden", "dashed"][..]),
+        ("builtin:ant", 7, &["--line-width", "0.25mm", "--width-mm", "100"]),
+        ("builtin:gear", 3, &["--hidden", "ghost", "--class-colors", "crease=red"]),
+        ("builtin:torus", 6, &["--silhouette", "smooth", "--fit-curves", "0.5"]),
+        ("builtin:open-box", 1, &[]),
+    ] {
+        let (count, animated) = (views.to_string(), folder.path("a.svg"));
+        let all = [&["--size", "96x80", "--turntable", &count], options].concat();
+        let record = render(&[&[model, "-o", &animated, "--json", "--frame-delay", "50"], &all[..]].concat());
+        render(&[&[model, "-o", &folder.path("a-%d.svg")], &all[..]].concat());
+        let text = std::fs::read_to_string(&animated).unwrap();
+        assert!(!text.contains("<script"));
+        for view in 0..views {
+            let one = std::fs::read_to_string(folder.path(&format!("a-{}.svg", view + 1))).unwrap();
+            let document = roxmltree::Document::parse(&one).unwrap();
+            let of = |path: roxmltree::Node<'_, '_>| {
+                let of = |node: roxmltree::Node<'_, '_>, name: &str| node.attribute(name).unwrap().to_owned();
+                (of(path.parent().unwrap(), "id"), of(path, "id"), of(path, "d"))
+            };
+            let expected: Courses = document.descendants().filter(|it| it.has_tag_name("path")).map(of).collect();
+            assert!(!expected.is_empty());
+            assert_eq!(courses_at(&text, (f64::from(view) + 0.5) / f64::from(views)), expected, "{model}, view {view}");
+            // The same sheet and the same layers' looks.
+            let head = |text: &str| text.split("<g id=").next().unwrap().to_owned();
+            assert_eq!(head(&one), head(&text));
+        }
+        let seconds = f64::from(views * 50) / 1000.0;
+        assert_eq!(text.contains(&format!(r#"dur="{seconds}s""#)), views > 1, "{seconds}");
+        let record: serde_json::Value = serde_json::from_str(&record).unwrap();
+        assert_eq!((&record["frames"], &record["bytes"]), (&views.into(), &text.len().into()));
+        assert_eq!(record["frame_ms"]["all"].as_array().unwrap().len(), views as usize);
+    }
+    // No dash of a pen is lost.
+    let pen = ["builtin:open-box", "--turntable", "2", "--hidden", "dashed", "--pen", "-o"];
+    render(&[&pen[..], &[&folder.path("p.svg")]].concat());
+    render(&[&pen[..], &[&folder.path("p-%d.svg")]].concat());
+    let lines = |name: &str| std::fs::read_to_string(folder.path(name)).unwrap().matches('M').count();
+    assert!(lines("p.svg") > lines("p-1.svg") + lines("p-2.svg"));
+}
+
 #[test]
 fn what_makes_no_turn_of_lines_is_refused() {
     let refused = |output: &str, options: &[&str], words: &[&str]| {
         refused_in_one_line(&[&["render", "builtin:ant", "-o", output, "--turntable", "4"], options].concat(), words);
     };
-    for output in ["a.svg", "a.pdf", "a.json", "%d.json"] {
+    for output in ["a.pdf", "a.dxf", "a.json", "%d.json"] {
         refused(output, &[], &[output, "this names one drawing", "frame-%04d.svg"]);
     }
-    refused("-", &["--style", "lines"], &["-: this names one drawing"]);
+    refused("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);
     refused("no/such/%d.svg", &[], &["no/such/1.svg: the folder no/such does not exist"]);
     refused("%d.svg", &["--page", "A4"], &["--page", "each view", "--width-mm"]);
 }

@@ -48,7 +48,7 @@ from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.colors import Colormap, Normalize
 from numpy.typing import ArrayLike
 
-from . import _Color, _Camera, _Number, _Numbers, _Path, _Text
+from . import Lines, _Color, _Camera, _Number, _Numbers, _Path, _Text
 
 __all__: list[str]
 
@@ -58,8 +58,13 @@ class ExactLines(LineCollection):
 class ExactAreas(PathCollection):
     def do_3d_projection(self) -> float: ...
 
+class ExactScene(PathCollection):
+    lines: Lines
+    def do_3d_projection(self) -> float: ...
+    def remove(self) -> None: ...
+
 ''',
-        {"draw": "LineCollection", "fill": "PathCollection"},
+        {"draw": "LineCollection", "draw3d": "ExactScene", "fill": "PathCollection"},
     ),
     "pv": (
         '''"""{doc}"""
@@ -227,7 +232,8 @@ def _argument(parameter, function, settings):
         kind = _literal(_native.names(("look of lines" if of_lines else "look of pictures") if names == "look" else names))
         kind += " | None" if parameter.default is None else ""
     else:
-        kind = _ARGUMENTS.get(parameter.name, "Any")
+        of_setting = f"{_type(settings[parameter.name])} | None" if parameter.name in settings else "Any"
+        kind = _ARGUMENTS.get(parameter.name, of_setting)
     default = "" if parameter.default is parameter.empty else f" = {_default(parameter.default)}"
     return f"    {parameter.name}: {kind}{default},\n"
 

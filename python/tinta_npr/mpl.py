@@ -1,15 +1,18 @@
 """Exact lines and areas in matplotlib's axes: vectors in PDF and SVG."""
 
+import warnings
+
 import numpy as np
 from matplotlib.collections import LineCollection, PathCollection
-from matplotlib.colors import to_rgb
+from matplotlib.colors import to_rgb, to_rgba
 from matplotlib.path import Path
+from matplotlib.transforms import IdentityTransform
 
-from . import CLASSES, Lines, Regions, _native, _reading, _with_settings
+from . import CLASSES, Lines, Regions, _mpl3d, _native, _reading, _with_settings
 from . import lines as _lines
 from ._mesh import meshes_of
 
-__all__ = ["ExactAreas", "ExactLines", "draw", "fill"]
+__all__ = ["ExactAreas", "ExactLines", "ExactScene", "draw", "draw3d", "fill"]
 
 #: Width of an area's edge in its own colour, points: without it the ground shines through between neighbours.
 _EDGE = 0.4
@@ -108,6 +111,46 @@ def fill(
     return _added_3d(ax, collection) if ax.name == "3d" else _added(ax, collection, extent)
 
 
+def draw3d(ax, *, classes=(), hidden=None, color="black", line_width=0.8, on_surface=None):
+    """Draw what 3-D axes hold again, with exact hiding between all of it.
+
+    matplotlib sorts whole artists by one depth each. This takes surfaces (`plot_surface`, `plot_trisurf`, `bar3d`, any
+    `Poly3DCollection`), curves (`plot`, `plot_wireframe`, `quiver`, `contour`) and points (`scatter`, markers) as they are now, makes them
+    invisible, and adds areas, strokes and markers cut exactly where something hides them: vectors in PDF and SVG, found again when the
+    view changes. Colours, widths, dashes and markers stay. Panes, axes, texts and legends stay matplotlib's.
+
+    Parameters
+    ----------
+    ax : Axes3D
+        Translucent surfaces are drawn as opaque ones, with a warning; ``hidden`` shows what lies behind. A marker is seen or hidden as
+        a whole, by its point.
+    classes : sequence of str
+        Lines of surfaces to draw beside their own edges: ``["silhouette", "boundary", "crease", "intersection"]`` …
+    hidden : {"dashed", "ghost"}, optional
+        Draws hidden pieces of curves and lines, fainter.
+    color, line_width
+        Of the lines of `classes`; the width in points.
+    on_surface : float, optional
+        How far behind a face a curve or point may lie and still be drawn, a share of the scene's radius (0.0001 by default): for
+        curves on a surface. Edges of polygons need it, too.
+
+    Returns
+    -------
+    ExactScene
+        ``lines``: the `tinta_npr.Lines` of the current view; ``remove()`` takes the drawing away and shows matplotlib's artists.
+    """
+    if getattr(ax, "name", None) != "3d":
+        raise TypeError("ax: draw3d takes 3-D axes; draw and fill take 2-D ones")
+    if hidden not in (None, "none", "dashed", "ghost"):
+        raise ValueError(f"hidden: it is dashed or ghost, not {hidden}")
+    classes = [classes] if isinstance(classes, str) else list(classes)
+    for name in classes:
+        if name not in CLASSES:
+            raise ValueError(f"classes: there is no class {name}; choose from {', '.join(CLASSES)}")
+    hidden = None if hidden == "none" else hidden
+    return ExactScene(ax, classes, hidden, (to_rgba(color), line_width, "solid"), on_surface)
+
+
 def _of_areas(settings):
     """Settings that find no lines."""
     return {**settings, "areas": "object", "no_borders": True}
@@ -168,7 +211,7 @@ class _InView:
         if self._seen is not None and np.array_equal(seen, self._seen):
             return
         self._warn_of_limits(axes)
-        found = _lines(self._meshes, camera=axes, **self._settings)
+        found = _lines(self._meshes or None, camera=axes, **self._settings)
         corners = axes.transData.inverted().transform([(box.x0, box.y1), (box.x1, box.y0)])
         scale = (corners[1] - corners[0]) / found.size
         self._take(found, lambda points: points * scale + corners[0])
@@ -203,6 +246,75 @@ class ExactAreas(_InView, PathCollection):
 
     def _take(self, found, placed):
         _show(self, found.regions(self._shown["by"]), self._shown, placed)
+
+
+class ExactScene(_InView, PathCollection):
+    """What 3-D axes held, drawn with exact hiding: its areas, with its strokes and markers above them."""
+
+    is_exact = True
+
+    def __init__(self, axes, classes, hidden, outline, on_surface):
+        super().__init__([], linewidth=_EDGE)
+        surfaces, curves, self._dots, self._replaced = _mpl3d.held(axes)
+        if not self._replaced:
+            raise ValueError("ax: it holds no surfaces, curves and points; plot them first")
+        if any(surface.is_clear for surface in surfaces):
+            _native.warn("translucent surfaces are drawn as opaque ones; hidden=\"ghost\" shows the curves behind them")
+        self._hidden, self._outline = hidden, outline
+        paths = [path for one in curves for path in one.curves]
+        self._styles = [style for one in curves for style in one.styles]
+        self._path_ends = np.cumsum([len(path) for path in paths])
+        self._strokes = _mpl3d.Strokes([], capstyle="butt", joinstyle="round")
+        self._marks = [_mpl3d.Marks(dots.paths, offsets=np.empty((0, 2)), offset_transform=axes.transData) for dots in self._dots]
+        for marks in self._marks:
+            # Sizes are in points already.
+            marks.set_transform(IdentityTransform())
+        for artist in self._replaced:
+            artist.set_visible(False)
+        for collection in (self, self._strokes, *self._marks):
+            axes.add_collection(collection, autolim=False)
+        of_surfaces = [surface.mesh_and_colors() for surface in surfaces]
+        self._meshes, self._colors = [mesh for mesh, _ in of_surfaces], [colors for _, colors in of_surfaces]
+        points = [dots.points for dots in self._dots]
+        self._settings = {"classes": [*classes, "curve", "point"], "on_surface": on_surface}
+        self._settings |= {"curves": paths} if paths else {}
+        self._settings |= {"points": np.concatenate(points)} if points else {}
+        # Limits stay as they are.
+        self._ends, self._seen, self._is_warned = np.empty((0, 3)), None, True
+        self._find(axes)
+
+    def _find(self, axes):
+        with warnings.catch_warnings():
+            # Areas and points are enough.
+            warnings.filterwarnings("ignore", "no line of these classes")
+            super()._find(axes)
+
+    def _take(self, found, placed):
+        self.lines = found
+        if self._meshes:
+            colors = self._colors if len(self._colors) > 1 else self._colors[0]
+            _show(self, found.regions("face"), {"values": None, "colors": colors, "by": "face"}, placed)
+        lines, colors, widths, dashes = _mpl3d.strokes_of(found, self._styles, self._path_ends, self._outline, self._hidden)
+        self._strokes.set_segments([placed(path) for path in lines])
+        self._strokes.set_color(colors)
+        self._strokes.set_linewidth(widths)
+        self._strokes.set_linestyle(dashes or "solid")
+        is_point = (found.cls == "point") & found.visible
+        first = self._path_ends[-1] if len(self._path_ends) else 0
+        numbers, places = found.edge[is_point, 0] - first, placed(found.segments[is_point, 0])
+        for marks, dots in zip(self._marks, self._dots):
+            own = (numbers >= 0) & (numbers < len(dots.points))
+            marks.set_offsets(places[own])
+            marks.set(**dots.seen(numbers[own]))
+            numbers = numbers - len(dots.points)
+
+    def remove(self):
+        """Takes the drawing away and shows matplotlib's artists."""
+        super().remove()
+        for collection in (self._strokes, *self._marks):
+            collection.remove()
+        for artist in self._replaced:
+            artist.set_visible(True)
 
 
 def _show(collection, regions, shown, placed):

@@ -57,7 +57,7 @@ pub(super) struct Arguments {
     #[arg(required = true, value_name = "MODEL")]
     pub models: Vec<String>,
 
-    /// File to write: .png .jpg .bmp .tga .ppm, or - for PNG on standard output; lines: .svg .pdf .json; animations: .gif .apng frame-%04d.png
+    /// File to write: .png .jpg .bmp .tga .ppm, or - for PNG on standard output; lines: .svg .pdf .dxf .json; animations: .gif .apng frame-%04d.png
     #[arg(short, long, value_name = "FILE")]
     pub output: String,
 
@@ -270,7 +270,7 @@ fn after_help() -> String {
         BUILTINS.iter().map(|builtin| format!("  builtin:{:<10} {}", builtin.name, builtin.what)).collect();
     format!(
         "Built-in models:\n{}\n\nTwo defaults: in [default: A; published: B], A is the value of the look print, which tinta draws \
-         unless you give --look, --style, --preset or a .svg, .pdf or .json file. B is the value in every other look, style or preset that does not \
+         unless you give --look, --style, --preset or a .svg, .pdf, .dxf or .json file. B is the value in every other look, style or preset that does not \
          set the option. `tinta looks` describes the looks.\n\nPublished borders are black and one or two pixels wide at any \
          size, and edges are not smoothed.\n\nIf facets show as thin lines, the file's normals are wrong: try --normals smooth.",
         names.join("\n")

@@ -27,6 +27,8 @@ mod orientation;
 mod outside;
 mod silhouette;
 mod smooth;
+#[cfg(feature = "gltf")]
+mod write_glb;
 
 pub(crate) use persistent_creases::persistent_creases;
 
@@ -37,3 +39,5 @@ pub use mesh_edges::MeshEdges;
 pub use orientation::{Eye, Side, side_of_face};
 pub use silhouette::{SilhouetteRule, Silhouettes};
 pub use smooth::{Shell, SmoothSurface};
+#[cfg(feature = "gltf")]
+pub use write_glb::glb;

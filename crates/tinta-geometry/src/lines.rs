@@ -81,11 +81,13 @@ pub use smooth::visibility_events::{Inconsistency, InconsistencyKind, Visibility
 pub use visible::cast::{Hit, first_hits};
 pub use visible_lines::{LineTimes, VisibleLines};
 pub use why::{Hider, Why, WhyLine, WhyPiece};
+pub use write::dxf::{dxf, dxf_of_paths};
 #[cfg(feature = "pdf")]
 pub use write::pdf::{pdf, pdf_of_paths};
 pub use write::raster::{Raster, raster, raster_of_paths};
 pub use write::strokes::{Polyline, Strokes, strokes, strokes_of_paths};
 pub use write::svg::{svg, svg_of_paths};
+pub use write::turn_svg::TurnSvg;
 
 use crate::clock::{Instant, milliseconds_since};
 use crate::edges::{Class, ClassSet};

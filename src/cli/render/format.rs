@@ -10,6 +10,7 @@ use tinta::{Error, Result};
 pub(super) enum Format {
     Svg,
     Pdf,
+    Dxf,
     Json,
     /// Pixels, in the format of the file's name.
     Picture,
@@ -30,6 +31,7 @@ impl Format {
         match extension(output).map(str::to_ascii_lowercase).as_deref() {
             Some("svg") => Some(Self::Svg),
             Some("pdf") => Some(Self::Pdf),
+            Some("dxf") => Some(Self::Dxf),
             Some("json") => Some(Self::Json),
             _ => None,
         }
@@ -49,7 +51,7 @@ impl Format {
             (true, None) if output == "-" => Ok(Some(Self::Svg)),
             (true, None) if PictureFormat::of(Path::new(output)).is_some() => Ok(Some(Self::Picture)),
             (true, None) => refuse(format!(
-                "style {style} writes .svg, .pdf, .json or a still picture such as .png; name the file so, or leave out --style {style}"
+                "style {style} writes .svg, .pdf, .dxf, .json or a still picture such as .png; name the file so, or leave out --style {style}"
             )),
             (false, Some(format)) if has_vectors => Ok(Some(format)),
             (false, Some(_)) => refuse(format!(
@@ -63,7 +65,7 @@ impl Format {
             }
             (false, None) => match extension(output) {
                 Some(extension) if !is_of_a_picture(extension) => refuse(format!(
-                    "tinta writes no .{extension}; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf or .json for \
+                    "tinta writes no .{extension}; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf or .json for \
                      lines, .gif or .apng for an animation"
                 )),
                 _ => request.refuse_vectors_options().map(|()| None),

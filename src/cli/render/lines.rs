@@ -1,4 +1,4 @@
-//! `tinta render` of exact lines, into an SVG, PDF, JSON or picture's file. No OpenGL is opened.
+//! `tinta render` of exact lines, into an SVG, PDF, DXF, JSON or picture's file. No OpenGL is opened.
 
 mod turn;
 mod writing;
@@ -27,7 +27,11 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     let is_transparent = request.is_transparent();
     let views = request.animation.turntable;
     match views {
-        Some(_) => check_output(&turn::names(output, format)?.with(1), format, is_transparent)?,
+        Some(_) => {
+            let names = turn::names(output, format)?;
+            let first = names.map_or_else(|| output.to_owned(), |names| names.with(1));
+            check_output(&first, format, is_transparent)?;
+        }
         None => check_output(output, format, is_transparent)?,
     }
     refuse_what_lines_have_not(rendering, format)?;
@@ -57,6 +61,11 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     }
 
     let start = Instant::now();
+    if format == Format::Dxf && areas.as_ref().is_some_and(|areas| !areas.drawn.fills.is_empty()) {
+        say(&format!(
+            "tinta: {output}: a .dxf file has no fills, so only lines are written; --hatch draws tones as lines"
+        ));
+    }
     let note = lines.partial_note();
     if let Some(note) = &note {
         say(&format!("tinta: {output}: {note}"));
@@ -65,7 +74,7 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
         // Partial lines depend on the machine and cannot be reproduced.
         _ if note.is_some() => None,
         Format::Svg | Format::Pdf | Format::Picture => keep::recipe(rendering, &scene, &files, None),
-        Format::Json => None,
+        Format::Dxf | Format::Json => None,
     };
     let drawn = with_recipe(style.drawing, output, recipe.as_ref());
     let is_chained = format != Format::Json || run.is_told();
@@ -115,7 +124,7 @@ fn stopped(stop: Option<&Stop>) -> Verdict {
 fn check_output(output: &str, format: Format, is_transparent: bool) -> Result<()> {
     match format {
         Format::Picture => Target::check(output, is_transparent).map(drop),
-        Format::Svg | Format::Pdf | Format::Json => TextTarget::check(output).map(drop),
+        Format::Svg | Format::Pdf | Format::Dxf | Format::Json => TextTarget::check(output).map(drop),
     }
 }
 
@@ -151,7 +160,7 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Resu
     let holds_note =
         format != Format::Picture || output == "-" || PictureFormat::of(Path::new(output)) == Some(PictureFormat::Png);
     if run.partial && !holds_note {
-        let problem = "this format cannot mark the drawing as partial; write a .svg, .pdf, .json or .png";
+        let problem = "this format cannot mark the drawing as partial; write a .svg, .pdf, .dxf, .json or .png";
         return Err(Error::setting("partial", problem));
     }
     if output == "-" && run.is_told() {
@@ -161,6 +170,11 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Resu
     match format {
         Format::Svg => Ok(()),
         Format::Pdf => refuse(&["provenance"], "a .pdf file has no place for it; leave it out, or write a .svg"),
+        Format::Dxf => {
+            let problem =
+                "a .dxf file holds polylines without curves, fills and their edges; leave it out, or write a .svg";
+            refuse(&["provenance", "fit-curves", "areas"], problem)
+        }
         Format::Picture => {
             let problem = "a picture has pixels and no paths; leave it out, or write a .svg";
             refuse(&["provenance", "pen", "fit-curves"], problem)?;

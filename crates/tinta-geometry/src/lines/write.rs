@@ -1,7 +1,9 @@
-//! Writes drawings as SVG, PDF, pixels and polylines.
+//! Writes drawings as SVG, PDF, DXF, pixels and polylines.
 
+pub(super) mod dxf;
 #[cfg(feature = "pdf")]
 pub(super) mod pdf;
 pub(super) mod raster;
 pub(super) mod strokes;
 pub(super) mod svg;
+pub(super) mod turn_svg;

@@ -23,8 +23,11 @@ use crate::files::shown;
 use accessors::Accessors;
 use buffers::Buffers;
 pub use cameras::camera;
+pub(crate) use container::glb_container;
+pub(crate) use edge_marks::EXTENSION as EDGES_EXTENSION;
 use gltf_json::Root;
 use materials::Materials;
+pub(crate) use materials::to_linear;
 use nodes::Nodes;
 use parts::Outline;
 

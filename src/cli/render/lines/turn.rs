@@ -1,7 +1,8 @@
-//! `tinta render --turntable` of exact lines: numbered drawings whose strokes keep their ids.
+//! `tinta render --turntable` of exact lines: numbered drawings whose strokes keep their ids, or one animated SVG.
 
 use super::super::super::signals::Stop;
 use super::super::super::{Verdict, print_json, say};
+use super::super::animate::delay_ms;
 use super::super::format::Format;
 use super::super::rendering::Rendering;
 use super::writing::{comment, is_stopped, progress, watched, write};
@@ -9,21 +10,25 @@ use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
 use tinta::animation::NumberedName;
-use tinta::lines::StrokeIds;
+use tinta::lines::{StrokeIds, TurnSvg};
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
 use tinta::request::{ReadModels, Session};
-use tinta::{Error, Result, Scene};
+use tinta::{Error, Result, Scene, TextTarget};
 
-/// The names of the drawings.
+/// The names of the drawings; `None` for one animated SVG.
 ///
 /// # Errors
 ///
 /// [`Error::File`] for a name without a place for a number, or without a format of lines.
-pub(super) fn names(output: &str, format: Format) -> Result<NumberedName> {
-    NumberedName::parse(output).filter(|_| format != Format::Json).ok_or_else(|| {
-        Error::output(output, "this names one drawing; a turn has numbered ones such as frame-%04d.svg, .pdf or .png")
-    })
+pub(super) fn names(output: &str, format: Format) -> Result<Option<NumberedName>> {
+    match NumberedName::parse(output).filter(|_| format != Format::Json) {
+        None if format != Format::Svg => {
+            let problem = "this names one drawing; a turn has numbered ones such as frame-%04d.svg, .pdf or .png, or one animated .svg";
+            Err(Error::output(output, problem))
+        }
+        names => Ok(names),
+    }
 }
 
 /// Draws the views of a turn one after the other.
@@ -45,15 +50,16 @@ pub(super) fn run(
     let ReadModels { meshes, ms: load_ms, .. } = request.models(&session.models)?;
     let scene = Scene::new(meshes, &request.scene)?;
     let drawn = style.drawing.clone();
+    let mut animated = names.is_none().then(TurnSvg::default);
     let mut ids = StrokeIds::new(&scene, &style.wanted());
     let (mut bytes, mut frame_ms) = (0, Vec::new());
     for (number, camera) in (1..).zip(scene.turntable(&request.scene.camera, views)?) {
         let frame = Instant::now();
         let scene = Scene { camera, ..scene.clone() };
-        let name = names.with(number);
+        let name = names.as_ref().map_or_else(|| output.to_owned(), |names| names.with(number));
         let progress = progress(rendering);
         let lines = match watched(&progress, stop, || request.lines(&scene, &progress)) {
-            Err(Error::Cancelled) => return Ok(stopped(stop, number - 1, views)),
+            Err(Error::Cancelled) => return Ok(stopped(stop, names.as_ref().map_or(0, |_| number - 1), views)),
             found => found?,
         };
         let note = lines.partial_note();
@@ -62,12 +68,22 @@ pub(super) fn run(
         }
         let paths = ids.next(&scene, &lines);
         if is_stopped(stop) {
-            return Ok(stopped(stop, number - 1, views));
+            return Ok(stopped(stop, names.as_ref().map_or(0, |_| number - 1), views));
+        }
+        if let Some(animated) = &mut animated {
+            animated.add(&lines, paths, &drawn)?;
+            frame_ms.push(milliseconds_since(frame));
+            continue;
         }
         let said = note.map(comment);
         write(format, &name, &scene, (&lines, paths), None, &drawn, said.as_ref())?;
         bytes += Path::new(&name).metadata().map_or(0, |metadata| metadata.len());
         frame_ms.push(milliseconds_since(frame));
+    }
+    if let Some(animated) = animated {
+        let text = animated.finish(delay_ms(&request.animation, views as usize));
+        bytes = text.len() as u64;
+        TextTarget::check(output)?.write(&text)?;
     }
     if ids.count() == 0 {
         say("tinta: no line of these classes is visible in any view; see --classes, --eye and --target");

@@ -6,7 +6,9 @@ use super::super::format::Format;
 use super::super::rendering::Rendering;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
-use tinta::lines::{LinePath, Phase, Progress as LineProgress, Raster, pdf_of_paths, raster_of_paths, svg_of_paths};
+use tinta::lines::{
+    LinePath, Phase, Progress as LineProgress, Raster, dxf_of_paths, pdf_of_paths, raster_of_paths, svg_of_paths,
+};
 use tinta::picture::Note;
 use tinta::record::drawing_json;
 use tinta::styles::ViewAreas;
@@ -27,6 +29,7 @@ pub(super) fn write(
     match format {
         Format::Svg => write(svg_of_paths(lines, paths, below, drawn)?.into_bytes()),
         Format::Pdf => write(pdf_of_paths(lines, paths, below, drawn)?),
+        Format::Dxf => write(dxf_of_paths(lines, paths, below, drawn)?.into_bytes()),
         Format::Json => write(drawing_json(lines, areas.map(|areas| &areas.regions), scene)?.into_bytes()),
         Format::Picture => {
             let Raster { size, pixels } = raster_of_paths(lines, paths, drawn)?;

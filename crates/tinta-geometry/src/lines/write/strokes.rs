@@ -77,21 +77,26 @@ pub fn strokes_of_paths(
     Ok(drawing.layers.iter().map(|layer| of_layer(layer, settings, drawing.page.units)).collect())
 }
 
-fn of_layer(drawn: &DrawnLayer, settings: &DrawingSettings, units: Units) -> Strokes {
-    let polylines = drawn.paths.iter().flat_map(|path| match drawn.dash_px {
+/// The polylines of a layer, each dash one.
+pub(in crate::lines) fn polylines(drawn: &DrawnLayer, settings: &DrawingSettings) -> Vec<Polyline> {
+    let of_path = |path: &LinePath| match drawn.dash_px {
         Some([dash, gap]) => dashes(path, dash, gap)
             .into_iter()
             .map(|dash| Polyline { points_px: dash.points_px, is_closed: false })
             .collect(),
         None => vec![Polyline { points_px: settings.points_of(path), is_closed: path.is_closed }],
-    });
+    };
+    drawn.paths.iter().flat_map(of_path).collect()
+}
+
+fn of_layer(drawn: &DrawnLayer, settings: &DrawingSettings, units: Units) -> Strokes {
     Strokes {
         layer: drawn.layer,
         color: drawn.color,
         width_px: drawn.width_px,
         width_mm: units.px_per_mm.map(|px| drawn.width_px / px),
         opacity: if drawn.is_ghost { GHOST_OPACITY } else { 1.0 },
-        polylines: polylines.collect(),
+        polylines: polylines(drawn, settings),
     }
 }
 

@@ -78,7 +78,7 @@ fn write_labels(drawing: &Drawing<'_>, out: &mut String) {
 }
 
 /// Writes everything before the layers.
-fn begin(drawing: &Drawing<'_>, out: &mut String) {
+pub(super) fn begin(drawing: &Drawing<'_>, out: &mut String) {
     let (settings, page) = (drawing.settings, &drawing.page);
     let [width, height] = page.lengths();
     let page_number = |value| decimal(value, PAGE_DECIMALS);
@@ -158,30 +158,34 @@ fn write_fills(group: &FillGroup, out: &mut String) {
 }
 
 fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, out: &mut String) {
-    let [visibility, name] = drawn.layer.words();
-    let of_part = if drawn.look == 0 { String::new() } else { format!("-{}", drawn.look) };
-    let label = escaped(&drawn.label());
-    let _ = write!(
-        out,
-        r#"<g id="{visibility}-{name}{of_part}" inkscape:groupmode="layer" inkscape:label="{label}" fill="none" stroke="{}" stroke-width="{}" stroke-linecap="round" stroke-linejoin="round""#,
-        hexadecimal(drawn.color),
-        number(drawn.width_px)
-    );
-    if let Layer::Hatch(tone) = drawn.layer {
-        let _ = write!(out, r#" data-tone="{tone}""#);
-    }
-    if let Some(dash) = drawn.dash_px {
-        let [dash, gap] = dash.map(number);
-        let _ = write!(out, r#" stroke-dasharray="{dash} {gap}""#);
-    }
-    if drawn.is_ghost {
-        let _ = write!(out, r#" opacity="{GHOST_OPACITY}""#);
-    }
-    out.push_str(">\n");
+    out.push_str(&layer_tag(drawn));
+    let [_, name] = drawn.layer.words();
     for path in &drawn.paths {
         write_path(drawing, name, path, out);
     }
     out.push_str("</g>\n");
+}
+
+/// The opening tag of a layer.
+pub(super) fn layer_tag(drawn: &DrawnLayer) -> String {
+    let (id, label) = (drawn.id(), escaped(&drawn.label()));
+    let mut tag = format!(
+        r#"<g id="{id}" inkscape:groupmode="layer" inkscape:label="{label}" fill="none" stroke="{}" stroke-width="{}" stroke-linecap="round" stroke-linejoin="round""#,
+        hexadecimal(drawn.color),
+        number(drawn.width_px)
+    );
+    if let Layer::Hatch(tone) = drawn.layer {
+        let _ = write!(tag, r#" data-tone="{tone}""#);
+    }
+    if let Some(dash) = drawn.dash_px {
+        let [dash, gap] = dash.map(number);
+        let _ = write!(tag, r#" stroke-dasharray="{dash} {gap}""#);
+    }
+    if drawn.is_ghost {
+        let _ = write!(tag, r#" opacity="{GHOST_OPACITY}""#);
+    }
+    tag.push_str(">\n");
+    tag
 }
 
 fn write_path(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut String) {
@@ -193,11 +197,15 @@ fn write_path(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut Str
     if drawing.settings.has_provenance && !path.segments.is_empty() {
         write_provenance(drawing, class, path, out);
     }
-    let data = match drawing.settings.fit_px {
+    let _ = writeln!(out, r#" d="{}"/>"#, path_data_of(drawing, path));
+}
+
+/// A path's data, with curves where they are wanted.
+pub(super) fn path_data_of(drawing: &Drawing<'_>, path: &LinePath) -> String {
+    match drawing.settings.fit_px {
         Some(error_px) => curve_data(&fitted(path, error_px), path.is_closed),
         None => path_data(&drawing.settings.points_of(path), path.is_closed, drawing.settings.has_provenance),
-    };
-    let _ = writeln!(out, r#" d="{data}"/>"#);
+    }
 }
 
 /// Class, object, and for each segment of the path its mesh edge and angle, or `-`.

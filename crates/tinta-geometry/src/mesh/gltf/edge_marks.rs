@@ -9,7 +9,7 @@ use gltf_json::Index;
 use serde::Deserialize;
 
 /// The extension's name.
-pub(super) const EXTENSION: &str = "EXT_mesh_primitive_edge_visibility";
+pub(crate) const EXTENSION: &str = "EXT_mesh_primitive_edge_visibility";
 
 /// The values of two bits that mark an edge.
 const HARD: [u32; 2] = [2, 3];

@@ -1,0 +1,188 @@
+"""matplotlib's 3-D axes drawn again: every piece against rays, styles, places, and the way back."""
+
+import os
+import runpy
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import tinta_npr as tn
+
+plt = pytest.importorskip("matplotlib.pyplot")
+plt.switch_backend("agg")
+
+EXAMPLES = Path(os.environ.get("TINTA_EXAMPLES") or Path(__file__).parents[1] / "examples")
+NAMES = ["orbit", "path_on_waves", "plane_arrow_points", "line_by_a_fold", "bars_and_their_means"]
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    yield
+    plt.close("all")
+
+
+def filled(name, **axes):
+    ax = plt.figure(figsize=(4, 3)).add_subplot(projection="3d", **axes)
+    runpy.run_path(str(EXAMPLES / "matplotlib_3d.py"))[name](ax)
+    return ax
+
+
+def triangles_of(ax, first):
+    """All triangles of the axes' surfaces, squares cut from their corner `first`: (N, 3, 3); read before they are drawn again."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    from tinta_npr._mpl3d import Surface, _bent_apart
+
+    found = []
+    for artist in ax.get_children():
+        if isinstance(artist, Poly3DCollection):
+            for polygon in Surface(artist).polygons:
+                for part in _bent_apart(polygon):
+                    part = np.roll(part, -first, axis=0)
+                    found += [(part[0], one, other) for one, other in zip(part[1:], part[2:])]
+    return np.array(found)
+
+
+def hits(triangles, points, towards):
+    """How far along each ray the triangles lie, infinite where it passes them by (Moeller, Trumbore): (N, M); and how near to their
+    edges."""
+    a, ab, ac = triangles[:, 0], triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    across = np.cross(towards[:, None], ac[None])
+    determinant = (ab[None] * across).sum(-1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        away = points[:, None] - a[None]
+        u = (away * across).sum(-1) / determinant
+        turned = np.cross(away, ab[None])
+        v = (turned * towards[:, None]).sum(-1) / determinant
+        distance = (turned * ac[None]).sum(-1) / determinant
+    inside = np.minimum(np.minimum(u, v), 1 - u - v)
+    return np.where(np.isfinite(distance), distance, np.inf), np.where(np.isfinite(inside), inside, -np.inf)
+
+
+@pytest.mark.parametrize("projection", ["persp", "ortho"])
+@pytest.mark.parametrize("name", NAMES)
+def test_pieces_of_curves_and_points_are_as_rays_say(name, projection):
+    """A point of a curve is drawn if nothing lies between it and the eye; those within 1e-3 of a surface, and rays that graze an edge or
+    the end of a piece, are left out, and points that depend on the diagonals of squares that are not flat."""
+    ax = filled(name, proj_type=projection)
+    ax.view_init(elev=25, azim=-50)
+    both = [triangles_of(ax, first) for first in (0, 1)]
+    from tinta_npr._mpl3d import Curves, held
+
+    # Edges of surfaces come after the curves, and are near a surface everywhere.
+    own = sum(len(curve) for one in held(ax)[1] if isinstance(one, Curves) for curve in one.curves)
+    scene = tn.mpl.draw3d(ax)
+    lines, matrix = scene.lines, ax.get_proj()
+    # The eye, or the direction to it, is the point that the projection's rows x, y and w have no value for.
+    eye = np.linalg.svd(matrix[[0, 1, 3]])[2][-1]
+    positions = np.concatenate(scene._settings["curves"])
+    is_curve = (lines.cls == "curve") & (lines.edge[:, 1] < own)
+    random = np.random.default_rng(1)
+    pieces = random.choice(np.flatnonzero(is_curve), 300)
+    ends = positions[lines.edge[pieces]]
+    share = random.random(len(pieces))
+    points = ends[:, 0] + (ends[:, 1] - ends[:, 0]) * share[:, None]
+    pixels = lines.project(points)
+    towards = (eye[:3] / eye[3] - points) if abs(eye[3]) > 1e-9 else np.tile(eye[:3], (len(points), 1))
+    if abs(eye[3]) <= 1e-9:
+        elevation, azimuth = np.radians([25, -50])
+        seen_from = [np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)]
+        towards = towards * np.sign((eye[:3] * seen_from).sum()) * 1e6
+    size = np.ptp(positions, axis=0).max()
+    length = np.linalg.norm(towards, axis=1)
+    blocked, is_unclear = [], np.zeros(len(points), dtype=bool)
+    for triangles in both:
+        distance, inside = hits(triangles, points, towards / length[:, None])
+        is_near, is_grazed = (np.abs(distance) < 2e-3 * size) & (inside > -0.02), (np.abs(inside) < 1e-6) & (distance > 0)
+        is_unclear |= (is_near | is_grazed).any(axis=1)
+        blocked.append(((distance > 0) & (distance < length[:, None]) & (inside > 0)).any(axis=1))
+    is_unclear |= blocked[0] != blocked[1]
+    wrong = counted = 0
+    for number, piece in enumerate(pieces):
+        same = np.flatnonzero(is_curve & (lines.edge == lines.edge[piece]).all(axis=1))
+        starts, stops = lines.segments[same, 0], lines.segments[same, 1]
+        along = stops - starts
+        lengths = np.maximum((along**2).sum(axis=1), 1e-30)
+        at = ((pixels[number] - starts) * along).sum(axis=1) / lengths
+        within = np.flatnonzero((at > 1e-3) & (at < 1 - 1e-3))
+        if len(within) != 1 or is_unclear[number]:
+            continue
+        counted += 1
+        wrong += bool(lines.visible[same[within[0]]]) == bool(blocked[0][number])
+    assert counted > 60 and wrong == 0, f"{wrong} of {counted}"
+
+
+def test_artists_keep_their_styles_and_come_back():
+    ax = filled("bars_and_their_means")
+    scene = tn.mpl.draw3d(ax, hidden="dashed")
+    from mpl_toolkits.mplot3d.art3d import Line3D, Poly3DCollection
+
+    held = [artist for artist in ax.get_children() if isinstance(artist, (Line3D, Poly3DCollection))]
+    assert held and not any(artist.get_visible() for artist in held)
+    widths = set(np.round(scene._strokes.get_linewidth(), 3))
+    assert widths == {0.6, 1.5}, widths
+    assert any(style != (0, None) for style in scene._strokes.get_linestyle())
+    assert len(scene._marks) == 1 and 0 < len(scene._marks[0].get_offsets()) < 4
+    scene.remove()
+    assert all(artist.get_visible() for artist in held)
+    assert scene not in ax.get_children()
+    ax.figure.savefig("again.svg")
+
+
+def test_it_lies_where_matplotlib_projects_it_and_follows_the_view():
+    from mpl_toolkits.mplot3d import proj3d
+
+    ax = plt.figure().add_subplot(projection="3d")
+    ax.plot([0, 1, 1], [0, 0, 1], [0, 0.3, 1], "b")
+    ax.scatter([0.5], [0.5], [0.2])
+    scene = tn.mpl.draw3d(ax)
+    for azimuth in (-60, 40):
+        ax.view_init(elev=20, azim=azimuth)
+        ax.figure.canvas.draw()
+        x, y, _ = proj3d.proj_transform([0, 1, 1], [0, 0, 1], [0, 0.3, 1], ax.get_proj())
+        [path] = scene._strokes.get_segments()
+        assert np.abs(path - np.column_stack([x, y])).max() < 1e-6
+        x, y, _ = proj3d.proj_transform([0.5], [0.5], [0.2], ax.get_proj())
+        assert np.abs(scene._marks[0].get_offsets() - np.column_stack([x, y])).max() < 1e-6
+
+
+def test_gaps_end_curves_and_holes_end_surfaces():
+    ax = plt.figure().add_subplot(projection="3d")
+    ax.plot([0, 1, np.nan, 2, 3], [0] * 5, [0] * 5)
+    ax.scatter([0, np.nan], [1, 1], [0, 0])
+    x, y = np.meshgrid([0.0, 1, 2], [0.0, 1, 2])
+    z = np.where((x == 2) & (y == 2), np.nan, 0 * x - 1)
+    ax.plot_surface(x, y, z)
+    scene = tn.mpl.draw3d(ax)
+    assert len(scene._strokes.get_segments()) == 2 and len(scene._marks[0].get_offsets()) == 1 and scene.get_paths()
+
+
+def test_what_it_cannot_draw_is_said():
+    figure = plt.figure()
+    with pytest.raises(TypeError, match="3-D axes"):
+        tn.mpl.draw3d(figure.add_subplot())
+    ax = figure.add_subplot(projection="3d")
+    with pytest.raises(ValueError, match="plot them first"):
+        tn.mpl.draw3d(ax)
+    ax.plot_surface(*np.meshgrid([0, 1], [0, 1]), np.zeros((2, 2)), alpha=0.5)
+    with pytest.raises(ValueError, match="there is no class edge; choose from"):
+        tn.mpl.draw3d(ax, classes="edge")
+    with pytest.raises(ValueError, match="dashed or ghost, not dotted"):
+        tn.mpl.draw3d(ax, hidden="dotted")
+    with pytest.warns(UserWarning, match="translucent"):
+        tn.mpl.draw3d(ax)
+
+
+def test_every_kind_of_plot_is_vectors():
+    ax = plt.figure().add_subplot(projection="3d")
+    x, y = np.meshgrid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9))
+    z = x * y
+    ax.plot_wireframe(x, y, z + 1)
+    ax.plot_trisurf(x.ravel(), y.ravel(), z.ravel(), cmap="viridis")
+    ax.contour(x, y, z - 1)
+    ax.quiver(0, 0, 0, 1, 1, 1)
+    scene = tn.mpl.draw3d(ax, hidden="ghost")
+    assert len(scene.get_paths()) > 30 and len(scene._strokes.get_segments()) > 20
+    ax.figure.savefig("all.pdf")
+    assert b"/Subtype /Image" not in Path("all.pdf").read_bytes()
