@@ -63,7 +63,7 @@ def hits(triangles, points, towards):
 @pytest.mark.parametrize("projection", ["persp", "ortho"])
 @pytest.mark.parametrize("name", NAMES)
 def test_pieces_of_curves_and_points_are_as_rays_say(name, projection):
-    """A point of a curve is drawn if nothing lies between it and the eye; those within 1e-3 of a surface, and rays that graze an edge or
+    """A point of a curve is drawn if nothing lies between it and the eye; those within 2e-3 of a surface, and rays that graze an edge or
     the end of a piece, are left out, and points that depend on the diagonals of squares that are not flat."""
     ax = filled(name, proj_type=projection)
     ax.view_init(elev=25, azim=-50)
@@ -156,6 +156,13 @@ def test_gaps_end_curves_and_holes_end_surfaces():
     ax.plot_surface(x, y, z)
     scene = tn.mpl.draw3d(ax)
     assert len(scene._strokes.get_segments()) == 2 and len(scene._marks[0].get_offsets()) == 1 and scene.get_paths()
+
+
+def test_a_surface_without_colour_keeps_its_edges():
+    ax = plt.figure().add_subplot(projection="3d")
+    ax.plot_surface(*np.meshgrid([0.0, 1], [0.0, 1]), np.zeros((2, 2)), color=(0, 0, 0, 0), edgecolor="k")
+    scene = tn.mpl.draw3d(ax)
+    assert scene._strokes.get_segments() and not scene.get_paths()
 
 
 def test_what_it_cannot_draw_is_said():

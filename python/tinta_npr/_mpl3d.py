@@ -150,8 +150,10 @@ def held(axes):
         else:
             continue
         artists.append(artist)
+    curves = [one for one in curves + surfaces if one.curves]
+    # A surface without colour hides nothing; its edges are curves.
     surfaces = [surface for surface in surfaces if surface.is_seen.any()]
-    return surfaces, [curves for curves in curves + surfaces if curves.curves], [dot for dot in dots if len(dot.points)], artists
+    return surfaces, curves, [dot for dot in dots if len(dot.points)], artists
 
 
 class _Placed:
