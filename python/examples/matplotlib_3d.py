@@ -71,7 +71,7 @@ def field(file):
     ax.scatter([0, 0], [0, 0], [1.05, -1.05], c="k", s=15)
     ax.text(0, 0, 1.3, "north")
     ax.set_aspect("equal")
-    figure.colorbar(surface, shrink=0.6, label="height")
+    figure.colorbar(surface, shrink=0.6, pad=0.15, label="height")
     tinta_npr.mpl.draw3d(ax, classes=["silhouette"], hidden="dashed")
     figure.savefig(file)
 

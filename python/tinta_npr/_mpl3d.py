@@ -9,6 +9,7 @@ from mpl_toolkits.mplot3d.art3d import Collection3D, Line3D, Line3DCollection, P
 
 from . import _native
 
+
 class Surface:
     """A `Poly3DCollection`: polygons, each with the colour of its face."""
 

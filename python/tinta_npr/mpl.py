@@ -269,10 +269,6 @@ class ExactScene(_InView, PathCollection):
         for marks in self._marks:
             # Sizes are in points already.
             marks.set_transform(IdentityTransform())
-        for artist in self._replaced:
-            artist.set_visible(False)
-        for collection in (self, self._strokes, *self._marks):
-            axes.add_collection(collection, autolim=False)
         of_surfaces = [surface.mesh_and_colors() for surface in surfaces]
         self._meshes, self._colors = [mesh for mesh, _ in of_surfaces], [colors for _, colors in of_surfaces]
         points = [dots.points for dots in self._dots]
@@ -281,7 +277,12 @@ class ExactScene(_InView, PathCollection):
         self._settings |= {"points": np.concatenate(points)} if points else {}
         # Limits stay as they are.
         self._ends, self._seen, self._is_warned = np.empty((0, 3)), None, True
+        # Before matplotlib's artists go: what cannot be drawn leaves the axes as they were.
         self._find(axes)
+        for artist in self._replaced:
+            artist.set_visible(False)
+        for collection in (self, self._strokes, *self._marks):
+            axes.add_collection(collection, autolim=False)
 
     def _find(self, axes):
         with warnings.catch_warnings():
