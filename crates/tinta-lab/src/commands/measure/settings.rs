@@ -6,7 +6,7 @@ use tinta::cli::options::Selection;
 use tinta::pixel::LINE_TOLERANCE_PX;
 use tinta::plan::Submission;
 use tinta::recipe::option_words;
-use tinta::request::Request;
+use tinta::request::{Request, ignored_remark};
 use tinta::settings::{self, HasSettings, Kind, OptionValue, Options, Problem, Table};
 use tinta::shell::quoted;
 use tinta::styles::Origin;
@@ -243,21 +243,18 @@ pub(super) fn varied(styles: &[StyleName], vary: &str) -> Result<Vec<Setting>> {
             "it is an option of a style, = and values, as detection-factor=0.5,1,2",
         ));
     };
-    let (mut all, mut refused) = (Vec::new(), None);
     let lines_first = StyleName::lines_first().into_iter().filter(|style| !style.draws_lines());
-    for style in lines_first.filter(|style| styles.is_empty() || styles.contains(style)) {
-        let of_value = |value: &str| setting(format!("--style {} --{option} {}", style.name(), value.trim()), false);
-        let of_style: Vec<Result<(StyleName, Setting)>> = values.split(',').map(of_value).collect();
-        // A style that takes no value of them lacks the option.
-        match of_style.iter().any(Result::is_ok) {
-            true => all.extend(of_style.into_iter().map(|one| Ok(one?.1)).collect::<Result<Vec<Setting>>>()?),
-            false => refused = refused.or(of_style.into_iter().find_map(Result::err)),
-        }
+    let asked = lines_first.filter(|style| styles.is_empty() || styles.contains(style));
+    let (ignoring, having): (Vec<StyleName>, Vec<StyleName>) =
+        asked.partition(|style| ignored_remark([option].into_iter(), &[style.name()]).is_some());
+    if having.is_empty() {
+        let names: Vec<&str> = ignoring.iter().map(|style| style.name()).collect();
+        let why = ignored_remark([option].into_iter(), &names).unwrap_or_else(|| "no style to measure".to_owned());
+        return Err(Error::value("vary", vary, why));
     }
-    match refused.filter(|_| all.is_empty()) {
-        Some(error) => Err(error),
-        None => Ok(all),
-    }
+    let each = having.iter().flat_map(|style| values.split(',').map(move |value| (style, value)));
+    let words = each.map(|(style, value)| format!("--style {} --{option} {}", style.name(), value.trim()));
+    words.map(|text| Ok(setting(text, false)?.1)).collect()
 }
 
 fn setting(text: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
