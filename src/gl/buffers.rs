@@ -2,13 +2,14 @@
 
 use super::objects::Buffer;
 use crate::mesh::{Mesh, Part};
-use crate::plan::{EdgeRun, FaceList};
+use crate::plan::{EdgeRun, FaceList, Mark};
 use glam::DVec3;
 use std::sync::Arc;
 
 /// The ends of some edges on the device, one run after the other.
 pub(super) struct EdgeIndices {
     pub(super) runs: Arc<Vec<EdgeRun>>,
+    pub(super) mark: Mark,
     /// The indices of each run.
     pub(super) indices: Vec<Vec<u32>>,
     /// All indices in one buffer.

@@ -16,6 +16,9 @@ use glow::HasContext;
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// Edges kept on the device: those of one plan, as lines, as points that join them, and as dots.
+const MOST_KEPT: usize = 3;
+
 impl EdgeIndices {
     fn new(gl: &Rc<Gl>, runs: &Arc<Vec<EdgeRun>>, mark: Mark) -> Result<Self> {
         let ends = |run: &EdgeRun| match mark {
@@ -27,7 +30,7 @@ impl EdgeIndices {
         let own = |vertices: &Vec<[f32; 6]>| Buffer::new(gl, glow::ARRAY_BUFFER, bytemuck::cast_slice(vertices));
         let own_vertices =
             runs.iter().map(|run| run.own_vertices.as_ref().map(own).transpose()).collect::<Result<_>>()?;
-        Ok(Self { runs: runs.clone(), indices, buffer, own_vertices })
+        Ok(Self { runs: runs.clone(), mark, indices, buffer, own_vertices })
     }
 }
 
@@ -48,11 +51,12 @@ impl Resources {
         width_px: f32,
         is_smooth: bool,
     ) -> Result<()> {
-        let slot = mark as usize;
-        if self.edges[slot].as_ref().is_none_or(|edges| !Arc::ptr_eq(&edges.runs, runs)) {
-            self.edges[slot] = Some(EdgeIndices::new(&self.gl, runs, mark)?);
+        let is_it = |edges: &EdgeIndices| edges.mark == mark && Arc::ptr_eq(&edges.runs, runs);
+        if !self.edges.iter().any(is_it) {
+            self.edges.truncate(MOST_KEPT - 1);
+            self.edges.insert(0, EdgeIndices::new(&self.gl, runs, mark)?);
         }
-        let Some(edges) = &self.edges[slot] else { return Ok(()) };
+        let Some(edges) = self.edges.iter().find(|edges| is_it(edges)) else { return Ok(()) };
         let (mode, smooth) = smoothed(mark);
         // SAFETY: the context is current; widths are finite and above 0, which the style has checked.
         unsafe {

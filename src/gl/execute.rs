@@ -40,8 +40,8 @@ pub(crate) struct Resources {
     pub(super) textures: Textures,
     /// Whether the driver draws steps without shaders, as in OpenGL 2.1; otherwise equivalent shaders draw them.
     pub(super) has_pipeline: bool,
-    /// The edges last drawn as lines and as points, as indices on the device.
-    pub(super) edges: [Option<EdgeIndices>; 2],
+    /// The edges last drawn, as indices on the device.
+    pub(super) edges: Vec<EdgeIndices>,
     /// How the current plan passes vertices.
     pub(super) submission: Submission,
 }
@@ -63,7 +63,7 @@ impl Resources {
             into_textures: false,
             textures: Textures::default(),
             has_pipeline: legacy::HAS_PIPELINE,
-            edges: [None, None],
+            edges: Vec::new(),
             submission: Submission::Buffers,
         }
     }
