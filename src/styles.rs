@@ -278,8 +278,10 @@ impl Style {
             let remark = "the model's textures or colours at vertices are not drawn; --surface textured draws them";
             remarks.push(remark.to_owned());
         }
-        if scene.objects.iter().any(|object| !object.mesh.curves.is_empty()) {
-            remarks.push("the model's own curves and points are not drawn; --style lines draws them".to_owned());
+        let draws_curves = matches!(self, Self::Inking(_));
+        if !draws_curves && scene.objects.iter().any(|object| !object.mesh.curves.is_empty()) {
+            remarks
+                .push("the model's own curves and points are not drawn; --style lines and inking draw them".to_owned());
         }
         remarks
     }

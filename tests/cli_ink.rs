@@ -109,7 +109,7 @@ fn ink_takes_its_options_and_refuses_what_it_cannot_use() {
     assert!(said.contains("drawn as quads") && said.lines().count() == 1, "{said}");
     assert!(record["remarks"][0].as_str().is_some_and(|remark| remark.contains("drawn as quads")));
     assert!(record["plan_ms"].as_f64() > Some(0.0));
-    assert_eq!(record["style"]["classes"], serde_json::json!(["boundary", "silhouette", "crease"]));
+    assert_eq!(record["style"]["classes"], serde_json::json!(["boundary", "silhouette", "crease", "curve", "point"]));
 }
 
 #[test]

@@ -490,3 +490,78 @@ fn what_was_drawn_before_changes_nothing_by_egl() {
 fn what_was_drawn_before_changes_nothing() {
     check_order(&*BACKENDS);
 }
+
+/// A cube from -1 to 1 seen from above, with a curve and two points of the given heights; the curve passes beyond the cube.
+fn with_free_lines(heights: [f64; 3]) -> Scene {
+    let curve = vec![DVec3::new(-2.0, heights[0], 0.5), DVec3::new(2.0, heights[0], 0.5)];
+    let points = [DVec3::new(-0.5, heights[1], -0.5), DVec3::new(2.0, heights[2], -0.5)];
+    let free = Mesh::of_curves("free", &[curve], &points, &[], &LoadOptions::default()).unwrap();
+    let camera = CameraSettings { view: "top".parse().unwrap(), parallel: true, ..CameraSettings::default() };
+    let size = Size { width: 200, height: 200 };
+    let settings = SceneSettings { camera, size, ..SceneSettings::default() };
+    Scene::new(vec![with_normals(&cuboid(-DVec3::ONE, DVec3::ONE)), Arc::new(free)], &settings).unwrap()
+}
+
+#[test]
+fn curves_and_points_are_inked_in_front_of_faces_and_beside_them_and_not_behind() {
+    let mut colors = ClassColors::default();
+    for (class, color) in [(Class::Curve, [1.0, 0.0, 0.0]), (Class::Point, [0.0, 0.0, 1.0])] {
+        colors.0.set_class(class, tinta::scene::Color(color));
+    }
+    for backend in *BACKENDS {
+        let mut renderer = renderer(backend);
+        for line_drawing in [LineDrawing::Gl, LineDrawing::Quads] {
+            for has_joints in [true, false] {
+                for height in [-1.5, 1.0, 1.5] {
+                    let scene = with_free_lines([height; 3]);
+                    let style = Inking {
+                        line_drawing,
+                        has_joints,
+                        colors: colors.clone(),
+                        paint: PaintMode::None,
+                        ..Inking::default()
+                    };
+                    assert!(Style::Inking(style.clone()).remarks(&scene).iter().all(|it| !it.contains("curves")));
+                    let picture = draw(&mut renderer, &scene, style, Show::Final);
+                    let has = |point: DVec3, color: [bool; 3]| {
+                        let (x, y) = pixel(&scene, point);
+                        let near = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy)));
+                        let mut drawn = near.map(|(dx, dy)| picture.pixel(x + dx, y + dy));
+                        drawn.any(|drawn| (0..3).all(|channel| (drawn[channel] > 128) == color[channel]))
+                    };
+                    let (red, blue) = ([true, false, false], [false, false, true]);
+                    let found = [
+                        has(DVec3::new(0.2, height, 0.5), red),
+                        has(DVec3::new(1.5, height, 0.5), red),
+                        has(DVec3::new(-0.5, height, -0.5), blue),
+                        has(DVec3::new(2.0, height, -0.5), blue),
+                    ];
+                    let is_above = height > 0.0;
+                    assert_eq!(
+                        found,
+                        [is_above, true, is_above, true],
+                        "{backend:?} {line_drawing:?} joints {has_joints}, at height {height}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn inking_without_curve_and_point_leaves_them_out() {
+    let mut renderer = renderer(BACKENDS[0]);
+    let scene = with_free_lines([1.5; 3]);
+    let bare = Scene { objects: scene.objects[..1].to_vec(), ..scene.clone() };
+    let draw = |renderer: &mut Renderer, scene: &Scene, classes| {
+        draw(renderer, scene, Inking { classes, ..Inking::default() }, Show::Final)
+    };
+    let all = Inking::default().classes;
+    let without = all.without(&[Class::Curve, Class::Point]);
+    let expected = draw(&mut renderer, &bare, all);
+    assert!(draw(&mut renderer, &scene, without) == expected);
+    assert!(draw(&mut renderer, &bare, without) == expected, "the classes change no picture of a model without curves");
+    for class in [Class::Curve, Class::Point] {
+        assert!(draw(&mut renderer, &scene, all.without(&[class])) != expected);
+    }
+}

@@ -14,8 +14,8 @@ use crate::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::lines::{ClassColors, line_width};
 use crate::plan::{
-    Blend, Depth, Draw, Facts, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step,
-    Texture,
+    Blend, Depth, Draw, EdgeRun, Facts, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling,
+    Step, Texture,
 };
 use crate::scene::{Background, Scene};
 use crate::settings::{ON_OFF, Setting, under};
@@ -26,8 +26,8 @@ use std::sync::Arc;
 pub struct Inking {
     /// Whether to draw lines. Default yes.
     pub is_inked: bool,
-    /// The classes of edges to draw. Default boundary, silhouette and crease; the text names the others but its listing leaves
-    /// them out.
+    /// The classes of lines to draw. Default boundary, silhouette and crease, and the model's own curves and points, of which the
+    /// text knows none; it names the others but its listing leaves them out.
     pub classes: ClassSet,
     /// Smallest angle between faces at a crease. Default a cosine of 0.4; more degrees draw fewer lines.
     pub crease_angle: CreaseAngle,
@@ -75,7 +75,7 @@ impl Default for Inking {
     fn default() -> Self {
         Self {
             is_inked: true,
-            classes: ClassSet::of(&[Class::Boundary, Class::Silhouette, Class::Crease]),
+            classes: ClassSet::of(&[Class::Boundary, Class::Silhouette, Class::Crease]).or(ClassSet::FREE),
             crease_angle: CreaseAngle::default(),
             silhouette: SilhouetteRule::Published,
             line_width_px: 2.0,
@@ -108,7 +108,7 @@ impl Inking {
         let lines = vec![
             CreaseAngle::setting(|inking: &mut Self| &mut inking.crease_angle),
             SilhouetteRule::setting(|inking: &mut Self| &mut inking.silhouette),
-            ClassSet::setting(ClassSet::EDGES, |inking: &mut Self| &mut inking.classes),
+            ClassSet::setting(CLASSES, |inking: &mut Self| &mut inking.classes),
             ClassColors::setting(|inking: &mut Self| &mut inking.colors),
             line_width(|inking: &mut Self| &mut inking.line_width_px),
             Setting::field(
@@ -225,6 +225,12 @@ tinta_geometry::choices! {
     }
 }
 
+/// The classes it can draw: its lines run along edges, or belong to no surface.
+const CLASSES: ClassSet = ClassSet::EDGES.or(ClassSet::FREE);
+
+/// Diameter of a model's own points, line widths; exact lines draw them as large.
+const POINT_WIDTHS: f32 = 2.0;
+
 /// Widest line, pixels: the largest picture of most drivers.
 const WIDEST_LINE: f32 = 16_384.0;
 
@@ -241,12 +247,12 @@ impl Inking {
         let paint = std::iter::once(Step::clear(ground)).chain(fill.into_iter().map(Step::Draw)).chain(texture);
         let mut passes = vec![Pass::new("paint", paint.collect())];
         if self.is_inked && show != Show::Tones {
-            let runs = Arc::new(self.runs(scene));
-            let mark = |mark| {
+            let (runs, points) = (Arc::new(self.runs(scene)), self.points(scene));
+            let step = |runs: Arc<Vec<EdgeRun>>, mark, widths: f32| {
                 let geometry = Geometry::Edges {
-                    runs: runs.clone(),
+                    runs,
                     mark,
-                    width_px: self.line_width_px * self.scale(),
+                    width_px: self.line_width_px * widths * self.scale(),
                     is_smooth: self.is_smooth && self.line_drawing == LineDrawing::Gl,
                     line_drawing: self.line_drawing,
                 };
@@ -255,7 +261,11 @@ impl Inking {
                 Step::Draw(Draw { blend, depth, ..Draw::new(geometry, None) })
             };
             let marks = if self.has_joints { vec![Mark::Lines, Mark::Points] } else { vec![Mark::Lines] };
-            passes.push(Pass::new("ink", marks.into_iter().map(mark).collect()));
+            let mut steps: Vec<Step> = marks.into_iter().map(|mark| step(runs.clone(), mark, 1.0)).collect();
+            if !points.is_empty() {
+                steps.push(step(Arc::new(points), Mark::Points, POINT_WIDTHS));
+            }
+            passes.push(Pass::new("ink", steps));
         }
         Ok(self.supersample.finish(Plan { pictures, ..Plan::new(passes) }, scene.size))
     }
@@ -273,7 +283,7 @@ impl Inking {
                 format!("a line's width is a number of pixels above 0 and at most {WIDEST_LINE}"),
             ));
         }
-        let beyond = self.classes.classes().find(|class| !ClassSet::EDGES.contains(*class));
+        let beyond = self.classes.classes().find(|class| !CLASSES.contains(*class));
         if let Some(class) = beyond {
             let problem = match class {
                 Class::Intersection => {

@@ -284,9 +284,12 @@ impl Scene {
         object.arrays.get_or_init(|| VertexArrays::new(&object.mesh, self.radius))
     }
 
-    /// Boxes around an object's vertices, in the space of its arrays.
+    /// Boxes around an object's vertices, curves and points, in the space of its arrays.
     fn boxes<'a>(&self, object: &'a Object) -> &'a [[Vec3; 2]] {
-        object.boxes.get_or_init(|| vertex_boxes::boxes(self.arrays(object)))
+        let arrays = self.arrays(object);
+        let to_arrays = |point: &DVec3| ((point - arrays.centre) / self.radius).as_vec3();
+        let free = || object.mesh.curves.positions.iter().map(to_arrays).collect::<Vec<_>>();
+        object.boxes.get_or_init(|| vertex_boxes::boxes(arrays, &free()))
     }
 
     /// Creates every object's arrays now, for example on a background thread.

@@ -1,14 +1,14 @@
 //! The edges that `inking` draws of a scene.
 //!
 //! In: a scene and the settings. Out: runs of lines, object by object and class by class. Edges share the vertices of the faces,
-//! so their depths agree. Smooth silhouettes run through faces and have separate vertices.
+//! so their depths agree. Smooth silhouettes run through faces, and a model's own curves lie anywhere: both have separate vertices.
 
 use super::Inking;
 use crate::edges::{Class, Side, SilhouetteRule, side_of_face};
 use crate::lines::smooth_silhouettes;
-use crate::mesh::Mesh;
+use crate::mesh::{Curves, Mesh, VertexArrays};
 use crate::plan::EdgeRun;
-use crate::scene::{Color, Scene};
+use crate::scene::{Color, Object, Scene};
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -37,15 +37,9 @@ impl Inking {
                 Some(smooth) => edges.chosen_with(self.classes, self.crease_angle, &smooth.edges),
             };
             let positions = edges.list().positions();
-            let run = |class: Class, ends, own_vertices| {
-                let Color([red, green, blue]) = self.colors.of_class(class);
-                EdgeRun { object: number, name: class.name(), color: [red, green, blue, 1.0], ends, own_vertices }
-            };
+            let run = |class, ends, own_vertices| self.run(number, class, ends, own_vertices);
             let mut through_faces = Class::ALL.map(|_| OwnLines::default());
-            let to_vertex = |point: DVec3| {
-                let [x, y, z] = ((point - arrays.centre) / scene.radius).as_vec3().to_array();
-                [x, y, z, 0.0, 0.0, 0.0]
-            };
+            let to_vertex = |point: DVec3| own_vertex(scene, arrays, point);
             let mut of_classes = Vec::new();
             for (class, mut chosen) in chosen {
                 chosen.retain(&is_drawn);
@@ -71,6 +65,11 @@ impl Inking {
                     lines.push(along(mesh, positions[*edge as usize], *part).map(to_vertex));
                 }
             }
+            if self.classes.contains(Class::Curve) {
+                let Curves { positions, segments, .. } = &mesh.curves;
+                let lines = &mut through_faces[Class::Curve as usize];
+                segments.iter().for_each(|ends| lines.push(ends.map(|end| to_vertex(positions[end as usize]))));
+            }
             for ((_, class), lines) in
                 Class::ALL.into_iter().zip(through_faces).filter(|(_, lines)| !lines.ends.is_empty())
             {
@@ -81,6 +80,29 @@ impl Inking {
         }
         runs
     }
+
+    /// Returns the models' own points, each as a line that ends where it begins.
+    pub(super) fn points(&self, scene: &Scene) -> Vec<EdgeRun> {
+        let objects = scene.objects.iter().enumerate().filter(|(_, object)| !object.mesh.curves.points.is_empty());
+        let run = |(number, object): (usize, &Object)| {
+            let Curves { positions, points, .. } = &object.mesh.curves;
+            let vertex = |point: &u32| own_vertex(scene, scene.arrays(object), positions[*point as usize]);
+            let ends = (0..points.len() as u32).map(|point| [point; 2]).collect();
+            self.run(number, Class::Point, ends, Some(points.iter().map(vertex).collect()))
+        };
+        if self.classes.contains(Class::Point) { objects.map(run).collect() } else { Vec::new() }
+    }
+
+    fn run(&self, object: usize, class: Class, ends: Vec<[u32; 2]>, own_vertices: Option<Vec<[f32; 6]>>) -> EdgeRun {
+        let Color([red, green, blue]) = self.colors.of_class(class);
+        EdgeRun { object, name: class.name(), color: [red, green, blue, 1.0], ends, own_vertices }
+    }
+}
+
+/// A vertex at a point that is none of the mesh's, without a normal.
+fn own_vertex(scene: &Scene, arrays: &VertexArrays, point: DVec3) -> [f32; 6] {
+    let [x, y, z] = ((point - arrays.centre) / scene.radius).as_vec3().to_array();
+    [x, y, z, 0.0, 0.0, 0.0]
 }
 
 /// Lines with separate vertices, each vertex once.

@@ -109,7 +109,7 @@ impl ClassSet {
 
     /// Returns the classes in either set.
     #[must_use]
-    pub fn or(self, other: Self) -> Self {
+    pub const fn or(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
@@ -139,15 +139,15 @@ impl ClassSet {
             "CLASSES",
             Kind::Several(names.collect()),
             "Edges to draw: boundary, non-manifold, silhouette, crease (or convex-crease, concave-crease), material, texture, \
-             normal, part, marked, in style lines also intersection, the form lines suggestive, ridge, valley, apparent-ridge, and the \
-             model's own curve and point; separated by commas, or all",
+             normal, part, marked, the model's own curve and point, in style lines also intersection and the form lines suggestive, \
+             ridge, valley, apparent-ridge; separated by commas, or all",
             move |of: &T| field(&mut of.clone()).text(),
             move |of: &mut T, text: &str| {
                 *field(of) = Self::parsed(text, all)?;
                 Ok(())
             },
         )
-        .said("boundary,silhouette,crease; style lines: also non-manifold, material, marked, intersection, curve and point")
+        .said("boundary,silhouette,crease,curve,point; style lines: also non-manifold, material, marked, intersection")
         .printed("D, Inking: boundary, crease and silhouette are what the listing asks for")
     }
 }

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 /// The curves and points of a model that are no edges of its surface: statements `l` and `p` of OBJ, edges of PLY, glTF's primitives
-/// of lines and points. Exact lines draw them; no other style does. They hide nothing.
+/// of lines and points. Exact lines draw them, and the style inking through depth; no other
+/// style does. They hide nothing.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Curves {
     /// Their positions in world space, file units, f64, finite; not welded.

@@ -34,8 +34,7 @@ impl Scene {
     /// [`Error::Setting`] with the names of the options.
     pub fn check_precision(&self) -> Result<()> {
         if self.triangle_count() == 0 {
-            let problem = "the model has no faces, only curves and points, which other styles than lines leave out; draw it \
-                           with --style lines, or into a .svg";
+            let problem = "the model has no faces, only curves and points; draw it with --style lines, or into a .svg";
             return Err(Error::setting("style", problem));
         }
         let distance = self.distance();
