@@ -301,6 +301,16 @@ impl Request {
         Ok(renderer)
     }
 
+    /// Reads the models and puts the scene together while the session's context opens, if it is not open yet.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Request::models`], [`Scene::new`], [`crate::Style::plan`] and [`Request::renderer`].
+    pub fn scene_and_renderer<'a>(&self, session: &'a mut Session) -> Result<(Scene, &'a mut Renderer)> {
+        let (_, loaded) = self.ready(session);
+        Ok((loaded?.scene, self.renderer(session)?))
+    }
+
     fn picture(&self, session: &mut Session) -> Result<DrawnPicture> {
         let (mut times, loaded) = self.ready(session);
         let Planned { scene, files, published, times: of_loading } = loaded?;
