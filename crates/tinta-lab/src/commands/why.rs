@@ -106,6 +106,10 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     // Every step is explained.
     request.pruning.is_full = true;
     let (scene, renderer) = request.scene_and_renderer(session)?;
+    if request.glsl.is_some() {
+        let remarks = renderer.remarks(&request.style.plan(&scene, request.show)?);
+        remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
+    }
     match (&arguments.variable, arguments.place) {
         (Some(name), _) => {
             let variable = Variable::of(&request.style, &scene, renderer, name)?;
