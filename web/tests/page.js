@@ -188,6 +188,9 @@ export async function testPage(tables) {
     at("apply").click();
     await settled();
     assert(differing(before, picture(at("left")), 8) > 0.005, "borders are darker");
+    assert(at("original").textContent.includes("DETECTION_FACTOR 2.0f"), "the listing is the changed one");
+    const marked = [...at("transcribed").querySelectorAll("mark")].map((mark) => mark.textContent);
+    assert(marked.includes("2.0"), `what had to change in it is marked: ${marked}`);
     const edited = picture(at("left"));
     const again = await opened(1000, 900, page.tinta.link());
     assert(differing(edited, picture(again.at("left")), 0) === 0, "the link carries the change");
