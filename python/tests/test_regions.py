@@ -260,6 +260,15 @@ def test_a_scalar_bar_is_vectors_whose_colours_and_numbers_are_those_of_its_tabl
     assert np.allclose(length / length[0], np.arange(16, 0, -1) / 16, atol=1e-3) and np.allclose(other, other[0])
     end = top if is_upright else left + width
     assert np.allclose(end, end[0], atol=2e-3)
+    # On paper letters have ten points, and are not cut off.
+    tinta_npr.pv.export_svg(plotter, "paper.svg", fill=True, width_mm=60)
+    with open("paper.svg") as file:
+        text = file.read()
+    letter = float(re.search(r'font-size="([\d.]+)"', text).group(1))
+    assert letter == pytest.approx(3.53 * 400 / 60, abs=0.01)
+    for x, y, said in re.findall(r'<text x="([-\d.]+)" y="([-\d.]+)"[^>]*>([^<]+)', text):
+        right = float(x) + 0.5 * letter * len(said) * (1 if is_upright else 0.5)
+        assert letter <= float(y) <= 300 - 0.2 * letter and (right <= 400 or said == "Height [m]"), said
     with open("bar.pdf", "rb") as file:
         content = file.read()
     assert b"Helvetica" in content and b"/Image" not in content and b"(Height [m])" in content

@@ -11,8 +11,8 @@ from ._results import _place, _written
 
 __all__ = ["export_svg", "lines"]
 
-#: What the height of a letter is in pixels, unless the drawing has a size on paper.
-_LETTER = 12
+#: The height of letters in pixels, and in millimetres where the drawing has a width on paper.
+_LETTER, _LETTER_MM = 12, 3.53
 
 
 def lines(plotter, *, look=None, preset=None, **settings):
@@ -73,11 +73,12 @@ def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None,
     if settings.get("areas") is not None and len(renderers) > 1:
         raise ValueError("areas: subplots have the colours of their actors by fill=True; leave areas out")
     whole = plotter.window_size if settings.get("size") is None else size_of(settings)
+    letter = _LETTER_MM * whole[0] / float(settings["width_mm"]) if settings.get("width_mm") else _LETTER
     views, keys, count = [], [], 0
     for renderer, shown in zip(renderers, _shown(renderers)):
         box = _box(renderer, whole)
         views += _views(renderer, shown, box, settings, fill, count) if shown else []
-        keys += [_key(bar, box) for bar in _bars(plotter, renderer)] if fill else []
+        keys += [_key(bar, box, letter) for bar in _bars(plotter, renderer)] if fill else []
         count += len(shown)
     _written(file, path, _native.sheet(ending, tuple(whole), views, keys, title))
 
@@ -228,8 +229,9 @@ def _bars(plotter, renderer):
     return [bar for _, bar in plotter.scalar_bars.items() if bar.GetVisibility() and renderer.HasViewProp(bar)]
 
 
-def _key(bar, box):
-    """A scalar bar in a subplot's box as rectangles and texts: steps of colour in a frame, a tick beside each number, the title."""
+def _key(bar, box, letter):
+    """A scalar bar in a subplot's box as rectangles and texts: steps of colour in a frame, a tick beside each number, the title. `letter` is
+    the height of letters in pixels."""
     left, top, right, bottom = box
     x, y = bar.GetPosition()
     left, bottom = left + x * (right - left), bottom - y * (bottom - top)
@@ -245,18 +247,24 @@ def _key(bar, box):
     annotated = [(table.GetAnnotatedValue(number).ToDouble(), table.GetAnnotation(number)) for number in range(table.GetNumberOfAnnotatedValues())]
     numbers = value(np.linspace(low, high, bar.GetNumberOfLabels())) if bar.GetNumberOfLabels() > 1 else []
     labels = annotated or [(number, _number(bar.GetLabelFormat(), number)) for number in numbers]
-    # The share of the thickness that is the bar.
-    thickness = max(_LETTER, 0.375 * (width if is_upright else height))
+    longest = 0.6 * letter * max((len(label) for _, label in labels), default=0)
     if is_upright:
-        room = height - 2 * _LETTER if bar.GetTitle() else height
-        box_of = lambda start, end: [left, bottom - end * room, left + thickness, bottom - start * room]
-        tick, text = lambda share: [left + thickness, bottom - share * room - 0.5, left + thickness + 4, bottom - share * room + 0.5], (0.0, 0.35)
+        thickness = max(letter, 0.375 * width)
+        # Numbers that would be cut off at the picture's end move it.
+        left, bottom = min(left, box[2] - thickness - 8 - longest), min(bottom, box[3] - 0.6 * letter)
+        room = height - 2 * letter if bar.GetTitle() else height
         title = (bar.GetTitle(), [left, bottom - room, 0.0, -0.8])
+        place = lambda share: (left + thickness, bottom - share * room)
+        box_of = lambda start, end: [left, bottom - end * room, left + thickness, bottom - start * room]
+        tick = lambda x, y: ([x, y - 0.5, x + 4, y + 0.5], [x + 7, y, 0.0, 0.35])
     else:
-        above = bottom - height / 2 - thickness / 2
-        box_of = lambda start, end: [left + start * width, above, left + end * width, above + thickness]
-        tick, text = lambda share: [left + share * width - 0.5, above + thickness, left + share * width + 0.5, above + thickness + 4], (0.5, 1.1)
-        title = (bar.GetTitle(), [left + width / 2, above, 0.5, -0.5])
+        thickness = max(letter, 0.375 * height)
+        left = min(left, box[2] - width - longest / 2)
+        under = min(bottom - (height - thickness) / 2, box[3] - 4 - 1.4 * letter)
+        title = (bar.GetTitle(), [left + width / 2, under - thickness, 0.5, -0.5])
+        place = lambda share: (left + share * width, under)
+        box_of = lambda start, end: [left + start * width, under - thickness, left + end * width, under]
+        tick = lambda x, y: ([x - 0.5, y, x + 0.5, y + 4], [x, y + 4, 0.5, 1.1])
     frame = np.array(box_of(0, 1)) + (-1, -1, 1, 1)
     boxes = [[*frame, 0, 0, 0]]
     # Each step reaches to the end, so that no gap is between two.
@@ -264,9 +272,9 @@ def _key(bar, box):
     texts = [title] if title[0] else []
     for number, label in labels:
         share = float((scale(number) - low) / (high - low)) if high > low else 0.0
-        at = tick(share)
-        boxes.append([*at, 0, 0, 0])
-        texts.append((label, [at[2] + 3 if is_upright else (at[0] + at[2]) / 2, (at[1] + at[3]) / 2 if is_upright else at[3], *text]))
+        line, at = tick(*place(share))
+        boxes.append([*line, 0, 0, 0])
+        texts.append((label, at))
     return boxes, texts
 
 
