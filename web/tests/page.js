@@ -358,6 +358,9 @@ export async function testPage(tables) {
         await settled();
         assert(differing(before, picture(at("left")), 8) > 0.02, "a buffer that is clicked is shown");
       }
+      assert(!at("controls").open && !at("left-Style").checkVisibility(), "styles and settings are folded");
+      const heading = at("controls").querySelector("summary").getBoundingClientRect();
+      assert(heading.height >= 44 && heading.bottom <= article.getBoundingClientRect().top, "above the text");
       const images = [...page.document.images].filter((image) => image.complete && !image.naturalWidth);
       assert(images.length === 0, images.map((image) => image.src).join(" "));
       const { scrollWidth, clientWidth } = page.document.documentElement;
