@@ -5,6 +5,7 @@ import io
 import json
 import pickle
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -275,6 +276,25 @@ def test_a_scalar_bar_is_vectors_whose_colours_and_numbers_are_those_of_its_tabl
     plotter.close()
 
 
+@pytest.mark.parametrize("name", ["categories", "one value", "opacities"])
+def test_a_scalar_bar_of_few_values_names_each_once(name):
+    pv = pytest.importorskip("pyvista")
+    cube = pv.Cube().triangulate()
+    plotter = pv.Plotter(off_screen=True, window_size=(400, 300))
+    given = {"categories": np.array(list("abcabcabcabc")), "one value": np.full(12, 3.0), "opacities": np.arange(12.0)}[name]
+    opacity = "linear" if name == "opacities" else 1.0
+    plotter.add_mesh(cube, scalars=given, opacity=opacity, scalar_bar_args={"title": "kind", "fmt": "%.1f", "n_labels": 2})
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        tinta_npr.pv.export_svg(plotter, "few.svg", fill=True)
+    ours = [str(one.message) for one in said if str(one.message).startswith("plotter")]
+    assert ours == (["plotter: opacities of single scalars are left out; give the actor one opacity"] if name == "opacities" else [])
+    with open("few.svg") as file:
+        texts = re.findall(r"<text[^>]*>([^<]+)", file.read())
+    assert texts == ["kind", *{"categories": "abc", "one value": ["3.0"], "opacities": ["0.0", "11.0"]}[name]]
+    plotter.close()
+
+
 def fills_by_object(text):
     """The sets of the data of all areas in the SVG's layers of objects."""
     found = {}
@@ -298,9 +318,9 @@ def test_what_is_opaque_shows_through_a_transparent_actor():
             return file.read()
 
     alone = drawn("alone.svg", False).decode()
-    with pytest.warns(UserWarning, match="an actor is transparent: its nearest surface alone is drawn") as warnings:
+    with pytest.warns(UserWarning, match="an actor is transparent: its nearest surface alone is drawn") as said:
         through = drawn("through.svg", True).decode()
-    assert len(warnings) == 1 and warnings[0].filename == __file__
+    assert len(said) == 1 and said[0].filename == __file__
     assert fills_by_object(through)[1] == fills_by_object(alone)[0], "the cube is drawn as without the sphere"
     lines = [set(re.findall(r'd="([^"]+)"', text.split("visible-crease")[1].split("</g>")[0])) for text in (alone, through)]
     assert lines[0] and lines[0] <= lines[1]

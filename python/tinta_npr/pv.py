@@ -191,14 +191,21 @@ def _colors(actor, surface):
         starts = np.cumsum(sizes) - sizes
         values = (np.add.reduceat(np.asarray(values, dtype=float)[corners], starts, axis=0).T / sizes).T
     if values.ndim == 2 and mapper.color_mode == "direct":
-        return np.clip(values[:, :3], 0, 1)
+        return _opaque(np.clip(values, 0, 1))
     if values.ndim == 2:
         values = np.linalg.norm(values, axis=1)
     table = mapper.lookup_table
     if not mapper.GetUseLookupTableScalarRange() and hasattr(table, "SetTableRange"):
         # As a mapper does before it draws.
         table.SetTableRange(*mapper.scalar_range)
-    return _mapped(table, values)
+    return _opaque(_mapped(table, values))
+
+
+def _opaque(colors):
+    """Colours without their opacity."""
+    if colors.shape[1] > 3 and (colors[:, 3] < 1).any():
+        _native.warn("plotter: opacities of single scalars are left out; give the actor one opacity")
+    return colors[:, :3]
 
 
 def _mapped(table, values):
@@ -206,7 +213,7 @@ def _mapped(table, values):
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
     mapped = table.MapScalars(numpy_to_vtk(np.ascontiguousarray(values, dtype=float)), 1, -1)
-    return vtk_to_numpy(mapped)[:, :3] / 255.0
+    return vtk_to_numpy(mapped) / 255.0
 
 
 def _scalars(mapper, surface):
@@ -243,9 +250,11 @@ def _key(bar, box, letter):
     scale, value = (np.log10, lambda share: 10.0**share) if is_logarithmic else (np.asarray, np.asarray)
     low, high = scale(ends)
     count = min(table.GetNumberOfAvailableColors() or 256, 256)
-    colors = _mapped(table, value(low + (high - low) * (np.arange(count) + 0.5) / count))
+    colors = _mapped(table, value(low + (high - low) * (np.arange(count) + 0.5) / count))[:, :3]
     annotated = [(table.GetAnnotatedValue(number).ToDouble(), table.GetAnnotation(number)) for number in range(table.GetNumberOfAnnotatedValues())]
-    numbers = value(np.linspace(low, high, bar.GetNumberOfLabels())) if bar.GetNumberOfLabels() > 1 else []
+    # One value alone has the whole bar, and its number in the middle.
+    many = bar.GetNumberOfLabels()
+    numbers = value(np.linspace(low, high, many) if many > 1 and low < high else np.full(min(many, 1), low))
     labels = annotated or [(number, _number(bar.GetLabelFormat(), number)) for number in numbers]
     longest = 0.6 * letter * max((len(label) for _, label in labels), default=0)
     if is_upright:
@@ -271,7 +280,7 @@ def _key(bar, box, letter):
     boxes += [[*box_of(step / count, 1), *color] for step, color in enumerate(colors)]
     texts = [title] if title[0] else []
     for number, label in labels:
-        share = float((scale(number) - low) / (high - low)) if high > low else 0.0
+        share = float((scale(number) - low) / (high - low)) if high > low else 0.5
         line, at = tick(*place(share))
         boxes.append([*line, 0, 0, 0])
         texts.append((label, at))
