@@ -1,5 +1,5 @@
 //! The window under Xvfb: time to the first picture, pictures a second while the model turns, the longest frame while a large model is
-//! read, and processor time at rest. Run `cargo bench --bench window -- --model FILE --large FILE`.
+//! read, pixels explained under the pointer, and processor time at rest. Run `cargo bench --bench window -- --model FILE --large FILE`.
 //!
 //! Each round starts a new process for each row. Raw values go to `target/bench/window.json`.
 
@@ -39,6 +39,10 @@ const DRAGS: [(&str, &[&str]); 11] = [
     ("lines", &["--style", "lines"]),
 ];
 
+/// Styles whose pixels are explained, and the pixels.
+const POINTED: [&str; 3] = ["three-pass", "ink", "charcoal"];
+const PIXELS: u32 = 200;
+
 struct Settings {
     model: String,
     large: Option<String>,
@@ -73,8 +77,12 @@ fn main() {
     let mut longest = Series::new("large model, longest frame");
     let mut middle = Series::new("large model, middle frame");
     let mut idle = Series::new("at rest, in 5 s");
-    let drag = recording("drag", (1..=DRAG_FRAMES).map(|_| json!({ "turn": [0.01, 0.002] })), "drag");
-    let load = recording("load", settings.large.iter().map(|large| json!({ "open": [large] })), "free");
+    let mut pointed: Vec<Series> = POINTED.iter().map(|name| Series::new(name)).collect();
+    let drag = recording("drag", (1..=DRAG_FRAMES).map(|_| json!({ "turn": [0.01, 0.002] })), Some("drag"));
+    let load = recording("load", settings.large.iter().map(|large| json!({ "open": [large] })), Some("free"));
+    // Across the model, three pixels a frame.
+    let at = |number: u32| json!({ "point": ["left", [130 + number * 3 % 250, 200 + number * 3 / 250 * 7]] });
+    let point = recording("point", std::iter::once(json!("explain")).chain((0..PIXELS).map(at)), None);
     for round in 1..=settings.rounds {
         println!("round {round} of {}", settings.rounds);
         for ((series, rates), (_, options)) in drags.iter_mut().zip(&mut rates).zip(DRAGS) {
@@ -83,10 +91,15 @@ fn main() {
             rates.push(1000.0 * times.len() as f64 / times.iter().sum::<f64>());
             series.times.extend(times);
         }
+        for (series, style) in pointed.iter_mut().zip(POINTED) {
+            let record = display.play(&[&settings.model, "--style", style], &point);
+            // After the first picture and the opening of the listing.
+            series.times.extend(numbers(&record["frame_ms"]["all"]).into_iter().skip(2));
+        }
         if settings.large.is_none() {
             continue;
         }
-        let record = display.play(&["builtin:bust"], &recording("first", std::iter::empty(), "drag"));
+        let record = display.play(&["builtin:bust"], &recording("first", std::iter::empty(), None));
         first.times.extend(record["first_picture_ms"].as_f64());
         let record = display.play(&["builtin:bust"], &load);
         longest.times.extend(record["free_frame_ms"]["max"].as_f64());
@@ -105,13 +118,21 @@ fn main() {
         let all: Vec<String> = rates.iter().map(|rate| format!("{rate:.1}")).collect();
         println!("  {name:<34}{:>10.1}   {}", median(rates.clone()).unwrap_or(f64::NAN), all.join(" "));
     }
-    write_record("window", &json!({ "single": single, "drags": drags, "rates": rates }));
+    println!("\n{} at 512x512, from one pixel under the pointer explained and shown to the next", settings.model);
+    let pointed = print_table(&pointed, "three-pass");
+    write_record("window", &json!({ "single": single, "drags": drags, "rates": rates, "pointed": pointed }));
 }
 
-/// Writes a recording of a 512x512 area with these events, one a frame.
-fn recording(name: &str, events: impl Iterator<Item = Value>, flag: &str) -> String {
+/// Writes a recording of a 512x512 area with these events, one a frame, each with this flag.
+fn recording(name: &str, events: impl Iterator<Item = Value>, flag: Option<&str>) -> String {
     let mut lines = vec![json!({ "frame": 0, "event": { "resize": [512, 512] } })];
-    lines.extend(events.enumerate().map(|(index, event)| json!({ "frame": index + 1, "event": event, flag: true })));
+    lines.extend(events.enumerate().map(|(index, event)| {
+        let mut line = json!({ "frame": index + 1, "event": event });
+        if let Some(flag) = flag {
+            line[flag] = true.into();
+        }
+        line
+    }));
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.jsonl"));
     let text: String = lines.iter().map(|line| format!("{line}\n")).collect();
     std::fs::write(&path, text).expect("the recording can be written");

@@ -5,6 +5,8 @@
 //! assert!(filter.starts_with("#version 120") && filter.contains("DETECTION_FACTOR 0.2f"));
 //! ```
 
+use crate::choice::meant_or;
+use crate::error::{Error, Result};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -142,6 +144,42 @@ pub fn in_folder(folder: &Path) -> HashMap<String, String> {
     changed.filter(|(_, built_in, text)| text != built_in).map(|(path, _, text)| (path.to_owned(), text)).collect()
 }
 
+/// Refuses a folder that does not exist, and one with a shader whose name is none of the built-in ones: nothing would run it.
+///
+/// # Errors
+///
+/// [`Error::Setting`] that names the folder.
+pub fn check_folder(folder: &str) -> Result<()> {
+    let refused = |problem: String| Err(Error::value("glsl", folder, problem));
+    if !Path::new(folder).is_dir() {
+        return refused("there is no such folder; check the name".to_owned());
+    }
+    let Some(path) = stray(Path::new(folder)) else { return Ok(()) };
+    let known: Vec<&str> = SOURCES.iter().map(|(known, _)| *known).collect();
+    let name_of = |path: &str| path.rsplit('/').next().unwrap_or_default().to_owned();
+    let meant = match known.iter().find(|known| name_of(known) == name_of(&path)) {
+        Some(place) => format!("did you mean {place}?"),
+        None => meant_or(&path, &known, "name it like the shader of glsl/ that it replaces, or remove it"),
+    };
+    refused(format!("no style runs {path}; {meant}"))
+}
+
+/// A vertex or fragment shader of a folder, or of a folder in it, without a built-in one of its name; the first in the alphabet.
+fn stray(folder: &Path) -> Option<String> {
+    let entries = |folder: &Path| std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let name = |entry: &std::fs::DirEntry| entry.file_name().to_string_lossy().into_owned();
+    let within = |entry: std::fs::DirEntry| {
+        let (path, at_top) = (name(&entry), !entry.path().is_dir());
+        let inner = entries(&entry.path()).map(|inner| format!("{path}/{}", name(&inner)));
+        if at_top { vec![path.clone()] } else { inner.collect() }
+    };
+    let is_stray = |path: &String| {
+        let is_shader = [".vert", ".frag"].iter().any(|ending| path.ends_with(ending));
+        is_shader && source(path).is_none()
+    };
+    entries(folder).flat_map(within).filter(is_stray).min()
+}
+
 /// Returns the text of a shader; `None` for an unknown path.
 pub fn source(path: &str) -> Option<&'static str> {
     SOURCES.iter().find(|(name, _)| *name == path).map(|(_, text)| *text)
@@ -176,6 +214,25 @@ mod tests {
         for (path, text) in SOURCES {
             assert!(text.starts_with("#version 120\n//"), "{path} begins with its version and says what it is");
         }
+    }
+
+    #[test]
+    fn a_shader_that_no_style_runs_is_refused_with_the_name_that_is_meant() {
+        let folder = tempfile::tempdir().unwrap();
+        let own = folder.path().join("evangelista");
+        std::fs::create_dir(&own).unwrap();
+        let refused = || check_folder(folder.path().to_str().unwrap()).unwrap_err().to_string();
+        std::fs::write(own.join("notes.txt"), "").unwrap();
+        std::fs::write(own.join("border.frag"), "").unwrap();
+        check_folder(folder.path().to_str().unwrap()).unwrap();
+        std::fs::write(own.join("zzz.vert"), "").unwrap();
+        assert!(refused().ends_with(
+            "no style runs evangelista/zzz.vert; name it like the shader of glsl/ that it replaces, or remove it"
+        ));
+        std::fs::write(own.join("boarder.frag"), "").unwrap();
+        assert!(refused().ends_with("no style runs evangelista/boarder.frag; did you mean evangelista/border.frag?"));
+        std::fs::write(folder.path().join("border.frag"), "").unwrap();
+        assert!(refused().ends_with("no style runs border.frag; did you mean evangelista/border.frag?"));
     }
 
     #[test]

@@ -43,4 +43,4 @@ pub use listing::{LineState, ListedLine};
 pub use recomputation::{Filtering, Recomputation};
 pub use tinta_glsl::{Base, Comparison, Event, Mistake, Precision, Sample, Texel, Type, Value, What};
 pub use variable::Variable;
-pub use verdict::{AgainstLines, Flip, INK_FROM, LINE_TOLERANCE_PX, Verdict, against_lines};
+pub use verdict::{AgainstLines, Flip, INK_FROM, LINE_TOLERANCE_PX, Verdict, against_lines, flips};

@@ -54,6 +54,42 @@ fn a_lecture_brings_its_style_and_a_built_in_model_no_files() {
 }
 
 #[test]
+fn shaders_of_one_s_own_are_in_the_link_and_the_lines_that_browsers_change_are_told() {
+    let folder = Folder::new();
+    let own = folder.path("own");
+    std::fs::create_dir_all(format!("{own}/phong")).unwrap();
+    let text = "#version 120\nuniform float edge = 0.3;\nvoid main() {\n    gl_FragColor = vec4(edge * 2);\n}\n";
+    let file = format!("{own}/phong/phong.frag");
+    std::fs::write(&file, text).unwrap();
+    let words = ["builtin:gear", "--style", "phong", "--glsl", &own];
+    let (lesson, _) = lesson(&folder, &words);
+    let link = lesson["link"].as_str().unwrap();
+    let published = tinta::glsl::source("phong/phong.frag").unwrap().len();
+    let shader =
+        format!("shader:phong%2Fphong.frag=0,{published},%23version%20120%0Auniform%20float%20edge%20%3D%200.3%3B%0A");
+    assert!(link.split('&').any(|word| word.starts_with(&shader)), "{shader} in {link}");
+    assert!(!link.contains("glsl"), "{link}");
+    let page = |words: &[&str]| {
+        let (built, made) = (folder.file("built.html", BUILT.as_bytes()), folder.path("made.html"));
+        let output = tinta(&[&["page", "--from", &built, "-o", &made], words].concat());
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (code, said) = page(&words);
+    assert_eq!(code, Some(0));
+    // The version, the uniform with a value, and the whole number that is a float.
+    assert!(
+        said.contains("browsers need other words of phong/phong.frag in lines 1, 2, 4; the page marks them"),
+        "{said}"
+    );
+    let endless = "for (float x = edge; x < 1.0; x += 0.1) { continue; }\n    gl_FragColor";
+    std::fs::write(&file, text.replace("gl_FragColor", endless)).unwrap();
+    let (code, said) = page(&words);
+    assert_eq!(code, Some(2));
+    let refused = "phong/phong.frag cannot run in browsers: a loop that does not begin at a number cannot be continued";
+    assert!(said.contains(refused) && said.trim_end().lines().count() == 1, "{said}");
+}
+
+#[test]
 fn what_cannot_be_a_page_is_refused_in_a_sentence() {
     let folder = Folder::new();
     let (built, made) = (folder.file("built.html", BUILT.as_bytes()), folder.path("made.html"));

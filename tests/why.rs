@@ -1,6 +1,7 @@
 //! `tinta why` as a user meets it.
 
 use crate::cli::{Folder, refused_in_one_line, tinta};
+use crate::support::root;
 use serde_json::Value;
 
 /// A plate, faces 0 and 1, and a cube before its lower edge.
@@ -253,4 +254,107 @@ fn a_sheet_shows_the_pixel_enlarged_in_its_colour_in_every_style() {
         let dark = (600..i64::from(sheet.size.height)).filter(|y| (0..600).any(|x| sheet.pixel(x, *y)[0] < 60)).count();
         assert!(dark > 40, "{style}: {dark}");
     }
+}
+
+/// The guide's listing of two passes in a folder, its filter changed from one text to another.
+fn own_listing(from: &str, to: &str) -> (Folder, String) {
+    let page = std::fs::read_to_string(root().join("docs/guide/for-teachers.md")).unwrap();
+    let (_, listing) = page.split_once("```glsl\n").unwrap();
+    let (listing, _) = listing.split_once("\n```").unwrap();
+    let folder = Folder::new();
+    std::fs::create_dir_all(folder.path("my-listing/evangelista")).unwrap();
+    let mut count = 0;
+    for file in listing.split("// my-listing/").skip(1) {
+        let (path, text) = file.split_once('\n').unwrap();
+        let changed = if path.ends_with("border.frag") { text.replace(from, to) } else { text.to_owned() };
+        std::fs::write(folder.path(&format!("my-listing/{path}")), changed).unwrap();
+        count += 1;
+    }
+    assert_eq!(count, 3, "{listing}");
+    let own = folder.path("my-listing");
+    (folder, own)
+}
+
+#[test]
+fn a_listing_of_two_passes_is_explained_with_its_own_lines_and_judged_by_the_exact_ones() {
+    let (_folder, own) = own_listing("gl_FragColor", "gl_FragColor");
+    let mut inks = 0;
+    for x in (8..56).step_by(4) {
+        let place = format!("{x},32");
+        let options = ["--size", "64", "--style", "three-pass", "--glsl", &own, "--json"];
+        let output = tinta(&[&["why", "builtin:bust", &place], &options[..]].concat());
+        if !output.status.success() {
+            continue;
+        }
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let steps = json["steps"].as_array().unwrap();
+        for step in steps {
+            assert!(step["difference"].as_f64().unwrap() <= 1.01, "{place}: {step}");
+        }
+        let border = steps.last().unwrap();
+        let events = border["fragments"][0]["events"].as_array().unwrap();
+        let set = |variable: &str| {
+            let event = events.iter().find(|event| event["set"]["variable"] == variable).unwrap();
+            assert_eq!(event["shader"], "evangelista/border.frag");
+            (event["line"].as_u64().unwrap(), event["set"]["value"].clone())
+        };
+        let (line, change) = set("change");
+        assert_eq!(line, 9);
+        let number = change.as_f64().or_else(|| change[0].as_f64()).unwrap_or_else(|| panic!("{change}"));
+        // The filter's own rule decides on the ink that is judged.
+        let darkness = json["lines"]["darkness"].as_u64().unwrap();
+        assert_eq!(darkness, if number > 0.25 { 255 } else { 0 }, "{place}: {number}");
+        assert!(json["lines"]["verdict"].is_string());
+        // Other settings would run other shaders.
+        assert_eq!(json["lines"]["flips"], serde_json::json!([]));
+        inks += u64::from(darkness > 0);
+    }
+    assert!(inks > 0, "no pixel was ink");
+}
+
+#[test]
+fn mistakes_in_the_second_pass_of_a_listing_are_told_with_its_file_and_line() {
+    let why = |own: &str| {
+        ["why", "builtin:bust", "32,32", "--size", "64", "--style", "three-pass", "--glsl", own].map(str::to_owned)
+    };
+    let refused = |from: &str, to: &str, words: &[&str]| {
+        let (_folder, own) = own_listing(from, to);
+        let line = why(&own);
+        refused_in_one_line(&line.each_ref().map(String::as_str), words);
+    };
+    // Mesa names line 9 so.
+    refused("float change =", "float change 5 =", &["/my-listing: evangelista/border.frag does not compile (0:9(15)"]);
+    let endless = "for (float i = 0.0; i >= 0.0; ) change = i;\n    gl_FragColor";
+    refused(
+        "gl_FragColor =",
+        &format!("{endless} ="),
+        &["glsl/evangelista/border.frag, line 10: it still runs after", "end its loop"],
+    );
+    let array = "float taps[3];\n    gl_FragColor";
+    refused(
+        "gl_FragColor =",
+        &format!("{array} ="),
+        &["glsl/evangelista/border.frag, line 10: arrays of a shader's own"],
+    );
+    // A file that no style runs.
+    let (_folder, own) = own_listing("gl_FragColor", "gl_FragColor");
+    std::fs::rename(format!("{own}/evangelista/border.frag"), format!("{own}/evangelista/boarder.frag")).unwrap();
+    let line = why(&own);
+    let words = ["no style runs evangelista/boarder.frag; did you mean evangelista/border.frag?"];
+    refused_in_one_line(&line.each_ref().map(String::as_str), &words);
+}
+
+#[test]
+fn a_listing_that_the_settings_do_not_run_is_named() {
+    let (_folder, own) = own_listing("gl_FragColor", "gl_FragColor");
+    let said = |options: &[&str]| {
+        let line = ["why", "builtin:bust", "32,32", "--size", "64", "--style", "three-pass", "--glsl", &own];
+        let output = tinta(&[&line[..], options].concat());
+        assert!(output.status.success(), "{output:?}");
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(said(&[]), "");
+    // The published filter has this number in its text; another number runs a twin of it.
+    let unused = said(&["--detection-factor", "0.4"]);
+    assert!(unused.starts_with("tinta: no pass of this drawing runs your evangelista/border.frag; "), "{unused}");
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the page one file, which works from a folder without a server.
 
-usage: one_file.py DIST    DIST is the folder that scripts/web builds; writes DIST/page.html.
+usage: one_file.py DIST    DIST is the folder that scripts/web builds; writes DIST/page.html, and makes DIST/pictures smaller.
 
 Style sheets stand in the page as they are. All other files are compressed, in Base64, in script elements that no browser runs: the
 attribute data-file is a file's name, data-lecture the lecture that alone needs it. `tinta page` leaves out those of other lectures
@@ -14,11 +14,15 @@ import pathlib
 import re
 import sys
 
+from smaller_png import smaller
+
 POLICY = (
     "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:"
 )
 
 dist = pathlib.Path(sys.argv[1])
+for picture in (dist / "pictures").glob("*.png"):
+    picture.write_bytes(smaller(picture.read_bytes()))
 
 
 def element(name, lecture=None):

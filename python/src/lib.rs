@@ -19,6 +19,7 @@ mod picture;
 mod regions;
 mod request;
 mod settings;
+mod sheet;
 mod studio;
 mod warnings;
 mod work;
@@ -46,6 +47,8 @@ mod _native {
     use super::request::reading;
     #[pymodule_export]
     use super::settings::{camera_names, check, names, settings};
+    #[pymodule_export]
+    use super::sheet::sheet;
     #[pymodule_export]
     use super::studio::close;
     #[pymodule_export]

@@ -19,10 +19,10 @@ use tinta::{Color, Error, Result, Scene, Size, Style};
 /// The areas of the lines' view.
 #[pyclass(frozen, module = "tinta_npr._native")]
 pub(crate) struct Regions {
-    areas: Arc<ViewAreas>,
+    pub(crate) areas: Arc<ViewAreas>,
     scene: Arc<Scene>,
     lines: Py<Lines>,
-    is_alone: bool,
+    pub(crate) is_alone: bool,
 }
 
 /// The rule of areas: `by` is a name of [`Joined`], or `tone` for those of a style.

@@ -1,5 +1,7 @@
 """Meshes and cameras of the real libraries."""
 
+import sys
+
 import numpy as np
 import pytest
 import tinta_npr as tn
@@ -60,6 +62,20 @@ class TestFiles:
         mesh = tn.mesh(name)
         assert mesh.name == name and len(mesh.faces) == 12
         assert tn.lines(name).svg(title="") == tn.lines(vertices, triangles).svg(title="")
+
+
+    def test_polygons_of_vtk_are_read_by_pyvista_or_refused_with_the_remedy(self, monkeypatch, capfd):
+        """meshio reads other data in such files, and ends the program at polygons."""
+        pytest.importorskip("meshio")
+        pyvista = pytest.importorskip("pyvista")
+        cube = pyvista.Cube().triangulate()
+        for name in ("cube.vtk", "cube.vtp"):
+            cube.save(name)
+            assert tn.lines(name).svg(title="") == tn.lines(cube).svg(title="")
+        monkeypatch.setitem(sys.modules, "pyvista", None)
+        with pytest.raises(ValueError, match="cube.vtk: meshio cannot read it; install pyvista"):
+            tn.lines("cube.vtk")
+        assert capfd.readouterr().err == ""
 
 
 class TestMeshio:

@@ -5,6 +5,7 @@ import io
 import json
 import pickle
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -59,6 +60,11 @@ def test_a_face_is_that_of_the_given_mesh(cube):
     found = areas.of_faces(values)
     assert np.isnan(found[areas.object < 0]).all() and (found[areas.object >= 0] == seen * 10).all()
     assert areas.of_faces(np.ones((6, 3))).shape == (len(areas), 3)
+    # One mesh's values alone, in a list, and as a list of rows.
+    assert (areas.of_faces([values])[areas.object >= 0] == seen * 10).all()
+    colors = np.random.default_rng(2).uniform(size=(6, 3))
+    for given in (colors, [colors], colors.tolist(), list(colors)):
+        assert (areas.of_faces(given)[areas.object >= 0] == colors[seen]).all()
     with pytest.raises(ValueError, match="values: there are 2, but face"):
         areas.of_faces([1, 2])
     with pytest.raises(ValueError, match="by object; ask for by="):
@@ -217,9 +223,155 @@ def test_pyvista_fills_have_the_colours_of_its_mappers():
     other = pv.Plotter(off_screen=True)
     other.add_mesh(colored, scalars="own", rgb=True)
     other.add_mesh(sphere.translate((2, 0, 0)), scalars="number")
-    with pytest.warns(UserWarning, match="its scalar bar is left out"):
-        tinta_npr.pv.export_svg(other, "other.pdf", fill=True)
-        tinta_npr.pv.export_svg(other, "other.svg", fill=True)
+    tinta_npr.pv.export_svg(other, "other.svg", fill=True)
     assert {color for (object, _), color in fills_of("other.svg").items() if object == 0} == {"#00ff00"}
     for each in (plotter, other):
         each.close()
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+@pytest.mark.parametrize("is_upright", [False, True])
+@pytest.mark.parametrize("is_logarithmic", [False, True])
+def test_a_scalar_bar_is_vectors_whose_colours_and_numbers_are_those_of_its_table(is_upright, is_logarithmic):
+    pv = pytest.importorskip("pyvista")
+    matplotlib = pytest.importorskip("matplotlib")
+    sphere = pv.Sphere(theta_resolution=12, phi_resolution=8)
+    plotter = pv.Plotter(off_screen=True, window_size=(400, 300))
+    bar = {"title": "Height [m]", "vertical": is_upright, "n_labels": 3, "n_colors": 16, "fmt": "%.1f"}
+    plotter.add_mesh(
+        sphere, scalars=sphere.points[:, 2] + 1, cmap="viridis", n_colors=16, clim=[1, 100], log_scale=is_logarithmic, scalar_bar_args=bar
+    )
+    tinta_npr.pv.export_svg(plotter, "bar.svg", fill=True)
+    tinta_npr.pv.export_svg(plotter, "bar.pdf", fill=True, title="a sphere")
+    with open("bar.svg") as file:
+        text = file.read()
+    texts = [(float(x), float(y), said) for x, y, said in re.findall(r'<text x="([-\d.]+)" y="([-\d.]+)"[^>]*>([^<]+)', text)]
+    assert [said for *_, said in texts] == ["Height [m]", "1.0", "10.0" if is_logarithmic else "50.5", "100.0"]
+    along = [-y if is_upright else x for x, y, _ in texts[1:]]
+    assert along[1] - along[0] == pytest.approx(along[2] - along[1], abs=0.01) and along[2] > along[0] + 50
+    boxes = re.findall(r'<rect x="([-\d.]+)" y="([-\d.]+)" width="([-\d.]+)" height="([-\d.]+)" fill="(#\w+)"', text)
+    frame, steps, ticks = boxes[0], boxes[1:17], boxes[17:]
+    assert len(ticks) == 3 and frame[4] == "#000000"
+    for number, (*_, color) in enumerate(steps):
+        rgb = [int(color[at : at + 2], 16) for at in (1, 3, 5)]
+        assert np.abs(np.array(matplotlib.colormaps["viridis"].resampled(16)(number)[:3]) * 255 - rgb).max() <= 1.01, number
+    # Equal steps up to the end.
+    left, top, width, height = np.array([box[:4] for box in steps], dtype=float).T
+    length, other = (height, width) if is_upright else (width, height)
+    assert np.allclose(length / length[0], np.arange(16, 0, -1) / 16, atol=1e-3) and np.allclose(other, other[0])
+    end = top if is_upright else left + width
+    assert np.allclose(end, end[0], atol=2e-3)
+    # On paper letters have ten points, and are not cut off.
+    tinta_npr.pv.export_svg(plotter, "paper.svg", fill=True, width_mm=60)
+    with open("paper.svg") as file:
+        text = file.read()
+    letter = float(re.search(r'font-size="([\d.]+)"', text).group(1))
+    assert letter == pytest.approx(3.53 * 400 / 60, abs=0.01)
+    for x, y, said in re.findall(r'<text x="([-\d.]+)" y="([-\d.]+)"[^>]*>([^<]+)', text):
+        right = float(x) + 0.5 * letter * len(said) * (1 if is_upright else 0.5)
+        assert letter <= float(y) <= 300 - 0.2 * letter and (right <= 400 or said == "Height [m]"), said
+    with open("bar.pdf", "rb") as file:
+        content = file.read()
+    assert b"Helvetica" in content and b"/Image" not in content and b"(Height [m])" in content
+    plotter.close()
+
+
+@pytest.mark.parametrize("name", ["categories", "one value", "opacities"])
+def test_a_scalar_bar_of_few_values_names_each_once(name):
+    pv = pytest.importorskip("pyvista")
+    cube = pv.Cube().triangulate()
+    plotter = pv.Plotter(off_screen=True, window_size=(400, 300))
+    given = {"categories": np.array(list("abcabcabcabc")), "one value": np.full(12, 3.0), "opacities": np.arange(12.0)}[name]
+    opacity = "linear" if name == "opacities" else 1.0
+    plotter.add_mesh(cube, scalars=given, opacity=opacity, scalar_bar_args={"title": "kind", "fmt": "%.1f", "n_labels": 2})
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        tinta_npr.pv.export_svg(plotter, "few.svg", fill=True)
+    ours = [str(one.message) for one in said if str(one.message).startswith("plotter")]
+    assert ours == (["plotter: opacities of single scalars are left out; give the actor one opacity"] if name == "opacities" else [])
+    with open("few.svg") as file:
+        texts = re.findall(r"<text[^>]*>([^<]+)", file.read())
+    assert texts == ["kind", *{"categories": "abc", "one value": ["3.0"], "opacities": ["0.0", "11.0"]}[name]]
+    plotter.close()
+
+
+def fills_by_object(text):
+    """The sets of the data of all areas in the SVG's layers of objects."""
+    found = {}
+    for number, layer in re.findall(r'<g id="fill-(\d+)"[^>]*>(.*?)</g>', text, re.S):
+        found.setdefault(int(number), set()).update(re.findall(r'data-face[^>]* d="([^"]+)"', layer))
+    return found
+
+
+def test_what_is_opaque_shows_through_a_transparent_actor():
+    pv = pytest.importorskip("pyvista")
+
+    def drawn(name, has_hull, opacity=0.5):
+        plotter = pv.Plotter(off_screen=True, window_size=(200, 200))
+        if has_hull:
+            plotter.add_mesh(pv.Sphere(theta_resolution=8, phi_resolution=6), color="blue", opacity=opacity)
+        plotter.add_mesh(pv.Cube(x_length=0.3, y_length=0.3, z_length=0.3), color="red")
+        plotter.camera_position = [(3, 2.5, 2), (0, 0, 0), (0, 0, 1)]
+        tinta_npr.pv.export_svg(plotter, name, fill=True)
+        plotter.close()
+        with open(name, "rb") as file:
+            return file.read()
+
+    alone = drawn("alone.svg", False).decode()
+    with pytest.warns(UserWarning, match="an actor is transparent: its nearest surface alone is drawn") as said:
+        through = drawn("through.svg", True).decode()
+    assert len(said) == 1 and said[0].filename == __file__
+    assert fills_by_object(through)[1] == fills_by_object(alone)[0], "the cube is drawn as without the sphere"
+    lines = [set(re.findall(r'd="([^"]+)"', text.split("visible-crease")[1].split("</g>")[0])) for text in (alone, through)]
+    assert lines[0] and lines[0] <= lines[1]
+    [veil] = re.findall(r'<g opacity="0.5">(.*?)\n</g>\n<g id="visible', through, re.S)
+    assert set(fills_by_object(veil)) == {0} and through.index("fill-1") < through.index("opacity")
+    assert 'fill="#ff0000"' not in veil and 'fill="#0000ff"' in veil
+    with pytest.warns(UserWarning):
+        pdf = drawn("through.pdf", True)
+    assert b"/ca 0.5" in pdf and b"/S /Transparency" in pdf
+    hidden = drawn("hidden.svg", True, opacity=1.0).decode()
+    assert set(fills_by_object(hidden)) == {0}
+    invisible = drawn("invisible.svg", True, opacity=0.0).decode()
+    assert fills_by_object(invisible) == fills_by_object(alone)
+
+
+@pytest.mark.parametrize("fill", [False, True])
+def test_subplots_are_drawn_at_their_places(fill):
+    pv = pytest.importorskip("pyvista")
+    meshes = [pv.Cube(), pv.Cone(resolution=5)]
+    whole = pv.Plotter(off_screen=True, window_size=(400, 300), shape=(1, 2))
+    paths = []
+    for column, mesh in enumerate(meshes):
+        whole.subplot(0, column)
+        whole.add_mesh(mesh, show_scalar_bar=False)
+        single = pv.Plotter(off_screen=True, window_size=(200, 300))
+        single.add_mesh(mesh, show_scalar_bar=False)
+        tinta_npr.pv.export_svg(single, "single.svg", fill=fill)
+        with open("single.svg") as file:
+            paths.append(sorted(points_of(file.read())))
+        single.close()
+    tinta_npr.pv.export_svg(whole, "whole.svg", fill=fill)
+    with open("whole.svg") as file:
+        text = file.read()
+    assert 'width="400" height="300"' in text
+    found = sorted(points_of(text))
+    expected = sorted(paths[0] + [(x + 200, y) for x, y in paths[1]])
+    assert len(found) == len(expected) and np.allclose(found, expected, atol=2e-3)
+    ids = re.findall(r'<g id="([^"]+)"', text)
+    assert len(ids) == len(set(ids)) and (len([name for name in ids if name in ("fill-0", "fill-1")]) == 2) == fill
+    tinta_npr.pv.export_svg(whole, "whole.pdf", fill=fill)
+    if not fill:
+        tinta_npr.pv.export_svg(whole, "whole.png", size=(800, 600))
+        with open("whole.png", "rb") as file:
+            assert file.read()[16:24] == (800).to_bytes(4, "big") + (600).to_bytes(4, "big")
+    with pytest.raises(ValueError, match="areas: subplots have the colours of their actors"):
+        tinta_npr.pv.export_svg(whole, "whole.svg", areas="object")
+    whole.close()
+
+
+def points_of(svg):
+    """The corners of all paths in an SVG."""
+    data = " ".join(re.findall(r' d="([^"]+)"', svg))
+    numbers = [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", data)]
+    return list(zip(numbers[::2], numbers[1::2]))

@@ -46,8 +46,8 @@ def mesh(mesh, faces=None, *, name=None, **settings):
     Parameters
     ----------
     mesh : array_like (N, 3), (vertices, faces), path or object
-        Vertices in units of your choice; or a model file (OBJ, PLY, STL, MD2, 3DS, glTF, and those that an installed meshio or
-        trimesh reads) or ``"builtin:bust"``; or an object with ``vertices`` and ``faces`` (trimesh) or ``triangles`` (Open3D),
+        Vertices in units of your choice; or a model file (OBJ, PLY, STL, MD2, 3DS, glTF, and those that an installed meshio,
+        PyVista or trimesh reads) or ``"builtin:bust"``; or an object with ``vertices`` and ``faces`` (trimesh) or ``triangles`` (Open3D),
         or with ``points`` and cells (PyVista, meshio), or a data set of VTK.
     faces : array_like (M, k) of int, or a list of lists, optional
         With `mesh` as vertices: each face's corners, counter-clockwise seen from outside; 3 or more.

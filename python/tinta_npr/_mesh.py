@@ -1,5 +1,7 @@
 """Meshes of other packages, recognised by their attributes, without importing those packages."""
 
+import contextlib
+import io
 import os
 
 import numpy as np
@@ -89,22 +91,42 @@ def _is_pair(one):
 
 
 def _read_by_others(path):
-    """The mesh of a file that tinta does not read, by meshio or trimesh if one of them does and is installed; else `None`."""
+    """The mesh of a file that tinta does not read, by meshio, PyVista or trimesh if one of them does and is installed; else `None`."""
     if path.startswith("builtin:") or _native.is_read(path) or not os.path.isfile(path):
         return None
     ending = os.path.splitext(path)[1].lower()
+    is_refused = False
+    quiet = io.StringIO()
     try:
         import meshio
     except ImportError:
         pass
     else:
         if ending in meshio.extension_to_filetypes:
-            return meshio.read(path)
+            try:
+                with contextlib.redirect_stdout(quiet), contextlib.redirect_stderr(quiet):
+                    return meshio.read(path)
+            except (SystemExit, meshio.ReadError):
+                # meshio ends the program at files that it cannot read, such as VTK's polygons.
+                is_refused = True
+    if is_refused or ending in (".vtk", ".vtp", ".vtu"):
+        try:
+            import pyvista
+        except ImportError:
+            pass
+        else:
+            return pyvista.read(path)
     try:
         import trimesh
     except ImportError:
-        return None
-    return trimesh.load(path) if ending[1:] in trimesh.available_formats() else None
+        pass
+    else:
+        # It reads VTK's files by meshio.
+        if ending[1:] in trimesh.available_formats() and not (is_refused and ending == ".vtk"):
+            return trimesh.load(path)
+    if is_refused:
+        raise ValueError(f"{path}: meshio cannot read it; install pyvista, which may, or save it as .ply")
+    return None
 
 
 def _of_vtk(mesh, name, reading):

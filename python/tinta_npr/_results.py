@@ -306,9 +306,12 @@ class Regions:
         """
         if self.by != "face":
             raise ValueError(f"values: these areas are by {self.by}; ask for by=\"face\"")
-        several = isinstance(values, (list, tuple)) and len(values) > 0 and np.ndim(values[0]) > 0
         count = int(self.object.max(initial=-1)) + 1
-        if several and len(values) >= max(count, 2):
+        is_list = isinstance(values, (list, tuple)) and len(values) > 0 and np.ndim(values[0]) > 0
+        if is_list and sum(len(mesh.faces) > 0 for mesh in self.lines._asked[0]) < 2:
+            # Of one mesh, a list of rows is no list of meshes.
+            is_list = np.ndim(values[0]) == 2 or len(values) == 1
+        if is_list and len(values) >= count:
             lists = [np.asarray(of_mesh, dtype=np.float64) for of_mesh in values]
         else:
             lists = [np.asarray(values, dtype=np.float64)]

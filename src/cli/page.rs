@@ -14,6 +14,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use tinta::camera::View;
+use tinta::glsl::es::{Stage, transcribed};
 use tinta::mesh::{Loaded, load};
 use tinta::page::NOT_OF_BROWSERS;
 use tinta::request::Request;
@@ -98,7 +99,7 @@ impl Selection for OfPage {
     fn has(setting: &Setting<Request>) -> bool {
         let name = setting.name;
         let is_shown = Style::table().has(name) || SceneSettings::table().has(name) || LoadOptions::table().has(name);
-        (is_shown || ["style", "show"].contains(&name))
+        (is_shown || ["style", "show", "glsl"].contains(&name))
             && setting.kind != Kind::File
             && !NOT_OF_BROWSERS.contains(&name)
     }
@@ -122,8 +123,12 @@ fn run(arguments: &Arguments) -> Result<()> {
     let files = files(&arguments.model, &loaded)?;
     let scene = Scene::new([loaded.mesh], &request.scene).map_err(|error| request.attributed(error))?;
     request.style.plan(&scene, request.show).map_err(|error| request.attributed(error))?;
+    let shaders: BTreeMap<String, String> = request.shaders()?.into_iter().collect();
+    if let Some(folder) = &request.glsl {
+        say(&format!("tinta: {}", rewritten(folder, &shaders)?));
+    }
     let page = built(arguments.from.as_deref())?;
-    let page = with_lesson(&page, arguments.lecture, &link(arguments, &request), &files);
+    let page = with_lesson(&page, arguments.lecture, &link(arguments, &request, &shaders), &files);
     let page = page.ok_or_else(|| {
         let name = arguments.from.clone().unwrap_or_default();
         Error::model(name, "this is no page that scripts/web built; name its web/dist/page.html")
@@ -204,8 +209,27 @@ fn built(named: Option<&Path>) -> Result<String> {
     }
 }
 
+/// Which lines of the reader's own shaders change on their way to a browser.
+fn rewritten(folder: &str, shaders: &BTreeMap<String, String>) -> Result<String> {
+    let of_shader = |(path, text): (&String, &String)| {
+        let pieces = transcribed(Stage::of(path), text)
+            .map_err(|problem| Error::value("glsl", folder, format!("{path} cannot run in browsers: {problem}")))?;
+        let (mut line, mut lines) = (1, Vec::new());
+        for piece in pieces {
+            if piece.is_changed() && lines.last() != Some(&line) {
+                lines.push(line);
+            }
+            line += piece.original.matches('\n').count();
+        }
+        let lines: Vec<String> = lines.iter().map(ToString::to_string).collect();
+        Ok(format!("{path} in {} {}", if lines.len() == 1 { "line" } else { "lines" }, lines.join(", ")))
+    };
+    let changes: Vec<String> = shaders.iter().map(of_shader).collect::<Result<_>>()?;
+    Ok(format!("browsers need other words of {}; the page marks them", changes.join("; ")))
+}
+
 /// What the page shows at first, as its links say it.
-fn link(arguments: &Arguments, request: &Request) -> String {
+fn link(arguments: &Arguments, request: &Request, shaders: &BTreeMap<String, String>) -> String {
     let mut words = String::new();
     let mut put = |name: &str, value: &str| {
         let _ = write!(words, "{}{}={}", if words.is_empty() { "" } else { "&" }, encoded(name), encoded(value));
@@ -227,13 +251,18 @@ fn link(arguments: &Arguments, request: &Request) -> String {
             OptionValue::Texts(texts) => texts.join(","),
         };
         match name.as_str() {
-            "style" | "view" => {}
+            "glsl" | "style" | "view" => {}
             "show" => put("left.show", &value),
             name if NOT_OF_BROWSERS.contains(&name) => {}
             name if SceneSettings::table().has(name) => put(&format!("scene:{name}"), &value),
             name if LoadOptions::table().has(name) => put(&format!("read:{name}"), &value),
             name => put(&format!("left:{name}"), &value),
         }
+    }
+    for (path, text) in shaders {
+        // All of the published text is cut, at its beginning.
+        let published = tinta::glsl::source(path).unwrap_or_default();
+        put(&format!("shader:{path}"), &format!("0,{},{text}", published.len()));
     }
     let View { azimuth_degrees, elevation_degrees } = request.scene.camera.view;
     let fov = request.scene.camera.fov_y_degrees;

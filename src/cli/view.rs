@@ -105,9 +105,7 @@ pub(super) fn run(arguments: &Arguments, call: &Call<'_>) -> Result<()> {
         ..Below::default()
     };
     let (request, _) = arguments.options.request(&arguments.models, &below)?;
-    if let Some(folder) = request.glsl.as_ref().filter(|folder| !Path::new(folder).is_dir()) {
-        return Err(Error::value("glsl", folder, "there is no such folder; check the name"));
-    }
+    request.glsl.as_deref().map(crate::glsl::check_folder).transpose()?;
     let replay = arguments.replay.as_deref().map(Replay::read).transpose()?;
     let viewer = ViewerOptions {
         state: state(&request, arguments.right, arguments.coarse).map_err(|error| request.attributed(error))?,

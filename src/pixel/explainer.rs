@@ -69,7 +69,7 @@ impl<'a> Explainer<'a> {
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for supersampled plans and for textures that cannot be recomputed, [`Error::Shader`] for shaders that the
+    /// [`Error::Setting`] for supersampled plans and for textures that cannot be recomputed, [`Error::Statement`] for shaders that the
     /// interpreter does not understand.
     pub fn new(scene: &'a Scene, plan: &'a Plan, values: &'a [StepValues], how: Recomputation) -> Result<Self> {
         Self::with_shaders(scene, plan, values, how, &HashMap::new())
@@ -136,7 +136,7 @@ impl<'a> Explainer<'a> {
     ///
     /// # Errors
     ///
-    /// [`Error::Shader`] with the line of a statement that cannot be carried out.
+    /// [`Error::Statement`] for a statement that cannot be carried out.
     pub fn pixel(&self, at: [u32; 2], is_traced: bool) -> Result<Vec<PixelStep>> {
         let trace = if is_traced { Trace::Everything } else { Trace::Nothing };
         (0..self.values.len()).map(|number| self.at_step(number, at, trace)).collect()

@@ -1,7 +1,7 @@
 //! A pixel explained in words: pass by pass, statement by statement, beside the driver's value and the exact lines.
 
 use super::{
-    AgainstLines, Comparison, Event, Explainer, PixelStep, Recomputation, Sample, Verdict, What, against_lines,
+    AgainstLines, Comparison, Event, Explainer, PixelStep, Recomputation, Sample, Verdict, What, against_lines, flips,
     is_background,
 };
 use crate::error::{Error, Result};
@@ -10,6 +10,7 @@ use crate::plan::Plan;
 use crate::renderer::{Renderer, StepValues};
 use crate::scene::{Rectangle, Scene, Size};
 use crate::styles::{Show, Style};
+use crate::threads::both;
 use glam::DVec2;
 use serde::Serialize;
 use std::fmt::{Display, Formatter, Write};
@@ -56,13 +57,22 @@ impl Explanation {
     /// [`Explainer`].
     pub fn of(style: &Style, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<Self> {
         let mut explained = Self::without_lines(style, scene, renderer, place)?;
-        if style.style_name().has_lines() && explained.texts.is_empty() {
-            let (at, plan) = (explained.place_in_textures, style.plan(scene, Show::Borders)?);
-            let values = renderer.step_values(scene, &plan, around(at, scene.size, 0))?;
-            let lines = VisibleLines::of(scene, &LineSettings::default())?;
-            let how = Recomputation::like(renderer.context());
-            explained.lines = Some(against_lines(scene, style, (&plan, &values), &lines, at, how)?);
+        if !style.style_name().has_lines() {
+            return Ok(explained);
         }
+        let (at, plan) = (explained.place_in_textures, style.plan(scene, Show::Borders)?);
+        let (values, lines) = both(
+            || renderer.step_values(scene, &plan, around(at, scene.size, 0)),
+            || VisibleLines::of(scene, &LineSettings::default()),
+        );
+        let values = values?;
+        let mut against = against_lines(scene, &values, &lines?, at);
+        // Other settings may run other shaders than those replaced.
+        if explained.texts.is_empty() {
+            let how = Recomputation::like(renderer.context());
+            against.flips = flips(scene, style, (&plan, &values), at, how)?;
+        }
+        explained.lines = Some(against);
         Ok(explained)
     }
 

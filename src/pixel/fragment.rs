@@ -318,5 +318,5 @@ pub(super) fn blended(blend: Blend, source: [f64; 4], there: [f64; 4]) -> [f64; 
 /// What the interpreter says of a shader, as an error.
 pub(super) fn misunderstood(mistake: Mistake) -> Error {
     let Mistake { path, line, problem } = mistake;
-    Error::Shader { path, log: format!("line {line}: {problem}") }
+    Error::Statement { path, line, problem }
 }

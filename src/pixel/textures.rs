@@ -93,7 +93,9 @@ impl<'a> Images<'a> {
         };
         let images = draw.textures.iter().map(|(_, texture)| image(texture)).collect::<Result<_>>()?;
         let mut materials = MaterialPictures::default();
-        materials.prepare(&scene.objects)?;
+        if draw.textures.iter().any(|(_, texture)| *texture == Texture::Material) {
+            materials.prepare(&scene.objects)?;
+        }
         Ok(Self { images, surface: scene.size, filtering, scene, materials })
     }
 }

@@ -46,7 +46,7 @@ pub struct AgainstLines {
     pub class: Option<&'static str>,
     /// Its distance from the pixel's middle, pixels.
     pub distance_px: Option<f64>,
-    /// What would turn the verdict of ink over, for each setting that can.
+    /// What would turn the verdict of ink over, for each setting that can ([`flips`]).
     pub flips: Vec<Flip>,
 }
 
@@ -63,20 +63,9 @@ pub struct Flip {
 const DECIDING: [(&str, [f64; 3]); 3] =
     [("detection-factor", [0.0, 2.0, 0.001]), ("ink-threshold", [0.0, 1.0, 0.001]), ("border-width", [1.0, 16.0, 1.0])];
 
-/// Compares a pixel, counted from the lower left, with the scene's visible lines. `plan` draws the style's lines alone
-/// ([`Show::Borders`]), and `values` are those of its steps.
-///
-/// # Errors
-///
-/// As [`Explainer::pixel`].
-pub fn against_lines(
-    scene: &Scene,
-    style: &Style,
-    (plan, values): (&Plan, &[StepValues]),
-    lines: &VisibleLines,
-    at: [u32; 2],
-    how: Recomputation,
-) -> Result<AgainstLines> {
+/// Compares a pixel, counted from the lower left, with the scene's visible lines. `values` are those of the steps of a plan that draws
+/// the style's lines alone ([`Show::Borders`]).
+pub fn against_lines(scene: &Scene, values: &[StepValues], lines: &VisibleLines, at: [u32; 2]) -> AgainstLines {
     let middle = DVec2::new(f64::from(at[0]) + 0.5, f64::from(scene.size.height - 1 - at[1]) + 0.5);
     let nearest = lines
         .segments
@@ -94,16 +83,27 @@ pub fn against_lines(
         false if nearest.is_some_and(|(_, place)| has_ink_near(scene, values, place)) => Verdict::Right,
         false => Verdict::Missed,
     };
+    let class = nearest.map(|(class, _)| class.name());
+    AgainstLines { verdict, darkness: drawn, class, distance_px, flips: Vec::new() }
+}
+
+/// Finds the smallest changes of the style's settings that turn a pixel's ink over. `plan` and `values` as in [`against_lines`].
+///
+/// # Errors
+///
+/// As [`Explainer::pixel`].
+pub fn flips(
+    scene: &Scene,
+    style: &Style,
+    (plan, values): (&Plan, &[StepValues]),
+    at: [u32; 2],
+    how: Recomputation,
+) -> Result<Vec<Flip>> {
+    let is_ink = darkness_of(values, at).unwrap_or_default() >= INK_FROM;
     let flips = DECIDING.iter().filter_map(|(setting, range)| {
-        flip(scene, style, (plan, values), (setting, *range), (at, drawn >= INK_FROM), how).transpose()
+        flip(scene, style, (plan, values), (setting, *range), (at, is_ink), how).transpose()
     });
-    Ok(AgainstLines {
-        verdict,
-        darkness: drawn,
-        class: nearest.map(|(class, _)| class.name()),
-        distance_px,
-        flips: flips.collect::<Result<_>>()?,
-    })
+    flips.collect()
 }
 
 fn nearest_place([from, to]: [DVec2; 2], px: DVec2) -> DVec2 {

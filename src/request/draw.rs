@@ -277,28 +277,50 @@ impl Request {
         renderer.draw(scene, &plan)
     }
 
+    /// The shaders to draw with instead of those built in, by their paths.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for a folder without shaders, and those of [`glsl::check_folder`].
+    pub fn shaders(&self) -> Result<HashMap<String, String>> {
+        let Some(folder) = &self.glsl else { return Ok(HashMap::new()) };
+        glsl::check_folder(folder)?;
+        let shaders = glsl::in_folder(Path::new(folder));
+        if shaders.is_empty() {
+            let problem = "it holds no changed shader; lay it out like glsl/, for example phong/phong.frag";
+            return Err(Error::value("glsl", folder, problem));
+        }
+        Ok(shaders)
+    }
+
     /// The session's context for this request, with its shaders.
     ///
     /// # Errors
     ///
-    /// Those of [`Session::renderer`] and [`Renderer::replace_shaders`]; [`Error::Setting`] for a folder without shaders.
+    /// Those of [`Session::renderer`], [`Request::shaders`] and [`Renderer::replace_shaders`].
     pub fn renderer<'a>(&self, session: &'a mut Session) -> Result<&'a mut Renderer> {
-        let shaders = match &self.glsl {
-            None => HashMap::new(),
-            Some(folder) if !Path::new(folder).is_dir() => {
-                return Err(Error::value("glsl", folder, "there is no such folder; check the name"));
-            }
-            Some(folder) => glsl::in_folder(Path::new(folder)),
-        };
-        if let (Some(folder), true) = (&self.glsl, shaders.is_empty()) {
-            let problem = "it holds no changed shader; lay it out like glsl/, for example phong/phong.frag";
-            return Err(Error::value("glsl", folder, problem));
-        }
+        let shaders = self.shaders()?;
         let renderer = session.renderer(self.backend)?;
         if renderer.replaced_shaders() != shaders {
-            renderer.replace_shaders(shaders)?;
+            renderer.replace_shaders(shaders).map_err(|error| match (error, &self.glsl) {
+                // Named by the folder that it is in.
+                (Error::Shader { path, log }, Some(folder)) => {
+                    Error::value("glsl", folder, format!("{path} does not compile ({log})"))
+                }
+                (error, _) => error,
+            })?;
         }
         Ok(renderer)
+    }
+
+    /// Reads the models and puts the scene together while the session's context opens, if it is not open yet.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Request::models`], [`Scene::new`], [`crate::Style::plan`] and [`Request::renderer`].
+    pub fn scene_and_renderer<'a>(&self, session: &'a mut Session) -> Result<(Scene, &'a mut Renderer)> {
+        let (_, loaded) = self.ready(session);
+        Ok((loaded?.scene, self.renderer(session)?))
     }
 
     fn picture(&self, session: &mut Session) -> Result<DrawnPicture> {

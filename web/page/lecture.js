@@ -62,6 +62,7 @@ export function lectures(app, { shader, controls }) {
     if (article.dataset.name === field.value) return;
     article.dataset.name = field.value;
     article.hidden = !field.value;
+    at("controls").open = !field.value;
     buffers = [];
     article.replaceChildren();
     if (!field.value) return;

@@ -49,11 +49,11 @@ export function shaderEditor(app) {
   function write() {
     const path = at("shader").value;
     if (!path) return;
-    const pieces = JSON.parse(listing(path));
+    const pieces = JSON.parse(listing(path, app.state().shaders[path]));
     const column = (place) => pieces.map((pair) => (pair[0] === pair[1] ? pair[place] : element("mark", { textContent: pair[place] })));
     at("original").replaceChildren(...column(0));
     at("transcribed").replaceChildren(...column(1));
-    at("text").value = app.state().shaders[path] ?? pieces.map(([original]) => original).join("");
+    at("text").value = pieces.map(([original]) => original).join("");
     at("shader-problem").textContent = "";
   }
 

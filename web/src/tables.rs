@@ -127,14 +127,16 @@ fn control<T: Clone + 'static>(setting: &Setting<T>, of: &T) -> Value {
     })
 }
 
-/// A shader of `glsl/` in pieces, the published version and this browser's: JSON, a list of pairs.
+/// A shader in pieces, GLSL 1.20 and this browser's version: JSON, a list of pairs. It is the published one of this path, or its
+/// replacement.
 ///
 /// # Errors
 ///
 /// A sentence for an unknown shader.
 #[wasm_bindgen]
-pub fn listing(path: &str) -> Result<String, JsError> {
-    let text = tinta::glsl::source(path).ok_or_else(|| JsError::new(&format!("there is no shader {path}")))?;
+pub fn listing(path: &str, replacement: Option<String>) -> Result<String, JsError> {
+    let published = tinta::glsl::source(path).ok_or_else(|| JsError::new(&format!("there is no shader {path}")))?;
+    let text = replacement.as_deref().unwrap_or(published);
     let pieces = transcribed(Stage::of(path), text).map_err(|problem| JsError::new(&format!("{path}: {problem}")))?;
     let pairs: Vec<[&str; 2]> = pieces.iter().map(|piece| [piece.original.as_str(), piece.text.as_str()]).collect();
     serde_json::to_string(&pairs).map_err(unreadable)

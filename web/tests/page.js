@@ -188,6 +188,9 @@ export async function testPage(tables) {
     at("apply").click();
     await settled();
     assert(differing(before, picture(at("left")), 8) > 0.005, "borders are darker");
+    assert(at("original").textContent.includes("DETECTION_FACTOR 2.0f"), "the listing is the changed one");
+    const marked = [...at("transcribed").querySelectorAll("mark")].map((mark) => mark.textContent);
+    assert(marked.includes("2.0"), `what had to change in it is marked: ${marked}`);
     const edited = picture(at("left"));
     const again = await opened(1000, 900, page.tinta.link());
     assert(differing(edited, picture(again.at("left")), 0) === 0, "the link carries the change");
@@ -358,6 +361,9 @@ export async function testPage(tables) {
         await settled();
         assert(differing(before, picture(at("left")), 8) > 0.02, "a buffer that is clicked is shown");
       }
+      assert(!at("controls").open && !at("left-Style").checkVisibility(), "styles and settings are folded");
+      const heading = at("controls").querySelector("summary").getBoundingClientRect();
+      assert(heading.height >= 44 && heading.bottom <= article.getBoundingClientRect().top, "above the text");
       const images = [...page.document.images].filter((image) => image.complete && !image.naturalWidth);
       assert(images.length === 0, images.map((image) => image.src).join(" "));
       const { scrollWidth, clientWidth } = page.document.documentElement;

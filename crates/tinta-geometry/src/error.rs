@@ -183,6 +183,16 @@ pub enum Error {
         /// The driver's log, on one line.
         log: String,
     },
+    /// A pixel cannot be recomputed at a statement of a shader.
+    #[error("glsl/{path}, line {line}: {problem}")]
+    Statement {
+        /// The shader, below `glsl/`.
+        path: String,
+        /// The line, from 1.
+        line: u32,
+        /// The problem with its solution.
+        problem: String,
+    },
     /// GL reported an error after a plan, or lost its data.
     #[error("the GL driver failed in {during} ({what}); try another backend, or a smaller size")]
     Gl {
@@ -253,7 +263,7 @@ impl Error {
             Self::NoWindow { .. } => "no-window",
             Self::PictureTooLarge { .. } => "picture-too-large",
             Self::Plan { .. } => "plan",
-            Self::Shader { .. } => "shader",
+            Self::Shader { .. } | Self::Statement { .. } => "shader",
             Self::Gl { .. } => "gl",
             Self::ContextLost { .. } => "context-lost",
         }

@@ -58,6 +58,7 @@ pub use drawing::drawn_layers::{DrawnLayer, GHOST_OPACITY, drawn_layers};
 pub use drawing::fills::{Fill, FillGroup, TRAP_PX, fills};
 pub use drawing::hatch::{Hatch, Hatching};
 pub use drawing::hatches::hatches;
+pub use drawing::key::{Key, KeyText};
 pub use drawing::layers::{ClassColors, ClassWidths, Layer, OfLayers};
 pub use drawing::length::{Length, Millimetres, Units, line_width};
 pub use drawing::page::{PageSize, Paper, Sheet, Turn};

@@ -40,8 +40,9 @@ type Open = Box<dyn FnOnce((u8, u8)) -> std::result::Result<Box<dyn Platform>, S
 /// A way not yet tried.
 struct Candidate {
     backend: &'static str,
-    /// The name to display: the library, and the device if there are several.
-    name: String,
+    /// Returns the name to display: the library, and the device if there are several. OSMesa has to be loaded to tell it, which
+    /// takes some 10 ms.
+    name: Rc<dyn Fn() -> String>,
     lock: &'static ContextLock,
     open: Open,
 }
@@ -67,14 +68,15 @@ impl Candidate {
                 Ok(devices) => candidates.extend(devices.into_iter().map(|device| {
                     let name = device.name.clone();
                     let open = move |version| egl::open(&device, version).map(boxed);
-                    Self::new("egl", &name, &context_lock::OF_EGL, open)
+                    Self { name: Rc::new(move || name.clone()), ..Self::new("egl", "EGL", &context_lock::OF_EGL, open) }
                 })),
                 Err(reason) => candidates.push(Self::new("egl", "EGL", &context_lock::OF_EGL, |_| Err(reason))),
             }
         }
         if is_wanted(Backend::OsMesa) {
             let open = |version| osmesa::OsMesaContext::open(version).map(boxed);
-            candidates.push(Self::new("osmesa", &osmesa::name(), &context_lock::OF_OSMESA, open));
+            let osmesa = Self::new("osmesa", "OSMesa", &context_lock::OF_OSMESA, open);
+            candidates.push(Self { name: Rc::new(osmesa::name), ..osmesa });
         }
         #[cfg(all(unix, not(target_os = "macos")))]
         if is_wanted(Backend::Surfaceless) {
@@ -95,11 +97,11 @@ impl Candidate {
 
     fn new(
         backend: &'static str,
-        name: &str,
+        name: &'static str,
         lock: &'static ContextLock,
         open: impl FnOnce((u8, u8)) -> std::result::Result<Box<dyn Platform>, String> + 'static,
     ) -> Self {
-        Self { backend, name: name.to_owned(), lock, open: Box::new(open) }
+        Self { backend, name: Rc::new(|| name.to_owned()), lock, open: Box::new(open) }
     }
 
     fn open(self, fault: Option<Fault>) -> std::result::Result<Context, String> {
@@ -107,7 +109,7 @@ impl Candidate {
         // Only an open context shows whether it is software.
         let _guard = self.lock.lock();
         let platform = (self.open)(version)?;
-        Context::load(platform, self.backend, self.name, fault, self.lock)
+        Context::load(platform, self.backend, (self.name)(), fault, self.lock)
     }
 }
 
@@ -130,7 +132,7 @@ pub fn attempts(backend: Backend) -> Vec<Attempt> {
 
 /// Returns a context for every way of this backend, one after the other, with its device's name; or the reason for its failure.
 pub(crate) fn each(backend: Backend) -> impl Iterator<Item = (String, std::result::Result<Context, String>)> {
-    Candidate::all(backend).into_iter().map(|candidate| (candidate.name.clone(), candidate.open(None)))
+    Candidate::all(backend).into_iter().map(|candidate| ((candidate.name)(), candidate.open(None)))
 }
 
 /// Two backends of this system for comparing two drawings of one picture: its own, and OSMesa. Without OSMesa the second is
@@ -158,7 +160,7 @@ impl Context {
             let name = candidate.name.clone();
             match candidate.open(fault) {
                 Ok(context) => return Ok(context),
-                Err(reason) => attempts.push(format!("{name}: {reason}")),
+                Err(reason) => attempts.push(format!("{}: {reason}", name())),
             }
         }
         Err(Error::NoContext { attempts })
@@ -168,7 +170,7 @@ impl Context {
     /// draws the largest. `None` if every other way fails.
     pub(crate) fn open_for(backend: Backend, fault: Option<Fault>, surface: Size, but: &[&str]) -> Option<Self> {
         let mut largest: Option<Self> = None;
-        for candidate in Candidate::all(backend).into_iter().filter(|other| !but.contains(&other.name.as_str())) {
+        for candidate in Candidate::all(backend).into_iter().filter(|other| !but.contains(&(other.name)().as_str())) {
             let Ok(context) = candidate.open(fault) else { continue };
             if context.draws(surface) {
                 return Some(context);

@@ -8,6 +8,7 @@ pub(super) mod drawn_layers;
 pub(super) mod fills;
 pub(super) mod hatch;
 pub(super) mod hatches;
+pub(super) mod key;
 pub(super) mod layers;
 pub(super) mod length;
 pub(super) mod page;

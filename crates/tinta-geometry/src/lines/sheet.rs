@@ -104,8 +104,8 @@ impl VisibleLines {
         Ok(sheet)
     }
 
-    /// Adds the lines of a view, moved to its place.
-    fn put(&mut self, view: Self, to_px: DVec2) {
+    /// Adds the lines of a view, moved to its place. All views of a sheet have the same parts.
+    pub fn put(&mut self, view: Self, to_px: DVec2) {
         let moved = |segment: LineSegment| LineSegment { ends_px: segment.ends_px.map(|end| end + to_px), ..segment };
         self.segments.extend(view.segments.into_iter().map(moved));
         self.labels.extend(view.labels.into_iter().map(|label| Label { px: label.px + to_px, ..label }));

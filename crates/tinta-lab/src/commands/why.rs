@@ -88,7 +88,7 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let camera = arguments.camera.camera.as_deref();
     let style = Layer::Style(StyleName::Lines);
     let below = Below { camera, ..Below::default() };
-    let (request, _) = arguments.drawing.request_over(style, std::slice::from_ref(&arguments.model), &below)?;
+    let (mut request, _) = arguments.drawing.request_over(style, std::slice::from_ref(&arguments.model), &below)?;
     if request.line_style().is_some() {
         let needed = [("variable", arguments.variable.is_some()), ("output", arguments.output.is_some())];
         if let Some((option, _)) = needed.iter().find(|(_, is_given)| *is_given) {
@@ -99,14 +99,24 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let files: Vec<&str> = camera.and_then(Path::to_str).into_iter().collect();
     let inputs = Inputs::new(&request.models, &request.options, &files);
     let output = arguments.output.as_deref().map(|path| Output::check(path, arguments, &inputs)).transpose()?;
-    let scene = Scene::new(load_meshes(&request.models, &request.read)?, &request.scene)?;
+    if request.line_style().is_some() {
+        let scene = Scene::new(load_meshes(&request.models, &request.read)?, &request.scene)?;
+        return line_out(&scene, &request, arguments.place.unwrap_or_default(), arguments.json);
+    }
+    // Every step is explained.
+    request.pruning.is_full = true;
+    let (scene, renderer) = request.scene_and_renderer(session)?;
+    if request.glsl.is_some() {
+        let remarks = renderer.remarks(&request.style.plan(&scene, request.show)?);
+        remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
+    }
     match (&arguments.variable, arguments.place) {
         (Some(name), _) => {
-            let variable = Variable::of(&request.style, &scene, request.renderer(session)?, name)?;
+            let variable = Variable::of(&request.style, &scene, renderer, name)?;
             variable_out(&variable, output.as_ref(), arguments.json)
         }
-        (None, Some(place)) if request.line_style().is_none() => {
-            let renderer = request.renderer(session)?;
+        (None, place) => {
+            let place = place.unwrap_or_default();
             let why = Explanation::of(&request.style, &scene, renderer, place)?;
             if let Some(Output::Picture(target)) = &output {
                 target.write(&sheet::sheet(&why, &request.style, &scene, renderer)?)?;
@@ -117,7 +127,6 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
                 (false, None) => print(&why.to_string()),
             }
         }
-        (None, place) => line_out(&scene, &request, place.unwrap_or_default(), arguments.json),
     }
 }
 

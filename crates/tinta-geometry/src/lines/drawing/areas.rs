@@ -2,6 +2,7 @@
 
 use crate::lines::drawing::fills::FillGroup;
 use crate::lines::drawing::hatch::Hatch;
+use crate::lines::drawing::key::Key;
 use crate::lines::regions::Regions;
 use glam::DVec2;
 
@@ -12,6 +13,8 @@ pub struct Areas {
     pub fills: Vec<FillGroup>,
     /// Strokes above them, from the brightest hatched tone to the darkest.
     pub hatches: Vec<Hatch>,
+    /// Keys to the colours, above all lines.
+    pub keys: Vec<Key>,
     /// The upper left and the lower right corner around everything that is not background, pixels; `None` where all is background.
     pub corners_px: Option<[DVec2; 2]>,
 }

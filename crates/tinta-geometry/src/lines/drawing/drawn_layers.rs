@@ -6,7 +6,7 @@ use crate::edges::Class;
 use crate::error::{Error, Result};
 use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
-use crate::lines::drawing::drawn_labels::{DrawnLabel, drawn_labels};
+use crate::lines::drawing::drawn_labels::{DrawnLabel, drawn_labels, height_px};
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::page::Page;
 use crate::lines::drawing::pen::{dashes, in_pen_order};
@@ -87,7 +87,7 @@ impl<'a> Drawing<'a> {
     pub(in crate::lines) fn new(
         lines: &'a VisibleLines,
         paths: Vec<LinePath>,
-        areas: Option<&Areas>,
+        areas: Option<&'a Areas>,
         settings: &'a DrawingSettings,
     ) -> Result<Self> {
         settings.check()?;
@@ -114,7 +114,9 @@ impl<'a> Drawing<'a> {
                 }
             }
         }
-        let labels = drawn_labels(&lines.labels, settings, page.units);
+        let mut labels = drawn_labels(&lines.labels, settings, page.units);
+        let texts = areas.into_iter().flat_map(|areas| &areas.keys).flat_map(|key| &key.texts);
+        labels.extend(texts.map(|text| text.drawn(height_px(page.units))));
         Ok(Self { segments: &lines.segments, note: lines.partial_note(), settings, page, layers, labels })
     }
 }

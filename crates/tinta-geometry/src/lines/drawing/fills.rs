@@ -20,8 +20,10 @@ pub const TRAP_PX: f64 = 4.0;
 pub struct FillGroup {
     /// The object in the scene; [`crate::mesh::NONE`] for strokes below all areas.
     pub object: u32,
-    /// The material in the object's mesh, or [`crate::mesh::NONE`].
+    /// The material in the object's mesh, or [`crate::mesh::NONE`]; of strokes below areas the number of their view, if there are several.
     pub material: u32,
+    /// The opacity of the group, and of those with the same one before and after it, as one picture: from 0 to 1.
+    pub opacity: f32,
     /// Whether edges are not smoothed: then each pixel is of one area.
     pub is_crisp: bool,
     /// Closed polygons by the even-odd rule, pixels, outside of which nothing of the group is drawn; empty: all of it is.
@@ -62,7 +64,14 @@ pub fn fills(regions: &Regions<Option<TonedSurface>>, color: impl Fn(TonedSurfac
             Fill { surface: (*surface).into(), color: color(*surface), loops, trap }
         };
         let fills = of_group.iter().map(fill).collect();
-        FillGroup { object: lowest.object, material: lowest.material, is_crisp: false, clip: Vec::new(), fills }
+        FillGroup {
+            object: lowest.object,
+            material: lowest.material,
+            opacity: 1.0,
+            is_crisp: false,
+            clip: Vec::new(),
+            fills,
+        }
     };
     groups.map(group).collect()
 }

@@ -24,7 +24,14 @@ pub fn painted(regions: &Regions<Option<Surface>>, has_traps: bool, color: impl 
     let group = |of_group: &[(Surface, usize)]| {
         let Surface { object, material, .. } = of_group[0].0;
         let fills = of_group.iter().map(fill).collect();
-        FillGroup { object, material: material.unwrap_or(NONE), is_crisp: !has_traps, clip: Vec::new(), fills }
+        FillGroup {
+            object,
+            material: material.unwrap_or(NONE),
+            opacity: 1.0,
+            is_crisp: !has_traps,
+            clip: Vec::new(),
+            fills,
+        }
     };
     let below = has_traps.then(|| seams(regions, &order, &color)).filter(|below| !below.fills.is_empty());
     below.into_iter().chain(of_objects.map(group)).collect()
@@ -40,7 +47,7 @@ fn seams(regions: &Regions<Option<Surface>>, order: &[(Surface, usize)], color: 
     let all = regions.joined(|seen| seen.map(|_| ()));
     let clip = polygons(all.regions.iter().flat_map(|region| &region.loops));
     let fills = order.iter().map(fill).filter(|fill| !fill.trap.is_empty()).collect();
-    FillGroup { object: NONE, material: NONE, is_crisp: false, clip, fills }
+    FillGroup { object: NONE, material: NONE, opacity: 1.0, is_crisp: false, clip, fills }
 }
 
 /// Loops without corners that do not change their shape.

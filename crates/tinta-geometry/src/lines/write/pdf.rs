@@ -10,7 +10,7 @@ use crate::lines::VisibleLines;
 use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::{Step, fitted};
-use crate::lines::drawing::drawn_labels::{DrawnLabel, height_px, win_ansi};
+use crate::lines::drawing::drawn_labels::{DrawnLabel, height_px, width, win_ansi};
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
 use crate::lines::drawing::fills::{Fill, FillGroup, TRAP_PX};
 use crate::lines::drawing::settings::{DrawingSettings, mixed};
@@ -43,7 +43,8 @@ pub fn pdf_of_paths(
     settings: &DrawingSettings,
 ) -> Result<Vec<u8>> {
     let drawing = Drawing::new(lines, paths, areas, settings)?;
-    let fills = areas.map_or(&[][..], |areas| &areas.fills);
+    let nothing = Areas::default();
+    let areas = areas.unwrap_or(&nothing);
     let scale = drawing.page.points_per_px();
     let page_points = drawing.page.extent_px * scale;
     if page_points.max_element() > LARGEST_PAGE || page_points.min_element() < SMALLEST_PAGE {
@@ -51,9 +52,14 @@ pub fn pdf_of_paths(
                        --width-mm, --dpi or --size";
         return Err(Error::setting("page", problem));
     }
-    let encode = |label: &DrawnLabel<'_>| win_ansi(label.text).map(|text| (text, label.at_px, label.color));
+    let height = height_px(drawing.page.units);
+    let encode = |label: &DrawnLabel<'_>| {
+        let text = win_ansi(label.text)?;
+        let at_px = label.at_px - DVec2::X * (label.left * width(&text) * height);
+        Ok((text, at_px, label.color))
+    };
     let labels: Vec<Text> = drawing.labels.iter().map(encode).collect::<Result<_>>()?;
-    Ok(written(&drawing, fills, &labels, scale))
+    Ok(written(&drawing, areas, &labels, scale))
 }
 
 /// A text in the encoding of the standard fonts, the left end of its base line in pixels, its colour.
@@ -74,7 +80,7 @@ const CONTENT: Ref = Ref::new(4);
 const INFORMATION: Ref = Ref::new(5);
 const FIRST_LAYER: i32 = 6;
 
-fn written(drawing: &Drawing<'_>, fills: &[FillGroup], labels: &[Text], scale: f64) -> Vec<u8> {
+fn written(drawing: &Drawing<'_>, areas: &Areas, labels: &[Text], scale: f64) -> Vec<u8> {
     let (settings, page) = (drawing.settings, &drawing.page);
     let [width, height] = (page.extent_px * scale).to_array().map(|side| side as f32);
     let layers: Vec<Ref> = (FIRST_LAYER..).map(Ref::new).take(drawing.layers.len()).collect();
@@ -102,6 +108,22 @@ fn written(drawing: &Drawing<'_>, fills: &[FillGroup], labels: &[Text], scale: f
     if !labels.is_empty() {
         resources.fonts().pair(Name(FONT_NAME), font);
     }
+    // Areas that are seen through together: the number of each is that of its graphics state, the next that of its form.
+    let as_one = || areas.fills.chunk_by(|one, next| one.opacity == next.opacity);
+    let clear = || as_one().filter(|groups| groups[0].opacity < 1.0);
+    let refs: Vec<[Ref; 2]> =
+        (font.get() + 1..).step_by(2).map(|first| [first, first + 1].map(Ref::new)).take(clear().count()).collect();
+    if !refs.is_empty() {
+        let mut states = resources.ext_g_states();
+        refs.iter().enumerate().for_each(|(number, [state, _])| {
+            states.pair(Name(clear_name(number).as_bytes()), *state);
+        });
+        states.finish();
+        let mut forms = resources.x_objects();
+        refs.iter().enumerate().for_each(|(number, [_, form])| {
+            forms.pair(Name(clear_name(number).as_bytes()), *form);
+        });
+    }
     resources.finish();
     sheet.finish();
 
@@ -112,10 +134,22 @@ fn written(drawing: &Drawing<'_>, fills: &[FillGroup], labels: &[Text], scale: f
     let origin = page.origin_px;
     let matrix = [scale, 0.0, 0.0, -scale, -origin.x * scale, (origin.y + page.extent_px.y) * scale];
     content.transform(matrix.map(|number| number as f32));
-    fills.iter().for_each(|group| write_fills(group, &mut content));
+    let mut numbers_of_clear = 0..;
+    for groups in as_one() {
+        if groups[0].opacity < 1.0 {
+            let name = clear_name(numbers_of_clear.next().unwrap_or_default());
+            content.save_state().set_parameters(Name(name.as_bytes())).x_object(Name(name.as_bytes())).restore_state();
+        } else {
+            groups.iter().for_each(|group| write_fills(group, &mut content));
+        }
+    }
     content.set_line_cap(LineCapStyle::RoundCap).set_line_join(LineJoinStyle::RoundJoin);
     for (number, layer) in drawing.layers.iter().enumerate() {
         write_layer(drawing, layer, number, &mut content);
+    }
+    for ([low, high], Color([red, green, blue])) in areas.keys.iter().flat_map(|key| &key.boxes) {
+        let [x, y, width, height] = [low.x, low.y, high.x - low.x, high.y - low.y].map(|side| side as f32);
+        content.set_fill_rgb(*red, *green, *blue).rect(x, y, width, height).fill_nonzero();
     }
     if !labels.is_empty() {
         let height = height_px(page.units) as f32;
@@ -129,6 +163,15 @@ fn written(drawing: &Drawing<'_>, fills: &[FillGroup], labels: &[Text], scale: f
         pdf.type1_font(font).base_font(Name(FONT)).encoding_predefined(Name(b"WinAnsiEncoding"));
     }
     pdf.stream(CONTENT, &content.finish());
+    for (groups, [state, form]) in clear().zip(&refs) {
+        pdf.ext_graphics(*state).non_stroking_alpha(groups[0].opacity);
+        let mut content = Content::new();
+        groups.iter().for_each(|group| write_fills(group, &mut content));
+        let content = content.finish();
+        let [low, high] = [origin, origin + page.extent_px].map(|corner| corner.to_array().map(|side| side as f32));
+        let mut form = pdf.form_xobject(*form, &content);
+        form.bbox(Rect::new(low[0], low[1], high[0], high[1])).group().transparency().isolated(true);
+    }
 
     for (layer, drawn) in layers.iter().zip(&drawing.layers) {
         let label = drawn.label();
@@ -147,6 +190,11 @@ fn written(drawing: &Drawing<'_>, fills: &[FillGroup], labels: &[Text], scale: f
     }
     information.finish();
     pdf.finish()
+}
+
+/// The resource name of areas that are seen through, and of their opacity.
+fn clear_name(number: usize) -> String {
+    format!("C{number}")
 }
 
 /// The resource name of a layer on the page.

@@ -13,6 +13,7 @@ use crate::lines::drawing::curves::fitted;
 use crate::lines::drawing::drawn_labels::height_px;
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
 use crate::lines::drawing::fills::{FillGroup, TRAP_PX};
+use crate::lines::drawing::key::Key;
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::page::PAGE_DECIMALS;
 use crate::lines::drawing::settings::DrawingSettings;
@@ -51,13 +52,33 @@ pub fn svg_of_paths(
     let drawing = Drawing::new(lines, paths, areas, settings)?;
     let mut out = String::new();
     begin(&drawing, &mut out);
-    areas.into_iter().flat_map(|areas| &areas.fills).for_each(|group| write_fills(group, &mut out));
+    for as_one in areas.map_or(&[][..], |areas| &areas.fills).chunk_by(|one, next| one.opacity == next.opacity) {
+        let opacity = as_one[0].opacity;
+        let is_clear = opacity < 1.0;
+        if is_clear {
+            let _ = writeln!(out, r#"<g opacity="{}">"#, number(f64::from(opacity)));
+        }
+        as_one.iter().for_each(|group| write_fills(group, &mut out));
+        out.push_str(if is_clear { "</g>\n" } else { "" });
+    }
     for layer in &drawing.layers {
         write_layer(&drawing, layer, &mut out);
     }
+    areas.into_iter().flat_map(|areas| &areas.keys).for_each(|key| write_key(key, &mut out));
     write_labels(&drawing, &mut out);
     out.push_str("</svg>\n");
     Ok(out)
+}
+
+/// Writes the rectangles of a key; its texts are labels.
+fn write_key(key: &Key, out: &mut String) {
+    out.push_str("<g inkscape:groupmode=\"layer\" inkscape:label=\"key\" shape-rendering=\"crispEdges\">\n");
+    for ([low, high], color) in &key.boxes {
+        let [x, y, width, height] = [low.x, low.y, high.x - low.x, high.y - low.y].map(number);
+        let fill = hexadecimal(*color);
+        let _ = writeln!(out, r#"<rect x="{x}" y="{y}" width="{width}" height="{height}" fill="{fill}"/>"#);
+    }
+    out.push_str("</g>\n");
 }
 
 fn write_labels(drawing: &Drawing<'_>, out: &mut String) {
@@ -72,7 +93,12 @@ fn write_labels(drawing: &Drawing<'_>, out: &mut String) {
     for label in &drawing.labels {
         let [x, y] = label.at_px.to_array().map(number);
         let (fill, text) = (hexadecimal(label.color), escaped(label.text));
-        let _ = writeln!(out, r#"<text x="{x}" y="{y}" fill="{fill}">{text}</text>"#);
+        let anchor = match label.left {
+            0.0 => "",
+            left if left < 1.0 => r#" text-anchor="middle""#,
+            _ => r#" text-anchor="end""#,
+        };
+        let _ = writeln!(out, r#"<text x="{x}" y="{y}"{anchor} fill="{fill}">{text}</text>"#);
     }
     out.push_str("</g>\n");
 }
@@ -120,7 +146,8 @@ fn write_fills(group: &FillGroup, out: &mut String) {
         polylines.iter().map(|points| path_data(points, is_closed, false)).collect::<String>()
     };
     let (name, label) = match group.material {
-        _ if object == NONE => ("fill-seams".to_owned(), "below seams".to_owned()),
+        NONE if object == NONE => ("fill-seams".to_owned(), "below seams".to_owned()),
+        view if object == NONE => (format!("fill-seams-{view}"), format!("below seams of view {view}")),
         NONE => (format!("fill-{object}"), format!("object {object}")),
         material => (format!("fill-{object}-{material}"), format!("object {object} material {material}")),
     };
