@@ -92,7 +92,8 @@ pub(super) fn with_settings<T: Clone + Send + Sync + 'static>(
     has_headings: bool,
 ) -> Command {
     settings.fold(command, |command, setting| {
-        let arg = arg(table, setting).help_heading(has_headings.then_some(setting.heading));
+        let arg =
+            arg(table, setting).help_heading((has_headings && !setting.heading.is_empty()).then_some(setting.heading));
         command.arg(arg)
     })
 }

@@ -61,10 +61,9 @@ impl Explanation {
             return Ok(explained);
         }
         let (at, plan) = (explained.place_in_textures, style.plan(scene, Show::Borders)?);
-        let (values, lines) = both(
-            || renderer.step_values(scene, &plan, around(at, scene.size, 0)),
-            || VisibleLines::of(scene, &LineSettings::default()),
-        );
+        let part = read_back(renderer, at, scene.size);
+        let (values, lines) =
+            both(|| renderer.step_values(scene, &plan, part), || VisibleLines::of(scene, &LineSettings::default()));
         let values = values?;
         let mut against = against_lines(scene, &values, &lines?, at);
         // Other settings may run other shaders than those replaced.
@@ -94,7 +93,8 @@ impl Explanation {
         let pixel = [place.x as u32, place.y as u32];
         let plan = style.plan(scene, Show::Final)?;
         let at = [pixel[0], size.height - 1 - pixel[1]];
-        let values = renderer.step_values(scene, &plan, around(at, size, 0))?;
+        let part = read_back(renderer, at, size);
+        let values = renderer.step_values(scene, &plan, part)?;
         Self::of_values(style, scene, (&plan, &values), renderer, pixel)
     }
 
@@ -217,7 +217,10 @@ impl Display for AgainstLines {
     fn fmt(&self, out: &mut Formatter<'_>) -> std::fmt::Result {
         let Self { verdict, darkness, class, distance_px, flips } = self;
         let nearest = match (class, distance_px) {
-            (Some(class), Some(distance)) => format!("the nearest visible line is a {class} at {distance:.2} px"),
+            (Some(class), Some(distance)) => {
+                let article = if class.starts_with(['a', 'i']) { "an" } else { "a" };
+                format!("the nearest visible line is {article} {class} at {distance:.2} px")
+            }
             _ => "no line is visible".to_owned(),
         };
         let verdict = match verdict {
@@ -245,6 +248,15 @@ pub fn around(at: [u32; 2], size: Size, reach_px: u32) -> Rectangle {
     let (x, y) = (at[0].saturating_sub(margin), at[1].saturating_sub(margin));
     let until = |at: u32, count: u32| (at + margin + 1).min(count);
     Rectangle { x, y, width: until(at[0], size.width) - x, height: until(at[1], size.height) - y }
+}
+
+/// The pixels to read back to explain one with the renderer's shaders: shaders of a user's own may read anywhere.
+fn read_back(renderer: &Renderer, at: [u32; 2], size: Size) -> Rectangle {
+    if renderer.replaced_shaders().is_empty() {
+        around(at, size, 0)
+    } else {
+        around(at, size, size.width.max(size.height))
+    }
 }
 
 /// The letter of the texts' filters for a texel around the pixel: A to I from the lower left.

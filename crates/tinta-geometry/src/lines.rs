@@ -255,7 +255,7 @@ impl VisibleLines {
         }
         // Overlaps are marked only if all lines are decided.
         if undecided == 0 {
-            segments = visible::doubled::marked(segments, &space, progress)?;
+            segments = visible::doubled::marked(segments, &scene_parts, &space, progress)?;
         }
         let labels = labels::labels(scene, &segments);
         scene_parts.put_looks(&mut segments);

@@ -310,3 +310,48 @@ fn lines_between_parts_are_a_class() {
 fn lies_at(mesh: &Mesh, corners: [u32; 3], x: f64) -> bool {
     corners.iter().all(|corner| mesh.positions[*corner as usize].x == x)
 }
+
+#[test]
+fn lines_of_ghosts_that_lie_on_one_another_are_drawn_once() {
+    /// Pixels; overlaps are found up to 0.005 aside and at ends.
+    const MOST: f64 = 0.02;
+    let (mut doubled, mut drawn_px) = (0, 0.0);
+    for seed in 1..=40 {
+        let mut random = Random(seed);
+        // Boxes in steps, so that edges lie behind edges in views along an axis.
+        let mut step = |most: u32| (random.number() * f64::from(most)).floor();
+        let boxes: Vec<Arc<Mesh>> = (0..4)
+            .map(|number| {
+                let low = DVec3::new(step(4), step(4), step(4));
+                let high = low + DVec3::ONE + DVec3::new(step(2), step(2), step(2));
+                Arc::new(with_parts(&cuboid(low, high), |_| number))
+            })
+            .collect();
+        let view = ["front", "top", "right"][seed as usize % 3].parse().unwrap();
+        let camera = CameraSettings { view, parallel: true, ..CameraSettings::default() };
+        let scene = Scene::new(boxes, &SceneSettings { camera, ..SceneSettings::default() }).unwrap();
+        let rules = if seed % 2 == 0 { "*: ghost" } else { "arm: ghost" };
+        let lines = found(&scene, rules);
+        let (drawn, left_out): (Vec<_>, Vec<_>) = visible(&lines).into_iter().partition(|segment| !segment.is_covered);
+        let on = |segment: &LineSegment, point: glam::DVec2| {
+            let [a, b] = segment.ends_px;
+            let along = (b - a) / (b - a).length_squared();
+            let place = (point - a).dot(along).clamp(0.0, 1.0);
+            (a + (b - a) * place).distance(point) <= MOST
+        };
+        let length = |segment: &LineSegment| segment.ends_px[0].distance(segment.ends_px[1]);
+        let middle = |segment: &LineSegment| (segment.ends_px[0] + segment.ends_px[1]) * 0.5;
+        for (number, segment) in drawn.iter().enumerate().filter(|(_, segment)| length(segment) > 4.0 * MOST) {
+            let quarter = segment.ends_px[0].lerp(segment.ends_px[1], 0.25);
+            let twice = |other: &&&LineSegment| on(other, middle(segment)) && on(other, quarter);
+            let again = drawn[number + 1..].iter().find(twice);
+            assert!(again.is_none(), "seed {seed}, {rules}: {segment:?} and {again:?}");
+            drawn_px += length(segment);
+        }
+        for segment in &left_out {
+            assert!(drawn.iter().any(|other| on(other, middle(segment))), "seed {seed}, {rules}: {segment:?} is lost");
+        }
+        doubled += left_out.len();
+    }
+    assert!(doubled > 400 && drawn_px > 20_000.0, "{doubled} pieces on others, {drawn_px} pixels drawn");
+}

@@ -126,8 +126,8 @@ impl DrawingSettings {
             "page",
             "PAPER",
             Paper::kind(),
-            "Sheet of paper, which the drawing fills up to --margin: A3, A4, A5, letter or WIDTHxHEIGHTmm; it takes \
-             the orientation of --size, or a fixed one: A4-landscape, A4-portrait",
+            "Sheet of paper, which the drawing fills up to --margin: A3, A4, A5, letter or WIDTHxHEIGHTmm; it lies \
+             as the drawing fills it better, or in a fixed way: A4-landscape, A4-portrait",
             |svg: &Self| if let PageSize::Paper(paper) = svg.page_size { paper.text() } else { UNSET.to_owned() },
             |svg, text| {
                 svg.page_size = if text == UNSET { PageSize::Unset } else { PageSize::Paper(Paper::parse(text)?) };
@@ -145,7 +145,7 @@ impl DrawingSettings {
                 "hidden",
                 "HOW",
                 "Hidden lines: none, dashed (grey) or ghost (faint; unbroken and in full colour with --pen); half as \
-                 wide as the visible ones, in layers below them",
+                 wide as the visible ones, or as --class-widths and the look say, in layers below them",
                 |svg: &mut Self| &mut svg.hidden,
             ),
             Setting::field(

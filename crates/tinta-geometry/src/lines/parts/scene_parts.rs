@@ -1,6 +1,6 @@
 //! The parts of a scene by number, with their names and styles.
 
-use crate::edges::{ClassSet, CreaseAngle};
+use crate::edges::{Class, ClassSet, CreaseAngle};
 use crate::error::{Error, Result};
 use crate::lines::parts::pattern::Named;
 use crate::lines::parts::rules::PartRules;
@@ -142,6 +142,12 @@ impl SceneParts {
     /// Whether a part hides nothing.
     pub(in crate::lines) fn is_ghost(&self, part: u32) -> bool {
         self.role(part) == PartRole::Ghost
+    }
+
+    /// Whether a line is a ghost's, or one between two parts of which one may be a ghost.
+    pub(in crate::lines) fn may_be_of_ghost(&self, segment: &LineSegment) -> bool {
+        let is_between = matches!(segment.class, Class::Intersection | Class::Part);
+        self.is_ghost(segment.part) || is_between && self.has_ghosts()
     }
 
     /// Whether any part hides nothing.

@@ -1,13 +1,15 @@
-//! The hidden lines that a drawing leaves out, because it draws another line that overlaps them in their place.
+//! The lines that a drawing leaves out, because it draws another line that overlaps them in their place: hidden lines, and those of
+//! ghosts, which no face of their own hides.
 //!
-//! In: pieces of lines. Out: the same pieces, hidden ones cut where such a line begins or ends, and marked. A visible line
-//! replaces every hidden one under it, except that curves and points replace no line of a surface. Of hidden lines, the one of the first class stays, and within one class the first. Lines
-//! overlap up to [`JOINED_PX`], which a file of three decimals barely resolves. Trees of visible and of hidden lines find the
+//! In: pieces of lines. Out: the same pieces, those lines cut where such a line begins or ends, and marked. A visible line replaces
+//! every hidden one under it, and one of a solid part every ghost's, except that curves and points replace no line of a surface. Of
+//! hidden lines, and of ghosts', the one of the first class stays, and within one class the first. Lines overlap up to [`JOINED_PX`], which a file of three decimals barely resolves. Trees of visible and of hidden lines find the
 //! candidates. The search for a line ends when it is covered as a whole.
 
 use crate::edges::ClassSet;
 use crate::error::{Error, Result};
 use crate::lines::LineSegment;
+use crate::lines::parts::scene_parts::SceneParts;
 use crate::lines::progress::Progress;
 use crate::lines::visible::image::{Image, LineParts, LineTree};
 use crate::lines::visible::ranges::gaps;
@@ -22,17 +24,24 @@ const CHUNK: usize = 512;
 /// part.
 const LONGEST_PART: f64 = 128.0;
 
-/// Cuts and marks hidden pieces. Returns all pieces unchanged if time runs out and the settings accept a part of the lines.
+/// Cuts and marks hidden pieces, and those that are ghosts'. Returns all pieces unchanged if time runs out and the settings accept a part of the lines.
 ///
 /// # Errors
 ///
 /// [`Error::Cancelled`] and [`Error::OutOfTime`].
 pub(in crate::lines) fn marked(
     segments: Vec<LineSegment>,
+    scene_parts: &SceneParts,
     space: &Space,
     progress: &Progress,
 ) -> Result<Vec<LineSegment>> {
-    if segments.iter().all(|segment| segment.is_visible) {
+    let rank = |segment: &LineSegment| match segment.is_visible {
+        true if is_free(segment) || !scene_parts.may_be_of_ghost(segment) => Rank::Solid,
+        true => Rank::Ghost,
+        false => Rank::Hidden,
+    };
+    let ranks: Vec<Rank> = segments.iter().map(rank).collect();
+    if ranks.iter().all(|rank| *rank == Rank::Solid) {
         return Ok(segments);
     }
     let images: Vec<Image> = segments.iter().map(|segment| image_of(space, segment)).collect();
@@ -49,9 +58,9 @@ pub(in crate::lines) fn marked(
         }
         parts.tree(progress)
     };
-    let lines = DrawnLines { segments: &segments, images: &images, trees: [tree(true), tree(false)] };
+    let lines = DrawnLines { segments: &segments, ranks: &ranks, images: &images, trees: [tree(true), tree(false)] };
     let covered = in_chunks(segments.len(), CHUNK, cores(), |range| {
-        let covered = |number: usize| match segments[number].is_visible || progress.go_on_drawing().is_err() {
+        let covered = |number: usize| match ranks[number] == Rank::Solid || progress.go_on_drawing().is_err() {
             true => Vec::new(),
             false => lines.covered(number),
         };
@@ -65,6 +74,20 @@ pub(in crate::lines) fn marked(
     Ok(all.flat_map(|((segment, image), covered)| cut(space, segment, image, &covered)).collect())
 }
 
+/// Which lines replace others where they overlap: those of the lower rank.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Rank {
+    /// Visible lines of parts that hide others, and curves and points. None replaces another.
+    Solid,
+    /// Visible lines of ghosts.
+    Ghost,
+    Hidden,
+}
+
+fn is_free(segment: &LineSegment) -> bool {
+    ClassSet::FREE.contains(segment.class)
+}
+
 /// The image of a piece.
 fn image_of(space: &Space, segment: &LineSegment) -> Image {
     let [a, b] = segment.ends_px;
@@ -75,12 +98,13 @@ fn image_of(space: &Space, segment: &LineSegment) -> Image {
 /// Pieces with the trees of visible and of hidden ones.
 struct DrawnLines<'a> {
     segments: &'a [LineSegment],
+    ranks: &'a [Rank],
     images: &'a [Image],
     trees: [LineTree; 2],
 }
 
 impl DrawnLines<'_> {
-    /// Returns the ranges of a hidden line under lines that are drawn in its place, ascending.
+    /// Returns the ranges of a line under lines that are drawn in its place, ascending.
     fn covered(&self, number: usize) -> Vec<[f64; 2]> {
         let image = &self.images[number];
         let tolerance = JOINED_PX / image.length();
@@ -103,15 +127,13 @@ impl DrawnLines<'_> {
         covered
     }
 
-    /// Whether a line is drawn in place of a hidden one that it overlaps.
-    fn comes_before(&self, other: usize, hidden: usize) -> bool {
-        let is_free = |number: usize| ClassSet::FREE.contains(self.segments[number].class);
-        if is_free(other) && !is_free(hidden) {
+    /// Whether a line is drawn in place of another that it overlaps.
+    fn comes_before(&self, other: usize, number: usize) -> bool {
+        if is_free(&self.segments[other]) && !is_free(&self.segments[number]) {
             return false;
         }
-        let rank = |number: usize| (!self.segments[number].is_visible, self.segments[number].class, number);
-        let [other, hidden] = [other, hidden].map(rank);
-        !other.0 || other < hidden
+        let rank = |number: usize| (self.ranks[number], self.segments[number].class, number);
+        rank(other) < rank(number)
     }
 }
 

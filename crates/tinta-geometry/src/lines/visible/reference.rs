@@ -58,7 +58,7 @@ pub(in crate::lines) fn visible_lines(
             segments.extend(wanted.flat_map(|piece| lines.segments_of(index, piece)));
         }
         let labels = labels::labels(scene, &segments);
-        let mut segments = doubled::marked(segments, lines.space, progress)?;
+        let mut segments = doubled::marked(segments, scene_parts, lines.space, progress)?;
         scene_parts.put_looks(&mut segments);
         Ok(VisibleLines {
             size: scene.size,
