@@ -225,9 +225,9 @@ mod tests {
         std::fs::write(own.join("notes.txt"), "").unwrap();
         std::fs::write(own.join("border.frag"), "").unwrap();
         check_folder(folder.path().to_str().unwrap()).unwrap();
-        std::fs::write(own.join("zzz.vert"), "").unwrap();
+        std::fs::write(own.join("z-quite-different-name.vert"), "").unwrap();
         assert!(refused().ends_with(
-            "no style runs evangelista/zzz.vert; name it like the shader of glsl/ that it replaces, or remove it"
+            "no style runs evangelista/z-quite-different-name.vert; name it like the shader of glsl/ that it replaces, or remove it"
         ));
         std::fs::write(own.join("boarder.frag"), "").unwrap();
         assert!(refused().ends_with("no style runs evangelista/boarder.frag; did you mean evangelista/border.frag?"));
