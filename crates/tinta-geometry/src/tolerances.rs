@@ -12,6 +12,10 @@ pub const WELD: f64 = 1e-7;
 /// of a pixel of a picture a thousand wide, and far more than welding closes.
 pub const CRACK: f64 = 1e-4;
 
+/// Distance from a section's plane within which a vertex lies on it, a share of the bounding-box diagonal: a hundred thousand
+/// roundings of f64, and far less than a picture shows.
+pub const ON_PLANE: f64 = 1e-11;
+
 /// Largest `--weld`: a tenth of the model would no longer be a model.
 pub const LARGEST_WELD: f64 = 0.1;
 
