@@ -517,7 +517,7 @@ fn curves_and_points_are_inked_in_front_of_faces_and_beside_them_and_not_behind(
                     let style = Inking {
                         line_drawing,
                         has_joints,
-                        colors: colors.clone(),
+                        colors,
                         paint: PaintMode::None,
                         ..Inking::default()
                     };

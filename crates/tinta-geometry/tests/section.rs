@@ -4,10 +4,11 @@ extern crate tinta_geometry as tinta;
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 use tinta::edges::{EdgeList, Incidence};
 use tinta::mesh::{Curves, Cut, SECTION, SectionPlane};
 use tinta::settings::Value;
-use tinta::{LoadOptions, Mesh};
+use tinta::{CameraSettings, LineSettings, LoadOptions, Mesh, Scene, SceneSettings, VisibleLines};
 
 fn plane(text: &str) -> SectionPlane {
     SectionPlane::parse(text).unwrap_or_else(|_| panic!("{text}"))
@@ -250,4 +251,28 @@ fn planes_are_written_as_they_are_read_and_others_are_refused() {
     }
     let nan = SectionPlane { normal: DVec3::NAN, offset: 0.0 };
     assert!(prism(&square(1.0), 2.0).section(&nan).unwrap_err().to_string().starts_with("section"));
+}
+
+#[test]
+fn the_lines_of_the_cut_are_the_sections() {
+    let mut parts_seen = 0;
+    for text in ["y=0.5", "x=0.25", "1,1,0=0.75", "z=-0.5"] {
+        let plane = plane(text);
+        let (mesh, cut) = prism(&square(1.0), 1.0).section(&plane).unwrap();
+        assert_eq!(cut, Cut::Closed, "{text}");
+        for view in ["30,20", "-60,-15", "200,40"] {
+            let camera = CameraSettings { view: view.parse().unwrap(), ..CameraSettings::default() };
+            let settings = SceneSettings { camera, ..SceneSettings::default() };
+            let scene = Scene::new(vec![Arc::new(mesh.clone())], &settings).unwrap();
+            let lines = VisibleLines::of(&scene, &LineSettings::default()).unwrap();
+            for segment in &lines.segments {
+                let is_on_cut =
+                    segment.ends_world.iter().all(|end| (plane.normal.dot(*end) - plane.offset).abs() < 1e-6);
+                let name = &lines.parts[segment.part as usize].name;
+                assert_eq!(name == SECTION, is_on_cut, "{text} {view}: {segment:?}");
+                parts_seen += usize::from(is_on_cut);
+            }
+        }
+    }
+    assert!(parts_seen > 40, "{parts_seen}");
 }

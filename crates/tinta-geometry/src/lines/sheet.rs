@@ -41,6 +41,9 @@ const GAP: f64 = 0.08;
 const STRIP: f64 = 0.08;
 const TICK: f64 = 0.01;
 
+/// Height of its number, likewise.
+const DIGIT: f64 = 0.03;
+
 /// Most of the sheet's width that the scale bar takes.
 const BAR: f64 = 0.2;
 
@@ -120,14 +123,15 @@ impl VisibleLines {
         self.times.compared += view.times.compared;
     }
 
-    /// Adds the scale bar: a curve with its length in the model's units as a label.
+    /// Adds the scale bar, with its length in the model's units in strokes, which a pen and a picture of pixels draw too.
     fn put_bar(&mut self, layout: &Layout, size: Size) {
         let side = f64::from(size.width.min(size.height));
         let length = round_below(BAR * f64::from(size.width) / layout.px_per_unit);
         let from = DVec2::new(layout.origin_px.x, f64::from(size.height) - (BORDER + STRIP * 0.5) * side);
         let to = from + DVec2::X * (length * layout.px_per_unit);
         let tick = DVec2::Y * (TICK * side);
-        for ends_px in [[from - tick, from + tick], [from, to], [to - tick, to + tick]] {
+        let text = strokes(&length.to_string(), to + DVec2::new(0.5, -0.5) * (DIGIT * side), DIGIT * side);
+        for ends_px in [[from - tick, from + tick], [from, to], [to - tick, to + tick]].into_iter().chain(text) {
             self.segments.push(LineSegment {
                 class: Class::Curve,
                 is_visible: true,
@@ -143,8 +147,35 @@ impl VisibleLines {
                 look: 0,
             });
         }
-        self.labels.push(Label { text: length.to_string(), px: to, is_visible: true, object: 0 });
     }
+}
+
+/// Returns a number in strokes, from its upper left corner: digits of two squares, one above the other.
+fn strokes(number: &str, from: DVec2, height: f64) -> Vec<[DVec2; 2]> {
+    /// The corners of each digit's one line: x in halves of the height, y from the top in tenths of it.
+    const DIGITS: [&[[i8; 2]]; 10] = [
+        &[[0, 0], [1, 0], [1, 10], [0, 10], [0, 0]],
+        &[[0, 2], [1, 0], [1, 10]],
+        &[[0, 0], [1, 0], [1, 5], [0, 5], [0, 10], [1, 10]],
+        &[[0, 0], [1, 0], [1, 5], [0, 5], [1, 5], [1, 10], [0, 10]],
+        &[[0, 0], [0, 5], [1, 5], [1, 0], [1, 10]],
+        &[[1, 0], [0, 0], [0, 5], [1, 5], [1, 10], [0, 10]],
+        &[[1, 0], [0, 0], [0, 10], [1, 10], [1, 5], [0, 5]],
+        &[[0, 0], [1, 0], [1, 10]],
+        &[[0, 5], [0, 0], [1, 0], [1, 10], [0, 10], [0, 5], [1, 5]],
+        &[[1, 5], [0, 5], [0, 0], [1, 0], [1, 10], [0, 10]],
+    ];
+    const POINT: &[[i8; 2]] = &[[0, 9], [0, 10]];
+    let mut left = 0.0;
+    let mut all = Vec::new();
+    for sign in number.chars() {
+        // The number is written without an exponent.
+        let digit = sign.to_digit(10).map(|digit| DIGITS[digit as usize]);
+        let at = |[x, y]: [i8; 2]| from + DVec2::new(left + f64::from(x) * 0.5, f64::from(y) * 0.1) * height;
+        all.extend(digit.unwrap_or(POINT).windows(2).map(|ends| [at(ends[0]), at(ends[1])]));
+        left += if digit.is_some() { 0.75 } else { 0.25 };
+    }
+    all
 }
 
 /// The places of the views on a sheet.
@@ -252,8 +283,8 @@ mod tests {
             let (low, high) = crate::mesh::bounds(&corners(&scene));
             let centre = (low + high) * 0.5;
             let mut counts = [0; 4];
-            let bar = lines.segments.len() - 3;
-            for segment in &lines.segments[..bar] {
+            let of_views = |segment: &&LineSegment| segment.ends_world != [DVec3::ZERO; 2];
+            for segment in lines.segments.iter().filter(of_views) {
                 for (px, world) in segment.ends_px.into_iter().zip(segment.ends_world) {
                     let from = world - centre;
                     let side = if angle == ProjectionAngle::Third { -from.z } else { from.z };
@@ -274,9 +305,17 @@ mod tests {
     #[test]
     fn the_scale_bar_has_the_length_it_says() {
         let (lines, layout, ..) = found(ProjectionAngle::Third);
-        let [.., bar, _] = &lines.segments[..] else { panic!("three pieces") };
-        let said: f64 = lines.labels[0].text.parse().unwrap();
-        assert!((bar.ends_px[0].distance(bar.ends_px[1]) / layout.px_per_unit - said).abs() < 1e-9 * said);
+        let bar = lines.segments.iter().position(|segment| segment.ends_world == [DVec3::ZERO; 2]).unwrap();
+        let drawn: Vec<_> = lines.segments[bar..].iter().map(|segment| segment.ends_px).collect();
+        let length = drawn[1][0].distance(drawn[1][1]) / layout.px_per_unit;
+        let said = format!("{}", (length * 1e9).round() * 1e-9);
+        let height = drawn[3..].iter().flatten().map(|end| end.y - drawn[3][0].y).fold(0.0, f64::max);
+        assert!(height > 5.0);
+        let corner = drawn[1][1] + DVec2::new(0.5, -0.5) * height;
+        let expected = strokes(&said, corner, height);
+        assert_eq!(expected.len(), drawn.len() - 3, "{said}");
+        let ends = expected.iter().flatten().zip(drawn[3..].iter().flatten());
+        assert!(ends.into_iter().all(|(expected, drawn)| expected.distance(*drawn) < 1e-6), "{said}");
         for (number, round) in [(7.3, 5.0), (4.99, 2.0), (1.0, 1.0), (0.034, 0.02), (99.0, 50.0), (1e-7, 1e-7)] {
             assert_eq!(round_below(number), round);
         }

@@ -6,7 +6,7 @@
 use super::normals::Splitting;
 use super::pieces::Pieces;
 use super::soup::{Corner, Soup};
-use super::{Curves, Defects, LoadOptions, LoadStage, Mesh, NONE, Normals, normals, options, weld};
+use super::{Curves, Cut, Defects, LoadOptions, LoadStage, Mesh, NONE, Normals, normals, options, weld};
 use crate::error::{Error, Result};
 use crate::limits::{CONCAVE_CORNERS, CROSSING_CORNERS};
 use crate::tolerances::LARGEST_COORDINATE;
@@ -76,14 +76,15 @@ impl Mesh {
 impl Soup {
     /// Makes the mesh. Fails if no triangle is left to draw, or with `options.strict` on any defect.
     pub(super) fn into_mesh(self, name: &str, options: &LoadOptions) -> Result<Mesh> {
-        self.into_mesh_watched(name, options, &|_| {})
+        self.into_mesh_watched(name, options, &mut Vec::new(), &|_| {})
     }
 
-    /// Makes the mesh and reports when only the normals remain.
+    /// Makes the mesh, with remarks on its section, and reports when only the normals remain.
     pub(super) fn into_mesh_watched(
         mut self,
         name: &str,
         options: &LoadOptions,
+        remarks: &mut Vec<String>,
         watch: &dyn Fn(LoadStage),
     ) -> Result<Mesh> {
         for position in &mut self.positions {
@@ -157,6 +158,15 @@ impl Soup {
         mesh.take_normals(&self.normals, &pieces.face_normals, options);
         if options.strict && !mesh.defects.is_empty() {
             return Err(Error::Strict { path: name.into(), defects: mesh.defects.to_string() });
+        }
+        let Some(plane) = &options.section else { return Ok(mesh) };
+        let (mesh, cut) = mesh.section(plane)?;
+        match cut {
+            Cut::Closed => {}
+            Cut::Missed => remarks.push(format!("{name}: the section's plane meets nothing to cut away; move the plane")),
+            Cut::Open => remarks.push(format!(
+                "{name}: the surface is open, or its faces disagree on the outside, where --section cuts it; no faces close the cut there"
+            )),
         }
         Ok(mesh)
     }

@@ -176,7 +176,7 @@ fn made(
     let frames = std::mem::take(&mut soup.frames);
     let files = std::mem::take(&mut soup.files);
     let other_up = soup.other_up.filter(|_| options.up_axis == UpAxis::Auto);
-    let mesh = soup.into_mesh_watched(path, options, watch)?;
+    let mesh = soup.into_mesh_watched(path, options, &mut remarks, watch)?;
     if let Some(up) =
         other_up.filter(|_| !mesh.triangles.is_empty()).filter(|up| up_axis_guess::seems_to_lie(&mesh, *up))
     {

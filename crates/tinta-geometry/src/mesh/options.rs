@@ -1,6 +1,6 @@
 //! The options and stages of reading a model.
 
-use super::ModelFrame;
+use super::{ModelFrame, SectionPlane};
 use crate::error::{Error, Result};
 use crate::settings::{HasSettings, Setting, Table, under};
 use crate::tolerances::{LARGEST_WELD, WELD};
@@ -32,6 +32,8 @@ pub struct LoadOptions {
     /// Whether the model may name files outside its folder: materials, data and pictures. Default: no. Such files, named by
     /// `..`, absolutely or through links, are skipped with a remark.
     pub allow_external: bool,
+    /// The plane in front of which the model is cut away. Default: none.
+    pub section: Option<SectionPlane>,
 }
 
 impl Default for LoadOptions {
@@ -45,6 +47,7 @@ impl Default for LoadOptions {
             model_frame: ModelFrame::default(),
             skin: None,
             allow_external: false,
+            section: None,
         }
     }
 }
@@ -107,6 +110,14 @@ impl LoadOptions {
                 |load: &mut Self| &mut load.skin,
             )
             .said("the picture that the model names"),
+            Setting::open_field(
+                "section",
+                "PLANE",
+                "",
+                "Cut away all beyond a plane, such as x=12 or 1,1,0=5, in the coordinates of --eye; cut faces are the part section",
+                |load: &mut Self| &mut load.section,
+            )
+            .said("nothing is cut away"),
             Setting::flag(
                 "allow-external",
                 "Also read material files, data and pictures outside the model's folder",

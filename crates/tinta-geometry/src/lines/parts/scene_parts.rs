@@ -6,7 +6,7 @@ use crate::lines::parts::pattern::Named;
 use crate::lines::parts::rules::PartRules;
 use crate::lines::parts::style::{PartRole, PartStyle};
 use crate::lines::{LineSegment, LineSettings};
-use crate::mesh::{Mesh, NONE};
+use crate::mesh::{Mesh, NONE, SECTION};
 use crate::scene::Scene;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -156,9 +156,10 @@ impl SceneParts {
     }
 
     /// The part to which a line of several parts belongs: the first that is drawn and hides others, or else the first that is
-    /// drawn.
+    /// drawn. A section's cut comes before all others: its outline is the cut's.
     pub(in crate::lines) fn owner(&self, parts: impl Iterator<Item = u32>) -> u32 {
-        parts.min_by_key(|part| self.role(*part) as u8).unwrap_or(0)
+        let is_of_section = |part: u32| self.list.get(part as usize).is_some_and(|part| part.name == SECTION);
+        parts.min_by_key(|part| (self.role(*part) as u8, !is_of_section(*part))).unwrap_or(0)
     }
 
     /// The classes of a part's lines: none if it is not drawn.
