@@ -1,7 +1,7 @@
 //! A pixel explained in words: pass by pass, statement by statement, beside the driver's value and the exact lines.
 
 use super::{
-    AgainstLines, Comparison, Event, Explainer, PixelStep, Recomputation, Sample, Verdict, What, against_lines, flips,
+    AgainstLines, Event, Explainer, PixelStep, Recomputation, Sample, Verdict, What, against_lines, flips,
     is_background,
 };
 use crate::error::{Error, Result};
@@ -152,9 +152,7 @@ impl Explanation {
         match &event.what {
             What::Set { variable, value } => format!("{variable} = {value}"),
             What::Branched { is_taken, compared: None } => format!("the condition is {is_taken}"),
-            What::Branched { is_taken, compared: Some(Comparison { left, operator, right }) } => {
-                format!("{left:.6} {operator} {right:.6} is {is_taken}")
-            }
+            What::Branched { is_taken, compared: Some(compared) } => format!("{} is {is_taken}", compared.in_words(6)),
             What::Read { texture, sample, .. } => format!("{texture} {}", of_sample(sample, self.place_in_textures)),
             What::Returned { function, value } => format!("{function} returns {value}"),
             What::Discarded => "the pixel stays as it was".to_owned(),

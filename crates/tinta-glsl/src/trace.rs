@@ -59,6 +59,18 @@ pub struct Event {
     pub what: What,
 }
 
+impl Comparison {
+    /// The comparison with this many decimals, or with as many more as tell its numbers apart.
+    pub fn in_words(&self, decimals: usize) -> String {
+        /// As many as tell any two numbers apart that a shader compares.
+        const MOST: usize = 17;
+        let text = |decimals: usize| [self.left, self.right].map(|number| format!("{number:.decimals$}"));
+        let differ = |decimals: &usize| self.left == self.right || text(*decimals)[0] != text(*decimals)[1];
+        let [left, right] = text((decimals..MOST).find(differ).unwrap_or(MOST));
+        format!("{left} {} {right}", self.operator)
+    }
+}
+
 /// What a statement did.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -139,5 +151,19 @@ pub trait Textures {
 impl Textures for () {
     fn read(&self, _: usize, _: [f64; 2]) -> Option<Sample> {
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_that_differ_are_told_apart() {
+        let told = |left: f64, right: f64| Comparison { left, operator: ">=", right }.in_words(4);
+        assert_eq!(told(0.25, 0.8), "0.2500 >= 0.8000");
+        assert_eq!(told(0.8, 0.8), "0.8000 >= 0.8000");
+        assert_eq!(told(0.799_999_6, 0.8), "0.7999996 >= 0.8000000");
+        assert_eq!(told(f64::NAN, 0.8), "NaN >= 0.8000");
     }
 }

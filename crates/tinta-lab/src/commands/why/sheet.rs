@@ -230,9 +230,7 @@ impl<'a> Sheet<'a> {
         };
         let text = match &event.what {
             What::Read { texture, sample, .. } => of_sample(texture, sample, self.why.place_in_textures),
-            What::Branched { compared: Some(Comparison { left, operator, right }), is_taken } => {
-                format!("{left:.4} {operator} {right:.4} is {is_taken}")
-            }
+            What::Branched { compared: Some(compared), is_taken } => format!("{} is {is_taken}", compared.in_words(4)),
             _ => self.why.in_words(event),
         };
         if let Some(color) = swatch {
