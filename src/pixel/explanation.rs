@@ -10,10 +10,10 @@ use crate::plan::Plan;
 use crate::renderer::{Renderer, StepValues};
 use crate::scene::{Rectangle, Scene, Size};
 use crate::styles::{Show, Style};
-use crate::threads::both;
 use glam::DVec2;
 use serde::Serialize;
 use std::fmt::{Display, Formatter, Write};
+use tinta_geometry::threads::both;
 
 /// How far around the pixel the buffers are read back: further than any of the styles' shaders reads.
 const MARGIN_PX: u32 = 72;
