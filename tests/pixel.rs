@@ -275,3 +275,24 @@ fn charcoal_differs_from_exact_arithmetic_by_the_filter_s_eight_bits() {
     // 9 and 1541 of all 9216 pixels.
     assert!(by_bytes <= 9 && exactly > 300, "{by_bytes} and {exactly} pixels");
 }
+
+#[test]
+fn of_discarded_triangles_the_nearest_is_told() {
+    let mut renderer = renderer(BACKENDS[0]);
+    let size = Size { width: 64, height: 64 };
+    let scene = scene_with("builtin:gear", SceneSettings { size, ..SceneSettings::default() });
+    let text = "#version 120\nvoid main() { discard; }\n".to_owned();
+    renderer.replace_shaders([("phong/phong.frag".to_owned(), text)].into()).unwrap();
+    let style = Style::named(StyleName::Phong);
+    let mut several = 0;
+    for [x, y] in [[20, 30], [32, 20], [40, 40], [44, 30], [25, 45]] {
+        let place = DVec2::new(f64::from(x), f64::from(y));
+        let why = Explanation::without_lines(&style, &scene, &mut renderer, place).unwrap();
+        for step in why.steps.iter().filter(|step| step.fragments.len() > 1) {
+            let told = step.decisive().unwrap();
+            assert!(step.fragments.iter().all(|other| other.depth >= told.depth), "{x},{y}");
+            several += 1;
+        }
+    }
+    assert!(several >= 3, "{several}");
+}

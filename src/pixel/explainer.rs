@@ -43,10 +43,11 @@ pub struct PixelStep {
 }
 
 impl PixelStep {
-    /// The triangle that decides on the pixel: the last one written, or else the last one discarded.
+    /// The triangle that decides on the pixel: the last one written, or else the nearest one discarded.
     pub fn decisive(&self) -> Option<&Fragment> {
-        let last = |is_it: fn(&Fragment) -> bool| self.fragments.iter().rfind(|fragment| is_it(fragment));
-        last(Fragment::is_written).or_else(|| last(|fragment| fragment.is_discarded))
+        let discarded = self.fragments.iter().filter(|fragment| fragment.is_discarded);
+        let nearest = discarded.min_by(|a, b| a.depth.total_cmp(&b.depth));
+        self.fragments.iter().rfind(|fragment| fragment.is_written()).or(nearest)
     }
 }
 

@@ -35,7 +35,7 @@ pub struct Variable {
     pub not_finite: usize,
     /// The smallest and the largest finite number of all its components.
     pub range: [f64; 2],
-    /// The numbers that are black and white in its picture: 0 and 1, if no number lies outside, or else the range.
+    /// The numbers that are black and white in its picture: 0 and 1, if none that it shows lies outside, or else the range of those.
     pub shown: [f64; 2],
     /// For each pixel, top row first: its numbers, one to four; `None` where no statement set it.
     #[serde(skip)]
@@ -89,11 +89,15 @@ impl Variable {
         size: Size,
         values: Vec<Option<Value>>,
     ) -> Self {
-        let numbers = || values.iter().flatten().flat_map(|value| value.numbers().iter().copied());
-        let finite = || numbers().filter(|number| number.is_finite());
-        let range = [finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max)];
-        let range = if range[0] <= range[1] { range } else { [0.0, 0.0] };
-        let is_shown_as_is = range[0] >= 0.0 && range[1] <= 1.0;
+        let range_of = |most: usize| {
+            let numbers = || values.iter().flatten().flat_map(|value| value.numbers().iter().copied().take(most));
+            let finite = || numbers().filter(|number| number.is_finite());
+            let range = [finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max)];
+            if range[0] <= range[1] { range } else { [0.0, 0.0] }
+        };
+        // A fourth number is not shown.
+        let (range, in_picture) = (range_of(4), range_of(3));
+        let is_shown_as_is = in_picture[0] >= 0.0 && in_picture[1] <= 1.0;
         let is_not_finite = |value: &&Value| value.numbers().iter().any(|number| !number.is_finite());
         Self {
             name,
@@ -104,7 +108,7 @@ impl Variable {
             pixels: values.iter().flatten().count(),
             not_finite: values.iter().flatten().filter(is_not_finite).count(),
             range,
-            shown: if is_shown_as_is { [0.0, 1.0] } else { range },
+            shown: if is_shown_as_is { [0.0, 1.0] } else { in_picture },
             values,
         }
     }
@@ -228,6 +232,9 @@ mod tests {
         assert_eq!(wide.picture().pixels[8..12], NOT_FINITE);
         let color = variable(&[Some(Value::floats(&[-1.0, 0.0, 1.0, 0.5]))]);
         assert_eq!(color.picture().pixels, [0, 128, 255, 255]);
+        let with_fourth = variable(&[Some(Value::floats(&[0.2, 0.4, 0.6, 5.0]))]);
+        assert_eq!((with_fourth.shown, with_fourth.range), ([0.0, 1.0], [0.2, 5.0]));
+        assert_eq!(with_fourth.picture().pixels, [51, 102, 153, 255]);
         let constant = variable(&[grey(7.0)]);
         assert_eq!(constant.picture().pixels[3], 255);
     }
