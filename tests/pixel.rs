@@ -285,14 +285,15 @@ fn of_discarded_triangles_the_nearest_is_told() {
     renderer.replace_shaders([("phong/phong.frag".to_owned(), text)].into()).unwrap();
     let style = Style::named(StyleName::Phong);
     let mut several = 0;
-    for [x, y] in [[20, 30], [32, 20], [40, 40], [44, 30], [25, 45]] {
+    for [x, y] in (16..48).step_by(4).flat_map(|x| (16..48).step_by(4).map(move |y| [x, y])) {
         let place = DVec2::new(f64::from(x), f64::from(y));
-        let why = Explanation::without_lines(&style, &scene, &mut renderer, place).unwrap();
+        // Some are background.
+        let Ok(why) = Explanation::without_lines(&style, &scene, &mut renderer, place) else { continue };
         for step in why.steps.iter().filter(|step| step.fragments.len() > 1) {
             let told = step.decisive().unwrap();
             assert!(step.fragments.iter().all(|other| other.depth >= told.depth), "{x},{y}");
             several += 1;
         }
     }
-    assert!(several >= 3, "{several}");
+    assert!(several > 20, "{several}");
 }
