@@ -227,7 +227,7 @@ pub struct EdgeRun {
     pub color: [f32; 4],
     /// Both ends of each, as indices into [`EdgeRun::vertices`].
     pub ends: Vec<[u32; 2]>,
-    /// Separate vertices for lines that run through faces, in the form of [`crate::mesh::VertexArrays::vertices`]; `None` for
+    /// Separate vertices for lines that run through faces or belong to none, in the form of [`crate::mesh::VertexArrays::vertices`]; `None` for
     /// lines on the object's vertices.
     pub own_vertices: Option<Vec<[f32; 6]>>,
 }

@@ -14,6 +14,8 @@ use std::collections::{HashMap, HashSet};
 /// The name of the part that holds the cut's faces.
 pub const SECTION: &str = "section";
 
+const NO_PLANE: &str = "its numbers must be finite, and its normal not 0";
+
 const AXES: [(&str, DVec3); 6] = [
     ("x", DVec3::X),
     ("y", DVec3::Y),
@@ -54,7 +56,7 @@ impl Value for SectionPlane {
         let offset: f64 = offset.trim().parse().map_err(|_| problem().to_owned())?;
         let plane = Self { normal, offset };
         if plane.unit().is_none() {
-            return Err("its numbers must be finite, and its normal not 0".to_owned().into());
+            return Err(NO_PLANE.to_owned().into());
         }
         Ok(plane)
     }
@@ -88,7 +90,7 @@ impl Mesh {
     /// [`Error::Setting`] if the plane is none, or leaves nothing.
     pub fn section(self, plane: &SectionPlane) -> Result<(Self, Cut)> {
         let Some(unit) = plane.unit() else {
-            return Err(Error::setting("section", "its numbers must be finite, and its normal not 0"));
+            return Err(Error::setting("section", NO_PLANE));
         };
         let (low, high) = self.extent();
         let tolerance = (high - low).length() * ON_PLANE;
