@@ -12,6 +12,7 @@ use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
 use crate::lines::visible::projected_face::ProjectedFace;
 use crate::lines::visible::ranges::{gaps, hold, united};
+use crate::tolerances::CONTACT;
 
 /// The parts of a line that are hidden, and those that may be.
 #[derive(Default)]
@@ -121,9 +122,11 @@ impl LineIndex<'_> {
         }
         let feature = &self.features[index];
         let line = ProbedLine::new(self.faces, feature.own, feature.ends, feature.weld);
+        // A face that the line ends on may lie a little behind one of its ends.
+        let slack = image.keys.map(f64::abs).into_iter().fold(0.0, f64::max) * (2.0 * CONTACT);
         let mut walk = CoverWalk {
             lines: self,
-            line: self.line(image, search_depth, 0.0),
+            line: self.line(image, search_depth, slack),
             probe: OccluderProbe::new(self.space, (line, feature.ends), image, inside, search_depth),
             cover,
             least,
