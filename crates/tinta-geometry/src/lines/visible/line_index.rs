@@ -80,7 +80,7 @@ impl<'a> LineIndex<'a> {
         let images: Vec<Option<Image>> = features.iter().map(image).collect();
         let side = space.size.max_element();
         let high_valence = high_valence(features);
-        let occluders = Occluders::new(space, faces, pyramid, nearest_faces.is_some());
+        let occluders = nearest_faces.is_some().then(|| Occluders::new(space, faces, pyramid));
         // Where many faces overlap, many lines search the same box.
         let rim_px = side / PARTS_OF_PICTURE / if nearest_faces.is_some() { 4.0 } else { 1.0 };
         let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {

@@ -40,8 +40,8 @@ impl Own {
     /// the end for sure.
     pub(in crate::lines) fn tip(self, space: &Space, length_px: f64) -> f64 {
         match self {
-            Self::Edge(_) => 0.0,
-            Self::Faces(_) | Self::Free => TIP * space.size.max_element() / length_px,
+            Self::Edge(_) | Self::Free => 0.0,
+            Self::Faces(_) => TIP * space.size.max_element() / length_px,
         }
     }
 }

@@ -154,28 +154,27 @@ impl LineIndex<'_> {
         CONTACT * length(first).min(length(second)) + first.weld.min(second.weld) + 4.0 * self.space.noise
     }
 
-    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many. Where only
-    /// what is seen counts, not of those that are farther away for sure.
+    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near: all, or only the first line's.
+    /// Returns whether it stopped at the first. Where only what is seen counts, leaves out those that are farther away for sure.
     pub(in crate::lines) fn add_overlaps(
         &self,
         index: usize,
         image: &Image,
         overlapping: &OverlappingLines,
         part: [f64; 2],
-        most: usize,
+        stops_at_first: bool,
         cuts: &mut Vec<f64>,
     ) -> bool {
         let touch_px = image.touch_px(self.space);
-        let mut count = 0;
         self.any_overlapping(image, overlapping, part, |other_index| {
             let changes_nothing = |other: &Image| !self.finds_hidden && self.is_farther(other_index, other, image);
             if let Some(other) =
                 self.images[other_index].filter(|other| other_index != index && !changes_nothing(other))
             {
                 self.add_crossings(image, &other, touch_px.max(other.touch_px(self.space)), false, cuts);
-                count += 1;
+                return stops_at_first;
             }
-            count > most
+            false
         })
     }
 
