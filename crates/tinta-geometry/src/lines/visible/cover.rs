@@ -8,7 +8,7 @@
 use crate::bvh::{Box3, Exclusion, Line3, Walk};
 use crate::lines::visible::faces::ProbedLine;
 use crate::lines::visible::image::Image;
-use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
+use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
 use crate::lines::visible::projected_face::ProjectedFace;
 use crate::lines::visible::ranges::{gaps, hold, united};
@@ -69,8 +69,6 @@ struct CoverWalk<'a> {
     probe: OccluderProbe,
     cover: Cover,
     least: f64,
-    /// Whether the line's box tells as much as the line.
-    is_short: bool,
     remembered: [Option<u32>; REMEMBERED],
 }
 
@@ -79,9 +77,8 @@ impl Walk for CoverWalk<'_> {
         if !self.line.is_near(around) {
             return false;
         }
-        let is_whole = self.cover.hidden.is_empty();
         let reaches = |[from, to]: [f64; 2]| self.cover.open.iter().any(|open| open[0] <= to && open[1] >= from);
-        self.is_short && is_whole || self.line.range(around).is_some_and(reaches)
+        self.line.range(around).is_some_and(reaches)
     }
 
     fn visit(&mut self, face: u32) -> bool {
@@ -130,7 +127,6 @@ impl LineIndex<'_> {
             probe: OccluderProbe::new(self.space, (line, feature.ends), image, inside, search_depth),
             cover,
             least,
-            is_short: image.length() * PARTS_OF_PICTURE < self.space.size.max_element(),
             remembered: [None; REMEMBERED],
         };
         self.walk_occluders(Exclusion::planes(feature.planes), &mut walk);
@@ -154,10 +150,6 @@ impl LineIndex<'_> {
 
     /// The part of a line that a face hides for sure, on both sides, and the part that it may hide.
     fn hidden_ranges(&self, face: u32, probe: &OccluderProbe) -> [Option<[f64; 2]>; 2] {
-        if let Some(nearest_faces) = self.nearest_faces {
-            let image = nearest_faces.image(self.space, self.faces, face);
-            return self.faces.hidden_ranges(self.space, face, &image, probe);
-        }
         // Most faces lie beside the line. This test is the cheapest.
         let points = self.faces.corners(face).map(|corner| self.space.project(corner).0);
         if self.faces.cut_by_near.is_empty() && probe.is_beside(self.space, points) {

@@ -9,7 +9,7 @@ use crate::lines::segment::LineSegment;
 use crate::lines::visible::cover::Cover;
 use crate::lines::visible::image::Image;
 use crate::lines::visible::interval::Interval;
-use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
+use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::SearchDepth;
 use crate::lines::visible::overlapping_lines::OverlappingLines;
 use crate::threads::{cores, spread_chunks};
@@ -77,12 +77,7 @@ impl LineIndex<'_> {
         }
         self.add_piercings(index, &image, &mut cuts);
         if self.finds_hidden {
-            // The box of one that is upright or level holds no other.
-            let is_thin = (image.b - image.a).abs().min_element() < 1.0;
-            let longest = if is_thin { f64::INFINITY } else { self.space.size.max_element() / PARTS_OF_PICTURE };
-            for part in image.parts(inside, longest) {
-                self.add_overlaps(index, &image, &overlapping, part, false, &mut cuts);
-            }
+            self.add_overlaps(index, &image, &overlapping, inside, false, &mut cuts);
         }
         let mut pieces: Vec<Interval> = Vec::new();
         let places = self.places(&image, inside, cuts);
