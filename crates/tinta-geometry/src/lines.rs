@@ -229,7 +229,7 @@ impl VisibleLines {
             &faces,
             &lines,
             &intersections.piercings,
-            (pyramid.as_ref(), nearest_faces.as_ref()),
+            (pyramid.as_ref(), nearest_faces.is_some()),
             settings,
             progress,
         )?;

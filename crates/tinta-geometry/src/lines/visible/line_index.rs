@@ -10,7 +10,6 @@ use crate::lines::visible::bundles::Bundles;
 use crate::lines::visible::faces::{Faces, Own, Probe, ProbedLine};
 use crate::lines::visible::image::{Image, LineParts, LineTree};
 use crate::lines::visible::intersections::Piercing;
-use crate::lines::visible::nearest_faces::NearestFaces;
 use crate::lines::visible::occluders::Occluders;
 use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
@@ -33,8 +32,6 @@ pub(in crate::lines) struct LineIndex<'a> {
     pub(in crate::lines) rims: LineTree,
     /// The faces that may hide lines, in parts; `None` where the faces' own tree serves.
     occluders: Option<Occluders>,
-    /// The nearest face at each sample; `None` where few faces overlap in the picture.
-    pub(in crate::lines) nearest_faces: Option<&'a NearestFaces>,
     /// The wanted lines, with the direction of their images as the third coordinate: the candidates for overlapping lines.
     pub(in crate::lines) overlapping: LineTree,
     /// Bundles of many overlapping lines.
@@ -64,7 +61,7 @@ impl<'a> LineIndex<'a> {
         faces: &'a Faces,
         features: &'a [Feature],
         piercings: &[Piercing],
-        (pyramid, nearest_faces): (Option<&'a Pyramid>, Option<&'a NearestFaces>),
+        (pyramid, are_many_layers): (Option<&'a Pyramid>, bool),
         settings: &LineSettings,
         progress: &Progress,
     ) -> Result<Self> {
@@ -78,7 +75,7 @@ impl<'a> LineIndex<'a> {
         let images: Vec<Option<Image>> = features.iter().map(image).collect();
         let side = space.size.max_element();
         let high_valence = high_valence(features);
-        let occluders = nearest_faces.is_some().then(|| Occluders::new(space, faces, pyramid));
+        let occluders = are_many_layers.then(|| Occluders::new(space, faces, pyramid));
         let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
             let (mut rims, mut overlapping) = (LineParts::default(), LineParts::default());
             for index in range {
@@ -129,7 +126,6 @@ impl<'a> LineIndex<'a> {
             piercings: pierced,
             rims: rims.tree(progress),
             occluders,
-            nearest_faces,
             overlapping: overlapping.tree(progress),
             bundles,
             shortest_px: SHORTEST_LINE * side,

@@ -116,7 +116,7 @@ pub(in crate::lines) fn with_lines<T>(
     all.extend(features::free_features(&space, all_parts, settings, &mut edges)?);
     all.extend(features::near_plane_features(&space, &faces));
     let piercings = &crossing_faces.piercings;
-    let lines = LineIndex::new(&space, &faces, &all, piercings, (None, None), settings, progress)?;
+    let lines = LineIndex::new(&space, &faces, &all, piercings, (None, false), settings, progress)?;
     progress.go_on()?;
     decide(Undecided { lines: &lines, parts: &parts, scene_parts: &scene_parts, edges })
 }
