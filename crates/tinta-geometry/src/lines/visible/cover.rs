@@ -98,9 +98,9 @@ impl Walk for CoverWalk<'_> {
 }
 
 impl LineIndex<'_> {
-    /// Returns the cover of a line before any test: any face may hide it. Some parts are known to be hidden.
-    pub(in crate::lines) fn unknown_cover(&self, inside: [f64; 2], hidden: &[[f64; 2]]) -> Cover {
-        Cover { hidden: hidden.to_vec(), maybe: vec![inside], open: gaps(inside, hidden) }
+    /// Returns the cover of a line before any test: any face may hide it.
+    pub(in crate::lines) fn unknown_cover(&self, inside: [f64; 2]) -> Cover {
+        Cover { hidden: Vec::new(), maybe: vec![inside], open: vec![inside] }
     }
 
     /// Returns the cover of a line between two places. Some parts are known to be hidden.
@@ -132,13 +132,6 @@ impl LineIndex<'_> {
         };
         self.walk_occluders(Exclusion::planes(feature.planes), &mut walk);
         walk.cover.sorted()
-    }
-
-    /// Hides the parts of a line that lie in the picture on nearer lines.
-    pub(in crate::lines) fn hide_all(&self, cover: Cover, image: &Image, hidden: Vec<[f64; 2]>) -> Cover {
-        let mut cover = cover;
-        hidden.into_iter().for_each(|part| cover.hide(part, self.shortest_px / image.length()));
-        cover.sorted()
     }
 
     /// Returns the line for tests against boxes: those that begin at most `slack` behind it count, or all at any depth.

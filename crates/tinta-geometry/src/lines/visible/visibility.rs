@@ -53,7 +53,6 @@ impl LineIndex<'_> {
     /// Adds the pieces of a line; `None`, and nothing, where the time is over before all are decided.
     fn add_segments(&self, index: usize, progress: &Progress, segments: &mut Vec<LineSegment>) -> Option<()> {
         let Some((image, inside)) = self.wanted(index) else { return Some(()) };
-        let behind = self.behind_nearest(index, &image, inside);
         let overlapping = match self.features[index].overlaps() {
             true => OverlappingLines::new(index, &image, inside),
             false => OverlappingLines::none(index, &image, inside),
@@ -62,17 +61,11 @@ impl LineIndex<'_> {
         let add = |cover: &Cover, most, cuts: &mut Vec<f64>| {
             cover.open.iter().any(|gap| self.add_cuts(index, &image, &overlapping, *gap, most, cuts))
         };
-        let mut cover = self.unknown_cover(inside, &behind);
+        let mut cover = self.unknown_cover(inside);
         if add(&cover, MOST, &mut cuts) {
             cuts.clear();
+            let behind = self.behind_overlapping_lines(index, &image, &overlapping, inside);
             cover = self.cover(index, &image, inside, &behind, SearchDepth::Nearer);
-            if !self.finds_hidden {
-                let mut hidden = Vec::new();
-                for gap in &cover.open {
-                    self.behind_overlapping_lines(index, &image, &overlapping, *gap, &mut hidden);
-                }
-                cover = self.hide_all(cover, &image, hidden);
-            }
             add(&cover, usize::MAX, &mut cuts);
         }
         if !self.finds_hidden && cover.open.is_empty() {
