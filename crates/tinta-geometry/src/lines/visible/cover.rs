@@ -98,9 +98,9 @@ impl Walk for CoverWalk<'_> {
 }
 
 impl LineIndex<'_> {
-    /// Returns the cover of a line before any test: any face may hide it.
-    pub(in crate::lines) fn unknown_cover(&self, inside: [f64; 2]) -> Cover {
-        Cover { hidden: Vec::new(), maybe: vec![inside], open: vec![inside] }
+    /// Returns the cover of a line before any test: any face may hide it. Some parts are known to be hidden.
+    pub(in crate::lines) fn unknown_cover(&self, inside: [f64; 2], hidden: &[[f64; 2]]) -> Cover {
+        Cover { hidden: hidden.to_vec(), maybe: vec![inside], open: gaps(inside, hidden) }
     }
 
     /// Returns the cover of a line between two places. Some parts are known to be hidden.

@@ -61,10 +61,10 @@ impl LineIndex<'_> {
         let add = |cover: &Cover, most, cuts: &mut Vec<f64>| {
             cover.open.iter().any(|gap| self.add_cuts(index, &image, &overlapping, *gap, most, cuts))
         };
-        let mut cover = self.unknown_cover(inside);
+        let behind = self.behind_overlapping_lines(index, &image, &overlapping, inside);
+        let mut cover = self.unknown_cover(inside, &behind);
         if add(&cover, MOST, &mut cuts) {
             cuts.clear();
-            let behind = self.behind_overlapping_lines(index, &image, &overlapping, inside);
             cover = self.cover(index, &image, inside, &behind, SearchDepth::Nearer);
             add(&cover, usize::MAX, &mut cuts);
         }
