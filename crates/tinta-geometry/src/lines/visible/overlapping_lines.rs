@@ -207,7 +207,8 @@ impl LineIndex<'_> {
         other_index: usize,
         part: [f64; 2],
     ) -> Option<[f64; 2]> {
-        let other = self.images[other_index].filter(|_| other_index != index)?;
+        let may_be_nearer = |other: &Image| other.keys[0].min(other.keys[1]) < image.keys[0].max(image.keys[1]);
+        let other = self.images[other_index].filter(|other| other_index != index && may_be_nearer(other))?;
         let range = image.overlap(&other, image.touch_px(self.space).max(other.touch_px(self.space)))?;
         let range = [range[0].max(part[0]), range[1].min(part[1])];
         let least = self.clearly_behind(index, &other);
