@@ -9,7 +9,7 @@ use crate::tolerances::CONTACT;
 use glam::DVec2;
 use std::cell::OnceCell;
 
-/// The lines that lie on one somewhere, looked for when somebody asks: of most hidden lines nobody does.
+/// The lines that lie on one somewhere, looked for once.
 pub(in crate::lines) struct OverlappingLines {
     /// The line with its image, and the places between which they matter.
     line: (usize, Image, [f64; 2]),
