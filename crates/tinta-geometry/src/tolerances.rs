@@ -100,11 +100,6 @@ pub const TOUCH: f64 = 1e-7;
 /// outline.
 pub const BESIDE: f64 = 1e-4;
 
-/// Distance along a line from a corner at its end, as a share of the picture's larger side. A face with that corner that hides
-/// the line beyond this distance hides it up to the corner. By the contact rule alone the line would reappear beside the
-/// corner.
-pub const NEAR_CORNER: f64 = 4e-5;
-
 /// Distance along an intersection of faces from its end, as a share of the picture's larger side. A face that hides the
 /// intersection beyond this distance hides it up to the end. Twenty times [`TOUCH`], and at 512 x 512 a fifth of [`JOINED_PX`].
 pub const TIP: f64 = 2e-6;

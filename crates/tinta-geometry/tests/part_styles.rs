@@ -116,8 +116,9 @@ fn other_parts_are_drawn_as_if_ghosts_were_not_there() {
             };
             *object = object.with_mesh(Arc::new(rest));
         }
-        let (ghosted, without) = (found(scene, "arm: ghost"), found(&without, ""));
-        changed.set(changed.get() + without_equal(&visible(&ghosted), &visible(&found(scene, ""))).len());
+        changed.set(
+            changed.get() + without_equal(&visible(&found(scene, "arm: ghost")), &visible(&found(scene, ""))).len(),
+        );
         // An edge that both share ends a surface where the other part is taken away.
         let is_shared = |segment: &LineSegment| {
             let mesh = &scene.objects[segment.object as usize].mesh;
@@ -127,16 +128,19 @@ fn other_parts_are_drawn_as_if_ghosts_were_not_there() {
                 ends.iter().all(|end| corners.iter().any(|corner| mesh.file_vertices[*corner as usize] == *end))
             })
         };
-        let is_compared = |lines: &VisibleLines, segment: &LineSegment| {
-            name(lines, segment) != "arm" && segment.class != Class::Intersection && !is_shared(segment)
-        };
-        let [with, without] = [&ghosted, &without].map(|lines| {
-            let mut visible = visible(lines);
-            visible.retain(|segment| is_compared(lines, segment));
-            visible
-        });
-        let only: Vec<_> = [without_equal(&with, &without), without_equal(&without, &with)].concat();
-        assert!(only.is_empty(), "{which}: {only:#?}");
+        for others in ["", "bolt 1: occlude-only"] {
+            let (ghosted, without) = (found(scene, &format!("{others}; arm: ghost")), found(&without, others));
+            let is_compared = |lines: &VisibleLines, segment: &LineSegment| {
+                name(lines, segment) != "arm" && segment.class != Class::Intersection && !is_shared(segment)
+            };
+            let [with, without] = [&ghosted, &without].map(|lines| {
+                let mut visible = visible(lines);
+                visible.retain(|segment| is_compared(lines, segment));
+                visible
+            });
+            let only: Vec<_> = [without_equal(&with, &without), without_equal(&without, &with)].concat();
+            assert!(only.is_empty(), "{which}, {others}: {only:#?}");
+        }
     });
     assert!(changed.get() > 100, "ghosts show what they hid: {} lines", changed.get());
 }

@@ -228,9 +228,8 @@ impl<'a> Explained<'a> {
         let LineIndex { space, faces, .. } = *self.lines;
         let probe = self.lines.probe(index, image, place);
         let depth = -probe.view.z;
-        let tie = space.tie_px(depth) / space.px_per_unit(depth);
         let face = |face: u32| {
-            let [left, right] = faces.hides(space, face, &probe, tie);
+            let [left, right] = faces.hides(space, face, &probe);
             let number = faces.numbers[face as usize];
             let object = self.first_faces.partition_point(|first| *first <= number) - 1;
             let corners = faces.corners(face);

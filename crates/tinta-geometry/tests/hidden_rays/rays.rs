@@ -172,8 +172,8 @@ impl<'a> Rays<'a> {
         corner.map_or(touch, |corner| touch * (point.distance(line.ends[corner]) / length).min(1.0))
     }
 
-    /// The state of one side of a line at a point. `middle` is the midpoint of the segment, where contact is decided.
-    fn side(&self, point: DVec3, aside: DVec3, middle: DVec3, line: &Line) -> Side {
+    /// The state of one side of a line at a point.
+    fn side(&self, point: DVec3, aside: DVec3, line: &Line) -> Side {
         let camera = &self.scene.camera;
         let moved = point + aside;
         let image = px(self.scene, moved);
@@ -193,7 +193,9 @@ impl<'a> Rays<'a> {
             }
             let share = face.normal.dot(p - moved) / face.normal.dot(to_eye);
             let hit = moved + to_eye * share;
-            if !share.is_finite() || share <= 0.0 || self.depth(hit) < camera.near {
+            // A line may touch the face here and lie behind it elsewhere: the whole line decides then.
+            let is_near = from_plane(point) <= 2.1 * self.touch(face, line, point) + self.noise;
+            if !share.is_finite() || (share <= 0.0 && !is_near) || self.depth(hit) < camera.near {
                 continue;
             }
             // How far inside the face the ray passes, pixels.
@@ -208,15 +210,10 @@ impl<'a> Rays<'a> {
             if inside_px < -0.1 * ASIDE_PX {
                 continue;
             }
-            // At the midpoint, twice the contact distance means no contact; at the segment's end the contact distance
-            // may be twice as large.
-            let [here, there] = [point, middle].map(|place| (from_plane(place), self.touch(face, line, place)));
-            if inside_px > 0.1 * ASIDE_PX && here.0 > 2.1 * here.1 + self.noise {
+            if inside_px > 0.1 * ASIDE_PX && !is_near {
                 return Side::Covered;
             }
-            if there.0 > 0.4 * there.1 {
-                side = Side::Unclear;
-            }
+            side = Side::Unclear;
         }
         side
     }
@@ -322,13 +319,12 @@ impl<'a> Rays<'a> {
         let length_px = length(piece);
         let along_px = (piece.ends_px[1] - piece.ends_px[0]) / length_px;
         let count = (length_px * 0.05).clamp(2.0, 6.0).ceil() as usize;
-        let middle = self.at(piece.ends_world, 0.5);
         for sample in 0..count {
             let share = (sample as f64 + random.number()) / count as f64;
             let place = share.clamp(FROM_ENDS_PX / length_px, 1.0 - FROM_ENDS_PX / length_px);
             let point = self.at(piece.ends_world, place);
             let aside = self.aside(point, along_px, ASIDE_PX);
-            let sides = [aside, -aside].map(|aside| self.side(point, aside, middle, &line));
+            let sides = [aside, -aside].map(|aside| self.side(point, aside, &line));
             let is_wrong = match piece.is_visible {
                 true => sides == [Side::Covered; 2],
                 false => sides.contains(&Side::Open) && !self.is_under_nearer(point, piece, lines),

@@ -97,7 +97,8 @@ pub(in crate::lines) fn edge_features(
             }
             let is_of_ghost = scene_parts.is_ghost(of_part);
             let is_end = || !of_edge.and(OCCLUDING).is_empty() || edge_on.binary_search(&edge).is_ok();
-            let occludes = !is_of_ghost && (is_end() || at_ghosts.binary_search(&edge).is_ok());
+            // The surface that ends at ghosts may belong to another part than the edge.
+            let occludes = at_ghosts.binary_search(&edge).is_ok() || (!is_of_ghost && is_end());
             let on_edge = contours.map_or(OnEdge::ByFaces, |contours| {
                 contours.parts[number].on_edge(space, &faces.positions, list, edge)
             });

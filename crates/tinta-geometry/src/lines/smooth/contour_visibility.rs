@@ -20,7 +20,7 @@
 //! A segment is cut where its image crosses nearer edges at which a surface ends or turns away, and where it passes
 //! through a face. Its midpoint decides each part.
 
-use crate::bvh::{Box3, NO_GROUP, steps};
+use crate::bvh::{NO_GROUP, steps};
 use crate::edges::Class;
 use crate::lines::LineSegment;
 use crate::lines::input::object_edges::ObjectEdges;
@@ -212,7 +212,8 @@ impl ContourLines<'_> {
             key,
             // The picture's y axis points down, that of eye space up.
             aside: DVec3::new(outwards.x, -outwards.y, 0.0),
-            line: ProbedLine::new(lines.faces, Own::Edge(own), ends, lines.faces.weld(part.first_position)),
+            line: ProbedLine::new(lines.faces, Own::Edge(own), ends, lines.faces.weld(part.first_position))
+                .without_ends(),
         }
     }
 
@@ -273,11 +274,8 @@ impl ContourLines<'_> {
     /// Calls `visit` with each face that hides a probe and its distance before the probe, until it returns true.
     pub(in crate::lines) fn any_hider(&self, probe: &Probe, mut visit: impl FnMut(u32, f64) -> bool) -> bool {
         let (space, faces) = (self.lines.space, self.lines.faces);
-        let tie_px = space.tie_px(-probe.view.z);
-        let column = Box3::new((probe.px - tie_px).extend(f64::NEG_INFINITY), (probe.px + tie_px).extend(probe.key));
-        let tie = tie_px / space.px_per_unit(-probe.view.z);
-        self.lines.any_occluder(&column, [NO_GROUP; 2], |face| {
-            if faces.hides(space, face, probe, tie) == [false; 2] {
+        self.lines.any_occluder(&probe.column(space), [NO_GROUP; 2], |face| {
+            if faces.hides(space, face, probe) == [false; 2] {
                 return false;
             }
             let [a, b, c] = faces.corners(face);

@@ -8,10 +8,11 @@
 use crate::bvh::{Box3, Exclusion, Line3, Walk};
 use crate::lines::visible::faces::ProbedLine;
 use crate::lines::visible::image::Image;
-use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
+use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
 use crate::lines::visible::projected_face::ProjectedFace;
 use crate::lines::visible::ranges::{gaps, hold, united};
+use crate::tolerances::CONTACT;
 
 /// The parts of a line that are hidden, and those that may be.
 #[derive(Default)]
@@ -68,8 +69,6 @@ struct CoverWalk<'a> {
     probe: OccluderProbe,
     cover: Cover,
     least: f64,
-    /// Whether the line's box tells as much as the line.
-    is_short: bool,
     remembered: [Option<u32>; REMEMBERED],
 }
 
@@ -78,9 +77,8 @@ impl Walk for CoverWalk<'_> {
         if !self.line.is_near(around) {
             return false;
         }
-        let is_whole = self.cover.hidden.is_empty();
         let reaches = |[from, to]: [f64; 2]| self.cover.open.iter().any(|open| open[0] <= to && open[1] >= from);
-        self.is_short && is_whole || self.line.range(around).is_some_and(reaches)
+        self.line.range(around).is_some_and(reaches)
     }
 
     fn visit(&mut self, face: u32) -> bool {
@@ -121,13 +119,14 @@ impl LineIndex<'_> {
         }
         let feature = &self.features[index];
         let line = ProbedLine::new(self.faces, feature.own, feature.ends, feature.weld);
+        // A face that the line ends on may lie a little behind one of its ends.
+        let slack = image.keys.map(f64::abs).into_iter().fold(0.0, f64::max) * (2.0 * CONTACT);
         let mut walk = CoverWalk {
             lines: self,
-            line: self.line(image, search_depth, 0.0),
+            line: self.line(image, search_depth, slack),
             probe: OccluderProbe::new(self.space, (line, feature.ends), image, inside, search_depth),
             cover,
             least,
-            is_short: image.length() * PARTS_OF_PICTURE < self.space.size.max_element(),
             remembered: [None; REMEMBERED],
         };
         self.walk_occluders(Exclusion::planes(feature.planes), &mut walk);
@@ -144,10 +143,6 @@ impl LineIndex<'_> {
 
     /// The part of a line that a face hides for sure, on both sides, and the part that it may hide.
     fn hidden_ranges(&self, face: u32, probe: &OccluderProbe) -> [Option<[f64; 2]>; 2] {
-        if let Some(nearest_faces) = self.nearest_faces {
-            let image = nearest_faces.image(self.space, self.faces, face);
-            return self.faces.hidden_ranges(self.space, face, &image, probe);
-        }
         // Most faces lie beside the line. This test is the cheapest.
         let points = self.faces.corners(face).map(|corner| self.space.project(corner).0);
         if self.faces.cut_by_near.is_empty() && probe.is_beside(self.space, points) {

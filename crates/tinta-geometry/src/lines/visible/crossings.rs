@@ -11,14 +11,15 @@ use crate::tolerances::CONTACT;
 use glam::DVec3;
 
 impl LineIndex<'_> {
-    /// Adds the places along a part of a line where what is seen of it may change; whether there are too many to look at all.
+    /// Adds the places along a part of a line where what is seen of it may change: all, or only the first. Returns whether it stopped
+    /// at the first.
     pub(in crate::lines) fn add_cuts(
         &self,
         index: usize,
         image: &Image,
         overlapping: &OverlappingLines,
         part: [f64; 2],
-        most: usize,
+        stops_at_first: bool,
         cuts: &mut Vec<f64>,
     ) -> bool {
         let feature = &self.features[index];
@@ -26,18 +27,17 @@ impl LineIndex<'_> {
         let keys = part.map(|place| image.key(place));
         let farthest = keys[0].max(keys[1]);
         let line = self.line(image, SearchDepth::Nearer, farthest.abs() * (2.0 * CONTACT));
-        let start = cuts.len();
         // Lines from one position cross nowhere else.
         let excluded = Exclusion { planes: feature.planes, high_valence: feature.own.corners(self.faces) };
-        let are_too_many = self.rims.any_along(line, part, excluded, |other_index| {
+        let is_cut = self.rims.any_along(line, part, excluded, |other_index| {
             if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
                 let touch_px = touch_px.max(other.touch_px(self.space));
                 let occludes = !feature.own.meets(self.features[other_index].own);
                 self.add_crossings(image, &other, touch_px, occludes, cuts);
             }
-            cuts.len() - start > most
+            stops_at_first && !cuts.is_empty()
         });
-        if are_too_many || (!self.finds_hidden && self.add_overlaps(index, image, overlapping, part, most, cuts)) {
+        if is_cut || (!self.finds_hidden && self.add_overlaps(index, image, overlapping, part, stops_at_first, cuts)) {
             return true;
         }
         if matches!(feature.own, Own::Edge(_)) {
@@ -49,7 +49,7 @@ impl LineIndex<'_> {
                 return false;
             }
             cuts.extend(self.piercing(feature.ends, face).map(|point| image.place_of(self.space.project(point).0)));
-            cuts.len() - start > most
+            stops_at_first && !cuts.is_empty()
         })
     }
 

@@ -17,7 +17,6 @@ use crate::memory;
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::SHORTEST_LINE;
 use glam::{DVec2, DVec3};
-use std::cell::LazyCell;
 use std::collections::HashMap;
 
 /// All lines with their images, ready for a decision on each.
@@ -44,9 +43,8 @@ pub(in crate::lines) struct LineIndex<'a> {
     on_surface: f64,
 }
 
-/// Parts along the picture's larger side. Long lines search for crossings part by part, because the box of a diagonal line
-/// overlaps too much.
-pub(in crate::lines) const PARTS_OF_PICTURE: f64 = 16.0;
+/// Parts along the picture's larger side into which rims are cut: the box of a diagonal one is mostly empty.
+const PARTS_OF_RIM: f64 = 16.0;
 
 /// Most bytes that a part of a line takes while its tree is built: box, nodes, numbers, and the builder's memory.
 const BYTES_A_PART: usize = 320;
@@ -77,9 +75,7 @@ impl<'a> LineIndex<'a> {
         let images: Vec<Option<Image>> = features.iter().map(image).collect();
         let side = space.size.max_element();
         let high_valence = high_valence(features);
-        let occluders = Occluders::new(space, faces, pyramid, nearest_faces.is_some());
-        // Where many faces overlap, many lines search the same box.
-        let rim_px = side / PARTS_OF_PICTURE / if nearest_faces.is_some() { 4.0 } else { 1.0 };
+        let occluders = nearest_faces.is_some().then(|| Occluders::new(space, faces, pyramid));
         let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
             let (mut rims, mut overlapping) = (LineParts::default(), LineParts::default());
             for index in range {
@@ -90,21 +86,20 @@ impl<'a> LineIndex<'a> {
                 let Some((image, range)) = image.and_then(|image| Some((image, image.inside(space.size, 1.0)?))) else {
                     continue;
                 };
-                let margin = image.noise_px;
-                let ends = |part: [f64; 2]| part.map(|place| (image.at(place), image.key(place)));
-                for part in image.parts(range, side / PARTS_OF_PICTURE) {
-                    let is_hidden = LazyCell::new(|| pyramid.is_some_and(|pyramid| pyramid.hides_line(ends(part))));
-                    // A rim that is hidden for sure changes no visible line. The outline needs rims at any depth.
-                    let is_rim = feature.occludes && (finds_outline || !*is_hidden);
-                    let is_beside = feature.overlaps() && (finds_hidden || !*is_hidden);
-                    for part in image.parts(part, rim_px).filter(|_| is_rim) {
-                        let around = image.part_box(part, margin, part.map(|place| image.key(place)));
+                let is_hidden = |part: [f64; 2]| {
+                    let ends = part.map(|place| (image.at(place), image.key(place)));
+                    pyramid.is_some_and(|pyramid| pyramid.hides_line(ends))
+                };
+                // A rim that is hidden for sure changes no visible line. The outline needs rims at any depth.
+                for part in image.parts(range, side / PARTS_OF_RIM).filter(|_| feature.occludes) {
+                    if finds_outline || !is_hidden(part) {
+                        let around = image.part_box(part, image.noise_px, part.map(|place| image.key(place)));
                         rims.add_of_groups(around, index, feature.plane, vertex_of(&high_valence, feature.own));
                     }
-                    if is_beside {
-                        for directions in image.directions(image.touch_px(space)) {
-                            overlapping.add(image.part_box(part, margin, directions), index);
-                        }
+                }
+                if feature.overlaps() && (finds_hidden || !is_hidden(range)) {
+                    for directions in image.directions(image.touch_px(space)) {
+                        overlapping.add(image.part_box(range, image.noise_px, directions), index);
                     }
                 }
             }

@@ -15,7 +15,6 @@ use crate::lines::visible::ranges::{gaps, united};
 use crate::lines::visible::space::Space;
 use crate::threads::{cores, in_chunks};
 use glam::{DVec2, DVec3};
-use std::borrow::Cow;
 
 /// How often the boxes of all faces must cover the picture before the samples are made.
 const LAYERS: f64 = 24.0;
@@ -29,10 +28,8 @@ const ROWS_AT_ONCE: usize = 32;
 /// Faces between two checks of the time.
 const FACES_A_GLANCE: u32 = 1024;
 
-/// The nearest faces, and the images of all.
+/// The nearest faces.
 pub(in crate::lines) struct NearestFaces {
-    /// By the faces' places; empty where the faces are too many to keep.
-    images: Vec<ProjectedFace>,
     sample_px: f64,
     columns: usize,
     /// Row by row; [`NO_GROUP`] marks an empty sample.
@@ -48,10 +45,9 @@ impl NearestFaces {
         if layers(space, faces.tree.boxes().iter()) < LAYERS {
             return None;
         }
-        let images = ProjectedFace::of_all(space, faces);
         let sample_px = space.size.max_element() / SAMPLES;
         let [columns, rows] = (space.size / sample_px).ceil().to_array().map(|count| count as usize);
-        let nearest_faces = Self { images, sample_px, columns, nearest: Vec::new() };
+        let nearest_faces = Self { sample_px, columns, nearest: Vec::new() };
         let bands = in_chunks(rows, ROWS_AT_ONCE, cores(), |rows| nearest_faces.band(space, faces, rows, progress));
         Some(Self { nearest: bands.concat(), ..nearest_faces })
     }
@@ -69,7 +65,7 @@ impl NearestFaces {
             if high.y < top_px || low.y > bottom_px || is_cut(face) || faces.is_ghost(face) {
                 continue;
             }
-            let image = self.image(space, faces, face);
+            let image = ProjectedFace::of(space, faces, face);
             // The samples whose middles lie between two places.
             let sample = |px: f64| (px / self.sample_px - 0.5).ceil().max(0.0) as usize;
             for row in sample(low.y).max(rows.start)..sample(high.y).min(rows.end) {
@@ -86,14 +82,6 @@ impl NearestFaces {
             }
         }
         nearest.into_iter().map(|(_, face)| face).collect()
-    }
-
-    /// Returns a face's image.
-    pub(in crate::lines) fn image(&self, space: &Space, faces: &Faces, face: u32) -> Cow<'_, ProjectedFace> {
-        match self.images.get(face as usize) {
-            Some(image) => Cow::Borrowed(image),
-            None => Cow::Owned(ProjectedFace::of(space, faces, face)),
-        }
     }
 
     /// Returns the nearest face at about a pixel.
@@ -129,7 +117,7 @@ impl NearestFaces {
                     continue;
                 };
                 known[number] = face;
-                let sure = faces.hidden_ranges(space, face, &self.image(space, faces, face), &asked)[0];
+                let sure = faces.hidden_ranges(space, face, &ProjectedFace::of(space, faces, face), &asked)[0];
                 if sure.is_some_and(|sure| best.is_none_or(|best| length(&sure) > length(&best))) {
                     best = sure;
                 }

@@ -2,12 +2,12 @@
 //!
 //! Plain linear equations decide both. The exact rules decide the rest; where the equations are sure, the exact rules agree.
 
-use crate::lines::visible::faces::{Contact, Faces, NO_POSITION, Own, ProbedLine};
+use crate::lines::visible::faces::{Contact, Faces, Own, ProbedLine};
 use crate::lines::visible::image::Image;
 use crate::lines::visible::projected_face::{ProjectedFace, ROUNDING};
 use crate::lines::visible::ranges::{above_zero, clipped, common};
 use crate::lines::visible::space::Space;
-use crate::tolerances::{NEAR_CORNER, TIP};
+use crate::tolerances::TIP;
 use glam::{DVec2, DVec3};
 
 /// The depths at which a search finds faces.
@@ -26,10 +26,6 @@ pub(in crate::lines) struct OccluderProbe {
     /// In the eye's space.
     view: [DVec3; 2],
     pub line: ProbedLine,
-    /// The positions at the part's ends, where it ends in positions.
-    corners: [u32; 2],
-    /// The distance from such a corner within which a hidden range of a face around the corner reaches it, shares of the line.
-    near_corner: f64,
     /// The distance from the part's ends within which any hidden range reaches them, shares of the line.
     tips: [f64; 2],
     touch_px: f64,
@@ -44,8 +40,8 @@ impl Own {
     /// the end for sure.
     pub(in crate::lines) fn tip(self, space: &Space, length_px: f64) -> f64 {
         match self {
-            Self::Edge(_) => 0.0,
-            Self::Faces(_) | Self::Free => TIP * space.size.max_element() / length_px,
+            Self::Edge(_) | Self::Free => 0.0,
+            Self::Faces(_) => TIP * space.size.max_element() / length_px,
         }
     }
 }
@@ -64,8 +60,6 @@ impl OccluderProbe {
         let is_at_end = [part[0] == 0.0 && is_at(0, image.a), part[1] == 1.0 && is_at(1, image.b)];
         Self {
             part,
-            corners: [0, 1].map(|end| if is_at_end[end] { line.own_ends[end] } else { NO_POSITION }),
-            near_corner: NEAR_CORNER * space.size.max_element() / length_px,
             tips: is_at_end.map(|is_at_end| if is_at_end { line.own.tip(space, length_px) } else { 0.0 }),
             px: part.map(|place| image.at(place)),
             view: part.map(|place| space.point(image.at(place), image.key(place))),
@@ -91,12 +85,10 @@ impl OccluderProbe {
         })
     }
 
-    /// Extends a range that a face hides to an end that is very near, or to a near end in one of the face's corners: the line and
-    /// the face touch there, and no third face comes between.
-    pub(in crate::lines) fn up_to_ends(&self, mut range: [f64; 2], corners: [u32; 3]) -> [f64; 2] {
+    /// Extends a range that a face hides to an end that is very near: no third face comes between.
+    fn up_to_ends(&self, mut range: [f64; 2]) -> [f64; 2] {
         for (end, place) in range.iter_mut().enumerate() {
-            let left = (*place - self.part[end]).abs();
-            if left <= self.tips[end] || left <= self.near_corner && corners.contains(&self.corners[end]) {
+            if (*place - self.part[end]).abs() <= self.tips[end] {
                 *place = self.part[end];
             }
         }
@@ -147,11 +139,14 @@ impl Faces {
         if !probe.is_nearer_sought {
             return [sure, may];
         }
-        let a = self.corners(face)[0];
         let contact = Contact::new(space, self, face, &probe.line, is_own);
-        let (normal, contacts) = (contact.normal, probe.view.map(|view| contact.at(view)));
-        let away = -normal.dot(space.to_eye(a)).signum();
-        let behind = probe.view.map(|view| normal.dot(view - a) * away);
+        let behind = probe.view.map(|view| contact.behind(view));
+        let sure = sure.map(|sure| probe.up_to_ends(sure));
+        match contact.hides_from(space, &probe.line) {
+            f64::NEG_INFINITY => return [sure, may],
+            f64::INFINITY => return NOTHING,
+            _ => {}
+        }
         // Converts places along the line to places along its image.
         let depths = probe.view.map(|view| if space.is_perspective() { -view.z } else { 1.0 });
         let place = |share: f64| {
@@ -161,10 +156,7 @@ impl Faces {
             let far = share * depths[1];
             probe.part[0] + (probe.part[1] - probe.part[0]) * (far / ((1.0 - share) * depths[0] + far))
         };
-        let clip = |range: Option<[f64; 2]>, times: f64| {
-            let behind = [0, 1].map(|end| behind[end] - times * contacts[end]);
-            common(range?, above_zero([0.0, 1.0], behind)?.map(place))
-        };
-        [clip(sure, 2.0).map(|sure| probe.up_to_ends(sure, self.triangles[face as usize])), clip(may, 0.5)]
+        let clip = |range: Option<[f64; 2]>| common(range?, above_zero([0.0, 1.0], behind)?.map(place));
+        [clip(sure), clip(may)]
     }
 }

@@ -4,8 +4,8 @@
 //! scene. So faces are halved across their longest sides until their parts are short. Parts that the
 //! [pyramid](crate::lines::visible::pyramid) hides are left out, because it hides everything behind them, too.
 //!
-//! Where many faces are seen edge-on, the hierarchy leaves those out. They have no image that could hide a line, and the lines in
-//! them overlap, where the search for the nearest line finds them.
+//! The hierarchy leaves out faces seen edge-on. They have no image that could hide a line, and the lines in them overlap, where the
+//! search for the nearest line finds them.
 
 use crate::bvh::{Box3, BoxTree, Exclusion, Walk};
 use crate::lines::visible::faces::Faces;
@@ -27,30 +27,13 @@ const LONGEST: f64 = 1.0 / 24.0;
 const HALVINGS: u32 = 8;
 const MOST_PARTS: usize = 600_000;
 
-/// Fewest faces seen edge-on, and their least share of all faces (one in so many), that justify a hierarchy of the others.
-const MANY_EDGE_ON: usize = 64;
-const SHARE_EDGE_ON: usize = 8;
-
 impl Occluders {
-    /// Collects the faces that are not edge-on, in parts where many faces overlap; `None` where that saves no time.
-    pub(in crate::lines) fn new(
-        space: &Space,
-        faces: &Faces,
-        pyramid: Option<&Pyramid>,
-        are_many_layers: bool,
-    ) -> Option<Self> {
+    /// Collects the faces that are not edge-on, in parts.
+    pub(in crate::lines) fn new(space: &Space, faces: &Faces, pyramid: Option<&Pyramid>) -> Self {
         let boxes = faces.tree.boxes();
-        let edge_on = faces.edge_on_for_sure.len();
-        if !are_many_layers && (edge_on < MANY_EDGE_ON || edge_on * SHARE_EDGE_ON < boxes.len()) {
-            return None;
-        }
         let longest = space.size.max_element() * LONGEST;
-        let halvings = match are_many_layers {
-            true => HALVINGS.min((MOST_PARTS / boxes.len().max(1)).max(1).ilog2()),
-            false => 0,
-        };
-        let is_edge_on =
-            |place: usize| edge_on > 0 && faces.edge_on_for_sure.binary_search(&faces.numbers[place]).is_ok();
+        let halvings = HALVINGS.min((MOST_PARTS / boxes.len().max(1)).max(1).ilog2());
+        let is_edge_on = |place: usize| faces.edge_on_for_sure.binary_search(&faces.numbers[place]).is_ok();
         let parts = in_chunks(boxes.len(), 256, cores(), |range| {
             let mut parts: Vec<(Box3, u32)> = Vec::new();
             for place in range.filter(|place| !is_edge_on(*place)) {
@@ -98,7 +81,7 @@ impl Occluders {
                 &places.iter().map(|place| faces.high_valence[*place as usize]).collect::<Vec<u32>>(),
             );
         }
-        Some(Self { tree, places })
+        Self { tree, places }
     }
 
     /// Walks as [`BoxTree::walk`] does in the faces' tree; a face may come several times.

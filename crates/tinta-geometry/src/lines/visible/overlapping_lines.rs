@@ -3,7 +3,7 @@
 
 use crate::lines::input::feature::Feature;
 use crate::lines::visible::image::Image;
-use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
+use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::ranges::{above_zero, gaps, united};
 use crate::tolerances::CONTACT;
 use glam::DVec2;
@@ -57,20 +57,14 @@ impl LineIndex<'_> {
     fn lying_on(&self, index: usize, image: &Image, inside: [f64; 2]) -> Overlaps {
         let touch_px = image.touch_px(self.space);
         let mut found: Vec<usize> = Vec::new();
-        for part in image.parts(inside, self.space.size.max_element() / PARTS_OF_PICTURE) {
-            let are_many = self.any_of_its_direction(image, part, |other_index| {
-                let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
-                let lies_on_it = || image.overlap(&other, touch_px.max(other.touch_px(self.space))).is_some();
-                if !found.contains(&other_index) && lies_on_it() {
-                    found.push(other_index);
-                }
-                found.len() >= MANY
-            });
-            if are_many {
-                return Overlaps::Many;
+        let are_many = self.any_of_its_direction(image, inside, |other_index| {
+            let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
+            if image.overlap(&other, touch_px.max(other.touch_px(self.space))).is_some() {
+                found.push(other_index);
             }
-        }
-        Overlaps::Few(found)
+            found.len() >= MANY
+        });
+        if are_many { Overlaps::Many } else { Overlaps::Few(found) }
     }
 
     /// Calls `visit` with each line that may lie on a part of one, perhaps several times, until it returns true; returns whether
@@ -154,28 +148,27 @@ impl LineIndex<'_> {
         CONTACT * length(first).min(length(second)) + first.weld.min(second.weld) + 4.0 * self.space.noise
     }
 
-    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near; whether there are too many. Where only
-    /// what is seen counts, not of those that are farther away for sure.
+    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near: all, or only the first line's.
+    /// Returns whether it stopped at the first. Where only what is seen counts, leaves out those that are farther away for sure.
     pub(in crate::lines) fn add_overlaps(
         &self,
         index: usize,
         image: &Image,
         overlapping: &OverlappingLines,
         part: [f64; 2],
-        most: usize,
+        stops_at_first: bool,
         cuts: &mut Vec<f64>,
     ) -> bool {
         let touch_px = image.touch_px(self.space);
-        let mut count = 0;
         self.any_overlapping(image, overlapping, part, |other_index| {
             let changes_nothing = |other: &Image| !self.finds_hidden && self.is_farther(other_index, other, image);
             if let Some(other) =
                 self.images[other_index].filter(|other| other_index != index && !changes_nothing(other))
             {
                 self.add_crossings(image, &other, touch_px.max(other.touch_px(self.space)), false, cuts);
-                count += 1;
+                return stops_at_first;
             }
-            count > most
+            false
         })
     }
 

@@ -2,7 +2,6 @@
 
 use crate::lines::visible::faces::Faces;
 use crate::lines::visible::space::Space;
-use crate::threads::{cores, in_chunks};
 use glam::DVec2;
 
 /// A face's image. Meaningless for faces that reach through the near plane.
@@ -19,12 +18,6 @@ pub(in crate::lines) struct ProjectedFace {
     key: f64,
     growth: DVec2,
 }
-
-/// Most faces whose images are kept.
-const MOST: usize = 200_000;
-
-/// Faces that a thread projects at once.
-const MADE_AT_ONCE: usize = 4096;
 
 /// Rounding error of a distance, as a share of the largest coordinate.
 pub(in crate::lines) const ROUNDING: f64 = 1e-12;
@@ -54,17 +47,6 @@ impl ProjectedFace {
             key: key_a - growth.dot(points[0]),
             growth,
         }
-    }
-
-    /// Returns the images of all faces by their places, or none where these are too many to keep.
-    pub(in crate::lines) fn of_all(space: &Space, faces: &Faces) -> Vec<Self> {
-        if faces.triangles.len() > MOST {
-            return Vec::new();
-        }
-        let of = |range: std::ops::Range<usize>| {
-            range.map(|place| Self::of(space, faces, place as u32)).collect::<Vec<Self>>()
-        };
-        in_chunks(faces.triangles.len(), MADE_AT_ONCE, cores(), of).concat()
     }
 
     /// Each side's unit vector inwards, and its product with a pixel on the side.

@@ -191,6 +191,11 @@ impl Space {
         TIE * self.size.max_element() + self.noise * self.px_per_unit(depth)
     }
 
+    /// The same at a depth in file units.
+    pub(in crate::lines) fn tie(&self, depth: f64) -> f64 {
+        TIE * self.size.max_element() / self.px_per_unit(depth) + self.noise
+    }
+
     /// Positive where the image of `point` lies left of the line from `from` to `to`, seen by the eye with y up, negative
     /// right of it, 0 on it: exact for these coordinates. Divided by the second number it is the distance of the point from
     /// the plane through the eye and the line, file units.

@@ -9,7 +9,7 @@ use crate::lines::segment::LineSegment;
 use crate::lines::visible::cover::Cover;
 use crate::lines::visible::image::Image;
 use crate::lines::visible::interval::Interval;
-use crate::lines::visible::line_index::{LineIndex, PARTS_OF_PICTURE};
+use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::SearchDepth;
 use crate::lines::visible::overlapping_lines::OverlappingLines;
 use crate::threads::{cores, spread_chunks};
@@ -17,9 +17,6 @@ use std::cell::LazyCell;
 
 /// Pieces of one line between two looks at the time.
 const PIECES_A_GLANCE: usize = 64;
-
-/// Cuts of an open part of a line above which one walk covers the line. Up to that, a ray for each piece costs less.
-const MOST: usize = 24;
 
 impl LineIndex<'_> {
     /// The wanted lines' pieces, in the lines' order; with how many boxes were looked at. Of all lines, unless the time is over
@@ -58,27 +55,22 @@ impl LineIndex<'_> {
             false => OverlappingLines::none(index, &image, inside),
         };
         let mut cuts = Vec::new();
-        let add = |cover: &Cover, most, cuts: &mut Vec<f64>| {
-            cover.open.iter().any(|gap| self.add_cuts(index, &image, &overlapping, *gap, most, cuts))
-        };
         let behind = self.behind_overlapping_lines(index, &image, &overlapping, inside);
         let mut cover = self.unknown_cover(inside, &behind);
-        if add(&cover, MOST, &mut cuts) {
+        // Of a line that nothing cuts, one ray decides all.
+        if cover.open.iter().any(|gap| self.add_cuts(index, &image, &overlapping, *gap, true, &mut cuts)) {
             cuts.clear();
             cover = self.cover(index, &image, inside, &behind, SearchDepth::Nearer);
-            add(&cover, usize::MAX, &mut cuts);
+            for gap in &cover.open {
+                self.add_cuts(index, &image, &overlapping, *gap, false, &mut cuts);
+            }
         }
         if !self.finds_hidden && cover.open.is_empty() {
             return Some(());
         }
         self.add_piercings(index, &image, &mut cuts);
         if self.finds_hidden {
-            // The box of one that is upright or level holds no other.
-            let is_thin = (image.b - image.a).abs().min_element() < 1.0;
-            let longest = if is_thin { f64::INFINITY } else { self.space.size.max_element() / PARTS_OF_PICTURE };
-            for part in image.parts(inside, longest) {
-                self.add_overlaps(index, &image, &overlapping, part, usize::MAX, &mut cuts);
-            }
+            self.add_overlaps(index, &image, &overlapping, inside, false, &mut cuts);
         }
         let mut pieces: Vec<Interval> = Vec::new();
         let places = self.places(&image, inside, cuts);
