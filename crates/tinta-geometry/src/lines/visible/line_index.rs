@@ -6,7 +6,6 @@ use crate::error::Result;
 use crate::lines::input::feature::Feature;
 use crate::lines::progress::Progress;
 use crate::lines::settings::LineSettings;
-use crate::lines::visible::bundles::Bundles;
 use crate::lines::visible::faces::{Faces, Own, Probe, ProbedLine};
 use crate::lines::visible::image::{Image, LineParts, LineTree};
 use crate::lines::visible::intersections::Piercing;
@@ -15,7 +14,7 @@ use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
 use crate::memory;
 use crate::threads::{cores, in_chunks};
-use crate::tolerances::{SHORTEST_LINE, TOUCH};
+use crate::tolerances::SHORTEST_LINE;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
@@ -34,8 +33,6 @@ pub(in crate::lines) struct LineIndex<'a> {
     occluders: Option<Occluders>,
     /// The wanted lines, with the direction of their images as the third coordinate: the candidates for overlapping lines.
     pub(in crate::lines) overlapping: LineTree,
-    /// Bundles of many overlapping lines.
-    pub(in crate::lines) bundles: Bundles,
     pub(in crate::lines) shortest_px: f64,
     pub(in crate::lines) finds_outline: bool,
     pub(in crate::lines) finds_hidden: bool,
@@ -112,8 +109,6 @@ impl<'a> LineIndex<'a> {
         }
         progress.go_on()?;
         memory::check_lines((rims.len() + overlapping.len()) * BYTES_A_PART, memory::free())?;
-        let is_wanted = |index: usize| features[index].overlaps();
-        let bundles = Bundles::new(&images, is_wanted, space.size * 0.5, 2.0 * TOUCH * side);
         let mut pierced: HashMap<[u32; 2], Vec<DVec3>> = HashMap::new();
         for piercing in piercings {
             pierced.entry(piercing.edge).or_default().push(piercing.point);
@@ -127,7 +122,6 @@ impl<'a> LineIndex<'a> {
             rims: rims.tree(progress),
             occluders,
             overlapping: overlapping.tree(progress),
-            bundles,
             shortest_px: SHORTEST_LINE * side,
             finds_outline,
             finds_hidden,

@@ -4,12 +4,12 @@
 use crate::lines::input::feature::Feature;
 use crate::lines::visible::image::Image;
 use crate::lines::visible::line_index::LineIndex;
-use crate::lines::visible::ranges::{above_zero, united};
+use crate::lines::visible::ranges::{above_zero, gaps, united};
 use crate::tolerances::CONTACT;
 use glam::DVec2;
 use std::cell::OnceCell;
 
-/// The lines that lie on one somewhere, looked for when somebody asks: of most hidden lines nobody does.
+/// The lines that lie on one somewhere, looked for once.
 pub(in crate::lines) struct OverlappingLines {
     /// The line with its image, and the places between which they matter.
     line: (usize, Image, [f64; 2]),
@@ -172,25 +172,24 @@ impl LineIndex<'_> {
         })
     }
 
-    /// What of a line between two places is hidden for sure by those that are nearest among many lines on which it lies; ascending.
-    pub(in crate::lines) fn behind_nearest(&self, index: usize, image: &Image, inside: [f64; 2]) -> Vec<[f64; 2]> {
-        let nearest = self.bundles.nearest_along(index, image);
-        united(nearest.filter_map(|other| self.behind_overlapping_line(index, image, other, inside)).collect())
-    }
-
-    /// Adds what of a part lies in the picture on another line that is nearer for sure.
+    /// Returns the ranges of a part that lie in the picture on other lines that are nearer for sure; ascending. Ends with the last
+    /// range longer than the shortest line: in any order of thousands of lines, most meet a nearer one soon.
     pub(in crate::lines) fn behind_overlapping_lines(
         &self,
         index: usize,
         image: &Image,
         overlapping: &OverlappingLines,
         part: [f64; 2],
-        hidden: &mut Vec<[f64; 2]>,
-    ) {
+    ) -> Vec<[f64; 2]> {
+        let least = self.shortest_px / image.length();
+        let mut hidden: Vec<[f64; 2]> = Vec::new();
         self.any_overlapping(image, overlapping, part, |other| {
-            hidden.extend(self.behind_overlapping_line(index, image, other, part));
-            false
+            let Some(range) = self.behind_overlapping_line(index, image, other, part) else { return false };
+            hidden.push(range);
+            hidden = united(std::mem::take(&mut hidden));
+            gaps(part, &hidden).iter().all(|gap| gap[1] - gap[0] <= least)
         });
+        hidden
     }
 
     /// What of a part lies in the picture on a certain other line that is nearer for sure.
@@ -201,7 +200,8 @@ impl LineIndex<'_> {
         other_index: usize,
         part: [f64; 2],
     ) -> Option<[f64; 2]> {
-        let other = self.images[other_index].filter(|_| other_index != index)?;
+        let may_be_nearer = |other: &Image| other.keys[0].min(other.keys[1]) < image.keys[0].max(image.keys[1]);
+        let other = self.images[other_index].filter(|other| other_index != index && may_be_nearer(other))?;
         let range = image.overlap(&other, image.touch_px(self.space).max(other.touch_px(self.space)))?;
         let range = [range[0].max(part[0]), range[1].min(part[1])];
         let least = self.clearly_behind(index, &other);
