@@ -11,7 +11,7 @@ use crate::lines::visible::image::Image;
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
 use crate::lines::visible::projected_face::ProjectedFace;
 use crate::lines::visible::pyramid::layers;
-use crate::lines::visible::ranges::gaps;
+use crate::lines::visible::ranges::{gaps, united};
 use crate::lines::visible::space::Space;
 use crate::threads::{cores, in_chunks};
 use glam::{DVec2, DVec3};
@@ -21,9 +21,6 @@ const LAYERS: f64 = 24.0;
 
 /// Samples along the picture's larger side.
 const SAMPLES: f64 = 512.0;
-
-/// Faces that are tested against a line.
-const ASKED: usize = 4;
 
 /// Rows of samples that a thread fills at once.
 const ROWS_AT_ONCE: usize = 32;
@@ -40,6 +37,9 @@ pub(in crate::lines) struct NearestFaces {
 }
 
 impl NearestFaces {
+    /// Faces that are tested against a line.
+    const ASKED: usize = 4;
+
     /// Finds the nearest faces; `None` where few faces overlap. Some faces are missing if time runs out.
     pub(in crate::lines) fn new(space: &Space, faces: &Faces, progress: &Progress) -> Option<Self> {
         if layers(space, faces.tree.boxes().iter()) < LAYERS {
@@ -91,21 +91,54 @@ impl NearestFaces {
         (face != NO_GROUP).then_some(face)
     }
 
-    /// Whether the nearest faces hide all of an intersection. Tests the faces in the middles of the parts that are still open.
+    /// Returns the ranges of a part of a line that the nearest faces hide for sure, ascending. Tests the longest open gap, at its
+    /// middle and its ends, at most `most` times. `probe` turns a gap into the probe for faces.
+    fn hidden(
+        &self,
+        space: &Space,
+        faces: &Faces,
+        part: [f64; 2],
+        probe: impl Fn([f64; 2]) -> OccluderProbe,
+        most: usize,
+    ) -> Vec<[f64; 2]> {
+        let mut hidden: Vec<[f64; 2]> = Vec::new();
+        let mut open = vec![part];
+        for _ in 0..most {
+            let length = |gap: &[f64; 2]| gap[1] - gap[0];
+            let Some(longest) = (0..open.len()).max_by(|a, b| length(&open[*a]).total_cmp(&length(&open[*b]))) else {
+                break;
+            };
+            let gap = open.swap_remove(longest);
+            let asked = probe(gap);
+            let (mut best, mut known) = (None, [NO_GROUP; 3]);
+            for (number, share) in [0.5, 1.0, 0.0].into_iter().enumerate() {
+                let Some(face) = self.at(asked.px[0].lerp(asked.px[1], share)).filter(|face| !known.contains(face))
+                else {
+                    continue;
+                };
+                known[number] = face;
+                let sure = faces.hidden_ranges(space, face, &ProjectedFace::of(space, faces, face), &asked)[0];
+                if sure.is_some_and(|sure| best.is_none_or(|best| length(&sure) > length(&best))) {
+                    best = sure;
+                }
+                if best == Some(gap) {
+                    break;
+                }
+            }
+            if let Some(sure) = best {
+                open.extend(gaps(gap, &[sure]));
+                hidden.push(sure);
+            }
+        }
+        united(hidden)
+    }
+
+    /// Whether the nearest faces hide all of an intersection.
     pub(in crate::lines) fn hide(&self, space: &Space, faces: &Faces, line: ProbedLine, ends: [DVec3; 2]) -> bool {
         const WHOLE: [f64; 2] = [0.0, 1.0];
         let Some(image) = Image::of(space, ends) else { return false };
-        let probe = OccluderProbe::new(space, (line, ends), &image, WHOLE, SearchDepth::Nearer);
-        let mut open = vec![WHOLE];
-        for _ in 0..ASKED {
-            let Some(gap) = open.pop() else { break };
-            let middle = (gap[0] + gap[1]) * 0.5;
-            let Some(face) = self.at(image.at(middle)) else { return false };
-            let sure = faces.hidden_ranges(space, face, &ProjectedFace::of(space, faces, face), &probe)[0];
-            let Some(sure) = sure.filter(|sure| (sure[0]..=sure[1]).contains(&middle)) else { return false };
-            open.extend(gaps(gap, &[sure]));
-        }
-        open.is_empty()
+        let probe = |part: [f64; 2]| OccluderProbe::new(space, (line, ends), &image, part, SearchDepth::Nearer);
+        self.hidden(space, faces, WHOLE, probe, Self::ASKED) == [WHOLE]
     }
 }
 
