@@ -55,6 +55,9 @@ fn commands(program: &Program) -> Command {
 /// The beginning of the default at the end of an option's help.
 const DEFAULT: &str = "[default: ";
 
+/// What comes between the default look's value and that of all others.
+const OTHERWISE: &str = "; in other looks and styles: ";
+
 /// An option whose help states the default look's value, then the default of a named style.
 fn with_drawn_default(arg: Arg, look: &Options) -> Arg {
     let value = match arg.get_long().and_then(|name| look.get(name)) {
@@ -67,7 +70,7 @@ fn with_drawn_default(arg: Arg, look: &Options) -> Arg {
     match help.rsplit_once(DEFAULT) {
         // A value that is the same in both appears once.
         Some((about, published)) if !published.starts_with(&format!("{value}]")) => {
-            arg.help(format!("{about}{DEFAULT}{value}; published: {published}"))
+            arg.help(format!("{about}{DEFAULT}{value}{OTHERWISE}{published}"))
         }
         _ => arg,
     }
@@ -184,7 +187,7 @@ mod tests {
             for arg in options(command) {
                 let (option, help) = (arg.get_long().unwrap(), arg.get_help().unwrap().to_string());
                 let Some(value) = look.get(option) else {
-                    assert!(!help.contains("; published: "), "{name} --{option}: {help}");
+                    assert!(!help.contains(OTHERWISE), "{name} --{option}: {help}");
                     continue;
                 };
                 let value = match value {
@@ -192,12 +195,12 @@ mod tests {
                     OptionValue::Text(value) => value.clone(),
                     OptionValue::Switch(_) => "on".to_owned(),
                 };
-                let is_stated = help.contains(&format!("[default: {value}; published: "));
+                let is_stated = help.contains(&format!("[default: {value}{OTHERWISE}"));
                 assert!(is_stated || help.ends_with(&format!("[default: {value}]")), "{name} --{option}: {help}");
             }
         }
         let edges = command.find_subcommand("edges").unwrap();
-        assert!(options(edges).all(|arg| !arg.get_help().unwrap().to_string().contains("; published: ")));
+        assert!(options(edges).all(|arg| !arg.get_help().unwrap().to_string().contains(OTHERWISE)));
     }
 
     #[test]
