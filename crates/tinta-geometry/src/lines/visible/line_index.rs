@@ -94,7 +94,9 @@ impl<'a> LineIndex<'a> {
                         rims.add_of_groups(around, index, feature.plane, vertex_of(&high_valence, feature.own));
                     }
                 }
-                if feature.overlaps() && (finds_hidden || !is_hidden(range)) {
+                // Nothing lies on a line seen end-on.
+                let has_length = image.length() > image.touch_px(space);
+                if feature.overlaps() && has_length && (finds_hidden || !is_hidden(range)) {
                     for directions in image.directions(image.touch_px(space)) {
                         overlapping.add(image.part_box(range, image.noise_px, directions), index);
                     }
@@ -113,6 +115,8 @@ impl<'a> LineIndex<'a> {
         for piercing in piercings {
             pierced.entry(piercing.edge).or_default().push(piercing.point);
         }
+        let nearest_key = |line: usize| images[line].map_or(f64::INFINITY, |image| image.keys[0].min(image.keys[1]));
+        let overlapping = overlapping.tree(progress).with_keys(nearest_key);
         Ok(Self {
             space,
             faces,
@@ -121,7 +125,7 @@ impl<'a> LineIndex<'a> {
             piercings: pierced,
             rims: rims.tree(progress),
             occluders,
-            overlapping: overlapping.tree(progress),
+            overlapping,
             shortest_px: SHORTEST_LINE * side,
             finds_outline,
             finds_hidden,

@@ -57,7 +57,7 @@ impl LineIndex<'_> {
     fn lying_on(&self, index: usize, image: &Image, inside: [f64; 2]) -> Overlaps {
         let touch_px = image.touch_px(self.space);
         let mut found: Vec<usize> = Vec::new();
-        let are_many = self.any_of_its_direction(image, inside, |other_index| {
+        let are_many = self.any_of_its_direction(image, inside, f64::INFINITY, |other_index| {
             let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
             if image.overlap(&other, touch_px.max(other.touch_px(self.space))).is_some() {
                 found.push(other_index);
@@ -68,25 +68,34 @@ impl LineIndex<'_> {
     }
 
     /// Calls `visit` with each line that may lie on a part of one, perhaps several times, until it returns true; returns whether
-    /// it did.
+    /// it did. Lines farther away than a key may be left out.
     fn any_overlapping(
         &self,
         image: &Image,
         overlapping: &OverlappingLines,
         part: [f64; 2],
+        farthest: f64,
         mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
         match overlapping.found(self) {
             Overlaps::Few(lines) => lines.iter().any(|line| visit(*line)),
-            Overlaps::Many => self.any_of_its_direction(image, part, visit),
+            Overlaps::Many => self.any_of_its_direction(image, part, farthest, visit),
         }
     }
 
     /// The same of all lines that have its direction where it is, as those that lie on it have.
-    fn any_of_its_direction(&self, image: &Image, part: [f64; 2], mut visit: impl FnMut(usize) -> bool) -> bool {
+    fn any_of_its_direction(
+        &self,
+        image: &Image,
+        part: [f64; 2],
+        farthest: f64,
+        mut visit: impl FnMut(usize) -> bool,
+    ) -> bool {
         let touch_px = image.touch_px(self.space);
         let mut directions = image.directions(touch_px);
-        directions.any(|directions| self.overlapping.any(&image.part_box(part, touch_px, directions), &mut visit))
+        directions.any(|directions| {
+            self.overlapping.any_nearer(&image.part_box(part, touch_px, directions), farthest, &mut visit)
+        })
     }
 
     /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a pixel. `None` where it
@@ -102,7 +111,7 @@ impl LineIndex<'_> {
         let touch_px = image.touch_px(self.space);
         let (place, own_key) = (image.place_of(px), image.key(image.place_of(px)));
         let mut others: Vec<(f64, usize)> = Vec::new();
-        let is_behind = self.any_overlapping(image, overlapping, [place; 2], |other_index| {
+        let is_behind = self.any_overlapping(image, overlapping, [place; 2], f64::INFINITY, |other_index| {
             let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
             let lies_on_it = image
                 .overlap(&other, touch_px.max(other.touch_px(self.space)))
@@ -160,7 +169,7 @@ impl LineIndex<'_> {
         cuts: &mut Vec<f64>,
     ) -> bool {
         let touch_px = image.touch_px(self.space);
-        self.any_overlapping(image, overlapping, part, |other_index| {
+        self.any_overlapping(image, overlapping, part, f64::INFINITY, |other_index| {
             let changes_nothing = |other: &Image| !self.finds_hidden && self.is_farther(other_index, other, image);
             if let Some(other) =
                 self.images[other_index].filter(|other| other_index != index && !changes_nothing(other))
@@ -183,7 +192,8 @@ impl LineIndex<'_> {
     ) -> Vec<[f64; 2]> {
         let least = self.shortest_px / image.length();
         let mut hidden: Vec<[f64; 2]> = Vec::new();
-        self.any_overlapping(image, overlapping, part, |other| {
+        let farthest = image.keys[0].max(image.keys[1]);
+        self.any_overlapping(image, overlapping, part, farthest, |other| {
             let Some(range) = self.behind_overlapping_line(index, image, other, part) else { return false };
             hidden.push(range);
             hidden = united(std::mem::take(&mut hidden));
@@ -200,8 +210,7 @@ impl LineIndex<'_> {
         other_index: usize,
         part: [f64; 2],
     ) -> Option<[f64; 2]> {
-        let may_be_nearer = |other: &Image| other.keys[0].min(other.keys[1]) < image.keys[0].max(image.keys[1]);
-        let other = self.images[other_index].filter(|other| other_index != index && may_be_nearer(other))?;
+        let other = self.images[other_index].filter(|_| other_index != index)?;
         let range = image.overlap(&other, image.touch_px(self.space).max(other.touch_px(self.space)))?;
         let range = [range[0].max(part[0]), range[1].min(part[1])];
         let least = self.clearly_behind(index, &other);
