@@ -200,36 +200,27 @@ impl BoxTree {
     /// Sets the high-valence vertex of the thing at each place. [`BoxTree::pairs`] then leaves out pairs around one such vertex,
     /// and takes no time over them.
     pub(crate) fn set_high_valence(&mut self, vertex_of: &[u32]) {
-        self.high_valence = self.groups_below(vertex_of);
+        self.high_valence = self.of_nodes(vertex_of);
     }
 
     /// Sets the plane of the thing at each place. [`BoxTree::pairs`] then leaves out pairs in one plane, and [`BoxTree::any_but`]
     /// things in given planes.
     pub(crate) fn set_planes(&mut self, plane_of: &[u32]) {
-        self.planes = self.groups_below(plane_of);
+        self.planes = self.of_nodes(plane_of);
     }
 
     /// Selects the nodes with wanted things below them. `is_wanted` has a value for each place.
     pub(crate) fn wanted(&self, is_wanted: &[bool]) -> NodeSelection {
         const UNWANTED: u32 = 0;
         let groups: Vec<u32> = is_wanted.iter().map(|is| if *is { NO_GROUP } else { UNWANTED }).collect();
-        NodeSelection(self.groups_below(&groups))
+        NodeSelection(self.of_nodes(&groups))
     }
 
     /// Returns each node's group, if all things below it are in that group, else [`NO_GROUP`].
-    fn groups_below(&self, group_of: &[u32]) -> Vec<u32> {
-        self.joined_below(group_of, NO_GROUP, |first, second| if first == second { first } else { NO_GROUP })
-    }
-
-    /// Returns the least value below each node. `values` has one for each place.
-    pub(crate) fn least_below(&self, values: &[f64]) -> Vec<f64> {
-        self.joined_below(values, f64::INFINITY, f64::min)
-    }
-
-    /// Returns for each node the values below it, joined. `values` has one for each place.
-    fn joined_below<T: Copy>(&self, values: &[T], none: T, join: impl Fn(T, T) -> T) -> Vec<T> {
+    fn of_nodes(&self, group_of: &[u32]) -> Vec<u32> {
         let nodes = &self.nodes.nodes;
-        let mut joined = vec![none; nodes.len()];
+        let mut groups = vec![NO_GROUP; nodes.len()];
+        let common = |first: u32, second: u32| if first == second { first } else { NO_GROUP };
         // Parents come before their children here. The next loop goes backwards and meets each node after its children.
         let mut order: Vec<u32> = if nodes.is_empty() { Vec::new() } else { vec![0] };
         let mut next = 0;
@@ -243,12 +234,14 @@ impl BoxTree {
         for index in order.into_iter().rev() {
             let node = &nodes[index as usize];
             let first = node.first_index as usize;
-            joined[index as usize] = match node.is_leaf() {
-                true => values[range(node.first_index, node.prim_count)].iter().copied().reduce(&join).unwrap_or(none),
-                false => join(joined[first], joined[first + 1]),
+            groups[index as usize] = if node.is_leaf() {
+                let things = &group_of[range(node.first_index, node.prim_count)];
+                things.iter().copied().reduce(common).unwrap_or(NO_GROUP)
+            } else {
+                common(groups[first], groups[first + 1])
             };
         }
-        joined
+        groups
     }
 
     /// Calls `visit` with each thing whose box overlaps `query` until it returns true; returns whether it did.
@@ -257,7 +250,7 @@ impl BoxTree {
     }
 
     /// Searches as [`BoxTree::any`] does, but leaves out whole leaves of excluded groups.
-    pub(crate) fn any_but(&self, query: &Box3, excluded: Exclusion, visit: impl FnMut(u32) -> bool) -> bool {
+    pub(crate) fn any_but(&self, query: &Box3, excluded: Exclusion, mut visit: impl FnMut(u32) -> bool) -> bool {
         let is_none = |groups: &[u32], node: u32, excluded: [u32; 2]| {
             let group = group(groups, node);
             group == NO_GROUP || !excluded.contains(&group)
@@ -265,17 +258,7 @@ impl BoxTree {
         let is_other = |node: u32| {
             is_none(&self.planes, node, excluded.planes) && is_none(&self.high_valence, node, excluded.high_valence)
         };
-        self.any_below(query, is_other, visit)
-    }
-
-    /// Searches as [`BoxTree::any`] does, but only below certain nodes.
-    pub(crate) fn any_below(
-        &self,
-        query: &Box3,
-        is_entered: impl Fn(u32) -> bool,
-        mut visit: impl FnMut(u32) -> bool,
-    ) -> bool {
-        self.any_leaf(query, is_entered, |leaf| {
+        self.any_leaf(query, is_other, |leaf| {
             range(leaf.first_index, leaf.prim_count)
                 .any(|place| query.overlaps(&self.boxes[place]) && visit(place as u32))
         })

@@ -1,5 +1,6 @@
 //! Decides the visibility of lines: faces in eye space, trees over faces and lines, cuts and rays.
 
+pub(super) mod bundles;
 pub(super) mod cast;
 pub(super) mod cover;
 pub(super) mod crossings;

@@ -133,6 +133,13 @@ impl LineIndex<'_> {
         walk.cover.sorted()
     }
 
+    /// Hides the parts of a line that lie in the picture on nearer lines.
+    pub(in crate::lines) fn hide_all(&self, cover: Cover, image: &Image, hidden: Vec<[f64; 2]>) -> Cover {
+        let mut cover = cover;
+        hidden.into_iter().for_each(|part| cover.hide(part, self.shortest_px / image.length()));
+        cover.sorted()
+    }
+
     /// Returns the line for tests against boxes: those that begin at most `slack` behind it count, or all at any depth.
     pub(in crate::lines) fn line(&self, image: &Image, search_depth: SearchDepth, slack: f64) -> Line3 {
         /// Behind everything.

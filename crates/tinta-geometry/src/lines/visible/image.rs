@@ -177,8 +177,6 @@ pub(in crate::lines) struct LineParts {
 pub(in crate::lines) struct LineTree {
     tree: BoxTree,
     numbers: Vec<u32>,
-    /// The nearest key below each node; empty if no search asks for it.
-    nearest: Vec<f64>,
 }
 
 impl LineParts {
@@ -212,7 +210,7 @@ impl LineParts {
     pub(in crate::lines) fn tree(self, progress: &Progress) -> LineTree {
         let (mut tree, order) = BoxTree::new_unless(&self.boxes, || progress.is_over());
         if order.len() < self.boxes.len() {
-            return LineTree { tree, numbers: Vec::new(), nearest: Vec::new() };
+            return LineTree { tree, numbers: Vec::new() };
         }
         let in_order = |groups: &[u32]| {
             let has_some = groups.iter().any(|group| *group != NO_GROUP);
@@ -224,8 +222,7 @@ impl LineParts {
         if let Some(high_valence) = in_order(&self.high_valence) {
             tree.set_high_valence(&high_valence);
         }
-        let numbers = order.iter().map(|index| self.numbers[*index as usize]).collect();
-        LineTree { tree, numbers, nearest: Vec::new() }
+        LineTree { tree, numbers: order.iter().map(|index| self.numbers[*index as usize]).collect() }
     }
 }
 
@@ -233,24 +230,6 @@ impl LineTree {
     /// Calls `visit` with each line that has a part in `query`, perhaps several times, until it returns true.
     pub(in crate::lines) fn any(&self, query: &Box3, mut visit: impl FnMut(usize) -> bool) -> bool {
         self.tree.any(query, |place| visit(self.numbers[place as usize] as usize))
-    }
-
-    /// The same tree, for searches of nearer lines. `key` is a line's nearest one.
-    pub(in crate::lines) fn with_keys(mut self, key: impl Fn(usize) -> f64) -> Self {
-        self.nearest =
-            self.tree.least_below(&self.numbers.iter().map(|line| key(*line as usize)).collect::<Vec<f64>>());
-        self
-    }
-
-    /// Searches as [`LineTree::any`] does, but leaves out whole nodes whose lines are farther away than a key.
-    pub(in crate::lines) fn any_nearer(
-        &self,
-        query: &Box3,
-        farthest: f64,
-        mut visit: impl FnMut(usize) -> bool,
-    ) -> bool {
-        let is_nearer = |node: u32| self.nearest[node as usize] <= farthest;
-        self.tree.any_below(query, is_nearer, |place| visit(self.numbers[place as usize] as usize))
     }
 
     /// Calls `visit` with each line that may cross a part of another, perhaps several times, until it returns true; returns

@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::lines::input::feature::Feature;
 use crate::lines::progress::Progress;
 use crate::lines::settings::LineSettings;
+use crate::lines::visible::bundles::Bundles;
 use crate::lines::visible::faces::{Faces, Own, Probe, ProbedLine};
 use crate::lines::visible::image::{Image, LineParts, LineTree};
 use crate::lines::visible::intersections::Piercing;
@@ -14,7 +15,7 @@ use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
 use crate::memory;
 use crate::threads::{cores, in_chunks};
-use crate::tolerances::SHORTEST_LINE;
+use crate::tolerances::{SHORTEST_LINE, TOUCH};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
@@ -33,6 +34,8 @@ pub(in crate::lines) struct LineIndex<'a> {
     occluders: Option<Occluders>,
     /// The wanted lines, with the direction of their images as the third coordinate: the candidates for overlapping lines.
     pub(in crate::lines) overlapping: LineTree,
+    /// Bundles of many overlapping lines.
+    pub(in crate::lines) bundles: Bundles,
     pub(in crate::lines) shortest_px: f64,
     pub(in crate::lines) finds_outline: bool,
     pub(in crate::lines) finds_hidden: bool,
@@ -94,9 +97,7 @@ impl<'a> LineIndex<'a> {
                         rims.add_of_groups(around, index, feature.plane, vertex_of(&high_valence, feature.own));
                     }
                 }
-                // Nothing lies on a line seen end-on.
-                let has_length = image.length() > image.touch_px(space);
-                if feature.overlaps() && has_length && (finds_hidden || !is_hidden(range)) {
+                if feature.overlaps() && (finds_hidden || !is_hidden(range)) {
                     for directions in image.directions(image.touch_px(space)) {
                         overlapping.add(image.part_box(range, image.noise_px, directions), index);
                     }
@@ -111,12 +112,12 @@ impl<'a> LineIndex<'a> {
         }
         progress.go_on()?;
         memory::check_lines((rims.len() + overlapping.len()) * BYTES_A_PART, memory::free())?;
+        let is_wanted = |index: usize| features[index].overlaps();
+        let bundles = Bundles::new(&images, is_wanted, space.size * 0.5, 2.0 * TOUCH * side);
         let mut pierced: HashMap<[u32; 2], Vec<DVec3>> = HashMap::new();
         for piercing in piercings {
             pierced.entry(piercing.edge).or_default().push(piercing.point);
         }
-        let nearest_key = |line: usize| images[line].map_or(f64::INFINITY, |image| image.keys[0].min(image.keys[1]));
-        let overlapping = overlapping.tree(progress).with_keys(nearest_key);
         Ok(Self {
             space,
             faces,
@@ -125,7 +126,8 @@ impl<'a> LineIndex<'a> {
             piercings: pierced,
             rims: rims.tree(progress),
             occluders,
-            overlapping,
+            overlapping: overlapping.tree(progress),
+            bundles,
             shortest_px: SHORTEST_LINE * side,
             finds_outline,
             finds_hidden,

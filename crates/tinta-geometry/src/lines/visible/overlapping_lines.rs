@@ -4,12 +4,12 @@
 use crate::lines::input::feature::Feature;
 use crate::lines::visible::image::Image;
 use crate::lines::visible::line_index::LineIndex;
-use crate::lines::visible::ranges::{above_zero, gaps, united};
+use crate::lines::visible::ranges::{above_zero, united};
 use crate::tolerances::CONTACT;
 use glam::DVec2;
 use std::cell::OnceCell;
 
-/// The lines that lie on one somewhere, looked for once.
+/// The lines that lie on one somewhere, looked for when somebody asks: of most hidden lines nobody does.
 pub(in crate::lines) struct OverlappingLines {
     /// The line with its image, and the places between which they matter.
     line: (usize, Image, [f64; 2]),
@@ -57,7 +57,7 @@ impl LineIndex<'_> {
     fn lying_on(&self, index: usize, image: &Image, inside: [f64; 2]) -> Overlaps {
         let touch_px = image.touch_px(self.space);
         let mut found: Vec<usize> = Vec::new();
-        let are_many = self.any_of_its_direction(image, inside, f64::INFINITY, |other_index| {
+        let are_many = self.any_of_its_direction(image, inside, |other_index| {
             let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
             if image.overlap(&other, touch_px.max(other.touch_px(self.space))).is_some() {
                 found.push(other_index);
@@ -68,34 +68,25 @@ impl LineIndex<'_> {
     }
 
     /// Calls `visit` with each line that may lie on a part of one, perhaps several times, until it returns true; returns whether
-    /// it did. Lines farther away than a key may be left out.
+    /// it did.
     fn any_overlapping(
         &self,
         image: &Image,
         overlapping: &OverlappingLines,
         part: [f64; 2],
-        farthest: f64,
         mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
         match overlapping.found(self) {
             Overlaps::Few(lines) => lines.iter().any(|line| visit(*line)),
-            Overlaps::Many => self.any_of_its_direction(image, part, farthest, visit),
+            Overlaps::Many => self.any_of_its_direction(image, part, visit),
         }
     }
 
     /// The same of all lines that have its direction where it is, as those that lie on it have.
-    fn any_of_its_direction(
-        &self,
-        image: &Image,
-        part: [f64; 2],
-        farthest: f64,
-        mut visit: impl FnMut(usize) -> bool,
-    ) -> bool {
+    fn any_of_its_direction(&self, image: &Image, part: [f64; 2], mut visit: impl FnMut(usize) -> bool) -> bool {
         let touch_px = image.touch_px(self.space);
         let mut directions = image.directions(touch_px);
-        directions.any(|directions| {
-            self.overlapping.any_nearer(&image.part_box(part, touch_px, directions), farthest, &mut visit)
-        })
+        directions.any(|directions| self.overlapping.any(&image.part_box(part, touch_px, directions), &mut visit))
     }
 
     /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a pixel. `None` where it
@@ -111,7 +102,7 @@ impl LineIndex<'_> {
         let touch_px = image.touch_px(self.space);
         let (place, own_key) = (image.place_of(px), image.key(image.place_of(px)));
         let mut others: Vec<(f64, usize)> = Vec::new();
-        let is_behind = self.any_overlapping(image, overlapping, [place; 2], f64::INFINITY, |other_index| {
+        let is_behind = self.any_overlapping(image, overlapping, [place; 2], |other_index| {
             let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
             let lies_on_it = image
                 .overlap(&other, touch_px.max(other.touch_px(self.space)))
@@ -169,7 +160,7 @@ impl LineIndex<'_> {
         cuts: &mut Vec<f64>,
     ) -> bool {
         let touch_px = image.touch_px(self.space);
-        self.any_overlapping(image, overlapping, part, f64::INFINITY, |other_index| {
+        self.any_overlapping(image, overlapping, part, |other_index| {
             let changes_nothing = |other: &Image| !self.finds_hidden && self.is_farther(other_index, other, image);
             if let Some(other) =
                 self.images[other_index].filter(|other| other_index != index && !changes_nothing(other))
@@ -181,25 +172,25 @@ impl LineIndex<'_> {
         })
     }
 
-    /// Returns the ranges of a part that lie in the picture on other lines that are nearer for sure; ascending. Ends with the last
-    /// range longer than the shortest line: in any order of thousands of lines, most meet a nearer one soon.
+    /// What of a line between two places is hidden for sure by those that are nearest among many lines on which it lies; ascending.
+    pub(in crate::lines) fn behind_nearest(&self, index: usize, image: &Image, inside: [f64; 2]) -> Vec<[f64; 2]> {
+        let nearest = self.bundles.nearest_along(index, image);
+        united(nearest.filter_map(|other| self.behind_overlapping_line(index, image, other, inside)).collect())
+    }
+
+    /// Adds what of a part lies in the picture on another line that is nearer for sure.
     pub(in crate::lines) fn behind_overlapping_lines(
         &self,
         index: usize,
         image: &Image,
         overlapping: &OverlappingLines,
         part: [f64; 2],
-    ) -> Vec<[f64; 2]> {
-        let least = self.shortest_px / image.length();
-        let mut hidden: Vec<[f64; 2]> = Vec::new();
-        let farthest = image.keys[0].max(image.keys[1]);
-        self.any_overlapping(image, overlapping, part, farthest, |other| {
-            let Some(range) = self.behind_overlapping_line(index, image, other, part) else { return false };
-            hidden.push(range);
-            hidden = united(std::mem::take(&mut hidden));
-            gaps(part, &hidden).iter().all(|gap| gap[1] - gap[0] <= least)
+        hidden: &mut Vec<[f64; 2]>,
+    ) {
+        self.any_overlapping(image, overlapping, part, |other| {
+            hidden.extend(self.behind_overlapping_line(index, image, other, part));
+            false
         });
-        hidden
     }
 
     /// What of a part lies in the picture on a certain other line that is nearer for sure.

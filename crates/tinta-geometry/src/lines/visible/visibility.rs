@@ -50,17 +50,24 @@ impl LineIndex<'_> {
     /// Adds the pieces of a line; `None`, and nothing, where the time is over before all are decided.
     fn add_segments(&self, index: usize, progress: &Progress, segments: &mut Vec<LineSegment>) -> Option<()> {
         let Some((image, inside)) = self.wanted(index) else { return Some(()) };
+        let behind = self.behind_nearest(index, &image, inside);
         let overlapping = match self.features[index].overlaps() {
             true => OverlappingLines::new(index, &image, inside),
             false => OverlappingLines::none(index, &image, inside),
         };
         let mut cuts = Vec::new();
-        let behind = self.behind_overlapping_lines(index, &image, &overlapping, inside);
         let mut cover = self.unknown_cover(inside, &behind);
         // Of a line that nothing cuts, one ray decides all.
         if cover.open.iter().any(|gap| self.add_cuts(index, &image, &overlapping, *gap, true, &mut cuts)) {
             cuts.clear();
             cover = self.cover(index, &image, inside, &behind, SearchDepth::Nearer);
+            if !self.finds_hidden {
+                let mut hidden = Vec::new();
+                for gap in &cover.open {
+                    self.behind_overlapping_lines(index, &image, &overlapping, *gap, &mut hidden);
+                }
+                cover = self.hide_all(cover, &image, hidden);
+            }
             for gap in &cover.open {
                 self.add_cuts(index, &image, &overlapping, *gap, false, &mut cuts);
             }
