@@ -349,9 +349,14 @@ impl Request {
     /// The style's name for messages: its look, or its own name.
     pub fn style_said(&self) -> String {
         match self.sources.get("style") {
-            Some(source) if source.name.starts_with("look ") => source.name.clone(),
+            Some(source) if self.is_of_look("style") => source.name.clone(),
             _ => format!("style {}", self.style.name()),
         }
+    }
+
+    /// Whether a look gives this option.
+    pub fn is_of_look(&self, option: &str) -> bool {
+        self.sources.get(option).is_some_and(|source| source.name.starts_with("look "))
     }
 
     /// An error about an option that a look or a file gave, with its name and line.

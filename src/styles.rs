@@ -280,8 +280,10 @@ impl Style {
         }
         let draws_curves = matches!(self, Self::Inking(_));
         if !draws_curves && scene.objects.iter().any(|object| !object.mesh.curves.is_empty()) {
-            remarks
-                .push("the model's own curves and points are not drawn; --style lines and inking draw them".to_owned());
+            remarks.push(
+                "the model's own curves and points are not drawn; --style lines draws them, and inking beside faces"
+                    .to_owned(),
+            );
         }
         remarks
     }

@@ -70,6 +70,17 @@ fn json(folder: &Folder, options: &[&str]) -> serde_json::Value {
 }
 
 #[test]
+fn a_look_of_lines_is_written_into_every_format_of_lines() {
+    let folder = Folder::new();
+    for name in ["a.svg", "a.pdf", "a.dxf", "a.json", "a.png"] {
+        let out = folder.path(name);
+        made(&["render", "builtin:gear", "-o", &out, "--look", "technical"]);
+    }
+    let drawing = json(&folder, &["--look", "technical"]);
+    assert_eq!(drawing["camera"]["fov_y_degrees"], serde_json::Value::Null, "the look's parallel projection");
+}
+
+#[test]
 fn areas_are_written_as_json_and_fill_the_picture() {
     let folder = Folder::new();
     let alone = json(&folder, &["--style", "lines"]);

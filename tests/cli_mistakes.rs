@@ -4,9 +4,10 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 /// Files in the folder where the commands are typed.
-const FILES: [(&str, &str); 15] = [
+const FILES: [(&str, &str); 16] = [
     ("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
     ("twice.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\n"),
+    ("curve.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\n"),
     ("empty.obj", ""),
     ("cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1"),
     ("points.obj", "v 0 0 0\nv 1 0 0\n"),
@@ -124,7 +125,7 @@ const MISTAKES: [(&str, &str); 92] = [
     ),
     (
         "render triangle.obj -o out.png --hidden dashed",
-        "--hidden: only exact lines and areas have this; leave it out, or write a .svg",
+        "--hidden: a picture of pixels cannot have it; leave it out, or write a .svg or .pdf",
     ),
     (
         "render triangle.obj -o out.png --style charcoal --show map",
@@ -145,6 +146,18 @@ const MISTAKES: [(&str, &str); 92] = [
     (
         "render triangle.obj -o out.xyz",
         "out.xyz: tinta writes no .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf or .json for lines, .gif or .apng for an animation",
+    ),
+    (
+        "render triangle.obj -o out",
+        "out: the name has no extension; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf or .json for lines, .gif or .apng for an animation",
+    ),
+    (
+        "render triangle.obj -o out.svg --class-colors silhouete=red",
+        "invalid value 'silhouete=red' for '--class-colors <COLORS>': did you mean silhouette?",
+    ),
+    (
+        "render curve.obj -o out.png",
+        "curve.obj: it has no faces, only curves and points; draw it with --style lines, or into a .svg",
     ),
     ("render triangle.obj -o nowhere/out.png", "nowhere/out.png: the folder nowhere does not exist; create it first"),
     ("render triangle.obj -o dir", "dir: this is a directory; name a file in it"),
@@ -185,15 +198,15 @@ const MISTAKES: [(&str, &str); 92] = [
     ),
     (
         "render triangle.obj -o out.png --page A4",
-        "--page: a picture has pixels and no paper; for 300 dpi say --size 2480x3508, or write a .svg",
+        "--page: a picture has pixels and no paper; for 300 dpi say --size 2480x3508, or write a .svg or .pdf",
     ),
     (
         "render triangle.obj -o out.png --style lines --page letter-landscape",
-        "--page: a picture has pixels and no paper; for 300 dpi say --size 3300x2550, or write a .svg",
+        "--page: a picture has pixels and no paper; for 300 dpi say --size 3300x2550, or write a .svg or .pdf",
     ),
     (
         "render triangle.obj -o out.png --dpi 300",
-        "--dpi: a picture has pixels and no paper; say --size, or write a .svg",
+        "--dpi: a picture has pixels and no paper; say --size, or write a .svg or .pdf",
     ),
     (
         "render triangle.obj -o out.svg --class-widths outlines=3",

@@ -130,7 +130,7 @@ fn a_picture_is_multiplied_with_the_base_colour_and_white_where_its_alpha_leaves
     let skin = image::RgbaImage::from_fn(16, 16, quarter);
     skin.save(folder.path("skin.png")).unwrap();
     let mut renderer = renderer(Backend::Auto);
-    let mut at_quarters = |alpha: &str| {
+    let mut at_quarters = |alpha: &str, share: f64| {
         let mut file = File::new();
         let positions = file.floats("VEC3", &[-1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0, 1.0, 0.0, -1.0, 1.0, 0.0]);
         let coordinates = file.floats("VEC2", SQUARE.as_flattened());
@@ -139,7 +139,7 @@ fn a_picture_is_multiplied_with_the_base_colour_and_white_where_its_alpha_leaves
         square_file(positions, more, &mut file);
         file.push("images", json!({"uri": "skin.png"}));
         file.push("textures", json!({"source": 0}));
-        let metal = json!({"baseColorFactor": [1, 0, 0, 1], "baseColorTexture": {"index": 0}});
+        let metal = json!({"baseColorFactor": [1, 0, 0, share], "baseColorTexture": {"index": 0}});
         file.push("materials", json!({"pbrMetallicRoughness": metal, "alphaMode": alpha}));
         let mesh = load(&folder.file("square.gltf", &file.text()), &LoadOptions::default()).unwrap().mesh;
         let view = "front".parse().unwrap();
@@ -155,13 +155,24 @@ fn a_picture_is_multiplied_with_the_base_colour_and_white_where_its_alpha_leaves
         })
     };
     for (alpha, hidden) in [("OPAQUE", 0.0), ("MASK", 1.0), ("BLEND", 1.0)] {
-        let [half, whole, left_out, black] = at_quarters(alpha);
+        let [half, whole, left_out, black] = at_quarters(alpha, 1.0);
         let red = f64::from(whole[0]);
         assert!(red > 100.0 && whole[1] < 80 && whole[2] < 80, "{alpha}: {whole:?}");
         assert!((f64::from(half[0]) / red - 128.0 / 255.0).abs() < 0.02, "{alpha}: {half:?} of {whole:?}");
         assert!((f64::from(left_out[0]) / red - hidden).abs() < 0.02, "{alpha}: {left_out:?} of {whole:?}");
         assert!(black[0] < 5, "{alpha}: {black:?}");
     }
+    // The factor's alpha, too.
+    let red = f64::from(at_quarters("OPAQUE", 1.0)[1][0]);
+    for (alpha, share) in [("MASK", 0.3), ("BLEND", 0.0)] {
+        let all = at_quarters(alpha, share);
+        assert!(all.as_flattened().iter().all(|it| (f64::from(*it) / red - 1.0).abs() < 0.02), "{alpha}: {all:?}");
+    }
+    assert_eq!(at_quarters("MASK", 0.6), at_quarters("MASK", 1.0), "above the cutoff");
+    let [_, whole, left_out, black] = at_quarters("BLEND", 0.5).map(|pixel| pixel.map(|it| f64::from(it) / red));
+    assert!((whole[0] - 1.0).abs() < 0.02 && (whole[1] - 0.5).abs() < 0.02, "{whole:?}");
+    assert!(left_out.iter().all(|it| (it - 1.0).abs() < 0.02), "{left_out:?}");
+    assert!(black.iter().all(|it| (it - 0.5).abs() < 0.02), "{black:?}");
 }
 
 #[test]
@@ -383,4 +394,31 @@ fn public_models_in_gltf_are_read_where_there_are_any() {
     if found == 0 {
         skip("public models in glTF: there is none among them");
     }
+}
+
+#[test]
+fn a_camera_has_no_size() {
+    let camera = |above: serde_json::Value, own: serde_json::Value| {
+        let mut file = box_file();
+        file.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 0.7, "znear": 1}}));
+        let place = json!({"translation": [1, 2, 3], "rotation": [0.0, 0.6, 0.0, 0.8]});
+        let mut merged = |extra: serde_json::Value, more: serde_json::Value| {
+            let mut node = place.as_object().unwrap().clone();
+            node.extend(extra.as_object().unwrap().clone());
+            node.extend(more.as_object().unwrap().clone());
+            file.push("nodes", node.into())
+        };
+        let child = merged(own, json!({"camera": 0}));
+        let top = merged(above, json!({"children": [child]}));
+        file.json["scenes"][0]["nodes"] = json!([top]);
+        tinta::mesh::gltf_camera(file.text().as_ref()).unwrap().unwrap()
+    };
+    let plain = camera(json!({}), json!({}));
+    for scale in [[1.0, 1.0, -1.0], [-1.0, -1.0, -1.0], [1.0, -1.0, 1.0], [5.0, 0.1, 2.0], [0.0, 0.0, 0.0]] {
+        assert_eq!(camera(json!({}), json!({"scale": scale})), plain, "{scale:?}");
+    }
+    // A node above moves it.
+    let moved = camera(json!({"scale": [2.0, 2.0, 2.0]}), json!({}));
+    assert_ne!(moved.eye, plain.eye);
+    assert_eq!(moved.up, plain.up);
 }

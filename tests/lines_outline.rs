@@ -353,6 +353,8 @@ fn a_run_shorter_than_four_widths_is_what_those_on_either_side_are() {
     near(outline(&[(50.0, false), (13.0, true), (37.0, false)], false), 0.13);
     // The shortest first: the rest is then long enough.
     near(outline(&[(40.0, true), (10.0, false), (5.0, true), (10.0, false), (35.0, true)], false), 0.75);
+    // Shorter neighbours decide nothing: the outline goes on in other lines there, as where silhouettes cross at a narrow angle.
+    near(outline(&[(1.0, false), (10.0, true), (1.5, false)], false), 0.8);
     // An end has no neighbour that decides its width.
     near(outline(&[(5.0, true), (95.0, false)], false), 0.05);
     // Around the end of a ring, too.

@@ -55,8 +55,8 @@ fn commands(program: &Program) -> Command {
 /// The beginning of the default at the end of an option's help.
 const DEFAULT: &str = "[default: ";
 
-/// What comes between the default look's value and that of all others.
-const OTHERWISE: &str = "; other looks: ";
+/// What comes between the default look's value and the one that counts with `--style` or `--preset`.
+const OTHERWISE: &str = "; without a look: ";
 
 /// An option whose help states the default look's value, then the default of a named style.
 fn with_drawn_default(arg: Arg, look: &Options) -> Arg {

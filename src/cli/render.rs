@@ -269,8 +269,9 @@ fn after_help() -> String {
     let names: Vec<String> =
         BUILTINS.iter().map(|builtin| format!("  builtin:{:<10} {}", builtin.name, builtin.what)).collect();
     format!(
-        "Built-in models:\n{}\n\nWhere two defaults are given, the first is that of the look print. tinta draws it unless you give \
-         --look, --style, --preset or a .svg, .pdf, .dxf or .json file. `tinta looks` describes the looks.\n\nPublished borders are black and one or two pixels wide at any \
+        "Built-in models:\n{}\n\nWhere two defaults are given, the first is that of the look print, which tinta draws unless you give \
+         --look, --style, --preset or a .svg, .pdf, .dxf or .json file. The second counts with --style, --preset or \
+         --look published. `tinta looks` describes the looks.\n\nPublished borders are black and one or two pixels wide at any \
          size, and edges are not smoothed.\n\nIf facets show as thin lines, the file's normals are wrong: try --normals smooth.",
         names.join("\n")
     )

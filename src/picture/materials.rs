@@ -91,6 +91,8 @@ pub fn material_pictures(materials: &[Material]) -> Result<Vec<Option<Arc<Pictur
 /// Blends a texture's transparent parts with white.
 fn flatten(picture: &mut Picture, alpha: TextureAlpha) {
     const WHITE: u32 = 255;
+    let factor = if let TextureAlpha::Blended(factor) = alpha { factor } else { [u8::MAX; 4] };
+    let times = |own: u8, factor: u8| (u32::from(own) * u32::from(factor) + WHITE / 2) / WHITE;
     let share = |own: u8| match alpha {
         TextureAlpha::Ignored => WHITE,
         TextureAlpha::Cutoff(least) => {
@@ -100,12 +102,12 @@ fn flatten(picture: &mut Picture, alpha: TextureAlpha) {
                 WHITE
             }
         }
-        TextureAlpha::Blended => u32::from(own),
+        TextureAlpha::Blended([.., factor]) => times(own, factor),
     };
     for [red, green, blue, own] in picture.pixels.as_chunks_mut::<4>().0 {
         let share = share(*own);
-        for channel in [red, green, blue] {
-            *channel = ((u32::from(*channel) * share + WHITE * (WHITE - share) + WHITE / 2) / WHITE) as u8;
+        for (channel, factor) in [red, green, blue].into_iter().zip(factor) {
+            *channel = ((times(*channel, factor) * share + WHITE * (WHITE - share) + WHITE / 2) / WHITE) as u8;
         }
     }
 }
@@ -128,6 +130,8 @@ mod tests {
         assert_eq!(flat(TextureAlpha::Ignored), [first, second, third]);
         assert_eq!(flat(TextureAlpha::Cutoff(51)), [first, [255; 3], third]);
         assert_eq!(flat(TextureAlpha::Cutoff(52)), [first, [255; 3], [255; 3]]);
-        assert_eq!(flat(TextureAlpha::Blended), [first, [255; 3], [204, 224, 244]]);
+        assert_eq!(flat(TextureAlpha::Blended([255; 4])), [first, [255; 3], [204, 224, 244]]);
+        assert_eq!(flat(TextureAlpha::Blended([255, 255, 255, 0])), [[255; 3]; 3]);
+        assert_eq!(flat(TextureAlpha::Blended([255, 51, 0, 51]))[0], [206, 205, 204]);
     }
 }

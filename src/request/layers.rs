@@ -180,7 +180,7 @@ impl Request {
         let Some(option) = self.options.keys().find(is_wrong) else { return Ok(()) };
         let problem = match OF_PAPER.contains(&option.as_str()) {
             true => pixels_on_paper(&self.options),
-            false => "only exact lines and areas have this; leave it out, or write a .svg".to_owned(),
+            false => "a picture of pixels cannot have it; leave it out, or write a .svg or .pdf".to_owned(),
         };
         Err(Error::setting(option.clone(), problem))
     }
@@ -203,8 +203,10 @@ pub fn pixels_on_paper(options: &Options) -> String {
     /// Dots an inch of a print.
     const DPI: f64 = 300.0;
     match DrawingSettings::from_options(options).ok().and_then(|drawing| drawing.page_size.pixels(DPI)) {
-        Some(size) => format!("a picture has pixels and no paper; for {DPI} dpi say --size {size}, or write a .svg"),
-        None => "a picture has pixels and no paper; say --size, or write a .svg".to_owned(),
+        Some(size) => {
+            format!("a picture has pixels and no paper; for {DPI} dpi say --size {size}, or write a .svg or .pdf")
+        }
+        None => "a picture has pixels and no paper; say --size, or write a .svg or .pdf".to_owned(),
     }
 }
 
@@ -303,7 +305,7 @@ mod tests {
         assert!(refused(&[file("eye = [1, 2, 3]\nview = \"top\"")]).contains("exclude each other"));
         assert_eq!(
             refused(&[given(&[("hidden", "dashed"), ("style", "phong")])]),
-            "hidden: only exact lines and areas have this; leave it out, or write a .svg"
+            "hidden: a picture of pixels cannot have it; leave it out, or write a .svg or .pdf"
         );
         let late = Request::from_layers(&[file("tones = 4")]).unwrap().0;
         assert_eq!(late.attributed(Error::setting("tones", "no")).to_string(), "a.toml: line 1: tones: no");

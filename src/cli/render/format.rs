@@ -64,14 +64,25 @@ impl Format {
                 request.refuse_vectors_options().map(|()| None)
             }
             (false, None) => match extension(output) {
-                Some(extension) if !is_of_a_picture(extension) => refuse(format!(
-                    "tinta writes no .{extension}; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf or .json for \
-                     lines, .gif or .apng for an animation"
-                )),
+                Some(extension) if !is_of_a_picture(extension) => {
+                    refuse(format!("tinta writes no .{extension}; {EXTENSIONS}"))
+                }
+                None if !output.ends_with('/') && !has_extension_alone(output) => {
+                    refuse(format!("the name has no extension; {EXTENSIONS}"))
+                }
                 _ => request.refuse_vectors_options().map(|()| None),
             },
         }
     }
+}
+
+/// What the formats are for.
+const EXTENSIONS: &str = "use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf or .json for lines, .gif or .apng for an \
+                          animation";
+
+/// Whether the file's name is an extension without a name, as `.png`.
+fn has_extension_alone(output: &str) -> bool {
+    Path::new(output).file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'))
 }
 
 fn is_of_a_picture(extension: &str) -> bool {

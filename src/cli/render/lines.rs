@@ -141,7 +141,8 @@ fn with_recipe(drawing: DrawingSettings, output: &str, recipe: Option<&Recipe>) 
 
 fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Result<()> {
     let Rendering { request, run, output } = *rendering;
-    let is_given = |option: &str| request.options.contains_key(option);
+    // A format without appearance leaves out what a look says of it.
+    let is_given = |option: &str| request.options.contains_key(option) && !request.is_of_look(option);
     let refuse = |options: &[&str], problem: &str| match options.iter().find(|option| is_given(option)) {
         Some(option) => Err(Error::setting(*option, problem)),
         None => Ok(()),

@@ -17,11 +17,10 @@ impl CameraSettings {
     ///
     /// A sentence if the matrix is not a camera's, mirrors or shears, or if its axis is not in the picture's centre.
     pub fn of_clip_from_world(matrix: &DMat4) -> std::result::Result<Self, ParseError> {
-        let rows = [0, 1, 3].map(|row| matrix.row(row));
-        if !rows.iter().all(|row| row.is_finite()) {
+        if !matrix.is_finite() {
             return Err("a camera's matrix has finite numbers only".to_owned().into());
         }
-        let [x, y, w] = rows;
+        let [x, y, w] = [0, 1, 3].map(|row| matrix.row(row));
         let size = x.xyz().length().max(y.xyz().length());
         match w.xyz().length() > SLACK * SLACK * size {
             true => perspective(x, y, w),
@@ -78,7 +77,7 @@ fn parallel(x: DVec4, y: DVec4, depth: DVec3, w: f64) -> std::result::Result<Cam
     let backward = x.xyz().cross(y.xyz()).try_normalize().unwrap_or(DVec3::ZERO);
     check(x.xyz(), y.xyz(), backward)?;
     // Only the depth tells front from back: a matrix with the opposite depth shows a mirrored picture.
-    if (depth / w).dot(backward) > 0.0 {
+    if (depth / w).dot(backward) >= 0.0 {
         return Err("a camera's matrix does not mirror: with x to the right and y up, depth grows away from the eye; \
                     turn the sign of one of these rows"
             .to_owned()
@@ -149,7 +148,15 @@ mod tests {
         assert!(refused(DMat4::from_cols_array(&mirror)).contains("mirror"));
         assert!(refused(DMat4::from_translation(DVec3::new(0.2, 0.0, 0.0)) * matrix).contains("middle"));
         assert!(refused(DMat4::ZERO).contains("matrix"));
-        assert!(refused(DMat4::NAN).contains("finite"));
+        for number in 0..16 {
+            for value in [f64::NAN, f64::INFINITY] {
+                let mut numbers = matrix_of(&front, 1.0).to_cols_array();
+                numbers[number] = value;
+                assert!(refused(DMat4::from_cols_array(&numbers)).contains("finite"), "{number}: {value}");
+            }
+        }
+        // Nothing tells front from back.
+        assert!(refused(DMat4::from_scale(DVec3::new(1.0, 1.0, 0.0)) * matrix_of(&front, 1.0)).contains("depth"));
         assert!(refused(DMat4::from_cols_array(&[1.0; 16])).contains("matrix"));
     }
 }

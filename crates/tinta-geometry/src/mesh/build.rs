@@ -327,7 +327,7 @@ fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
         } else if defects.degenerate_triangles > 0 {
             "faces that have area".to_owned()
         } else {
-            "faces whose vertices it holds, all of them finite".to_owned()
+            "faces whose vertices exist and are finite".to_owned()
         };
         format!("nothing is left to draw ({of_faces}); export it again with {wanted}")
     } else if soup.positions.is_empty() {

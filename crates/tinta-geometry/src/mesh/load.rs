@@ -181,7 +181,7 @@ fn made(
         other_up.filter(|_| !mesh.triangles.is_empty()).filter(|up| up_axis_guess::seems_to_lie(&mesh, *up))
     {
         remarks.push(format!(
-            "{path}: the model may lie on its side, because its flat base faces down along {up}; if it does, add --up-axis {up}"
+            "{path}: the model's flat base suggests that {up} points up; if it lies on its side, add --up-axis {up}"
         ));
     }
     // The reader, which knows their names, has already reported missing materials.

@@ -6,11 +6,12 @@
 //! counter-clockwise, shares from the lower left. The file's normals, numbers into a table of the game's, are not used:
 //! they are computed. Layout: the game's `dmdl_t` and its tables, as its authors published it.
 
+use super::Material;
 use super::folder::{Folder, Lookup};
 use super::frame::Between;
 use super::options::{LoadOptions, UpAxis};
+use super::skin::{self, Found};
 use super::soup::{Corner, Soup};
-use super::{Material, skin};
 use crate::bytes::{Bytes, name};
 use crate::error::{Error, Result};
 use crate::limits::SKINS;
@@ -233,14 +234,12 @@ fn find_skin(
         if let Lookup::Here(place) = from_above {
             return Some(place);
         }
-        match skin::find(folder, &name) {
-            Lookup::Here(place) => {
-                let sentence = skin::stand_in(folder, &name, &place, from_above == Lookup::Outside);
-                remarks.extend(sentence.map(|sentence| format!("{path}: {sentence}")));
-                return Some(place);
-            }
-            Lookup::Nowhere if from_above == Lookup::Nowhere => {}
-            _ => outside.push(skin::outside("skin", &name)),
+        let Found { lookup, remark } = skin::find(folder, &name, from_above == Lookup::Outside);
+        remarks.extend(remark.map(|remark| format!("{path}: {remark}")));
+        match lookup {
+            Lookup::Here(place) => return Some(place),
+            Lookup::Nowhere => {}
+            Lookup::Outside => outside.push(skin::outside("skin", &name)),
         }
     }
     if outside.is_empty() && folder.is_some() {

@@ -31,8 +31,8 @@ use persistent_creases::PersistentCreases;
 pub(super) struct Splitting {
     /// Cosine of the largest angle between neighbouring faces that share a normal; above 1 none do.
     pub cos_smooth: f64,
-    /// The same beside a persistent crease that ends at a vertex, where a near-crease continues it. `None` if all creases are
-    /// split.
+    /// The same around flat faces, and beside a persistent crease that ends at a vertex, where a near-crease continues it. `None`
+    /// if all creases are split.
     pub cos_beside: Option<f64>,
 }
 
@@ -52,7 +52,7 @@ pub(super) fn fill_missing(
     }
     let incidence = Incidence::new(positions.len(), triangles);
     let lasting =
-        cos_beside.map(|_| PersistentCreases::find(positions, triangles, face_normals, &incidence, cos_smooth));
+        cos_beside.map(|cos| PersistentCreases::find(positions, triangles, face_normals, &incidence, cos_smooth, cos));
     let face_normals = lasting.as_ref().map_or(face_normals, |lasting| &lasting.face_normals);
     let is_smooth = |vertex: usize| lasting.as_ref().is_some_and(|lasting| !lasting.vertices[vertex]);
     let weighted = |corner: u32| match &lasting {
@@ -63,7 +63,11 @@ pub(super) fn fill_missing(
             face_normals[face] * (lasting.areas[face] * angle_at(positions, triangles, corner))
         }
     };
-    let cos_half = ((1.0 + cos_smooth) * 0.5).max(0.0).sqrt();
+    let half = |cos: f64| ((1.0 + cos) * 0.5).max(0.0).sqrt();
+    let cos_of = |vertex: usize| match (&lasting, cos_beside) {
+        (Some(lasting), Some(cos_beside)) if lasting.borders[vertex] => cos_beside,
+        _ => cos_smooth,
+    };
     let is_missing = |corner: u32| triangle_normals[corner as usize / 3][corner as usize % 3] == NONE;
     let found = in_parallel(positions.len(), threads_for(triangles.len()), |vertices| {
         let corners = incidence.corners_of(&vertices);
@@ -81,6 +85,8 @@ pub(super) fn fill_missing(
             // touch in the vertex are joined too when they agree so well; that does no harm.
             let mean = corners.iter().map(face_normal).sum::<DVec3>().normalize_or_zero();
             let is_smooth = is_smooth(vertex);
+            let cos_smooth = cos_of(vertex);
+            let cos_half = half(cos_smooth);
             if is_smooth || corners.iter().all(|corner| face_normal(corner).dot(mean) >= cos_half) {
                 let sum = corners.iter().map(|corner| weighted(*corner)).sum();
                 let is_its_own =

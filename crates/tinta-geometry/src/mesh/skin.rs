@@ -12,44 +12,40 @@ use std::path::{Path, PathBuf};
 /// Extensions of pictures, in the order they are tried.
 pub(super) const EXTENSIONS: [&str; 6] = ["pcx", "png", "tga", "bmp", "jpg", "jpeg"];
 
-/// A picture that a model file names, as the file writes it: where it says, or in the model's folder whatever folder it
-/// says, in any case and, where it is not there, with any other extension of a picture.
-///
-/// Models name pictures as they lay on their author's disk, `C:\ART\SKIN.PCX`.
-pub(super) fn find(folder: &Folder<'_>, name: &str) -> Lookup {
-    let slashes = name.replace('\\', "/");
-    let written = [name, &slashes].map(|name| folder.find(Path::new(name)));
-    let base = slashes.rsplit('/').next().unwrap_or_default();
-    let places = written.into_iter().chain(std::iter::once_with(|| beside(folder, base)));
-    let mut best = Lookup::Nowhere;
-    for found in places {
-        match found {
-            Lookup::Here(_) => return found,
-            Lookup::Outside => best = found,
-            Lookup::Nowhere => {}
-        }
-    }
-    best
+/// A picture that a model file names.
+pub(super) struct Found {
+    pub lookup: Lookup,
+    /// A sentence if a picture beside the model stands for the one named, which lies in another folder or nowhere.
+    pub remark: Option<String>,
 }
 
-/// A sentence where a picture that was found beside a model stands for one of another folder: one that is there, or that a name
-/// reaches by `..`. Any other name may be where its author's disk had the model.
-pub(super) fn stand_in(folder: &Folder<'_>, name: &str, found: &Path, is_outside: bool) -> Option<String> {
+/// Finds a picture that a model file names: at the path that the file gives, or in the model's folder, in any case and, where it
+/// is not there, with any other extension of a picture. Models name pictures as they lay on their author's disk,
+/// `C:\ART\SKIN.PCX`. `is_outside` says that the path was found outside the folder already.
+pub(super) fn find(folder: &Folder<'_>, name: &str, is_outside: bool) -> Found {
     let slashes = name.replace('\\', "/");
-    if !is_outside && slashes.split('/').all(|part| part != "..") {
-        return None;
-    }
-    let mut folders: Vec<&str> = Vec::new();
-    for part in slashes.split('/').filter(|part| !part.is_empty() && *part != ".") {
-        if part == ".." {
-            folders.pop();
-        } else {
-            folders.push(part);
+    let mut best = if is_outside { Lookup::Outside } else { Lookup::Nowhere };
+    for written in [name, &slashes] {
+        match folder.find(Path::new(written)) {
+            Lookup::Nowhere => {}
+            Lookup::Outside => best = Lookup::Outside,
+            here @ Lookup::Here(_) => return Found { lookup: here, remark: None },
         }
     }
-    folders.pop();
-    let (named, own) = (folders.last()?, folder.name_of_parent(found)?);
-    if named.eq_ignore_ascii_case(&own) {
+    let (path, base) = slashes.rsplit_once('/').unwrap_or(("", &slashes));
+    match beside(folder, base) {
+        Lookup::Nowhere => Found { lookup: best, remark: None },
+        lookup => Found { remark: stand_in(folder, name, path, &lookup, best == Lookup::Outside), lookup },
+    }
+}
+
+/// A sentence where a picture beside a model stands for one of another folder: one that is there, or one whose folder has another
+/// name than the model's.
+fn stand_in(folder: &Folder<'_>, name: &str, path: &str, found: &Lookup, is_outside: bool) -> Option<String> {
+    let Lookup::Here(found) = found else { return None };
+    let own = folder.name_of_parent(found)?;
+    let named = path.rsplit('/').next().unwrap_or_default();
+    if !is_outside && (["", "."].contains(&named) || named.eq_ignore_ascii_case(&own)) {
         return None;
     }
     let why =
@@ -108,9 +104,10 @@ pub(super) fn find_all(soup: &mut Soup, folder: &Folder<'_>, path: &str, remarks
         let Some(name) = material.texture.take().filter(|_| folder.is_some()) else { continue };
         let found = known.entry(name).or_insert_with_key(|name| {
             let name = name.to_string_lossy();
-            let found = find(folder, &name);
-            match &found {
-                Lookup::Here(place) => lost.extend(stand_in(folder, &name, place, false)),
+            let Found { lookup, remark } = find(folder, &name, false);
+            lost.extend(remark);
+            match &lookup {
+                Lookup::Here(_) => {}
                 Lookup::Outside => lost.push(outside("picture", &name)),
                 Lookup::Nowhere => lost.push(format!(
                     "the picture {} is not beside it; its faces get the material's colour; --skin names another \
@@ -118,7 +115,7 @@ pub(super) fn find_all(soup: &mut Soup, folder: &Folder<'_>, path: &str, remarks
                     shown(&name)
                 )),
             }
-            found
+            lookup
         });
         if let Lookup::Here(place) = found {
             folder.put_picture(material, place.clone());
@@ -181,7 +178,7 @@ mod tests {
             std::fs::write(at(name), "").unwrap();
         }
         let model = at("model.3ds");
-        let found = |name: &str| match find(&Folder::of(model.to_str().unwrap(), false), name) {
+        let found = |name: &str| match find(&Folder::of(model.to_str().unwrap(), false), name, false).lookup {
             Lookup::Here(path) => Some(path),
             other => {
                 assert_eq!(other, Lookup::Nowhere, "{name}");
@@ -197,15 +194,15 @@ mod tests {
         for name in ["other.png", "model", "", "..", "art", "/", "\\"] {
             assert_eq!(found(name), None, "{name}");
         }
-        assert_eq!(find(&Folder::of("/no/such/folder/a.obj", false), "skin.png"), Lookup::Nowhere);
-        assert_eq!(find(&Folder::of_files(&[]), "/etc/passwd"), Lookup::Nowhere);
+        assert_eq!(find(&Folder::of("/no/such/folder/a.obj", false), "skin.png", false).lookup, Lookup::Nowhere);
+        assert_eq!(find(&Folder::of_files(&[]), "/etc/passwd", false).lookup, Lookup::Nowhere);
     }
 
     #[test]
     fn files_out_of_memory_are_found_by_their_names_in_any_case_and_a_single_library_by_any() {
         let files: [(&str, &[u8]); 3] = [("Wood.PNG", b"wood"), ("art/deep.png", b"deep"), ("other.mtl", b"library")];
         let folder = Folder::of_files(&files);
-        let found = |name: &str| match find(&folder, name) {
+        let found = |name: &str| match find(&folder, name, false).lookup {
             Lookup::Here(path) => Some(path),
             _ => None,
         };

@@ -90,8 +90,8 @@ pub enum TextureAlpha {
     Ignored,
     /// Texels below this alpha, of 255, are left out; others keep their colours.
     Cutoff(u8),
-    /// Blends colours.
-    Blended,
+    /// Blends colours, times this factor of red, green, blue and alpha, of 255.
+    Blended([u8; 4]),
 }
 
 impl Material {

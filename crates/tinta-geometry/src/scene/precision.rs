@@ -26,16 +26,17 @@ impl Scene {
         }
     }
 
-    /// Refuses a scene without faces, which GL draws alone, and a camera that GL cannot draw this scene with: f32 matrices are too coarse for the depth, or the planes
-    /// leave the depth buffer too few steps. Exact lines need neither.
+    /// Refuses a scene without faces, because GL draws nothing else, and a camera that GL cannot draw this scene with: f32
+    /// matrices are too coarse for the depth, or the planes leave the depth buffer too few steps. Exact lines need neither.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] with the names of the options.
+    /// [`Error::File`] with the first model, and [`Error::Setting`] with the names of the options.
     pub fn check_precision(&self) -> Result<()> {
         if self.triangle_count() == 0 {
-            let problem = "the model has no faces, only curves and points; draw it with --style lines, or into a .svg";
-            return Err(Error::setting("style", problem));
+            let problem = "it has no faces, only curves and points; draw it with --style lines, or into a .svg";
+            let name = self.objects.first().map(|object| object.mesh.name.clone()).unwrap_or_default();
+            return Err(Error::model(name, problem));
         }
         let distance = self.distance();
         if distance > LARGEST_DISTANCE || !self.clip_from_view().is_finite() {

@@ -133,9 +133,10 @@ impl FromStr for Name {
             HATCH => Ok(Self::Hatch),
             _ => match text.strip_prefix(HIDDEN) {
                 Some(class) => Ok(Self::HiddenClass(class.parse()?)),
-                None => Ok(Self::Class(text.parse().map_err(|problem| {
+                None => Ok(Self::Class(text.parse().map_err(|problem: ParseError| {
                     match nearest(text, &["outline", HIDDEN_LINES, HATCH]) {
                         Some(meant) => format!("did you mean {meant}?"),
+                        None if problem.to_string().ends_with('?') => problem.to_string(),
                         None => format!("{problem}, outline, hatch, hidden, or hidden- and a class"),
                     }
                 })?)),

@@ -19,13 +19,13 @@ pub fn camera(file: &[u8]) -> std::result::Result<Option<CameraSettings>, String
     };
     let camera =
         root.cameras.get(camera.value()).ok_or("its node names a camera that does not exist; export it again")?;
-    let place = nodes.scene_from_node[node];
-    let (eye, backward) = (place.transform_point3(DVec3::ZERO), place.transform_vector3(DVec3::Z).normalize());
+    let turn = nodes.rotation(&root, node);
+    let (eye, backward) = (nodes.scene_from_node[node].transform_point3(DVec3::ZERO), turn * DVec3::Z);
     let distance = if eye.dot(backward) > 0.0 { eye.dot(backward) } else { eye.length().max(1.0) };
     let settings = CameraSettings {
         eye: Some(eye),
         target: Some(eye - backward * distance),
-        up: Some(place.transform_vector3(DVec3::Y)),
+        up: Some(turn * DVec3::Y),
         ..CameraSettings::default()
     };
     match (&camera.perspective, &camera.orthographic) {

@@ -85,32 +85,46 @@ impl Materials {
                     image
                 }
             };
+            let alpha = if factor[3].is_finite() { factor[3].clamp(0.0, 1.0) } else { 1.0 };
+            let cutoff = material.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0);
+            let mode = match material.alpha_mode {
+                Checked::Valid(mode) => mode,
+                Checked::Invalid => AlphaMode::Opaque,
+            };
+            // Nothing of it is drawn: it shows the paper.
+            let is_left_out = mode == AlphaMode::Mask && alpha < cutoff;
+            let image = image.filter(|_| !is_left_out);
+            let has_image = image.is_some();
             let (texture_file, embedded) = match image {
                 None => (None, None),
                 Some(Image::File(name)) => (Some(name), None),
                 Some(Image::Embedded(picture)) => (None, Some(picture)),
             };
             let [red, green, blue, _] = factor.map(to_srgb);
-            let mut color = [red, green, blue];
-            let texture_alpha = match material.alpha_mode {
-                Checked::Valid(AlphaMode::Mask) => {
-                    let cutoff = material.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0);
-                    TextureAlpha::Cutoff((cutoff * 255.0).ceil() as u8)
+            let color = [red, green, blue];
+            let texture_alpha = match mode {
+                AlphaMode::Mask => TextureAlpha::Cutoff((cutoff / alpha * 255.0).ceil() as u8),
+                AlphaMode::Blend => {
+                    let [red, green, blue, alpha] =
+                        [red, green, blue, alpha].map(|share| (share * 255.0).round() as u8);
+                    TextureAlpha::Blended([red, green, blue, alpha])
                 }
-                Checked::Valid(AlphaMode::Blend) => TextureAlpha::Blended,
-                _ => TextureAlpha::Ignored,
+                AlphaMode::Opaque => TextureAlpha::Ignored,
             };
-            if texture_alpha == TextureAlpha::Blended {
-                let alpha = if factor[3].is_finite() { factor[3].clamp(0.0, 1.0) } else { 1.0 };
-                color = color.map(|channel| channel * alpha + (1.0 - alpha));
-            }
+            let color = match mode {
+                AlphaMode::Mask if is_left_out => [1.0; 3],
+                AlphaMode::Blend => color.map(|channel| channel * alpha + (1.0 - alpha)),
+                _ => color,
+            };
+            // The factor of a blended picture is in its pixels.
+            let texture_color = if has_image && mode == AlphaMode::Blend { [1.0; 3] } else { color };
             materials.list.push(Material {
                 name: material.name.clone().unwrap_or_else(|| format!("material {number}")),
                 color: Some(color),
                 texture: texture_file,
                 texture_within: None,
                 embedded,
-                texture_color: Some(color),
+                texture_color: Some(texture_color),
                 texture_alpha,
             });
             materials.coordinates.push(texture.map_or(Coordinates::DEFAULT, Coordinates::of));

@@ -39,6 +39,12 @@ impl Nodes {
         Ok(Self { scene_from_node, shown: shown(root)?, parents })
     }
 
+    /// How a node is turned in the scene, whatever its size: cameras have none.
+    pub(super) fn rotation(&self, root: &Root, node: usize) -> DQuat {
+        let above = std::iter::successors(Some(node), |node| self.parents[*node]);
+        above.fold(DQuat::IDENTITY, |below, node| rotation(&root.nodes[node]) * below)
+    }
+
     /// The nodes that show a mesh and those above them, as parts, each after the one above it; for each node its part.
     pub(super) fn parts(&self, root: &Root) -> (Vec<NamedPart>, Vec<u32>) {
         let (mut parts, mut of_nodes) = (Vec::new(), vec![NONE; root.nodes.len()]);
@@ -106,12 +112,18 @@ fn parent_from_node(node: &Node) -> DMat4 {
         return DMat4::from_cols_array(&matrix.map(f64::from));
     }
     let vector = |given: Option<[f32; 3]>, default| given.map_or(default, |v| DVec3::from_array(v.map(f64::from)));
-    let rotation = DQuat::from_array(node.rotation.unwrap_or_default().0.map(f64::from));
-    // Written with few digits it is not quite of length 1; of length 0 it turns nothing.
-    let rotation = if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
     DMat4::from_scale_rotation_translation(
         vector(node.scale, DVec3::ONE),
-        rotation,
+        rotation(node),
         vector(node.translation, DVec3::ZERO),
     )
+}
+
+fn rotation(node: &Node) -> DQuat {
+    let rotation = match node.matrix {
+        Some(matrix) => DMat4::from_cols_array(&matrix.map(f64::from)).to_scale_rotation_translation().1,
+        None => DQuat::from_array(node.rotation.unwrap_or_default().0.map(f64::from)),
+    };
+    // Written with few digits it is not quite of length 1; of length 0 it turns nothing.
+    if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY }
 }

@@ -1,5 +1,6 @@
 //! Creases that last: chains of edges at which faces differ by more than the smoothing angle and that continue for some length.
-//! On scans and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks.
+//! On scans and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks. Around a
+//! flat face of a part a smaller angle is enough, because chamfers of nuts and shafts have 30 degrees.
 //!
 //! In: welded triangles and the angle's cosine. Out: the vertices where normals may be split, the faces' normals without a scan's
 //! noise (`denoise_normals.rs`), and for each triangle the area of the flat face it is part of. By it a face counts more than the chamfer beside
@@ -23,10 +24,18 @@ const LEAST_REACH_IN_NOISE: f64 = 0.15;
 /// The least cosine between triangles of one flat face: half a degree, as exported planes keep.
 const FLAT: f64 = 0.99996;
 
+/// Fewest triangles of a flat face around which a smaller angle is enough: those of a hexagon. Facets of round shapes have two.
+const LEAST_TRIANGLES: usize = 4;
+
+/// How much larger such a face is than the one beside it. Facets around a round shape are as large as one another.
+const LARGER: f64 = 4.0;
+
 /// Where normals may be split, and how much faces weigh in.
 pub(super) struct PersistentCreases {
     /// For each vertex whether it lies on a crease that lasts.
     pub vertices: Vec<bool>,
+    /// For each vertex whether the smaller angle counts: it lies on the border of a flat face.
+    pub borders: Vec<bool>,
     /// For each triangle the area of its flat face, in units of the model's own.
     pub areas: Vec<f64>,
     /// For each triangle whether its facets stand for a surface that bends both ways.
@@ -42,6 +51,7 @@ impl PersistentCreases {
         given: &[DVec3],
         incidence: &Incidence,
         cos_smooth: f64,
+        cos_beside: f64,
     ) -> Self {
         let found = in_parallel(positions.len(), threads_for(triangles.len()), |vertices| {
             let (mut edges, mut spokes) = (Vec::new(), Vec::new());
@@ -94,9 +104,20 @@ impl PersistentCreases {
             neighbours: &neighbours,
         };
         let DenoisedNormals { normals: face_normals, is_noisy } = denoised(&faces, whole.diagonal(), cos_smooth);
+        let mut flat_counts = vec![0; triangles.len()];
+        flat.iter().for_each(|face| flat_counts[*face as usize] += 1);
+        let is_border = |edge: &Edge| {
+            let [face, other] = edge.faces.map(|face| flat[face as usize]);
+            let is_larger = |face: u32, other: u32| {
+                flat_counts[face as usize] >= LEAST_TRIANGLES
+                    && flat_areas[face as usize] >= LARGER * flat_areas[other as usize]
+            };
+            is_larger(face, other) || is_larger(other, face)
+        };
         // Evening out also sharpens rounded rims, in zigzags: a crease is one before and after it.
-        let is_sharp = |edge: &&Edge| [&face_normals, given].iter().all(|of| cosine(of, edge) < cos_smooth);
-        let sharp: Vec<&Edge> = edges().filter(is_sharp).collect();
+        let is_sharp = |edge: &Edge, cos: f64| [&face_normals, given].iter().all(|of| cosine(of, edge) < cos);
+        let is_crease = |edge: &&Edge| is_sharp(edge, cos_smooth) || is_border(edge) && is_sharp(edge, cos_beside);
+        let sharp: Vec<&Edge> = edges().filter(is_crease).collect();
         let mut chains = DisjointSets::new(positions.len());
         sharp.iter().for_each(|edge| chains.join(edge.ends));
         let mut boxes = vec![Span::NONE; positions.len()];
@@ -108,13 +129,18 @@ impl PersistentCreases {
                 least[chain] = LEAST_REACH;
             }
         }
-        let mut vertices = vec![false; positions.len()];
-        for end in sharp.iter().flat_map(|edge| edge.ends) {
-            let chain = chains.root(end) as usize;
-            vertices[end as usize] = boxes[chain].diagonal() >= least[chain] * whole.diagonal();
+        let (mut vertices, mut borders) = (vec![false; positions.len()], vec![false; positions.len()]);
+        for edge in &sharp {
+            let chain = chains.root(edge.ends[0]) as usize;
+            let lasts = boxes[chain].diagonal() >= least[chain] * whole.diagonal();
+            let is_border = is_border(edge);
+            for end in edge.ends {
+                vertices[end as usize] = lasts;
+                borders[end as usize] |= lasts && is_border;
+            }
         }
         let is_curved = curved(&faces, edges, incidence, whole.diagonal(), cos_smooth);
-        Self { vertices, areas, is_curved, face_normals }
+        Self { vertices, borders, areas, is_curved, face_normals }
     }
 }
 

@@ -1,5 +1,6 @@
 use super::*;
 use crate::mesh::triangle_normal;
+use std::collections::HashSet;
 
 fn computed(positions: &[DVec3], triangles: &[[u32; 3]], angle: f64) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     split(positions, triangles, Splitting { cos_smooth: angle.to_radians().cos(), cos_beside: None })
@@ -151,9 +152,10 @@ fn a_flat_face_stays_flat_beside_a_chamfer() {
     let slope = 30f64.to_radians().tan();
     let (positions, triangles) = grid(60, |x, _| if x <= 30 { 0.0 } else { slope * (x.min(31) - 30) as f64 });
     let of_faces = |(normals, indices): (Vec<Vec3>, Vec<[u32; 3]>)| {
-        let corners = triangles.as_flattened().iter().zip(indices.as_flattened());
-        let flat = corners.filter(|(vertex, _)| positions[**vertex as usize].x == 30.0);
-        flat.map(|(_, normal)| normals[*normal as usize].as_dvec3().angle_between(DVec3::Z).to_degrees())
+        let is_flat = |triangle: &[u32; 3]| triangle.iter().all(|vertex| positions[*vertex as usize].x <= 30.0);
+        let flat = triangles.iter().zip(&indices).filter(|(triangle, _)| is_flat(triangle));
+        flat.flat_map(|(_, corners)| corners)
+            .map(|normal| normals[*normal as usize].as_dvec3().angle_between(DVec3::Z).to_degrees())
             .fold(0.0, f64::max)
     };
     let [by_angle, lasting] =
@@ -328,5 +330,55 @@ fn normals_of_uneven_cylinders_stay() {
         let mean = strip(x - 1.0) + strip(x);
         let angle = normals[*normal as usize].as_dvec3().angle_between(mean).to_degrees();
         assert!(angle < 0.2, "{angle} degrees at {x}");
+    }
+}
+
+/// A shaft of so many sides in rows of rectangles, its top chamfered at an angle to its flat end.
+fn shaft(sides: u32, rows: u32, degrees: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let chamfer = (0.8, 3.0 + 0.2 * degrees.to_radians().tan());
+    let rings = (0..=rows).map(|row| (1.0, 3.0 * f64::from(row) / f64::from(rows))).chain([chamfer]);
+    let ring = |(radius, height): (f64, f64)| {
+        (0..sides).map(move |side| {
+            let turn = f64::from(side) / f64::from(sides) * std::f64::consts::TAU;
+            DVec3::new(radius * turn.cos(), radius * turn.sin(), height)
+        })
+    };
+    let positions: Vec<DVec3> = rings.flat_map(ring).collect();
+    let mut triangles = Vec::new();
+    for row in 0..=rows {
+        for side in 0..sides {
+            let [a, b] = [side, (side + 1) % sides].map(|side| row * sides + side);
+            triangles.extend([[a, b, b + sides], [a, b + sides, a + sides]]);
+        }
+    }
+    let top = (rows + 1) * sides;
+    triangles.extend((1..sides - 1).map(|side| [top, top + side, top + side + 1]));
+    (positions, triangles)
+}
+
+#[test]
+fn a_chamfer_of_thirty_degrees_ends_at_the_flat_face_and_facets_stay_round() {
+    for sides in [12, 24, 60] {
+        for degrees in [28.0, 30.0, 38.0] {
+            let (positions, triangles) = shaft(sides, 6, degrees);
+            let (normals, indices) = lasting(&positions, &triangles);
+            let top = triangles.len() - (sides as usize - 2);
+            for normal in indices[top..].as_flattened().iter().map(|index| normals[*index as usize]) {
+                assert!(normal.z > 0.999_999, "{sides} sides, {degrees} degrees: the flat end has {normal}");
+            }
+            // Facets of 30 degrees with many triangles, too: neither side of such an edge is larger.
+            let side = &indices[..12 * sides as usize];
+            let off = farthest(&positions, &triangles[..side.len()], &(normals.clone(), side.to_vec()));
+            let half = 180.0 / f64::from(sides);
+            assert!((off - half).abs() < 1e-3, "{sides} sides: {off} degrees instead of {half}");
+        }
+        // 24 degrees are below the angle: the flat end and its chamfer share their normals.
+        let (positions, triangles) = shaft(sides, 6, 24.0);
+        let (_, indices) = lasting(&positions, &triangles);
+        let normals_at = |vertex: u32| {
+            let corners = triangles.as_flattened().iter().zip(indices.as_flattened());
+            corners.filter(|(corner, _)| **corner == vertex).map(|(_, normal)| *normal).collect::<HashSet<u32>>()
+        };
+        assert_eq!(normals_at(7 * sides).len(), 1, "{sides} sides");
     }
 }

@@ -5,7 +5,8 @@
 //! - *Slits.* The ink of two outline lines nearer than [`SLIT`] widths would fill the background between them: both become inner
 //!   lines there. Along the outline, a part shorter than [`SHORT_RUN`] widths, slit or not, takes the class of its neighbours.
 //! - *Short runs.* A run of inner line shorter than [`SHORT_RUN`] widths between two runs of outline becomes outline. A short run
-//!   of outline between two runs of inner line becomes inner line. The shortest run changes first.
+//!   of outline between two runs of inner line becomes inner line, unless both together are shorter: there the outline goes on in
+//!   other lines, which cross this one. The shortest run changes first.
 //!
 //! Runs follow chains: pieces that continue one another, whatever their classes and objects. Where pieces meet, two of the
 //! outline are paired first, then the pair that continues straightest.
@@ -236,7 +237,16 @@ fn settle(pieces: &[LineSegment], of_pieces: &mut [bool], chain: &Chain, least_p
             (_, true) => 2,
             (_, false) => usize::from(index > 0) + usize::from(index + 1 < count),
         };
-        let may_change = |index: &usize| runs[*index].length < least_px && beside(*index) >= least_beside;
+        let length = |index: Option<&Run>| index.map_or(0.0, |run| run.length);
+        let beside_px = |index: usize| match chain.is_closed {
+            true => length(runs.get((index + count - 1) % count)) + length(runs.get((index + 1) % count)),
+            false => length(index.checked_sub(1).and_then(|before| runs.get(before))) + length(runs.get(index + 1)),
+        };
+        let may_change = |index: &usize| {
+            let run = &runs[*index];
+            let is_minor = !run.is_outline || run.length < beside_px(*index);
+            run.length < least_px && is_minor && beside(*index) >= least_beside
+        };
         let shortest = (0..count).filter(may_change);
         let Some(index) = shortest.min_by(|a, b| runs[*a].length.total_cmp(&runs[*b].length)) else { break };
         // The run and its neighbours become one; in a ring, across its end, too.
