@@ -184,7 +184,7 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     refuse(&svg, &["--no-borders"], &["--no-borders", "leave it out"]);
     refuse(&svg, &["--silhouette", "paper"], &["--silhouette paper", "exactly"]);
     for options in [&["--hidden", "ghost"][..], &["--class-widths", "crease=1"], &["--pen"]] {
-        refuse(&png, options, &[options[0], "only exact lines and areas"]);
+        refuse(&png, options, &[options[0], "a picture of pixels cannot have it"]);
         refuse(&json, options, &[options[0], ".json", ".svg"]);
     }
     assert!(!std::path::Path::new(&svg).exists());

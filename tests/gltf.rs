@@ -410,7 +410,7 @@ fn a_camera_has_no_size() {
         };
         let child = merged(own, json!({"camera": 0}));
         let top = merged(above, json!({"children": [child]}));
-        file.json["scenes"][0]["nodes"] = json!([top]);
+        file.push("scenes", json!({"nodes": [top]}));
         tinta::mesh::gltf_camera(file.text().as_ref()).unwrap().unwrap()
     };
     let plain = camera(json!({}), json!({}));

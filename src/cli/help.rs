@@ -56,7 +56,7 @@ fn commands(program: &Program) -> Command {
 const DEFAULT: &str = "[default: ";
 
 /// What comes between the default look's value and the one that counts with `--style` or `--preset`.
-const OTHERWISE: &str = "; without a look: ";
+const OTHERWISE: &str = "; no look: ";
 
 /// An option whose help states the default look's value, then the default of a named style.
 fn with_drawn_default(arg: Arg, look: &Options) -> Arg {
