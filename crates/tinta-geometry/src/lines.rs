@@ -104,11 +104,8 @@ use smooth::contours::Contours;
 use visible::faces::Faces;
 use visible::line_index::LineIndex;
 use visible::nearest_faces::NearestFaces;
-use visible::pyramid::Pyramid;
+use visible::pyramid::{Pyramid, is_crowded};
 use visible::space::Space;
-
-/// Number of intersections above which the cells that hide some are made smaller.
-const MANY_INTERSECTIONS: usize = 10_000;
 
 /// Refuses settings without lines, and scenes that are too large.
 fn check(scene: &Scene, settings: &LineSettings) -> Result<()> {
@@ -201,19 +198,13 @@ impl VisibleLines {
         progress.go_on()?;
 
         let clock = Instant::now();
-        let mut pyramid = Pyramid::new(&space, &faces);
-        let nearest_faces = NearestFaces::new(&space, &faces, progress);
+        let is_crowded = is_crowded(&space, &faces);
+        let pyramid = is_crowded.then(|| Pyramid::new(&space, &faces)).flatten();
+        let nearest_faces = is_crowded.then(|| NearestFaces::new(&space, &faces, progress));
         let hides = pyramid.as_ref().filter(|_| !settings.finds_hidden);
         let nearest = nearest_faces.as_ref().filter(|_| !settings.finds_hidden);
-        let mut intersections =
-            visible::intersections::intersections(&space, &faces, &parts, (hides, nearest), progress);
+        let intersections = visible::intersections::intersections(&space, &faces, &parts, (hides, nearest), progress);
         progress.go_on()?;
-        if hides.is_some() && intersections.lines.len() > MANY_INTERSECTIONS {
-            pyramid = Pyramid::fine(&space, &faces);
-            if let Some(fine) = &pyramid {
-                intersections.leave_out_hidden(&space, fine);
-            }
-        }
         let mut compared = intersections.compared;
         if !settings.classes.and(ClassSet::of(&[Class::Intersection, Class::Part])).is_empty() {
             let found = &intersections.lines;
@@ -229,7 +220,7 @@ impl VisibleLines {
             &faces,
             &lines,
             &intersections.piercings,
-            (pyramid.as_ref(), nearest_faces.is_some()),
+            (pyramid.as_ref(), is_crowded),
             settings,
             progress,
         )?;

@@ -21,4 +21,5 @@ pub(super) mod pyramid;
 pub(super) mod ranges;
 pub(super) mod reference;
 pub(super) mod space;
+pub(super) mod thresholds;
 pub(super) mod visibility;

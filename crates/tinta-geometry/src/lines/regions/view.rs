@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::lines::progress::Progress;
 use crate::lines::visible::cast::{Hit, meet};
 use crate::lines::visible::faces::Faces;
-use crate::lines::visible::pyramid::Pyramid;
+use crate::lines::visible::pyramid::{Pyramid, is_crowded};
 use crate::lines::visible::space::Space;
 use crate::scene::Scene;
 use crate::threads::{cores, in_chunks, sort_by};
@@ -46,7 +46,7 @@ impl<'a> View<'a> {
         let meshes: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
         let faces = Faces::new(&space, &meshes);
         progress.go_on()?;
-        let pyramid = Pyramid::new(&space, &faces);
+        let pyramid = is_crowded(&space, &faces).then(|| Pyramid::new(&space, &faces)).flatten();
         let all = || vec![true; faces.triangles.len()];
         let is_seen = pyramid.as_ref().map_or_else(all, |pyramid| pyramid.seen(&space, &faces));
         let crossings = crossings(&faces, &is_seen, progress);

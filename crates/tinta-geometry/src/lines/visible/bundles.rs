@@ -8,11 +8,9 @@
 //! touch. A tree of lines (Li Chao) finds the nearest line of a bundle at all places between the lines' ends, in m log² m.
 
 use crate::lines::visible::image::Image;
+use crate::lines::visible::thresholds::THRESHOLDS;
 use glam::DVec2;
 use std::f64::consts::PI;
-
-/// Fewest lines in a bundle. Fewer lines are compared with one another.
-const FEWEST: usize = 12;
 
 /// The largest difference between directions in a bundle: far more than rounding turns lines.
 const TURN: f64 = 1e-6;
@@ -79,7 +77,7 @@ impl Bundles {
         directed.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut all = Self::default();
         let mut placed: Vec<(f64, u32)> = Vec::new();
-        for of_direction in runs(&directed, TURN).filter(|run| run.len() >= FEWEST) {
+        for of_direction in runs(&directed, TURN).filter(|run| run.len() >= THRESHOLDS.group) {
             let Some(first) = images[of_direction[0].1 as usize] else { continue };
             let along = (first.b - first.a).normalize();
             placed.clear();
@@ -88,7 +86,7 @@ impl Bundles {
                 Some((along.perp_dot((image.a + image.b) * 0.5 - middle), *line))
             }));
             placed.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            for on_one_line in runs(&placed, touch_px).filter(|run| run.len() >= FEWEST) {
+            for on_one_line in runs(&placed, touch_px).filter(|run| run.len() >= THRESHOLDS.group) {
                 let mut members: Vec<Member> = on_one_line
                     .iter()
                     .filter_map(|(_, line)| Some(Member::new(along, images[*line as usize].as_ref()?, *line)))
@@ -226,7 +224,7 @@ mod tests {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (state >> 40) as f64 / f64::from(1 << 24)
         };
-        for count in [FEWEST, 40, 333] {
+        for count in [THRESHOLDS.group, 40, 333] {
             let images: Vec<Option<Image>> = (0..count)
                 .map(|_| {
                     let (from, length) = (number() * 300.0, 1.0 + number() * 90.0);

@@ -12,6 +12,7 @@ use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
 use crate::lines::visible::projected_face::ProjectedFace;
 use crate::lines::visible::ranges::{gaps, hold, united};
+use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::tolerances::CONTACT;
 
 /// The parts of a line that are hidden, and those that may be.
@@ -59,9 +60,6 @@ impl Cover {
     }
 }
 
-/// Faces that a walk remembers: a large face comes once for each of its parts.
-const REMEMBERED: usize = 256;
-
 /// The walk for one line.
 struct CoverWalk<'a> {
     lines: &'a LineIndex<'a>,
@@ -69,7 +67,7 @@ struct CoverWalk<'a> {
     probe: OccluderProbe,
     cover: Cover,
     least: f64,
-    remembered: [Option<u32>; REMEMBERED],
+    remembered: [Option<u32>; THRESHOLDS.remembered],
 }
 
 impl Walk for CoverWalk<'_> {
@@ -82,7 +80,7 @@ impl Walk for CoverWalk<'_> {
     }
 
     fn visit(&mut self, face: u32) -> bool {
-        let remembered = &mut self.remembered[face as usize % REMEMBERED];
+        let remembered = &mut self.remembered[face as usize % THRESHOLDS.remembered];
         if self.probe.line.own_corners(self.lines.faces, face).is_none() || remembered.replace(face) == Some(face) {
             return false;
         }
@@ -127,7 +125,7 @@ impl LineIndex<'_> {
             probe: OccluderProbe::new(self.space, (line, feature.ends), image, inside, search_depth),
             cover,
             least,
-            remembered: [None; REMEMBERED],
+            remembered: [None; THRESHOLDS.remembered],
         };
         self.walk_occluders(Exclusion::planes(feature.planes), &mut walk);
         walk.cover.sorted()

@@ -17,12 +17,11 @@ use crate::lines::visible::space::Space;
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::JOINED_PX;
 
+/// All of a line.
+const WHOLE: [f64; 2] = [0.0, 1.0];
+
 /// Hidden lines that a thread tests at once.
 const CHUNK: usize = 512;
-
-/// Pixels. The box of a longer diagonal part overlaps too much. Shorter parts find long lines that nearly coincide once for each
-/// part.
-const LONGEST_PART: f64 = 128.0;
 
 /// Cuts and marks hidden pieces, and those that are ghosts'. Returns all pieces unchanged if time runs out and the settings accept a part of the lines.
 ///
@@ -50,10 +49,8 @@ pub(in crate::lines) fn marked(
         for (number, image) in
             images.iter().enumerate().filter(|(number, _)| segments[*number].is_visible == is_visible)
         {
-            for part in image.parts([0.0, 1.0], LONGEST_PART) {
-                for directions in image.directions(JOINED_PX) {
-                    parts.add(image.part_box(part, 0.0, directions), number);
-                }
+            for directions in image.directions(JOINED_PX) {
+                parts.add(image.part_box(WHOLE, 0.0, directions), number);
             }
         }
         parts.tree(progress)
@@ -110,18 +107,16 @@ impl DrawnLines<'_> {
         let tolerance = JOINED_PX / image.length();
         let mut covered: Vec<[f64; 2]> = Vec::new();
         for tree in &self.trees {
-            for part in image.parts([0.0, 1.0], LONGEST_PART) {
-                let mut found = |other: usize| {
-                    let lies_on_it = || image.overlap(&self.images[other], JOINED_PX);
-                    if let Some(range) = self.comes_before(other, number).then(lies_on_it).flatten() {
-                        covered = joined(std::mem::take(&mut covered), range, tolerance);
-                    }
-                    covered == [[0.0, 1.0]]
-                };
-                let mut directions = image.directions(JOINED_PX);
-                if directions.any(|directions| tree.any(&image.part_box(part, JOINED_PX, directions), &mut found)) {
-                    return covered;
+            let mut found = |other: usize| {
+                let lies_on_it = || image.overlap(&self.images[other], JOINED_PX);
+                if let Some(range) = self.comes_before(other, number).then(lies_on_it).flatten() {
+                    covered = joined(std::mem::take(&mut covered), range, tolerance);
                 }
+                covered == [WHOLE]
+            };
+            let mut directions = image.directions(JOINED_PX);
+            if directions.any(|directions| tree.any(&image.part_box(WHOLE, JOINED_PX, directions), &mut found)) {
+                return covered;
             }
         }
         covered

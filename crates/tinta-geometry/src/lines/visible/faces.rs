@@ -4,6 +4,7 @@ use crate::bvh::{Box3, BoxTree, NO_GROUP};
 use crate::lines::visible::planes;
 use crate::lines::visible::ranges::{above_zero, clipped};
 use crate::lines::visible::space::Space;
+use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::mesh::Mesh;
 use crate::scene::Object;
 use crate::threads::{cores, filled, in_chunks, threads_for_items};
@@ -216,9 +217,6 @@ impl Own {
         }
     }
 }
-
-/// Faces around one position above which only their outer sides are compared. With fewer faces, comparing all costs less.
-const HIGH_VALENCE: u32 = 256;
 
 impl Faces {
     /// Collects the objects' faces; the meshes may be repaired ones.
@@ -467,12 +465,12 @@ impl SortedFaces {
 fn high_valence(triangles: &[[u32; 3]], positions: usize, cut_by_near: &[u32]) -> Vec<u32> {
     let mut counts = vec![0u32; positions];
     triangles.as_flattened().iter().for_each(|position| counts[*position as usize] += 1);
-    if counts.iter().all(|count| *count <= HIGH_VALENCE) {
+    if counts.iter().all(|count| (*count as usize) < THRESHOLDS.group) {
         return Vec::new();
     }
     let vertex = |triangle: &[u32; 3]| {
         let most = triangle.iter().copied().max_by_key(|position| counts[*position as usize]);
-        most.filter(|position| counts[*position as usize] > HIGH_VALENCE).unwrap_or(NO_GROUP)
+        most.filter(|position| counts[*position as usize] as usize >= THRESHOLDS.group).unwrap_or(NO_GROUP)
     };
     let mut high_valence: Vec<u32> = triangles.iter().map(vertex).collect();
     cut_by_near.iter().for_each(|place| high_valence[*place as usize] = NO_GROUP);

@@ -50,18 +50,6 @@ fn is_hidden(space: &Space, pyramid: &Pyramid, ends: [DVec3; 2]) -> bool {
     ends.iter().all(|end| -end.z >= space.near) && pyramid.hides_line(ends.map(|end| space.project(end)))
 }
 
-impl Intersections {
-    /// Leaves out lines that a pyramid hides. Piercings stay: at a shallow angle a cut may lie a little behind another face, and
-    /// without it a visible part would form one piece with a hidden one.
-    pub(in crate::lines) fn leave_out_hidden(&mut self, space: &Space, pyramid: &Pyramid) {
-        let is_open = |line: &Intersection| !is_hidden(space, pyramid, line.ends);
-        let are_open =
-            filled(self.lines.len(), threads_for_items(self.lines.len()), false, |line| is_open(&self.lines[line]));
-        let mut are_open = are_open.into_iter();
-        self.lines.retain(|_| are_open.next() == Some(true));
-    }
-}
-
 /// Finds all intersections of a scene's faces that a pyramid does not hide, and the points where edges pierce faces. The list is
 /// incomplete if the time runs out.
 pub(in crate::lines) fn intersections(

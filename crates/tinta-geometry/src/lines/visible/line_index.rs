@@ -13,6 +13,7 @@ use crate::lines::visible::intersections::Piercing;
 use crate::lines::visible::occluders::Occluders;
 use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
+use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::memory;
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::{SHORTEST_LINE, TOUCH};
@@ -43,9 +44,6 @@ pub(in crate::lines) struct LineIndex<'a> {
     on_surface: f64,
 }
 
-/// Parts along the picture's larger side into which rims are cut: the box of a diagonal one is mostly empty.
-const PARTS_OF_RIM: f64 = 16.0;
-
 /// Most bytes that a part of a line takes while its tree is built: box, nodes, numbers, and the builder's memory.
 const BYTES_A_PART: usize = 320;
 
@@ -61,7 +59,7 @@ impl<'a> LineIndex<'a> {
         faces: &'a Faces,
         features: &'a [Feature],
         piercings: &[Piercing],
-        (pyramid, are_many_layers): (Option<&'a Pyramid>, bool),
+        (pyramid, is_crowded): (Option<&'a Pyramid>, bool),
         settings: &LineSettings,
         progress: &Progress,
     ) -> Result<Self> {
@@ -75,7 +73,7 @@ impl<'a> LineIndex<'a> {
         let images: Vec<Option<Image>> = features.iter().map(image).collect();
         let side = space.size.max_element();
         let high_valence = high_valence(features);
-        let occluders = are_many_layers.then(|| Occluders::new(space, faces, pyramid));
+        let occluders = is_crowded.then(|| Occluders::new(space, faces, pyramid));
         let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
             let (mut rims, mut overlapping) = (LineParts::default(), LineParts::default());
             for index in range {
@@ -91,7 +89,7 @@ impl<'a> LineIndex<'a> {
                     pyramid.is_some_and(|pyramid| pyramid.hides_line(ends))
                 };
                 // A rim that is hidden for sure changes no visible line. The outline needs rims at any depth.
-                for part in image.parts(range, side / PARTS_OF_RIM).filter(|_| feature.occludes) {
+                for part in image.parts(range, side / THRESHOLDS.parts).filter(|_| feature.occludes) {
                     if finds_outline || !is_hidden(part) {
                         let around = image.part_box(part, image.noise_px, part.map(|place| image.key(place)));
                         rims.add_of_groups(around, index, feature.plane, vertex_of(&high_valence, feature.own));
@@ -209,10 +207,7 @@ impl<'a> LineIndex<'a> {
     }
 }
 
-/// Rims in one position above which they form a group: with fewer, comparing all costs less.
-const HIGH_VALENCE: u32 = 64;
-
-/// Counts the rims that end in each position; keeps counts above [`HIGH_VALENCE`].
+/// Counts the rims that end in each position; keeps those that form a group.
 fn high_valence(features: &[Feature]) -> HashMap<u32, u32> {
     let mut counts: HashMap<u32, u32> = HashMap::new();
     for feature in features.iter().filter(|feature| feature.occludes) {
@@ -220,7 +215,7 @@ fn high_valence(features: &[Feature]) -> HashMap<u32, u32> {
             ends.into_iter().for_each(|end| *counts.entry(end).or_default() += 1);
         }
     }
-    counts.retain(|_, count| *count > HIGH_VALENCE);
+    counts.retain(|_, count| *count as usize >= THRESHOLDS.group);
     counts
 }
 

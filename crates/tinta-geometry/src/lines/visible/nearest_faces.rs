@@ -10,17 +10,11 @@ use crate::lines::visible::faces::{Faces, ProbedLine};
 use crate::lines::visible::image::Image;
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
 use crate::lines::visible::projected_face::ProjectedFace;
-use crate::lines::visible::pyramid::layers;
-use crate::lines::visible::ranges::{gaps, united};
+use crate::lines::visible::ranges::gaps;
 use crate::lines::visible::space::Space;
+use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::threads::{cores, in_chunks};
 use glam::{DVec2, DVec3};
-
-/// How often the boxes of all faces must cover the picture before the samples are made.
-const LAYERS: f64 = 24.0;
-
-/// Samples along the picture's larger side.
-const SAMPLES: f64 = 512.0;
 
 /// Rows of samples that a thread fills at once.
 const ROWS_AT_ONCE: usize = 32;
@@ -37,19 +31,13 @@ pub(in crate::lines) struct NearestFaces {
 }
 
 impl NearestFaces {
-    /// Faces that are tested against a line.
-    const ASKED: usize = 4;
-
-    /// Finds the nearest faces; `None` where few faces overlap. Some faces are missing if time runs out.
-    pub(in crate::lines) fn new(space: &Space, faces: &Faces, progress: &Progress) -> Option<Self> {
-        if layers(space, faces.tree.boxes().iter()) < LAYERS {
-            return None;
-        }
-        let sample_px = space.size.max_element() / SAMPLES;
+    /// Finds the nearest faces. Some faces are missing if time runs out.
+    pub(in crate::lines) fn new(space: &Space, faces: &Faces, progress: &Progress) -> Self {
+        let sample_px = space.size.max_element() / f64::from(1u32 << THRESHOLDS.cells);
         let [columns, rows] = (space.size / sample_px).ceil().to_array().map(|count| count as usize);
         let nearest_faces = Self { sample_px, columns, nearest: Vec::new() };
         let bands = in_chunks(rows, ROWS_AT_ONCE, cores(), |rows| nearest_faces.band(space, faces, rows, progress));
-        Some(Self { nearest: bands.concat(), ..nearest_faces })
+        Self { nearest: bands.concat(), ..nearest_faces }
     }
 
     /// Returns some rows of samples.
@@ -91,26 +79,14 @@ impl NearestFaces {
         (face != NO_GROUP).then_some(face)
     }
 
-    /// Returns the ranges of a part of a line that the nearest faces hide for sure, ascending. Tests the longest open gap, at its
-    /// middle and its ends, at most `most` times. `probe` turns a gap into the probe for faces.
-    fn hidden(
-        &self,
-        space: &Space,
-        faces: &Faces,
-        part: [f64; 2],
-        probe: impl Fn([f64; 2]) -> OccluderProbe,
-        most: usize,
-    ) -> Vec<[f64; 2]> {
-        let mut hidden: Vec<[f64; 2]> = Vec::new();
-        let mut open = vec![part];
-        for _ in 0..most {
-            let length = |gap: &[f64; 2]| gap[1] - gap[0];
-            let Some(longest) = (0..open.len()).max_by(|a, b| length(&open[*a]).total_cmp(&length(&open[*b]))) else {
-                break;
-            };
-            let gap = open.swap_remove(longest);
-            let asked = probe(gap);
-            let (mut best, mut known) = (None, [NO_GROUP; 3]);
+    /// Whether the nearest faces hide all of an intersection. Tests each open part at its middle and its ends.
+    pub(in crate::lines) fn hide(&self, space: &Space, faces: &Faces, line: ProbedLine, ends: [DVec3; 2]) -> bool {
+        let Some(image) = Image::of(space, ends) else { return false };
+        let length = |part: &[f64; 2]| part[1] - part[0];
+        let mut open = vec![[0.0, 1.0]];
+        while let Some(part) = open.pop() {
+            let asked = OccluderProbe::new(space, (line, ends), &image, part, SearchDepth::Nearer);
+            let (mut best, mut known): (Option<[f64; 2]>, _) = (None, [NO_GROUP; 3]);
             for (number, share) in [0.5, 1.0, 0.0].into_iter().enumerate() {
                 let Some(face) = self.at(asked.px[0].lerp(asked.px[1], share)).filter(|face| !known.contains(face))
                 else {
@@ -121,24 +97,14 @@ impl NearestFaces {
                 if sure.is_some_and(|sure| best.is_none_or(|best| length(&sure) > length(&best))) {
                     best = sure;
                 }
-                if best == Some(gap) {
+                if best == Some(part) {
                     break;
                 }
             }
-            if let Some(sure) = best {
-                open.extend(gaps(gap, &[sure]));
-                hidden.push(sure);
-            }
+            let Some(sure) = best else { return false };
+            open.extend(gaps(part, &[sure]));
         }
-        united(hidden)
-    }
-
-    /// Whether the nearest faces hide all of an intersection.
-    pub(in crate::lines) fn hide(&self, space: &Space, faces: &Faces, line: ProbedLine, ends: [DVec3; 2]) -> bool {
-        const WHOLE: [f64; 2] = [0.0, 1.0];
-        let Some(image) = Image::of(space, ends) else { return false };
-        let probe = |part: [f64; 2]| OccluderProbe::new(space, (line, ends), &image, part, SearchDepth::Nearer);
-        self.hidden(space, faces, WHOLE, probe, Self::ASKED) == [WHOLE]
+        true
     }
 }
 
@@ -190,7 +156,7 @@ mod tests {
         let scene = soup();
         let space = Space::of(&scene);
         let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
-        let nearest_faces = NearestFaces::new(&space, &faces, &Progress::default()).unwrap();
+        let nearest_faces = NearestFaces::new(&space, &faces, &Progress::default());
         assert_eq!((nearest_faces.sample_px, nearest_faces.columns), (1.0, 512), "samples are the pixels' middles");
         let hits = first_hits(&scene);
         assert_eq!(hits.len(), nearest_faces.nearest.len());
@@ -206,7 +172,7 @@ mod tests {
         let scene = soup();
         let space = Space::of(&scene);
         let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
-        let nearest_faces = NearestFaces::new(&space, &faces, &Progress::default()).unwrap();
+        let nearest_faces = NearestFaces::new(&space, &faces, &Progress::default());
         let parts = crate::lines::input::object_edges::object_edges(&scene, None);
         let all = intersections(&space, &faces, &parts, (None, None), &Progress::default()).lines;
         let (mut hidden, mut points) = (0, 0);

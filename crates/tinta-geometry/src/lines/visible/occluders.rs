@@ -11,6 +11,7 @@ use crate::bvh::{Box3, BoxTree, Exclusion, Walk};
 use crate::lines::visible::faces::Faces;
 use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::space::Space;
+use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::threads::{cores, in_chunks};
 use glam::DVec3;
 
@@ -20,19 +21,12 @@ pub(in crate::lines) struct Occluders {
     places: Vec<u32>,
 }
 
-/// The longest part, as a share of the picture's larger side.
-const LONGEST: f64 = 1.0 / 24.0;
-
-/// Most halvings of a face, and about the most parts in all.
-const HALVINGS: u32 = 8;
-const MOST_PARTS: usize = 600_000;
-
 impl Occluders {
     /// Collects the faces that are not edge-on, in parts.
     pub(in crate::lines) fn new(space: &Space, faces: &Faces, pyramid: Option<&Pyramid>) -> Self {
         let boxes = faces.tree.boxes();
-        let longest = space.size.max_element() * LONGEST;
-        let halvings = HALVINGS.min((MOST_PARTS / boxes.len().max(1)).max(1).ilog2());
+        let longest = space.size.max_element() / THRESHOLDS.parts;
+        let halvings = (THRESHOLDS.most_parts / boxes.len().max(1)).max(1).ilog2();
         let is_edge_on = |place: usize| faces.edge_on_for_sure.binary_search(&faces.numbers[place]).is_ok();
         let parts = in_chunks(boxes.len(), 256, cores(), |range| {
             let mut parts: Vec<(Box3, u32)> = Vec::new();

@@ -5,6 +5,7 @@ use crate::lines::input::feature::Feature;
 use crate::lines::visible::image::Image;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::ranges::{above_zero, united};
+use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::tolerances::CONTACT;
 use glam::DVec2;
 use std::cell::OnceCell;
@@ -23,9 +24,6 @@ enum Overlaps {
     /// So many that they are looked for where they matter.
     Many,
 }
-
-/// From how many on there are many.
-const MANY: usize = 12;
 
 impl OverlappingLines {
     pub(in crate::lines) fn new(index: usize, image: &Image, inside: [f64; 2]) -> Self {
@@ -62,7 +60,7 @@ impl LineIndex<'_> {
             if image.overlap(&other, touch_px.max(other.touch_px(self.space))).is_some() {
                 found.push(other_index);
             }
-            found.len() >= MANY
+            found.len() >= THRESHOLDS.group
         });
         if are_many { Overlaps::Many } else { Overlaps::Few(found) }
     }

@@ -2,12 +2,10 @@
 //! skip such pairs as a group.
 
 use crate::bvh::{Box3, NO_GROUP};
+use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::threads::{filled, threads_for_items};
 use glam::DVec3;
 use std::collections::HashMap;
-
-/// Fewest faces of one plane that form a group.
-const LEAST: u32 = 16;
 
 /// Returns for each number of a face its plane, or [`NO_GROUP`] where few others lie in it; an empty list without such a plane.
 ///
@@ -28,7 +26,7 @@ pub(in crate::lines) fn planes(
         (high - low).truncate().max_element() >= least_px
     };
     let large: Vec<u32> = (0..boxes.len() as u32).filter(is_large).collect();
-    if large.len() < LEAST as usize {
+    if large.len() < THRESHOLDS.group {
         return Vec::new();
     }
     let points = large.iter().flat_map(|place| corners(*place));
@@ -50,16 +48,16 @@ pub(in crate::lines) fn planes(
     // Most scenes have no such plane. This shows early where few keys share a remainder.
     let remainders = keys.len().next_power_of_two();
     let remainder = |key: &[i64; 4]| mix(key) as usize & (remainders - 1);
-    let mut of_remainder = vec![0u32; remainders];
+    let mut of_remainder = vec![0usize; remainders];
     keys.iter().flatten().for_each(|key| of_remainder[remainder(key)] += 1);
-    let mut counts: HashMap<[i64; 4], (u32, u32)> = HashMap::new();
-    for key in keys.iter().flatten().filter(|key| of_remainder[remainder(key)] >= LEAST) {
+    let mut counts: HashMap<[i64; 4], (u32, usize)> = HashMap::new();
+    for key in keys.iter().flatten().filter(|key| of_remainder[remainder(key)] >= THRESHOLDS.group) {
         let number = counts.len() as u32;
         counts.entry(*key).or_insert((number, 0)).1 += 1;
     }
     let mut planes = vec![NO_GROUP; count];
     for (place, key) in large.iter().zip(keys) {
-        let group = key.and_then(|key| counts.get(&key)).filter(|(_, count)| *count >= LEAST);
+        let group = key.and_then(|key| counts.get(&key)).filter(|(_, count)| *count >= THRESHOLDS.group);
         if let Some((number, _)) = group {
             planes[numbers[*place as usize] as usize] = *number;
         }

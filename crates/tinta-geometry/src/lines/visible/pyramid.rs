@@ -9,29 +9,23 @@ use crate::bvh::Box3;
 use crate::lines::visible::faces::Faces;
 use crate::lines::visible::projected_face::ProjectedFace;
 use crate::lines::visible::space::Space;
+use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::threads::{cores, filled, in_chunks, threads_for_items};
 use crate::tolerances::{CONTACT, TOUCH};
 use glam::DVec2;
 
-/// Cells along the picture's larger side, as powers of 2. Where many lines are left, finer cells leave fewer.
-const COARSE: usize = 8;
-const FINE: usize = 10;
-
-/// With fewer faces that cover the picture fewer times, the cells cost more time than they save.
-const FEW: usize = 10_000;
-const FEW_LAYERS: f64 = 4.0;
-
 /// Faces that a thread projects at once.
 const PROJECTED_AT_ONCE: usize = 4096;
 
-/// Returns how often boxes of pixels and keys cover the picture.
-pub(in crate::lines) fn layers<'a>(space: &Space, boxes: impl Iterator<Item = &'a Box3>) -> f64 {
+/// Whether so many faces overlap in the picture that accelerators pay.
+pub(in crate::lines) fn is_crowded(space: &Space, faces: &Faces) -> bool {
     let area = |around: &Box3| {
         let [low, high] = around.corners();
         let (low, high) = (low.truncate().max(DVec2::ZERO), high.truncate().min(space.size));
         (high - low).max(DVec2::ZERO).element_product()
     };
-    boxes.map(area).sum::<f64>() / space.size.element_product()
+    let covered: f64 = faces.tree.boxes().iter().map(area).sum();
+    covered >= THRESHOLDS.crowded * space.size.element_product()
 }
 
 /// The cells of the picture, each with the key beyond which everything is hidden.
@@ -114,15 +108,7 @@ impl Occluder {
 impl Pyramid {
     /// Builds the pyramid of all faces; `None` if it would hide too little.
     pub(in crate::lines) fn new(space: &Space, faces: &Faces) -> Option<Self> {
-        Self::of_cells(space, faces, COARSE)
-    }
-
-    /// Builds the pyramid with smaller cells.
-    pub(in crate::lines) fn fine(space: &Space, faces: &Faces) -> Option<Self> {
-        Self::of_cells(space, faces, FINE)
-    }
-
-    fn of_cells(space: &Space, faces: &Faces, top: usize) -> Option<Self> {
+        let top = THRESHOLDS.cells;
         let cell_px = space.size.max_element() / f64::from(1u32 << top);
         // Whether any cell lies in a box, as far as the box is in the picture.
         let is_large = |around: &Box3| {
@@ -132,10 +118,6 @@ impl Pyramid {
         };
         let boxes = faces.tree.boxes();
         let large: Vec<u32> = (0..boxes.len() as u32).filter(|place| is_large(&boxes[*place as usize])).collect();
-        let layers = layers(space, large.iter().map(|place| &boxes[*place as usize]));
-        if large.len() < FEW && layers < FEW_LAYERS {
-            return None;
-        }
         let occluders = in_chunks(large.len(), PROJECTED_AT_ONCE, cores(), |range| {
             let occluder = |index: usize| {
                 Occluder::new(space, faces, large[index]).filter(|occluder| occluder.may_cover(cell_px, space.size))
@@ -199,7 +181,7 @@ impl Pyramid {
             let (column, row) = cell(level);
             pyramid.index(level, column, row)
         };
-        let mut own = [f64::INFINITY; FINE + 2];
+        let mut own = [f64::INFINITY; THRESHOLDS.cells + 2];
         for level in (start..=self.top()).rev() {
             own[level] = own[level + 1].min(self.levels[level][around(self, level)]);
         }
@@ -369,11 +351,12 @@ mod tests {
         let mut occluders: Vec<Occluder> =
             (0..faces.triangles.len() as u32).filter_map(|place| Occluder::new(&space, &faces, place)).collect();
         occluders.sort_by(|a, b| a.nearest_key.total_cmp(&b.nearest_key));
-        let levels = (0..=COARSE).map(|level| vec![f64::INFINITY; 1 << (2 * (COARSE - level))]).collect();
+        let levels =
+            (0..=THRESHOLDS.cells).map(|level| vec![f64::INFINITY; 1 << (2 * (THRESHOLDS.cells - level))]).collect();
         let mut from_top = Pyramid { levels, cell_px: found.cell_px, size: found.size };
         from_top.leave_out_what_lies_beside_the_picture();
         occluders.iter().for_each(|occluder| {
-            from_top.add(occluder, COARSE, 0, 0, f64::INFINITY);
+            from_top.add(occluder, THRESHOLDS.cells, 0, 0, f64::INFINITY);
         });
         from_top.settle();
         let hidden = found.levels[0].iter().filter(|key| key.is_finite()).count();
