@@ -99,6 +99,15 @@ impl Material {
     pub fn has_texture(&self) -> bool {
         self.texture.is_some() || self.embedded.is_some()
     }
+
+    /// Blends its colour, and its texture by the texture's alpha, with white: it is this opaque, from 0 to 1.
+    pub(crate) fn blend(&mut self, opacity: f32) {
+        let [red, green, blue] = self.texture_color.unwrap_or([1.0; 3]);
+        let factor = [red, green, blue, opacity].map(|share| (share * 255.0).round() as u8);
+        self.texture_alpha = TextureAlpha::Blended(factor);
+        self.texture_color = None;
+        self.color = self.color.map(|color| color.map(|channel| channel * opacity + (1.0 - opacity)));
+    }
 }
 
 /// A picture file inside a model file, decoded only when a style needs it.

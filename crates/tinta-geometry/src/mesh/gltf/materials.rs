@@ -94,39 +94,28 @@ impl Materials {
             // Nothing of it is drawn: it shows the paper.
             let is_left_out = mode == AlphaMode::Mask && alpha < cutoff;
             let image = image.filter(|_| !is_left_out);
-            let has_image = image.is_some();
             let (texture_file, embedded) = match image {
                 None => (None, None),
                 Some(Image::File(name)) => (Some(name), None),
                 Some(Image::Embedded(picture)) => (None, Some(picture)),
             };
             let [red, green, blue, _] = factor.map(to_srgb);
-            let color = [red, green, blue];
-            let texture_alpha = match mode {
-                AlphaMode::Mask => TextureAlpha::Cutoff((cutoff / alpha * 255.0).ceil() as u8),
-                AlphaMode::Blend => {
-                    let [red, green, blue, alpha] =
-                        [red, green, blue, alpha].map(|share| (share * 255.0).round() as u8);
-                    TextureAlpha::Blended([red, green, blue, alpha])
-                }
-                AlphaMode::Opaque => TextureAlpha::Ignored,
-            };
-            let color = match mode {
-                AlphaMode::Mask if is_left_out => [1.0; 3],
-                AlphaMode::Blend => color.map(|channel| channel * alpha + (1.0 - alpha)),
-                _ => color,
-            };
-            // The factor of a blended picture is in its pixels.
-            let texture_color = if has_image && mode == AlphaMode::Blend { [1.0; 3] } else { color };
-            materials.list.push(Material {
+            let color = if is_left_out { [1.0; 3] } else { [red, green, blue] };
+            let mut known = Material {
                 name: material.name.clone().unwrap_or_else(|| format!("material {number}")),
                 color: Some(color),
                 texture: texture_file,
                 texture_within: None,
                 embedded,
-                texture_color: Some(texture_color),
-                texture_alpha,
-            });
+                texture_color: Some(color),
+                texture_alpha: TextureAlpha::Ignored,
+            };
+            match mode {
+                AlphaMode::Mask => known.texture_alpha = TextureAlpha::Cutoff((cutoff / alpha * 255.0).ceil() as u8),
+                AlphaMode::Blend => known.blend(alpha),
+                AlphaMode::Opaque => {}
+            }
+            materials.list.push(known);
             materials.coordinates.push(texture.map_or(Coordinates::DEFAULT, Coordinates::of));
         }
         Ok(materials)

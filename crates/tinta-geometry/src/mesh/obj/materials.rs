@@ -101,6 +101,11 @@ pub(super) fn put_on(
         ));
     }
     skin::remark(path, missing, "material files are missing or were not read", remarks);
+    match found.iter().filter(|one| one.is_see_through).count() {
+        0 => {}
+        1 => remarks.push(format!("{path}: not drawn: 1 material's transparency")),
+        count => remarks.push(format!("{path}: not drawn: {count} materials' transparency")),
+    }
     move_coordinates(soup, &found);
     soup.materials = found.into_iter().map(|one| one.material).collect();
     Ok(())
@@ -111,6 +116,10 @@ pub(super) struct Described {
     pub material: Material,
     /// Texture coordinates are multiplied by the first and moved by the second (`-s` and `-o` of `map_Kd`).
     placing: [Vec2; 2],
+    /// The share of light that it stops (`d`).
+    opacity: f32,
+    /// Whether that is not all, or a picture says how much (`map_d`, which names that of the colours).
+    is_see_through: bool,
 }
 
 /// Unchanged coordinates.
@@ -130,7 +139,7 @@ pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
                     return None;
                 }
                 let material = Material { name: rest.to_owned(), color: None, ..Material::default() };
-                all.push(Described { material, placing: AS_IT_IS });
+                all.push(Described { material, placing: AS_IT_IS, opacity: 1.0, is_see_through: false });
             }
             ("Kd", Some(Described { material, .. })) => {
                 let numbers = rest.split_whitespace().take(3).filter_map(|word| word.parse::<f64>().ok());
@@ -138,16 +147,24 @@ pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
                     numbers.filter(|number| number.is_finite()).map(|x| x.clamp(0.0, 1.0) as f32).collect();
                 material.color = color.first_chunk().copied().or(material.color);
             }
-            ("map_Kd", Some(Described { material, placing })) => {
+            ("map_Kd", Some(Described { material, placing, .. })) => {
                 let (name, placed) = texture(rest);
                 (material.texture, *placing) = (Some(PathBuf::from(name)), placed);
             }
+            ("d", Some(Described { opacity, is_see_through, .. })) => {
+                *opacity = rest.parse().ok().filter(|share| (0.0..1.0).contains(share)).unwrap_or(1.0);
+                *is_see_through |= *opacity < 1.0;
+            }
+            ("map_d", Some(Described { is_see_through, .. })) => *is_see_through = true,
             _ => {}
         }
     }
-    for Described { material, .. } in &mut all {
+    for Described { material, opacity, is_see_through, .. } in &mut all {
         // A factor of black would hide the picture; exporters write it to mean no colour.
         material.texture_color = material.color.filter(|color| *color != [0.0; 3]);
+        if *is_see_through {
+            material.blend(*opacity);
+        }
     }
     Some(all)
 }
@@ -219,6 +236,7 @@ fn unquoted(name: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::TextureAlpha;
 
     fn of(text: &str) -> Vec<Described> {
         described(text.as_bytes(), 9).unwrap()
@@ -262,6 +280,23 @@ mod tests {
         assert_eq!((all[0].material.name.as_str(), all[0].material.color), ("a b", Some([0.0, 1.0, 1.0])));
         assert_eq!(all[0].material.texture, None);
         assert!(described(&b"newmtl a\n".repeat(10), 9).is_none());
+    }
+
+    #[test]
+    fn what_a_material_lets_through_is_white() {
+        let mixed = |text: &str| {
+            let Described { material, is_see_through, .. } = of(text).remove(0);
+            (material.color, material.texture_color, material.texture_alpha, is_see_through)
+        };
+        let (red, opaque) = (Some([1.0, 0.0, 0.0]), TextureAlpha::Ignored);
+        for d in ["", "d 1", "d 1.0", "d 2", "d -1", "d nan", "d x", "Tr 1", "d -halo 0.5"] {
+            assert_eq!(mixed(&format!("newmtl a\nKd 1 0 0\n{d}\n")), (red, red, opaque, false), "{d}");
+        }
+        let half = TextureAlpha::Blended([255, 0, 0, 64]);
+        assert_eq!(mixed("newmtl a\nd 0.25\nKd 1 0 0"), (Some([1.0, 0.75, 0.75]), None, half, true));
+        assert_eq!(mixed("newmtl a\nKd 1 0 0\nd 0").0, Some([1.0; 3]));
+        let by_picture = TextureAlpha::Blended([255; 4]);
+        assert_eq!(mixed("newmtl a\nmap_Kd a.png\nmap_d a.png"), (None, None, by_picture, true));
     }
 
     #[test]
