@@ -19,9 +19,12 @@ pub(super) fn is_binary(bytes: &[u8]) -> bool {
     whole_length(bytes) == Some(bytes.len() as u64)
 }
 
-/// Whether the beginning of a file reads like text STL.
+/// Whether the beginning of a file reads like text STL: `solid`, perhaps below comments.
 pub(super) fn is_text(head: &[u8]) -> bool {
-    head.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) && !head.contains(&0)
+    let mut lines = head.split(|byte| b"\r\n".contains(byte)).map(<[u8]>::trim_ascii_start);
+    let first = lines.find(|line| !line.is_empty() && !line.starts_with(b"#"));
+    let is_solid = |line: &[u8]| line.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    first.is_some_and(is_solid) && !head.contains(&0)
 }
 
 const NO_VERTEX: &str = "a vertex is not three numbers; correct this line or export the model again";
@@ -189,6 +192,7 @@ mod tests {
         for text in [
             format!("solid x\n{FACET}endsolid x\n"),
             format!(" solid\n{FACET}endsolid\n"),
+            format!("# made by a test\n\nsolid\n{FACET}endsolid\n"),
             format!("\n\t\nsolid x\n{FACET}\n  \nendsolid"),
             format!("solid x\n{FACET}end solid x\n"),
             format!("solid x\n{apart}endsolid x\n"),

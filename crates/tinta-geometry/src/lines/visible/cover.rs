@@ -11,7 +11,7 @@ use crate::lines::visible::image::Image;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
 use crate::lines::visible::projected_face::ProjectedFace;
-use crate::lines::visible::ranges::{gaps, hold, united};
+use crate::lines::visible::ranges::{gaps, hold, meet, united};
 use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::tolerances::CONTACT;
 
@@ -75,8 +75,7 @@ impl Walk for CoverWalk<'_> {
         if !self.line.is_near(around) {
             return false;
         }
-        let reaches = |[from, to]: [f64; 2]| self.cover.open.iter().any(|open| open[0] <= to && open[1] >= from);
-        self.line.range(around).is_some_and(reaches)
+        self.line.range(around).is_some_and(|range| self.cover.open.iter().any(|open| meet(*open, range)))
     }
 
     fn visit(&mut self, face: u32) -> bool {

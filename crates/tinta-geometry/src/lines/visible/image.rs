@@ -2,6 +2,7 @@
 
 use crate::bvh::{Box3, BoxTree, Exclusion, Line3, NO_GROUP, Walk};
 use crate::lines::progress::Progress;
+use crate::lines::visible::ranges::meet;
 use crate::lines::visible::space::Space;
 use crate::tolerances::TOUCH;
 use glam::{DVec2, DVec3};
@@ -258,8 +259,7 @@ struct PartWalk<F> {
 
 impl<F: FnMut(u32) -> bool> Walk for PartWalk<F> {
     fn enters(&self, around: &Box3) -> bool {
-        let reaches = |range: [f64; 2]| self.part[0] <= range[1] && self.part[1] >= range[0];
-        self.line.is_near(around) && self.line.range(around).is_some_and(reaches)
+        self.line.is_near(around) && self.line.range(around).is_some_and(|range| meet(self.part, range))
     }
 
     fn visit(&mut self, place: u32) -> bool {

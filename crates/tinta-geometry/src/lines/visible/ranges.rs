@@ -6,6 +6,11 @@ pub(in crate::lines) fn hold(ranges: &[[f64; 2]], place: f64) -> bool {
     ranges.get(next).is_some_and(|range| range[0] <= place)
 }
 
+/// Whether two ranges have a place in common, be it an end.
+pub(in crate::lines) fn meet(first: [f64; 2], second: [f64; 2]) -> bool {
+    first[0] <= second[1] && first[1] >= second[0]
+}
+
 /// Returns ranges, given in any order, as ascending, disjoint ones.
 pub(in crate::lines) fn united(mut ranges: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     ranges.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));

@@ -293,8 +293,8 @@ mod tests {
             assert_eq!(mixed(&format!("newmtl a\nKd 1 0 0\n{d}\n")), (red, red, opaque, false), "{d}");
         }
         let half = TextureAlpha::Blended([255, 0, 0, 64]);
-        assert_eq!(mixed("newmtl a\nd 0.25\nKd 1 0 0"), (Some([1.0, 0.75, 0.75]), None, half, true));
-        assert_eq!(mixed("newmtl a\nKd 1 0 0\nd 0").0, Some([1.0; 3]));
+        assert_eq!(mixed("newmtl a\n d 0.25\nKd 1 0 0"), (Some([1.0, 0.75, 0.75]), None, half, true));
+        assert_eq!(mixed("newmtl a\nKd 1 0 0\n d 0").0, Some([1.0; 3]));
         let by_picture = TextureAlpha::Blended([255; 4]);
         assert_eq!(mixed("newmtl a\nmap_Kd a.png\nmap_d a.png"), (None, None, by_picture, true));
     }

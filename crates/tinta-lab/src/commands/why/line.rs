@@ -10,10 +10,15 @@ const MOST: usize = 8;
 const MOST_OF_PIECE: usize = 2;
 
 pub(super) fn in_words(why: &Why) -> String {
-    let Why { asked_px, line, nearest_px, distance_px, is_visible, hidden_by, pieces } = why;
+    let Why { asked_px, line, nearest_px, distance_px, is_visible, hidden_by, pieces, is_drawn_otherwise } = why;
     let mut text = format!("The nearest line: {}.\n", of_line(line));
     let state = if *is_visible { "visible" } else { "hidden" };
     let _ = writeln!(text, "It is {state} at {}, {distance_px:.2} px from {}.", pixel(*nearest_px), pixel(*asked_px));
+    if *is_drawn_otherwise {
+        text.push_str(
+            "The drawing shows this line otherwise: a fault in tinta's search for lines. Report it with the model.\n",
+        );
+    }
     let along = match (pieces.first(), pieces.last()) {
         (Some(first), Some(last)) => DVec2::from(last.to_px) - DVec2::from(first.from_px),
         _ => DVec2::X,
