@@ -353,8 +353,6 @@ fn a_run_shorter_than_four_widths_is_what_those_on_either_side_are() {
     near(outline(&[(50.0, false), (13.0, true), (37.0, false)], false), 0.13);
     // The shortest first: the rest is then long enough.
     near(outline(&[(40.0, true), (10.0, false), (5.0, true), (10.0, false), (35.0, true)], false), 0.75);
-    // Shorter neighbours decide nothing: the outline goes on in other lines there, as where silhouettes cross at a narrow angle.
-    near(outline(&[(1.0, false), (10.0, true), (1.5, false)], false), 0.8);
     // An end has no neighbour that decides its width.
     near(outline(&[(5.0, true), (95.0, false)], false), 0.05);
     // Around the end of a ring, too.
@@ -396,6 +394,23 @@ fn a_corner_of_the_outline_that_is_nearly_closed_stays_outline() {
     let found = outlined(&scene);
     let all = outline_of(&found, None);
     assert_near(outline_of(&drawn(&found, "3"), None), all, NEAR, "60 degrees");
+}
+
+#[test]
+fn the_outline_of_a_narrow_opening_turns_its_corners() {
+    // A gate: posts below a rail before them, whose lower side is outline in the openings alone.
+    let mut gate = row(&[1.0; 4]);
+    gate.push(cuboid(DVec3::new(-1.0, 3.0, 1.0), DVec3::new(15.0, 5.0, 2.0)));
+    let scene = scene_of(gate, view("front", true));
+    let unit = px(&scene, DVec3::X).x - px(&scene, DVec3::ZERO).x;
+    let found = outlined(&scene);
+    let all = outline_of(&found, None);
+    // Five posts with two sides and a foot each, and the rail without what lies before them.
+    assert_near(all, (5.0 * 8.0 + 2.0 * 18.0 - 5.0 * 2.0) * unit, NEAR, "as it is");
+    for widths in [1.7, 2.5, 3.9] {
+        let drawn = drawn(&found, &(unit / widths).to_string());
+        assert_near(outline_of(&drawn, None), all, NEAR, &format!("openings of {widths} widths"));
+    }
 }
 
 #[test]

@@ -5,8 +5,8 @@
 //! - *Slits.* The ink of two outline lines nearer than [`SLIT`] widths would fill the background between them: both become inner
 //!   lines there. Along the outline, a part shorter than [`SHORT_RUN`] widths, slit or not, takes the class of its neighbours.
 //! - *Short runs.* A run of inner line shorter than [`SHORT_RUN`] widths between two runs of outline becomes outline. A short run
-//!   of outline between two runs of inner line becomes inner line, unless both together are shorter: there the outline goes on in
-//!   other lines, which cross this one. The shortest run changes first.
+//!   of outline between two runs of inner line becomes inner line, unless the outline goes on in other lines at both of its ends: at
+//!   corners, and where silhouettes cross. The shortest run changes first.
 //!
 //! Runs follow chains: pieces that continue one another, whatever their classes and objects. Where pieces meet, two of the
 //! outline are paired first, then the pair that continues straightest.
@@ -33,11 +33,12 @@ pub(in crate::lines) fn readable(segments: &[LineSegment], width_px: f64, progre
     let (mut pieces, mut is_outline) = cut_at_slits(segments, SLIT * width_px, progress);
     let least_px = SHORT_RUN * width_px;
     for chain in chains(&pieces, |piece| piece.is_outline) {
-        settle(&pieces, &mut is_outline, &chain, least_px, 1);
+        settle(&pieces, &mut is_outline, &chain, least_px, 1, |_| false);
     }
     pieces.iter_mut().zip(&is_outline).for_each(|(piece, is_outline)| piece.is_outline = *is_outline);
+    let ends = OutlineEnds::new(&pieces, width_px);
     for chain in chains(&pieces, |piece| piece.is_visible) {
-        settle(&pieces, &mut is_outline, &chain, least_px, 2);
+        settle(&pieces, &mut is_outline, &chain, least_px, 2, |run| ends.continue_both(run, &pieces));
     }
     pieces.iter_mut().zip(is_outline).for_each(|(piece, is_outline)| piece.is_outline = is_outline);
     pieces
@@ -210,8 +211,51 @@ struct Run {
     is_outline: bool,
 }
 
-/// Gives each run that is too short the class of its neighbours, if it has at least `least_beside` of them.
-fn settle(pieces: &[LineSegment], of_pieces: &mut [bool], chain: &Chain, least_px: f64, least_beside: usize) {
+/// The ends of all pieces of the outline.
+struct OutlineEnds {
+    /// By squares as wide as the outline.
+    squares: HashMap<[i64; 2], Vec<(DVec2, usize)>>,
+    width_px: f64,
+}
+
+impl OutlineEnds {
+    fn new(pieces: &[LineSegment], width_px: f64) -> Self {
+        let mut ends = Self { squares: HashMap::new(), width_px };
+        for (number, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.is_outline) {
+            piece.ends_px.iter().for_each(|px| ends.squares.entry(ends.square(*px)).or_default().push((*px, number)));
+        }
+        ends
+    }
+
+    fn square(&self, px: DVec2) -> [i64; 2] {
+        (px / self.width_px).floor().as_i64vec2().to_array()
+    }
+
+    /// Whether other pieces of the outline end within the outline's width of both ends of a run.
+    fn continue_both(&self, run: &Run, pieces: &[LineSegment]) -> bool {
+        let all: Vec<DVec2> = run.pieces.iter().flat_map(|piece| pieces[*piece].ends_px).collect();
+        let farthest = |from: DVec2| all.iter().copied().max_by(|a, b| a.distance(from).total_cmp(&b.distance(from)));
+        let Some(first) = all.first().and_then(|any| farthest(*any)) else { return false };
+        let is_continued = |px: DVec2| {
+            let [x, y] = self.square(px);
+            let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
+            let mut near = around.filter_map(|square| self.squares.get(&square)).flatten();
+            near.any(|(end, piece)| end.distance(px) <= self.width_px && !run.pieces.contains(piece))
+        };
+        is_continued(first) && farthest(first).is_some_and(is_continued)
+    }
+}
+
+/// Gives each run that is too short the class of its neighbours, if it has at least `least_beside` of them. A run of the outline that
+/// `stays` keeps its class.
+fn settle(
+    pieces: &[LineSegment],
+    of_pieces: &mut [bool],
+    chain: &Chain,
+    least_px: f64,
+    least_beside: usize,
+    stays: impl Fn(&Run) -> bool,
+) {
     let mut runs: Vec<Run> = Vec::new();
     for &number in &chain.pieces {
         let (is_outline, [a, b]) = (of_pieces[number], pieces[number].ends_px);
@@ -237,15 +281,9 @@ fn settle(pieces: &[LineSegment], of_pieces: &mut [bool], chain: &Chain, least_p
             (_, true) => 2,
             (_, false) => usize::from(index > 0) + usize::from(index + 1 < count),
         };
-        let length = |index: Option<&Run>| index.map_or(0.0, |run| run.length);
-        let beside_px = |index: usize| match chain.is_closed {
-            true => length(runs.get((index + count - 1) % count)) + length(runs.get((index + 1) % count)),
-            false => length(index.checked_sub(1).and_then(|before| runs.get(before))) + length(runs.get(index + 1)),
-        };
         let may_change = |index: &usize| {
             let run = &runs[*index];
-            let is_minor = !run.is_outline || run.length < beside_px(*index);
-            run.length < least_px && is_minor && beside(*index) >= least_beside
+            run.length < least_px && beside(*index) >= least_beside && !(run.is_outline && stays(run))
         };
         let shortest = (0..count).filter(may_change);
         let Some(index) = shortest.min_by(|a, b| runs[*a].length.total_cmp(&runs[*b].length)) else { break };
