@@ -129,6 +129,9 @@ sources![
     "valente/wrap-repeat.frag",
 ];
 
+/// The folder of the built-in shaders, in messages.
+pub(crate) const BUILT_IN: &str = "glsl/";
+
 /// Longest shader read from a folder, bytes: some hundred times the longest there is.
 const LONGEST: u64 = 1 << 20;
 

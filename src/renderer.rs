@@ -16,13 +16,14 @@
 //! ```
 
 mod drawer;
+mod own_shaders;
 
 use crate::camera::CameraSettings;
 use crate::clock::Instant;
 pub use crate::clock::milliseconds_since;
 use crate::error::{Error, Result};
 use crate::gl::context::Context;
-use crate::gl::{Backend, ContextInfo, Fault, fixed_function};
+use crate::gl::{Backend, ContextInfo, Fault};
 use crate::limits::DRAWN_AT_ONCE_PIXELS;
 use crate::mesh::Mesh;
 use crate::picture::Picture;
@@ -248,26 +249,8 @@ impl Renderer {
                 }
             }
         }
-        let unused = self.unused_shaders(plan);
-        if !unused.is_empty() {
-            remarks.push(format!(
-                "no pass of this drawing runs your {}; tinta render --explain lists the shaders of each pass",
-                unused.join(", ")
-            ));
-        }
+        remarks.extend(own_shaders::remarks(plan, &self.replaced_shaders()));
         remarks
-    }
-
-    /// The shaders of [`Renderer::replace_shaders`] that a plan does not run, in the order of their paths.
-    fn unused_shaders(&self, plan: &Plan) -> Vec<String> {
-        let draws = plan.steps().filter_map(|(_, step)| if let Step::Draw(draw) = step { Some(draw) } else { None });
-        let programs: Vec<Program> = draws.filter_map(|draw| fixed_function::program_of(draw, false)).collect();
-        let runs = |path: &String| {
-            programs.iter().any(|program| program.vertex == path || program.fragments.iter().any(|part| part == path))
-        };
-        let mut unused: Vec<String> = self.replaced_shaders().into_keys().filter(|path| !runs(path)).collect();
-        unused.sort();
-        unused
     }
 
     /// Returns settings to prune plans for this renderer: every rule that saves time with this context. They assume nothing of

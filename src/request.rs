@@ -32,6 +32,7 @@ use crate::camera;
 use crate::choice::Choice;
 use crate::error::{Error, FileKind, Result};
 use crate::gl::Backend;
+use crate::glsl::BUILT_IN;
 use crate::mesh::LoadOptions;
 use crate::plan::prune::{Pruning, Rule};
 use crate::renderer::Renderer;
@@ -99,6 +100,13 @@ pub struct AnimationSettings {
     pub animate: Option<String>,
     /// How long each is shown, milliseconds. Default 100 for an animated model; for a turn 2500 shared by all pictures, at most 200 each.
     pub frame_delay_ms: Option<u32>,
+}
+
+impl AnimationSettings {
+    /// Whether one picture is drawn.
+    pub fn is_still(&self) -> bool {
+        self.turntable.is_none() && self.animate.is_none()
+    }
 }
 
 /// What to leave out of a plan.
@@ -364,11 +372,26 @@ impl Request {
         let names = match &error {
             Error::Setting { name, .. } => std::slice::from_ref(name),
             Error::Settings { names, .. } => names,
+            Error::Statement { .. } => return self.in_own_shader(error),
             _ => return error,
         };
         match names.iter().find_map(|name| self.sources.get(name)) {
             Some(source) => source.refuse(error.to_string()),
             None => error,
+        }
+    }
+}
+
+impl Request {
+    /// Names the file of the request's own folder of shaders in which a statement stands.
+    fn in_own_shader(&self, error: Error) -> Error {
+        match (error, &self.glsl) {
+            (Error::Statement { path, line, problem }, Some(folder)) => {
+                let own = path.strip_prefix(BUILT_IN).map(|below| Path::new(folder).join(below));
+                let path = own.filter(|own| own.is_file()).map_or(path, |own| own.display().to_string());
+                Error::Statement { path, line, problem }
+            }
+            (error, _) => error,
         }
     }
 }

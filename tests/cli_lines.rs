@@ -532,3 +532,17 @@ fn a_signal_ends_the_search_for_lines_with_a_sentence_and_no_file() {
         assert!(!Path::new(&out).exists());
     }
 }
+
+#[test]
+fn a_look_with_tones_takes_the_options_of_lines_into_vectors() {
+    let folder = Folder::new();
+    let paths = |options: &[&str]| {
+        let svg = folder.path("a.svg");
+        made(&[&["render", "builtin:bust", "-o", &svg, "--look", "print", "--size", "400x300"], options].concat());
+        std::fs::read_to_string(svg).unwrap().matches("<path").count()
+    };
+    let all = paths(&[]);
+    let lasting = paths(&["--lasting-creases"]);
+    let silhouettes = paths(&["--classes", "silhouette"]);
+    assert!(silhouettes < lasting && lasting < all, "{silhouettes} {lasting} {all}");
+}

@@ -140,6 +140,18 @@ const MISTAKES: [(&str, &str); 95] = [
         "out.png: this names one picture; an animation is a .gif or .apng file, or has numbered names such as frame-%04d.png",
     ),
     (
+        "render triangle.obj -o out.gif",
+        "out.gif: this names an animation; add --turntable 60, or --animate for a model with frames, or name one picture such as drawing.png",
+    ),
+    (
+        "render triangle.obj -o out-%03d.svg",
+        "out-%03d.svg: this names an animation; add --turntable 60, or --animate for a model with frames, or name one picture such as drawing.png",
+    ),
+    (
+        "render triangle.obj --look print --sheet third -o out.svg",
+        "--sheet: drawings of lines alone have it; leave it out, or choose --look technical or --style lines",
+    ),
+    (
         "render twice.obj -o out.png --strict",
         "twice.obj: 1 duplicate triangle; repair the model, or leave out --strict to draw it without them",
     ),

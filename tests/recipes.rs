@@ -137,7 +137,8 @@ fn without_a_recipe_no_name_is_told_and_nothing_can_be_made_again() {
         let path = folder.path(name);
         // These formats never carry a recipe.
         let keep: &[&str] = if ["a.jpg", "a.apng"].contains(&name) { &[] } else { &["--no-recipe"] };
-        made(&[&["render", &model, "-o", &path, "--size", "30"], keep].concat());
+        let turn: &[&str] = if name == "a.apng" { &["--turntable", "2"] } else { &[] };
+        made(&[&["render", &model, "-o", &path, "--size", "30"], keep, turn].concat());
         let bytes = std::fs::read(&path).unwrap();
         let text = String::from_utf8_lossy(&bytes);
         assert!(!text.contains("tinta-recipe") && !text.contains("tinta:recipe") && !text.contains("tinta render"));
@@ -274,4 +275,27 @@ fn a_recipe_for_a_much_larger_picture_than_the_one_that_has_it_is_refused_before
         &["small.png: it has 64x48 pixels but its recipe is for 16384x16384; give the picture"],
     );
     assert!(!Path::new(&out).exists());
+}
+
+#[test]
+fn without_an_output_the_two_are_compared_and_no_file_is_left() {
+    let folder = Folder::new();
+    for name in ["a.png", "a.svg"] {
+        let path = folder.path(name);
+        made(&["render", "builtin:gear", "-o", &path, "--size", "40"]);
+        let output = tinta(&["again", &path]);
+        assert!(output.status.success(), "{output:?}");
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(said, format!("tinta: {path}, drawn again, is the same, byte for byte\n"));
+        // Another picture with the same recipe.
+        let bytes = std::fs::read(&path).unwrap();
+        let other = match name {
+            "a.svg" => String::from_utf8(bytes).unwrap().replacen("<path d=\"M", "<path d=\"M1,1 ", 1).into_bytes(),
+            _ => continue,
+        };
+        std::fs::write(&path, other).unwrap();
+        let output = tinta(&["again", &path]);
+        assert_eq!(output.status.code(), Some(1), "{output:?}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path(".")).unwrap().count(), 2);
 }

@@ -328,13 +328,13 @@ fn mistakes_in_the_second_pass_of_a_listing_are_told_with_its_file_and_line() {
     refused(
         "gl_FragColor =",
         &format!("{endless} ="),
-        &["glsl/evangelista/border.frag, line 10: it still runs after", "end its loop"],
+        &["/my-listing/evangelista/border.frag, line 10: it still runs after", "end its loop"],
     );
     let array = "float taps[3];\n    gl_FragColor";
     refused(
         "gl_FragColor =",
         &format!("{array} ="),
-        &["glsl/evangelista/border.frag, line 10: arrays of a shader's own"],
+        &["/my-listing/evangelista/border.frag, line 10: arrays of a shader's own"],
     );
     // A file that no style runs.
     let (_folder, own) = own_listing("gl_FragColor", "gl_FragColor");
@@ -357,4 +357,50 @@ fn a_listing_that_the_settings_do_not_run_is_named() {
     // The published filter has this number in its text; another number runs a twin of it.
     let unused = said(&["--detection-factor", "0.4"]);
     assert!(unused.starts_with("tinta: no pass of this drawing runs your evangelista/border.frag; "), "{unused}");
+}
+
+/// A folder with this text in place of `phong.frag`.
+fn own_phong(text: &str) -> (Folder, String) {
+    let folder = Folder::new();
+    std::fs::create_dir_all(folder.path("own/phong")).unwrap();
+    std::fs::write(folder.path("own/phong/phong.frag"), text).unwrap();
+    let own = folder.path("own");
+    (folder, own)
+}
+
+#[test]
+fn gls_own_lights_and_materials_are_explained_as_the_driver_has_them() {
+    let members = [
+        "gl_LightSource[0].position * 0.5 + 0.25",
+        "gl_LightSource[0].diffuse * 0.5 + gl_LightSource[1].specular * 0.25",
+        "gl_FrontMaterial.diffuse * gl_LightModel.ambient + 0.1 * gl_FrontLightProduct[0].diffuse",
+        "gl_FrontLightModelProduct.sceneColor + 0.3 * gl_BackMaterial.ambient",
+        "vec4(gl_LightSource[2].spotCutoff / 360.0, gl_LightSource[0].constantAttenuation * 0.5, gl_DepthRange.diff * 0.3, gl_Fog.scale * 0.2)",
+        "vec4(0.5 + 0.25 * gl_LightSource[0].spotDirection, 0.1 + gl_FrontMaterial.shininess)",
+    ];
+    for member in members {
+        let (_folder, own) = own_phong(&format!("#version 120\nvoid main() {{ gl_FragColor = {member}; }}\n"));
+        let options = ["--size", "64", "--style", "phong", "--glsl", &own, "--json"];
+        let output = tinta(&[&["why", "builtin:bust", "32,32"], &options[..]].concat());
+        assert!(output.status.success(), "{member}: {output:?}");
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let difference = json["steps"].as_array().unwrap().last().unwrap()["difference"].as_f64().unwrap();
+        assert!(difference <= 1.01, "{member}: {difference}");
+    }
+}
+
+#[test]
+fn uniforms_that_nothing_sets_are_named_once() {
+    let text = "#version 120\nuniform vec3 WarmColor;\nuniform float DiffuseWarm, ambient;\nuniform sampler2D Noise;\n\
+                void main() { gl_FragColor = vec4(WarmColor * DiffuseWarm + ambient, texture2D(Noise, vec2(0.5)).r); }\n";
+    let (folder, own) = own_phong(text);
+    let picture = folder.path("a.png");
+    let common = ["--size", "32", "--style", "phong", "--glsl", &own];
+    for line in [&["render", "builtin:bust", "-o", &picture][..], &["why", "builtin:bust", "16,16"]] {
+        let output = tinta(&[line, &common].concat());
+        let said = String::from_utf8(output.stderr).unwrap();
+        let expected = "tinta: nothing sets DiffuseWarm, Noise, WarmColor of your phong/phong.frag: numbers are 0";
+        assert_eq!(said.matches("nothing sets").count(), 1, "{said}");
+        assert!(said.contains(expected), "{said}");
+    }
 }

@@ -13,20 +13,21 @@ use tinta::{Backend, Error, Picture, Recipe, Result, Size, StyleName};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
-    examples: &["tinta again cow.png -o again.png                redraw it by its recipe"],
+    examples: &[
+        "tinta again cow.png                             draw it again and compare, without a new file",
+        "tinta again cow.png -o again.png                keep the new picture",
+    ],
     ..Command::new("again", <Arguments as clap::Args>::augment_args, |matches, _| run(&given::<Arguments>(matches)?))
 };
 
 /// Redraw a picture from its recipe, and compare the two
 #[derive(clap::Args)]
-#[command(override_usage = "tinta again [OPTIONS] --output <FILE> <PICTURE>")]
 pub(super) struct Arguments {
     /// Picture that `tinta render` wrote, .png or .svg
     #[arg(value_name = "PICTURE")]
     picture: PathBuf,
 
-    /// File to write, in the same format
-    // Not required by the parser, because the error about a picture without a recipe comes first.
+    /// File to write, in the same format [default: none, the two are only compared]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -39,11 +40,13 @@ pub(super) struct Arguments {
     allow_external: bool,
 }
 
-impl Arguments {
-    /// The file to write, which is there once [`check_output`] has looked.
-    fn output(&self) -> &Path {
-        self.output.as_deref().unwrap_or(Path::new(""))
-    }
+/// A picture to draw again.
+struct Redrawing<'a> {
+    arguments: &'a Arguments,
+    /// The file of the new picture.
+    output: PathBuf,
+    /// What messages call the new picture.
+    name: String,
 }
 
 /// An option that a picture's recipe cannot grant: only the user can.
@@ -52,44 +55,48 @@ const NOT_GRANTED: &str = "allow-external";
 /// Draws the picture again; exit code 1 if it differs.
 pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
     let recipe = Recipe::read(&arguments.picture)?;
-    check_output(arguments)?;
+    let kind = if is_png(&arguments.picture)? { "png" } else { "svg" };
+    // Kept until the comparison ends.
+    let unnamed = if arguments.output.is_none() { Some(folder()?) } else { None };
+    let redrawing = match (&arguments.output, &unnamed) {
+        (None, Some(folder)) => Redrawing {
+            arguments,
+            output: folder.path().join(format!("again.{kind}")),
+            name: format!("{}, drawn again,", arguments.picture.display()),
+        },
+        (output, _) => {
+            let output = output.clone().unwrap_or_default();
+            check_output(&output, &arguments.picture, kind)?;
+            let name = output.display().to_string();
+            Redrawing { arguments, output, name }
+        }
+    };
     let models = models(arguments, &recipe)?;
     let before = std::fs::read(&arguments.picture).map_err(|error| failed(&arguments.picture, &error))?;
-    draw(arguments, &recipe, &models)?;
-    let after = std::fs::read(arguments.output()).map_err(|error| failed(arguments.output(), &error))?;
-    let name = arguments.output().display();
-    let now = Recipe::read(arguments.output())?;
-    recipe.differences(&now).iter().for_each(|difference| say(&format!("tinta: {difference}")));
-    if before == after {
-        say(&format!("tinta: {name} is the same, byte for byte"));
-        return Ok(Verdict::Good);
-    }
-    match is_svg(arguments.output()) {
-        true => Ok(compare_drawings(arguments, &before, &after, &recipe, &now)),
-        false => compare_pictures(arguments),
-    }
+    redrawing.draw(&recipe, &models)?;
+    redrawing.compare(&recipe, &before)
+}
+
+/// A folder for a picture that nobody keeps.
+fn folder() -> Result<tempfile::TempDir> {
+    tempfile::tempdir().map_err(|error| {
+        let folder = std::env::temp_dir();
+        Error::output(folder, format!("no file can be written here ({error}); name one with -o")).because(&error)
+    })
 }
 
 /// A comparison needs files of one kind, and the old picture must survive.
-fn check_output(arguments: &Arguments) -> Result<()> {
-    let refuse = |problem: String| Err(Error::output(arguments.output(), problem));
+fn check_output(output: &Path, picture: &Path, wanted: &str) -> Result<()> {
+    let refuse = |problem: String| Err(Error::output(output, problem));
     let kind = |path: &Path| path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
-    let wanted = if is_png(&arguments.picture)? { "png" } else { "svg" };
-    if arguments.output.is_none() {
-        let problem = format!("--output is missing; name the picture to write: -o again.{wanted}; see --help");
-        return Err(Error::CommandLine { problem });
-    }
-    if kind(arguments.output()).as_deref() != Some(wanted) {
+    if kind(output).as_deref() != Some(wanted) {
         return refuse(format!(
             "the picture is {}, so the new one must be too; name a .{wanted} file",
             wanted.to_uppercase()
         ));
     }
-    let same = |other: &Path| {
-        arguments.output().canonicalize().is_ok_and(|output| other.canonicalize().is_ok_and(|other| other == output))
-    };
-    match same(&arguments.picture) {
-        true => refuse("this is the picture to compare with; name another file".to_owned()),
+    match output.canonicalize().is_ok_and(|output| picture.canonicalize().is_ok_and(|picture| picture == output)) {
+        true => refuse("this is the picture to compare with; name another file, or leave out -o".to_owned()),
         false => Ok(()),
     }
 }
@@ -154,114 +161,135 @@ fn on_this_system(model: &str) -> String {
     if !Path::new(model).exists() && Path::new(&slashes).exists() { slashes } else { model.to_owned() }
 }
 
-/// Draws the recipe. Options that are not part of a picture, such as a file to write, are refused: a recipe may come from anyone.
-fn draw(arguments: &Arguments, recipe: &Recipe, models: &[String]) -> Result<()> {
-    let refuse = |problem: String| Error::picture(&arguments.picture, problem);
-    if recipe.command != "render" {
-        return Err(refuse(format!(
-            "its recipe is for tinta {}, which cannot be repeated here; use tinta render",
-            recipe.command
-        )));
-    }
-    if models.is_empty() {
-        return Err(refuse("its recipe names no model; it is not drawn".to_owned()));
-    }
-    for name in recipe.options.keys() {
-        if is_of_one_run(name) || !Request::table().has(name) {
+impl Redrawing<'_> {
+    /// Draws the recipe. Options that are not part of a picture, such as a file to write, are refused: a recipe may come from anyone.
+    fn draw(&self, recipe: &Recipe, models: &[String]) -> Result<()> {
+        let arguments = self.arguments;
+        let refuse = |problem: String| Error::picture(&arguments.picture, problem);
+        if recipe.command != "render" {
             return Err(refuse(format!(
-                "its recipe has the option {name}, which does not describe a picture; it is not drawn"
+                "its recipe is for tinta {}, which cannot be repeated here; use tinta render",
+                recipe.command
             )));
         }
-        if name == NOT_GRANTED && !arguments.allow_external {
-            return Err(refuse(
-                "its recipe has --allow-external, for files outside its model's folder; give that option yourself to read them"
-                    .to_owned(),
-            ));
+        if models.is_empty() {
+            return Err(refuse("its recipe names no model; it is not drawn".to_owned()));
+        }
+        for name in recipe.options.keys() {
+            if is_of_one_run(name) || !Request::table().has(name) {
+                return Err(refuse(format!(
+                    "its recipe has the option {name}, which does not describe a picture; it is not drawn"
+                )));
+            }
+            if name == NOT_GRANTED && !arguments.allow_external {
+                return Err(refuse(
+                    "its recipe has --allow-external, for files outside its model's folder; give that option yourself to read them"
+                        .to_owned(),
+                ));
+            }
+        }
+        let output = self.output.display().to_string();
+        let style = is_of_lines(&output).then_some(Layer::Style(StyleName::Lines));
+        // The recipe has all options of the picture's look; a style not named is the published one.
+        let layers: Vec<Layer> = style.into_iter().chain([Layer::Given(recipe.options.clone())]).collect();
+        let (request, _) = Request::from_layers(&layers).map_err(|error| match error {
+            Error::Setting { .. } | Error::Settings { .. } => {
+                refuse(format!("its recipe has an option that is not understood ({error}); this may be an older tinta"))
+            }
+            error => error,
+        })?;
+        let backend = recipe.gl.as_ref().and_then(|gl| gl.backend.parse().ok()).unwrap_or_default();
+        let mut request = request.with_models(models.to_vec());
+        request.backend = backend;
+        check_size(&arguments.picture, request.scene.size)?;
+        let draw = |request: &Request| {
+            render::render(request, &render::RunSettings::default(), &output, &[], &mut super::models::session())
+                .map(drop)
+        };
+        match draw(&request) {
+            // Another backend is better than none; a message names it.
+            Err(Error::NoContext { .. }) if backend != Backend::Auto => {
+                request.backend = Backend::Auto;
+                draw(&request)
+            }
+            result => result,
         }
     }
-    let output = arguments.output().display().to_string();
-    let style = is_of_lines(&output).then_some(Layer::Style(StyleName::Lines));
-    // The recipe has all options of the picture's look; a style not named is the published one.
-    let layers: Vec<Layer> = style.into_iter().chain([Layer::Given(recipe.options.clone())]).collect();
-    let (request, _) = Request::from_layers(&layers).map_err(|error| match error {
-        Error::Setting { .. } | Error::Settings { .. } => {
-            refuse(format!("its recipe has an option that is not understood ({error}); this may be an older tinta"))
+
+    /// Compares the two files, then what they show.
+    fn compare(&self, recipe: &Recipe, before: &[u8]) -> Result<Verdict> {
+        let after = std::fs::read(&self.output).map_err(|error| failed(&self.output, &error))?;
+        let now = Recipe::read(&self.output)?;
+        recipe.differences(&now).iter().for_each(|difference| say(&format!("tinta: {difference}")));
+        if before == after {
+            say(&format!("tinta: {} is the same, byte for byte", self.name));
+            return Ok(Verdict::Good);
         }
-        error => error,
-    })?;
-    let backend = recipe.gl.as_ref().and_then(|gl| gl.backend.parse().ok()).unwrap_or_default();
-    let mut request = request.with_models(models.to_vec());
-    request.backend = backend;
-    check_size(arguments, request.scene.size)?;
-    let draw = |request: &Request| {
-        render::render(request, &render::RunSettings::default(), &output, &[], &mut super::models::session()).map(drop)
-    };
-    match draw(&request) {
-        // Another backend is better than none; a message names it.
-        Err(Error::NoContext { .. }) if backend != Backend::Auto => {
-            request.backend = Backend::Auto;
-            draw(&request)
+        match is_svg(&self.output) {
+            true => Ok(self.compare_drawings(before, &after, recipe, &now)),
+            false => self.compare_pictures(),
         }
-        result => result,
+    }
+
+    fn compare_pictures(&self) -> Result<Verdict> {
+        let (before, after) = (Picture::read(&self.arguments.picture)?, Picture::read(&self.output)?);
+        let name = &self.name;
+        match before.difference(&after) {
+            Some(difference) if difference.pixels == 0 => {
+                say(&format!(
+                    "tinta: {name} has the same pixels; the file differs in its recipe or in how it was packed"
+                ));
+                Ok(Verdict::Good)
+            }
+            Some(difference) => {
+                let all = after.size.pixel_count();
+                say(&format!(
+                    "tinta: {name} differs in {} of {all} pixels, by at most {} of 255",
+                    difference.pixels, difference.largest
+                ));
+                Ok(Verdict::Different)
+            }
+            None => {
+                say(&format!("tinta: {name} is {} pixels large, the picture {}", after.size, before.size));
+                Ok(Verdict::Different)
+            }
+        }
+    }
+
+    /// Line by line, without the lines that hold recipe and command.
+    fn compare_drawings(&self, before: &[u8], after: &[u8], then: &Recipe, now: &Recipe) -> Verdict {
+        let drawn = |bytes: &[u8]| -> Vec<String> {
+            let text = String::from_utf8_lossy(bytes);
+            let is_about = |line: &str| {
+                ["<tinta:recipe", "<dc:description", "<dc:title", "<title"].iter().any(|start| line.starts_with(start))
+            };
+            text.lines().filter(|line| !is_about(line)).map(str::to_owned).collect()
+        };
+        let (before, after) = (drawn(before), drawn(after));
+        let name = &self.name;
+        if before == after {
+            let why = if then.models == now.models { "recipe" } else { "recipe, which names other models" };
+            say(&format!("tinta: {name} has the same lines; the file differs in its {why}"));
+            return Verdict::Good;
+        }
+        let shared = before.iter().zip(&after).filter(|(before, after)| before == after).count();
+        let count = before.len().max(after.len()) - shared;
+        say(&format!("tinta: {name} differs in {count} of {} lines of the file", after.len()));
+        Verdict::Different
     }
 }
 
 /// Refuses a recipe for a picture much larger than the file itself: the result might be unreadable, and takes long to draw.
-fn check_size(arguments: &Arguments, size: Size) -> Result<()> {
-    if is_svg(arguments.output()) || size.pixel_count() as u64 * 4 <= PICTURE_BYTES {
+fn check_size(path: &Path, size: Size) -> Result<()> {
+    if !is_png(path)? || size.pixel_count() as u64 * 4 <= PICTURE_BYTES {
         return Ok(());
     }
-    let picture = Picture::read(&arguments.picture)?;
+    let picture = Picture::read(path)?;
     match picture.size == size {
         true => Ok(()),
         false => Err(Error::picture(
-            &arguments.picture,
+            path,
             format!("it has {} pixels but its recipe is for {size}; give the picture that tinta wrote", picture.size),
         )),
     }
-}
-
-fn compare_pictures(arguments: &Arguments) -> Result<Verdict> {
-    let (before, after) = (Picture::read(&arguments.picture)?, Picture::read(arguments.output())?);
-    let name = arguments.output().display();
-    match before.difference(&after) {
-        Some(difference) if difference.pixels == 0 => {
-            say(&format!("tinta: {name} has the same pixels; the file differs in its recipe or in how it was packed"));
-            Ok(Verdict::Good)
-        }
-        Some(difference) => {
-            let all = after.size.pixel_count();
-            say(&format!(
-                "tinta: {name} differs in {} of {all} pixels, by at most {} of 255",
-                difference.pixels, difference.largest
-            ));
-            Ok(Verdict::Different)
-        }
-        None => {
-            say(&format!("tinta: {name} is {} pixels large, the picture {}", after.size, before.size));
-            Ok(Verdict::Different)
-        }
-    }
-}
-
-/// Line by line, without the lines that hold recipe and command.
-fn compare_drawings(arguments: &Arguments, before: &[u8], after: &[u8], then: &Recipe, now: &Recipe) -> Verdict {
-    let drawn = |bytes: &[u8]| -> Vec<String> {
-        let text = String::from_utf8_lossy(bytes);
-        let is_about = |line: &str| {
-            ["<tinta:recipe", "<dc:description", "<dc:title", "<title"].iter().any(|start| line.starts_with(start))
-        };
-        text.lines().filter(|line| !is_about(line)).map(str::to_owned).collect()
-    };
-    let (before, after) = (drawn(before), drawn(after));
-    let name = arguments.output().display();
-    if before == after {
-        let why = if then.models == now.models { "recipe" } else { "recipe, which names other models" };
-        say(&format!("tinta: {name} has the same lines; the file differs in its {why}"));
-        return Verdict::Good;
-    }
-    let shared = before.iter().zip(&after).filter(|(before, after)| before == after).count();
-    let count = before.len().max(after.len()) - shared;
-    say(&format!("tinta: {name} differs in {count} of {} lines of the file", after.len()));
-    Verdict::Different
 }

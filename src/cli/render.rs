@@ -157,7 +157,9 @@ pub(super) fn render(
     inputs.keep(output)?;
     let preset = keep::preset_target(run.save_preset.as_deref(), output, &inputs)?;
     let rendering = Rendering { request, run, output };
-    let verdict = match Format::of(request, output)? {
+    let format = Format::of(request, output)?;
+    animate::check_name(&request.animation, output)?;
+    let verdict = match format {
         Some(format) => lines::run(&rendering, format, session)?,
         None => picture(&rendering, session)?,
     };

@@ -3,6 +3,7 @@
 use super::textures::{Images, OfTriangle};
 use super::triangles::{Cover, Triangles};
 use crate::error::{Error, Result};
+use crate::glsl::BUILT_IN;
 use crate::plan::{self, Blend, Depth, Draw};
 use glam::{DMat3, Mat4};
 use serde::Serialize;
@@ -318,5 +319,5 @@ pub(super) fn blended(blend: Blend, source: [f64; 4], there: [f64; 4]) -> [f64; 
 /// What the interpreter says of a shader, as an error.
 pub(super) fn misunderstood(mistake: Mistake) -> Error {
     let Mistake { path, line, problem } = mistake;
-    Error::Statement { path, line, problem }
+    Error::Statement { path: format!("{BUILT_IN}{path}"), line, problem }
 }

@@ -131,16 +131,20 @@ impl Request {
         Ok(Drawn::Lines(Box::new(DrawnLines { scene, files, style, lines, areas, remarks, load_ms })))
     }
 
-    /// The areas, and the lines above them, of a style that has areas, drawn with the options of drawings; `None` where it draws pixels.
+    /// The areas, and the lines above them, of a style that has areas, with the options of lines and of drawings; `None` where it
+    /// draws pixels.
     ///
     /// # Errors
     ///
-    /// Those of the options of drawings.
+    /// Those of the options of lines and of drawings.
     pub fn vectors(&self) -> Result<Option<Vectors>> {
         let is_of_lines = self.style.lines().is_some();
         let mut vectors = (self.as_vectors || is_of_lines).then(|| self.style.vectors(self.scene.size)).flatten();
         if let (Some(vectors), false) = (&mut vectors, is_of_lines) {
             DrawingSettings::table().apply(&mut vectors.drawing, &self.options)?;
+            if let Some(lines) = &mut vectors.lines {
+                LineSettings::table().apply(lines, &self.options)?;
+            }
         }
         Ok(vectors)
     }

@@ -178,8 +178,12 @@ impl Request {
         }
         let is_wrong = |option: &&String| is_of_lines_alone(option) && is_refused(option);
         let Some(option) = self.options.keys().find(is_wrong) else { return Ok(()) };
+        let has_vectors = self.style.vectors(self.scene.size).is_some();
         let problem = match OF_PAPER.contains(&option.as_str()) {
             true => pixels_on_paper(&self.options),
+            false if has_vectors && !is_of_vectors(option, self.style.style_name()) => {
+                "drawings of lines alone have it; leave it out, or choose --look technical or --style lines".to_owned()
+            }
             false => "a picture of pixels cannot have it; leave it out, or write a .svg or .pdf".to_owned(),
         };
         Err(Error::setting(option.clone(), problem))

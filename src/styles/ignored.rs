@@ -1,7 +1,7 @@
 //! Finds options that change nothing in the drawn styles, for a warning to the user.
 
 use super::{Style, StyleName};
-use crate::lines::DrawingSettings;
+use crate::lines::{DrawingSettings, LineSettings};
 use crate::scene::SceneSettings;
 use crate::settings::HasSettings;
 
@@ -23,10 +23,11 @@ pub fn is_of_lines_alone(option: &str) -> bool {
     Style::table().has(option) && !of_passes
 }
 
-/// Whether this is an option of drawings of exact lines that the style, which OpenGL draws in passes, has as vectors too.
+/// Whether this is an option of exact lines or of their drawing that the style, which OpenGL draws in passes, has as vectors too.
 pub fn is_of_vectors(option: &str, style: StyleName) -> bool {
     let has_vectors = || Style::named(style).vectors(SceneSettings::default().size).is_some();
-    DrawingSettings::table().has(option) && !style_has(style, option) && has_vectors()
+    let is_of_them = DrawingSettings::table().has(option) || LineSettings::table().has(option);
+    is_of_them && !style_has(style, option) && has_vectors()
 }
 
 fn style_has(style: StyleName, option: &str) -> bool {

@@ -184,9 +184,9 @@ pub enum Error {
         log: String,
     },
     /// A pixel cannot be recomputed at a statement of a shader.
-    #[error("glsl/{path}, line {line}: {problem}")]
+    #[error("{path}, line {line}: {problem}")]
     Statement {
-        /// The shader, below `glsl/`.
+        /// The shader's file; a built-in one begins with `glsl/`.
         path: String,
         /// The line, from 1.
         line: u32,

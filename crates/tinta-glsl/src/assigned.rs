@@ -64,6 +64,7 @@ fn of_expression<'a>(expression: &'a Expression, names: &mut Vec<&'a str>) {
         ExpressionKind::Unary(_, of) | ExpressionKind::Swizzle(of, _) | ExpressionKind::Index(of, _) => {
             of_expression(of, names);
         }
+        ExpressionKind::State { number, .. } => number.iter().for_each(|number| of_expression(number, names)),
         ExpressionKind::Constant(_) | ExpressionKind::Variable(_) => {}
     }
 }

@@ -25,6 +25,7 @@ mod mistake;
 pub mod tokens;
 mod preprocess;
 mod syntax;
+mod state;
 mod parse;
 mod program;
 mod assigned;

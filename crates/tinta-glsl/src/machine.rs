@@ -3,6 +3,7 @@
 use crate::arithmetic::{binary, call, construct, promoted, unary};
 use crate::mistake::Mistake;
 use crate::program::Program;
+use crate::state;
 use crate::syntax::{Expression, ExpressionKind, Function, Loop, Statement, StatementKind, Storage};
 use crate::trace::{Comparison, Event, Run, Settings, Textures, Trace, What};
 use crate::value::{Base, Type, Value};
@@ -307,6 +308,14 @@ impl<'a> Machine<'a> {
                 let index = self.evaluate(index)?;
                 let places = self.indexed(of.of, index, line)?;
                 self.part(&of, &places, line)
+            }
+            ExpressionKind::State { structure, number, member } => {
+                let number = number.as_ref().map(|number| self.evaluate(number)).transpose()?;
+                let value = state::member(structure, number.map(|number| number.first()), member);
+                value.map_or_else(
+                    || self.fail(line, format!("{structure} has no .{member} that all drivers agree on")),
+                    |it| Ok(precision.keep(it)),
+                )
             }
             ExpressionKind::Call(name, arguments) => self.call(name, arguments, line),
         }

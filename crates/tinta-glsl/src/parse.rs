@@ -2,6 +2,7 @@
 
 use crate::mistake::Mistake;
 use crate::preprocess::{Lexeme, lexemes};
+use crate::state;
 use crate::syntax::{
     Expression, ExpressionKind, Function, Global, Loop, Parameter, Shader, Statement, StatementKind, Storage,
 };
@@ -330,6 +331,10 @@ impl Parser<'_> {
             let line = self.line();
             let kind = if self.takes(".") {
                 let name = self.name()?;
+                if let Some(state) = state_member(&expression, &name) {
+                    expression = Expression { line, kind: state };
+                    continue;
+                }
                 let set = COMPONENTS.iter().find(|set| name.chars().all(|letter| set.contains(letter)));
                 let places: Vec<usize> =
                     set.map_or_else(Vec::new, |set| name.chars().filter_map(|letter| set.find(letter)).collect());
@@ -400,4 +405,21 @@ impl Parser<'_> {
         self.place += 1;
         Ok(Expression { line, kind })
     }
+}
+
+/// The member of GL's state that a name after a dot means, if what is before it is a structure of it.
+fn state_member(of: &Expression, member: &str) -> Option<ExpressionKind> {
+    let (structure, number) = match &of.kind {
+        ExpressionKind::Variable(name) => (name, None),
+        ExpressionKind::Index(of, number) => match &of.kind {
+            ExpressionKind::Variable(name) => (name, Some(number.clone())),
+            _ => return None,
+        },
+        _ => return None,
+    };
+    (state::is_array_of_structures(structure)? == number.is_some()).then(|| ExpressionKind::State {
+        structure: structure.clone(),
+        number,
+        member: member.to_owned(),
+    })
 }

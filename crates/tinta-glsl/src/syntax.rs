@@ -104,4 +104,10 @@ pub(crate) enum ExpressionKind {
     /// Places of components, from `.xyz`, `.rgb` or `.stp`.
     Swizzle(Box<Expression>, Vec<usize>),
     Index(Box<Expression>, Box<Expression>),
+    /// A member of a structure of GL's state, or of the structure of this number in an array.
+    State {
+        structure: String,
+        number: Option<Box<Expression>>,
+        member: String,
+    },
 }

@@ -36,6 +36,8 @@ fn values_follow_the_specification() {
             [0.0, 0.0, 1.0, 11.0],
         ),
         ("vec4(clamp(vec2(-1.0, 0.5), 0.0, 1.0), mix(1.0, 3.0, 0.25), step(0.5, 0.5))", [0.0, 0.5, 1.5, 1.0]),
+        ("vec4(gl_LightSource[0].position.zyx, gl_LightSource[7 - 6].diffuse.a)", [1.0, 0.0, 0.0, 1.0]),
+        ("vec4(gl_FrontMaterial.diffuse.r, gl_LightModel.ambient.gba)", [0.8, 0.2, 0.2, 1.0]),
         ("vec4(mod(-1.0, 4.0), fract(-0.25), floor(-0.25), sign(-3.0))", [3.0, 0.75, -1.0, -1.0]),
         (
             "vec4(1.0 < 2.0 ? 1.0 : 0.0, float(true && !false), float(1 == 1 ^^ 2 == 2), float(any(lessThan(vec2(1.0, 5.0), vec2(2.0)))))",

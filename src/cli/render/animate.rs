@@ -21,15 +21,23 @@ const TURN_MS: u32 = 2500;
 /// Quake 2 shows ten frames a second.
 const MODEL_FRAME_MS: u16 = 100;
 
-/// The animation's target, if the output is one.
+/// Refuses the name of an animation for a picture that stands still.
+pub(super) fn check_name(animation: &AnimationSettings, output: &str) -> Result<()> {
+    if animation.is_still() && AnimationTarget::is_meant_by(output) {
+        let problem = "this names an animation; add --turntable 60, or --animate for a model with frames, or name one picture \
+                       such as drawing.png";
+        return Err(Error::output(output, problem));
+    }
+    Ok(())
+}
+
+/// The animation's target, if one is asked for.
 pub(super) fn target(
     animation: &AnimationSettings,
     output: &str,
     is_transparent: bool,
 ) -> Result<Option<AnimationTarget>> {
-    let is_asked_for =
-        animation.turntable.is_some() || animation.animate.is_some() || AnimationTarget::is_meant_by(output);
-    is_asked_for.then(|| AnimationTarget::check(output, is_transparent)).transpose()
+    (!animation.is_still()).then(|| AnimationTarget::check(output, is_transparent)).transpose()
 }
 
 pub(super) fn delay_ms(animation: &AnimationSettings, frames: usize) -> u16 {

@@ -105,6 +105,11 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     }
     // Every step is explained.
     request.pruning.is_full = true;
+    explain(arguments, &request, output, session).map_err(|error| request.attributed(error))
+}
+
+/// Explains a pixel or a variable of the request's style.
+fn explain(arguments: &Arguments, request: &Request, output: Option<Output>, session: &mut Session) -> Result<()> {
     let (scene, renderer) = request.scene_and_renderer(session)?;
     if request.glsl.is_some() {
         let remarks = renderer.remarks(&request.style.plan(&scene, request.show)?);

@@ -80,10 +80,10 @@ pub(in crate::lines) fn edge_features(
                 true => ClassSet::default(),
                 false => scene_parts.classes(of_part),
             };
-            let mut of_edge = classes.of(edge, look);
+            let (mut of_edge, may_be_crease) = classes.of(edge, look);
             let mut creased = Vec::new();
             if settings.creases_by_normals {
-                if of_edge.contains(Class::Normal) && wanted.contains(Class::Crease) {
+                if may_be_crease && of_edge.contains(Class::Normal) && wanted.contains(Class::Crease) {
                     creased = creased_parts(mesh, list, edge, crease_angles[look as usize].cosine);
                 }
                 of_edge = of_edge.without(&CREASES);

@@ -57,18 +57,22 @@ impl PartClasses {
         }
     }
 
-    /// The classes of an edge whose part has a style.
-    pub(super) fn of(&self, edge: u32, look: u32) -> ClassSet {
+    /// The classes of an edge whose part has a style, and whether it may be drawn as a crease.
+    pub(super) fn of(&self, edge: u32, look: u32) -> (ClassSet, bool) {
         let OfAngle { classes, lasting, .. } = &self.of_angles[self.of_looks[look as usize]];
         let of_edge = classes.of_edges[edge as usize];
-        match lasting.as_ref().is_some_and(|lasting| !lasting[edge as usize]) {
-            true => of_edge.without(&CREASES),
-            false => of_edge,
+        match lasting.as_ref().is_none_or(|lasting| lasting[edge as usize]) {
+            true => (of_edge, true),
+            false => (of_edge.without(&CREASES), false),
         }
     }
 }
 
 fn lasting(edges: &MeshEdges, classes: &Classes, settings: &LineSettings) -> Option<Vec<bool>> {
-    let is_crease = |edge: u32| !classes.of_edges[edge as usize].and(ClassSet::of(&CREASES)).is_empty();
+    let creases = match settings.creases_by_normals {
+        true => ClassSet::of(&[Class::Normal]),
+        false => ClassSet::of(&CREASES),
+    };
+    let is_crease = |edge: u32| !classes.of_edges[edge as usize].and(creases).is_empty();
     settings.lasting_creases.then(|| persistent_creases(edges.mesh(), edges.list(), is_crease))
 }
