@@ -29,6 +29,7 @@ pub mod load;
 mod up_axis_guess;
 mod md2;
 mod normals;
+mod number;
 mod obj;
 mod options;
 mod pieces;

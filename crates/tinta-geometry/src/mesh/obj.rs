@@ -18,7 +18,7 @@ use super::soup::Soup;
 use super::text;
 use crate::error::{Error, Result};
 use crate::threads::{cores, in_chunks};
-use chunk::{Chunk, Counts, Naming};
+use chunk::{Chunk, Counts, Naming, Place};
 
 /// Size of a piece. Much less than a core's share, because another core opens the GL context meanwhile.
 const PIECE_BYTES: usize = 1 << 20;
@@ -58,13 +58,15 @@ fn read_in_pieces(
         let counts = Counts::of(&text);
         (text, counts)
     });
-    let starts: Vec<Counts> = counted
-        .iter()
-        .scan(Counts::default(), |before, (_, counts)| Some(std::mem::replace(before, *before + *counts)))
-        .collect();
+    let mut all = Counts::default();
+    let mut starts = Vec::with_capacity(counted.len());
+    for (_, counts) in &counted {
+        starts.push(all);
+        all += *counts;
+    }
     let pieces = in_chunks(pieces.len(), 1, cores(), |piece| {
-        let (text, counts) = &counted[piece.start];
-        Chunk::read(text, starts[piece.start], *counts)
+        let (text, here) = &counted[piece.start];
+        Chunk::read(text, Place { before: starts[piece.start], here: *here, all })
     });
     let pieces: std::result::Result<Vec<Chunk>, chunk::Problem> = pieces.into_iter().collect();
     let pieces = pieces.map_err(|problem| {
@@ -107,7 +109,7 @@ fn free_form_in_words([curves, surfaces]: [usize; 2]) -> Option<String> {
 /// Joins all pieces, and returns the named materials and parts with the number of faces before each.
 fn joined(pieces: Vec<Chunk>) -> (Soup, Vec<(usize, Naming)>) {
     let mut soup = Soup::default();
-    let mut namings = Vec::new();
+    let (mut namings, mut painted) = (Vec::new(), Vec::new());
     let mut polygons = 0;
     let has_only_triangles = pieces.iter().all(|piece| piece.polygon_sizes.is_empty());
     soup.positions.reserve_exact(pieces.iter().map(|piece| piece.positions.len()).sum());
@@ -134,8 +136,13 @@ fn joined(pieces: Vec<Chunk>) -> (Soup, Vec<(usize, Naming)>) {
         soup.defects.unusable_texture_coordinates += piece.lost[1];
         soup.segments.append(&mut piece.segments);
         soup.points.append(&mut piece.points);
+        painted.append(&mut piece.painted);
     }
     make_shares(&mut soup.colors);
+    if !has_colors && !painted.is_empty() {
+        painted.resize(soup.positions.len(), [1.0; 3]);
+        soup.colors = painted;
+    }
     (soup, namings)
 }
 
@@ -289,7 +296,7 @@ mod tests {
     #[test]
     fn materials_are_kept_with_colour_and_texture_and_half_a_colour_does_not_panic() {
         let text = format!("mtllib m.mtl\n{SQUARE}usemtl red\nf 1 2 3\nusemtl none\nf 1 3 4\n");
-        let mtl = b"newmtl red\nKd 1 0.5 0\nmap_Kd skin.png\nKd 1\nKa x\n";
+        let mtl = b"newmtl red\nKd 1 0.5 0\nmap_Kd skin.png\nKd 1 0\nKa x\n";
         let soup = read(text.as_bytes(), "t.obj", &Folder::of_files(&[("t.mtl", mtl)]), &mut Vec::new()).unwrap();
         assert_eq!(soup.polygon_materials, [0, NONE]);
         assert_eq!(soup.materials[0].color, Some([1.0, 0.5, 0.0]));

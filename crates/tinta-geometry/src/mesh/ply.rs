@@ -17,6 +17,7 @@ use glam::{DVec3, Vec2};
 use header::{Element, Header};
 use paint::Paint;
 use payload::{Damage, Payload, Value};
+use std::path::Path;
 
 /// Reads a PLY file's bytes. `path` appears in messages; `remarks` gets a sentence for each ignored part.
 pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
@@ -35,11 +36,14 @@ pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Resul
     let damaged = |line: Option<u64>, cause: &str| {
         Error::model(path, format!("it is damaged or cut off ({cause}); export it again")).at(line)
     };
-    let header = Header::read(head).map_err(|(line, cause)| damaged(Some(line), cause))?;
+    let mut header = Header::read(head).map_err(|(line, cause)| damaged(Some(line), cause))?;
     if let Some(line) = header.foreign {
         remarks.push(format!("{path}: line {line} of its header is none of PLY and was passed over"));
     }
     check_header(&header).map_err(|problem| Error::model(path, problem))?;
+    // MeshLab's way to name a picture by the model's own name.
+    let stem = Path::new(path).file_stem().unwrap_or_default().to_string_lossy();
+    header.pictures.iter_mut().for_each(|picture| *picture = picture.replace("<this>", &stem));
     let mut payload = Payload::new(&bytes[header.bytes..], header.encoding, header.lines);
     let mut contents = Contents::new(&header);
     for element in &header.elements {
@@ -196,22 +200,22 @@ impl Contents {
                     paint.take(name, value);
                     return;
                 }
-                match value {
-                    Value::List { at_most } => {
-                        soup.corners.truncate(start);
-                        is_in_range = true;
-                        // Doubled as usual, but never beyond the capacity of the remaining bytes.
-                        if soup.corners.capacity() - soup.corners.len() < at_most.min(LIST) {
-                            soup.corners.reserve_exact(at_most.min(soup.corners.len() + LIST));
-                        }
+                if let Value::List { at_most } = value {
+                    soup.corners.truncate(start);
+                    is_in_range = true;
+                    // Doubled as usual, but never beyond the capacity of the remaining bytes.
+                    if soup.corners.capacity() - soup.corners.len() < at_most.min(LIST) {
+                        soup.corners.reserve_exact(at_most.min(soup.corners.len() + LIST));
                     }
-                    Value::Item(index) if (0..i64::from(*vertices)).contains(&index) => {
+                }
+                match value.index() {
+                    Some(index) if (0..i64::from(*vertices)).contains(&index) => {
                         let index = index as u32;
                         let (normal, texture) = (with(*has_normals, index), with(*has_texture, index));
                         soup.corners.push(Corner { position: index, normal, texture });
                     }
-                    Value::Item(_) => is_in_range = false,
-                    Value::Number(_) | Value::Scalar(_) => {}
+                    Some(_) => is_in_range = false,
+                    None => {}
                 }
             })?;
             let count = soup.corners.len() - start;
@@ -259,7 +263,7 @@ impl Contents {
         for _ in 0..element.count {
             let mut strip = Strip::default();
             payload.element(element, |name, value| {
-                let (true, Value::Item(index)) = (name == "vertex_indices" || name == "vertex_index", value) else {
+                let (true, Some(index)) = (name == "vertex_indices" || name == "vertex_index", value.index()) else {
                     return;
                 };
                 let Some([a, b, c]) = strip.triangle(index) else { return };

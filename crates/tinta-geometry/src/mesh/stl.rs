@@ -4,6 +4,7 @@
 //! vertices and the ends of facets count, whatever programs write around them: capitals, blanks before `solid`, `end loop` for
 //! `endloop`, a name or none.
 
+use super::number::number;
 use super::soup::{Corner, Soup};
 use super::text;
 use crate::bytes::Bytes;
@@ -63,16 +64,16 @@ pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Resul
 fn facets(text: &[u8]) -> std::result::Result<(Soup, bool), (Option<u64>, &'static str)> {
     let mut soup = Soup::default();
     let (mut is_in_solid, mut is_in_facet) = (false, false);
-    for (number, line) in (1..).zip(text.split(|byte| *byte == b'\n')) {
+    for (line_number, line) in (1..).zip(text.split(|byte| *byte == b'\n')) {
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let keyword = words.next().unwrap_or_default().to_ascii_lowercase();
         let ended =
             if keyword == b"end" { words.clone().next().unwrap_or_default().to_ascii_lowercase() } else { vec![] };
         match (keyword.as_slice(), ended.as_slice()) {
             (b"vertex", _) => {
-                let mut coordinate = || std::str::from_utf8(words.next()?).ok()?.parse::<f32>().ok().map(f64::from);
+                let mut coordinate = || number::<f32>(std::str::from_utf8(words.next()?).ok()?).map(f64::from);
                 let (Some(x), Some(y), Some(z)) = (coordinate(), coordinate(), coordinate()) else {
-                    return Err((Some(number), NO_VERTEX));
+                    return Err((Some(line_number), NO_VERTEX));
                 };
                 soup.corners.push(Corner::at(soup.positions.len() as u32));
                 soup.positions.push(DVec3::new(x, y, z));
@@ -80,7 +81,7 @@ fn facets(text: &[u8]) -> std::result::Result<(Soup, bool), (Option<u64>, &'stat
             (b"facet" | b"endfacet" | b"endsolid", _) | (_, b"facet" | b"solid")
                 if !soup.positions.len().is_multiple_of(3) =>
             {
-                return Err((Some(number), NO_TRIANGLE));
+                return Err((Some(line_number), NO_TRIANGLE));
             }
             (b"solid", _) => is_in_solid = true,
             (b"facet", _) => is_in_facet = true,
@@ -171,10 +172,11 @@ mod tests {
                 "solid a\nfacet normal nan nan nan\nouter loop\nvertex {x} 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"
             )
         };
-        let soup = read((solid("2") + &solid("inf")).as_bytes(), "t.stl", &mut Vec::new()).unwrap();
-        assert_eq!(soup.positions.len(), 6);
+        let text = solid("2") + &solid("inf") + &solid("-nan(ind)") + &solid("-1.#IND");
+        let soup = read(text.as_bytes(), "t.stl", &mut Vec::new()).unwrap();
+        assert_eq!(soup.positions.len(), 12);
         assert_eq!(soup.positions[0].x, 2.0);
-        assert!(!soup.positions[3].is_finite());
+        assert!([3, 6, 9].iter().all(|vertex| !soup.positions[*vertex].is_finite()));
     }
 
     /// A text's positions and the remarks about it.

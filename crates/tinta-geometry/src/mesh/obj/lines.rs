@@ -1,6 +1,7 @@
 //! An OBJ file's lines, and where the file may be cut between them.
 
 use super::super::NONE;
+use super::super::number::not_finite;
 use std::borrow::Cow;
 
 /// The lines of a text; a line that ends in a backslash continues on the next one.
@@ -56,7 +57,7 @@ fn continued(line: &str) -> Option<&str> {
     if line.as_bytes().trim_ascii_end().last().is_some_and(|last| last.is_ascii() && *last != b'\\') {
         return None;
     }
-    line.trim_end().strip_suffix('\\').filter(|text| !text.contains('#'))
+    line.trim_end().strip_suffix('\\').filter(|text| comment(text).is_none())
 }
 
 /// Cuts a file into pieces of at least `length` bytes, each of whole lines with those that continue them.
@@ -79,13 +80,23 @@ pub(super) fn pieces(bytes: &[u8], length: usize) -> Vec<&[u8]> {
     pieces
 }
 
+/// Where a text's comment begins: at its first `#` that is not within a number such as `1.#INF`.
+fn comment(text: &str) -> Option<usize> {
+    let is_in_number = |place: usize| {
+        let before = text[..place].rsplit(char::is_whitespace).next().unwrap_or_default();
+        let word = text[place - before.len()..].split_whitespace().next();
+        word.is_some_and(|word| not_finite(word).is_some())
+    };
+    text.match_indices('#').map(|(place, _)| place).find(|place| !is_in_number(*place))
+}
+
 /// Words without the comment behind them. Between them other white space than ASCII's becomes a blank.
 pub(super) fn plain(words: &str) -> Cow<'_, str> {
     const VERTICAL_TAB: u8 = 0x0b;
     if words.is_ascii() && memchr::memchr2(b'#', VERTICAL_TAB, words.as_bytes()).is_none() {
         return Cow::Borrowed(words);
     }
-    let text = words.split('#').next().unwrap_or_default();
+    let text = comment(words).map_or(words, |start| &words[..start]);
     Cow::Owned(text.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
@@ -109,6 +120,10 @@ pub(super) fn resolve(field: &[u8], count: u32) -> Option<u32> {
         }
         number = number.saturating_mul(10).saturating_add(i64::from(digit));
     }
-    let index = if is_relative { i64::from(count) - number } else { number - 1 };
+    let index = match number {
+        0 => -1,
+        _ if is_relative => i64::from(count) - number,
+        _ => number - 1,
+    };
     Some(u32::try_from(index).unwrap_or(NONE - 1).min(NONE - 1))
 }

@@ -2,6 +2,7 @@
 
 use super::header::{Element, Encoding, PropertyType, ScalarType};
 use crate::bytes::Bytes;
+use crate::mesh::number::number;
 use crate::threads::{listed, threads_for};
 
 /// Why an element cannot be read, in words that go on with "of the file's 9 vertices".
@@ -25,6 +26,18 @@ pub(super) enum Value {
     Item(i64),
     /// An item of a list of other numbers.
     Number(f64),
+}
+
+impl Value {
+    /// An item of a list as an index, which floats may be, too. `None` for anything else.
+    pub(super) fn index(self) -> Option<i64> {
+        match self {
+            Self::Item(index) => Some(index),
+            // Out of any range.
+            Self::Number(number) => Some(if number.fract() == 0.0 { number as i64 } else { i64::MAX }),
+            Self::Scalar(_) | Self::List { .. } => None,
+        }
+    }
 }
 
 /// The part of a file behind its header, from where it was read to.
@@ -112,13 +125,13 @@ impl<'a> Payload<'a> {
             let name = property.name.as_str();
             match &property.data_type {
                 PropertyType::Scalar(kind) => {
-                    value(name, Value::Scalar(number(self.word()?, kind).ok_or(NO_NUMBER)?));
+                    value(name, Value::Scalar(scalar_of(self.word()?, kind).ok_or(NO_NUMBER)?));
                 }
                 PropertyType::List(_, kind) => {
                     let count: u64 = self.word()?.parse().map_err(|_| NO_NUMBER)?;
                     value(name, Value::List { at_most: (self.line.len() + self.rest.0.len()) / 2 + 1 });
                     for _ in 0..count {
-                        value(name, item(number(self.word()?, kind).ok_or(NO_NUMBER)?, kind));
+                        value(name, item(scalar_of(self.word()?, kind).ok_or(NO_NUMBER)?, kind));
                     }
                 }
             }
@@ -202,7 +215,7 @@ fn size_of(kind: &ScalarType) -> usize {
 }
 
 /// A word as a number of its type.
-fn number(word: &str, kind: &ScalarType) -> Option<f64> {
+fn scalar_of(word: &str, kind: &ScalarType) -> Option<f64> {
     match kind {
         ScalarType::Char => word.parse::<i8>().ok().map(f64::from),
         ScalarType::UChar => word.parse::<u8>().ok().map(f64::from),
@@ -210,8 +223,8 @@ fn number(word: &str, kind: &ScalarType) -> Option<f64> {
         ScalarType::UShort => word.parse::<u16>().ok().map(f64::from),
         ScalarType::Int => word.parse::<i32>().ok().map(f64::from),
         ScalarType::UInt => word.parse::<u32>().ok().map(f64::from),
-        ScalarType::Float => word.parse::<f32>().ok().map(f64::from),
-        ScalarType::Double => word.parse().ok(),
+        ScalarType::Float => number::<f32>(word).map(f64::from),
+        ScalarType::Double => number(word),
     }
 }
 

@@ -284,3 +284,61 @@ fn a_header_that_promises_billions_is_refused_without_the_memory() {
     let message = read(text.as_bytes(), "t.ply", &mut Vec::new()).unwrap_err().to_string();
     assert!(message.contains("element without properties"), "{message}");
 }
+
+#[test]
+fn pictures_named_by_the_models_own_name_and_indices_written_as_floats_are_understood() {
+    let file = |encoding: &str, kind: &str| {
+        format!(
+            "ply\nformat {encoding} 1.0\ncomment TextureFile <this>_A.png\nelement vertex 3\nproperty float x\n\
+             property float y\nproperty float z\nelement face 1\nproperty list uchar {kind} vertex_indices\nend_header\n"
+        )
+    };
+    let points = "0 0 0\n1 0 0\n0 1 0\n";
+    for (kind, corners, count) in [
+        ("float", "3 0 1 2", 3),
+        ("double", "3 0.0 1 2e0", 3),
+        ("float", "3 0 1 2.5", 0),
+        ("float", "3 0 1 3", 0),
+        ("float", "3 0 1 nan", 0),
+        ("double", "3 0 1 -1", 0),
+    ] {
+        let text = format!("{}{points}{corners}\n", file("ascii", kind));
+        let soup = read(text.as_bytes(), "art/my.model.ply", &mut Vec::new()).unwrap();
+        assert_eq!(soup.materials[0].texture.as_deref(), Some(Path::new("my.model_A.png")));
+        assert_eq!(
+            (soup.corners.len(), soup.defects.out_of_range_faces),
+            (count, usize::from(count == 0)),
+            "{corners}"
+        );
+    }
+    let floats = |numbers: &[f32]| numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<_>>();
+    let positions = floats(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    let binary = [file("binary_little_endian", "float").into_bytes(), positions, vec![3], floats(&[2.0, 0.0, 1.0])];
+    let soup = read(&binary.concat(), "t.ply", &mut Vec::new()).unwrap();
+    assert_eq!(soup.corners.iter().map(|corner| corner.position).collect::<Vec<_>>(), [2, 0, 1]);
+}
+
+#[test]
+fn strips_of_floats_are_strips() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+        element tristrips 1\nproperty list uchar float vertex_indices\nend_header\n\
+        0 0 0\n1 0 0\n0 1 0\n1 1 0\n5 0 1 2 3 0.5\n";
+    let soup = read(text.as_bytes(), "t.ply", &mut Vec::new()).unwrap();
+    assert_eq!((soup.corners.len(), soup.defects.out_of_range_faces), (6, 1));
+}
+
+#[test]
+fn numbers_that_are_none_in_any_librarys_spelling_cost_their_vertex_alone() {
+    for none in ["nan", "-nan(ind)", "1.#IND", "-1.#INF", "1.#QNAN0"] {
+        for kind in ["float", "double"] {
+            let text = format!(
+                "ply\nformat ascii 1.0\nelement vertex 4\nproperty {kind} x\nproperty {kind} y\nproperty {kind} z\n\
+                 element face 2\nproperty list uchar int vertex_indices\nend_header\n\
+                 0 0 0\n1 0 0\n0 1 0\n{none} {none} 0\n3 0 1 2\n3 0 1 3\n"
+            );
+            let mesh = read(text.as_bytes(), "t.ply", &mut Vec::new()).unwrap();
+            let mesh = mesh.into_mesh("t.ply", &crate::LoadOptions::default()).unwrap();
+            assert_eq!((mesh.triangles.len(), mesh.defects.non_finite_vertices), (1, 1), "{none} {kind}");
+        }
+    }
+}
