@@ -7,17 +7,19 @@
 use super::{EmbeddedPicture, Material};
 use crate::files::{self, Failure};
 use std::borrow::Cow;
-use std::cell::OnceCell;
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use std::sync::Arc;
 
 /// The files beside a model.
 #[derive(Debug)]
 pub(super) struct Folder<'a> {
     place: Place<'a>,
-    /// The names of its entries, read on first use.
-    names: OnceCell<Vec<String>>,
+    /// The names in each folder on disk, read on first use.
+    names: RefCell<HashMap<PathBuf, Rc<[String]>>>,
 }
 
 #[derive(Debug)]
@@ -45,12 +47,12 @@ impl<'a> Folder<'a> {
         let path = Path::new(model).parent().unwrap_or(Path::new("")).to_path_buf();
         // A missing folder has no files either.
         let real = || listed(&path).canonicalize().unwrap_or_else(|_| path.clone());
-        Self { place: Place::Disk { within: (!allow_external).then(real), path }, names: OnceCell::new() }
+        Self { place: Place::Disk { within: (!allow_external).then(real), path }, names: RefCell::default() }
     }
 
     /// Creates a folder of these files, by name. If empty, all files count as neither found nor missing.
     pub(super) fn of_files(files: &'a [(&'a str, &'a [u8])]) -> Self {
-        Self { place: Place::Memory(files), names: OnceCell::new() }
+        Self { place: Place::Memory(files), names: RefCell::default() }
     }
 
     /// Whether the folder can hold files.
@@ -61,27 +63,67 @@ impl<'a> Folder<'a> {
     /// Returns the path on disk for a file of this name.
     pub(super) fn place_of(&self, name: &str) -> Option<PathBuf> {
         match &self.place {
-            Place::Disk { path, .. } => Some(path.join(name)),
+            Place::Disk { path, .. } => Some(self.on_disk(path, Path::new(name)).unwrap_or_else(|| path.join(name))),
             Place::Memory(_) => None,
         }
     }
 
-    /// Finds the file of this name, which may begin with folders.
+    /// Finds the file of this name, which may begin with folders: as written, or else in any case.
     pub(super) fn find(&self, name: &Path) -> Lookup {
         match &self.place {
-            Place::Disk { path, within } => {
-                let path = path.join(name);
-                match within {
-                    _ if !path.is_file() => Lookup::Nowhere,
-                    Some(within) if !files::is_within(&path, within) => Lookup::Outside,
-                    _ => Lookup::Here(path),
-                }
-            }
+            Place::Disk { path, within } => match (self.on_disk(path, name), within) {
+                (None, _) => Lookup::Nowhere,
+                (Some(file), Some(within)) if !files::is_within(&file, within) => Lookup::Outside,
+                (Some(file), _) => Lookup::Here(file),
+            },
             Place::Memory(files) => match in_memory(files, name) {
                 Some((name, _)) => Lookup::Here(PathBuf::from(name)),
                 None => Lookup::Nowhere,
             },
         }
+    }
+
+    /// Finds the file of this name in a folder below: as written, or else with slashes for the backslashes of other systems.
+    pub(super) fn find_written(&self, below: &Path, name: &str) -> Lookup {
+        match self.find(&below.join(name)) {
+            Lookup::Nowhere if name.contains('\\') => self.find(&below.join(name.replace('\\', "/"))),
+            found => found,
+        }
+    }
+
+    /// Finds a material library: a file of this name, or in memory the only one, whatever its name.
+    pub(super) fn find_library(&self, name: &str) -> Lookup {
+        if let Place::Memory(files) = &self.place {
+            let mut libraries = files.iter().filter(|(name, _)| is_library(name));
+            if let (Some((only, _)), None) = (libraries.next(), libraries.next()) {
+                return Lookup::Here(PathBuf::from(only));
+            }
+        }
+        self.find_written(Path::new(""), name)
+    }
+
+    /// The file of this name below a folder on disk: as written, or else with its parts in any case.
+    fn on_disk(&self, folder: &Path, name: &Path) -> Option<PathBuf> {
+        let written = folder.join(name);
+        if written.is_file() {
+            return Some(written);
+        }
+        if name.is_absolute() {
+            return None;
+        }
+        let mut file = folder.to_path_buf();
+        for part in name {
+            let next = file.join(part);
+            if next.exists() {
+                file = next;
+                continue;
+            }
+            let names = self.names_in(&file);
+            let same = names.iter().filter(|name| part.to_str().is_some_and(|part| name.eq_ignore_ascii_case(part)));
+            // A folder's entries have no fixed order.
+            file.push(same.min()?);
+        }
+        file.is_file().then_some(file)
     }
 
     /// Finds the file of this name from a folder above the model's: games name pictures from their installation folder.
@@ -106,28 +148,24 @@ impl<'a> Folder<'a> {
     /// Reads the file of this name.
     pub(super) fn read(&self, name: &Path, limit: u64) -> Result<Cow<'a, [u8]>, Failure> {
         match &self.place {
-            Place::Disk { path, within } => {
-                files::read_within(&path.join(name), within.as_deref(), limit).map(Cow::Owned)
+            Place::Disk { path, .. } => {
+                let file = self.on_disk(path, name).unwrap_or_else(|| path.join(name));
+                self.read_found(&file, limit)
             }
-            Place::Memory(files) => match in_memory(files, name) {
+            Place::Memory(_) => self.read_found(name, limit),
+        }
+    }
+
+    /// Reads a file that [`Folder::find`] found.
+    pub(super) fn read_found(&self, found: &Path, limit: u64) -> Result<Cow<'a, [u8]>, Failure> {
+        match &self.place {
+            Place::Disk { within, .. } => files::read_within(found, within.as_deref(), limit).map(Cow::Owned),
+            Place::Memory(files) => match in_memory(files, found) {
                 Some((_, bytes)) if bytes.len() as u64 <= limit => Ok(Cow::Borrowed(bytes)),
                 Some((_, bytes)) => Err(Failure::TooLarge(bytes.len() as u64)),
                 None => Err(Failure::System(ErrorKind::NotFound.into())),
             },
         }
-    }
-
-    /// Reads a material library: the file of this name, or in memory the only one, whatever its name.
-    pub(super) fn read_library(&self, name: &str, limit: u64) -> Result<Cow<'a, [u8]>, Failure> {
-        let is_library =
-            |name: &str| Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mtl"));
-        if let Place::Memory(files) = &self.place {
-            let mut libraries = files.iter().filter(|(name, _)| is_library(name));
-            if let (Some((only, _)), None) = (libraries.next(), libraries.next()) {
-                return self.read(only.as_ref(), limit);
-            }
-        }
-        self.read(name.as_ref(), limit)
     }
 
     /// Makes the found file a material's picture, which a style reads when it needs it.
@@ -144,16 +182,30 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// Returns the names of its files and folders that are text.
-    pub(super) fn names(&self) -> &[String] {
-        self.names.get_or_init(|| match &self.place {
-            Place::Disk { path, .. } => {
-                let entries = std::fs::read_dir(listed(path)).ok().into_iter().flatten().flatten();
-                entries.filter_map(|entry| entry.file_name().into_string().ok()).collect()
-            }
+    /// Returns the names of the files and folders in a folder below, if they are text.
+    pub(super) fn names(&self, below: &Path) -> Rc<[String]> {
+        match &self.place {
+            Place::Disk { path, .. } => self.names_in(&path.join(below)),
             Place::Memory(files) => files.iter().map(|(name, _)| (*name).to_owned()).collect(),
-        })
+        }
     }
+
+    /// The names in a folder on disk; none outside the folder whose files may be read.
+    fn names_in(&self, folder: &Path) -> Rc<[String]> {
+        let Place::Disk { within, .. } = &self.place else { return Rc::default() };
+        let read = || {
+            let may_be_read = within.as_ref().is_none_or(|within| files::is_within(listed(folder), within));
+            let entries =
+                std::fs::read_dir(listed(folder)).ok().filter(|_| may_be_read).into_iter().flatten().flatten();
+            entries.filter_map(|entry| entry.file_name().into_string().ok()).collect()
+        };
+        Rc::clone(self.names.borrow_mut().entry(folder.to_path_buf()).or_insert_with(read))
+    }
+}
+
+/// Whether a name is that of a material library.
+pub(super) fn is_library(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mtl"))
 }
 
 /// Finds the file of this exact name, or else in any case and without leading folders.

@@ -234,7 +234,7 @@ fn find_skin(
         if let Lookup::Here(place) = from_above {
             return Some(place);
         }
-        let Found { lookup, remark } = skin::find(folder, &name, from_above == Lookup::Outside);
+        let Found { lookup, remark } = skin::find(folder, Path::new(""), &name, from_above == Lookup::Outside);
         remarks.extend(remark.map(|remark| format!("{path}: {remark}")));
         match lookup {
             Lookup::Here(place) => return Some(place),

@@ -8,6 +8,7 @@
 #[cfg(test)]
 mod agreement;
 mod lines;
+mod material_files;
 mod materials;
 mod chunk;
 mod parts;

@@ -21,21 +21,37 @@ pub(super) struct Found {
 
 /// Finds a picture that a model file names: at the path that the file gives, or in the model's folder, in any case and, where it
 /// is not there, with any other extension of a picture. Models name pictures as they lay on their author's disk,
-/// `C:\ART\SKIN.PCX`. `is_outside` says that the path was found outside the folder already.
-pub(super) fn find(folder: &Folder<'_>, name: &str, is_outside: bool) -> Found {
-    let slashes = name.replace('\\', "/");
+/// `C:\ART\SKIN.PCX`. The path counts from the folder `below` that of the model, where the file lies that names the picture; then
+/// from the model's. `is_outside` says that the path was found outside the folder already.
+pub(super) fn find(folder: &Folder<'_>, below: &Path, name: &str, is_outside: bool) -> Found {
     let mut best = if is_outside { Lookup::Outside } else { Lookup::Nowhere };
-    for written in [name, &slashes] {
-        match folder.find(Path::new(written)) {
-            Lookup::Nowhere => {}
-            Lookup::Outside => best = Lookup::Outside,
-            here @ Lookup::Here(_) => return Found { lookup: here, remark: None },
-        }
+    match exactly(folder, below, name) {
+        Lookup::Nowhere => {}
+        Lookup::Outside => best = Lookup::Outside,
+        here @ Lookup::Here(_) => return Found { lookup: here, remark: None },
     }
+    let slashes = name.replace('\\', "/");
     let (path, base) = slashes.rsplit_once('/').unwrap_or(("", &slashes));
-    match beside(folder, base) {
+    match first_here(below, |place| beside(folder, place, base)) {
         Lookup::Nowhere => Found { lookup: best, remark: None },
         lookup => Found { remark: stand_in(folder, name, path, &lookup, best == Lookup::Outside), lookup },
+    }
+}
+
+/// Finds the picture at the path that a file gives.
+pub(super) fn exactly(folder: &Folder<'_>, below: &Path, name: &str) -> Lookup {
+    first_here(below, |place| folder.find_written(place, name))
+}
+
+/// Searches the folder `below` the model's, then the model's.
+fn first_here(below: &Path, find: impl Fn(&Path) -> Lookup) -> Lookup {
+    match find(below) {
+        here @ Lookup::Here(_) => here,
+        other if below.as_os_str().is_empty() => other,
+        other => match find(Path::new("")) {
+            Lookup::Nowhere => other,
+            found => found,
+        },
     }
 }
 
@@ -63,13 +79,14 @@ pub(super) fn lying_there(folder: &Folder<'_>, stem: &str) -> Vec<String> {
         let extension = Path::new(&name).extension().and_then(|extension| extension.to_str()).unwrap_or_default();
         EXTENSIONS.contains(&extension) && (name.starts_with(&stem) || extension == EXTENSIONS[0])
     };
-    let mut names: Vec<&String> = folder.names().iter().filter(may_be).collect();
+    let all = folder.names(Path::new(""));
+    let mut names: Vec<&String> = all.iter().filter(may_be).collect();
     names.sort_unstable_by_key(|name| (!name.to_lowercase().starts_with(&stem), name.as_str()));
     names.into_iter().take(MOST).map(|name| shown(name)).collect()
 }
 
-/// The picture of this name in a folder, in any case, or else the first with its stem and an extension of a picture.
-fn beside(folder: &Folder<'_>, base: &str) -> Lookup {
+/// The picture of this name in a folder below, in any case, or else the first with its stem and an extension of a picture.
+fn beside(folder: &Folder<'_>, below: &Path, base: &str) -> Lookup {
     let Some(stem) = Path::new(base).file_stem().and_then(|stem| stem.to_str()) else { return Lookup::Nowhere };
     let rank = |name: &str| {
         if name.eq_ignore_ascii_case(base) {
@@ -80,13 +97,13 @@ fn beside(folder: &Folder<'_>, base: &str) -> Lookup {
         let extension = path.extension().and_then(|extension| extension.to_str()).filter(|_| same_stem)?;
         Some(EXTENSIONS.iter().position(|known| known.eq_ignore_ascii_case(extension))? + 1)
     };
-    let mut candidates: Vec<(usize, &String)> =
-        folder.names().iter().filter_map(|name| Some((rank(name)?, name))).collect();
+    let names = folder.names(below);
+    let mut candidates: Vec<(usize, &String)> = names.iter().filter_map(|name| Some((rank(name)?, name))).collect();
     // A folder's entries have no fixed order: rank, then name decide.
     candidates.sort_unstable();
     let mut best = Lookup::Nowhere;
     for (_, name) in candidates {
-        match folder.find(Path::new(name)) {
+        match folder.find(&below.join(name)) {
             found @ Lookup::Here(_) => return found,
             Lookup::Outside => best = Lookup::Outside,
             Lookup::Nowhere => {}
@@ -98,13 +115,14 @@ fn beside(folder: &Folder<'_>, base: &str) -> Lookup {
 /// Puts where each material's picture lies in place of the name the file has for it; a sentence for each that is
 /// nowhere, or outside the model's folder.
 pub(super) fn find_all(soup: &mut Soup, folder: &Folder<'_>, path: &str, remarks: &mut Vec<String>) {
-    let mut known: HashMap<PathBuf, Lookup> = HashMap::new();
+    let mut known: HashMap<(&Path, PathBuf), Lookup> = HashMap::new();
     let mut lost = Vec::new();
-    for material in &mut soup.materials {
+    for (number, material) in soup.materials.iter_mut().enumerate() {
         let Some(name) = material.texture.take().filter(|_| folder.is_some()) else { continue };
-        let found = known.entry(name).or_insert_with_key(|name| {
+        let below = soup.material_folders.get(number).map_or(Path::new(""), PathBuf::as_path);
+        let found = known.entry((below, name)).or_insert_with_key(|(below, name)| {
             let name = name.to_string_lossy();
-            let Found { lookup, remark } = find(folder, &name, false);
+            let Found { lookup, remark } = find(folder, below, &name, false);
             lost.extend(remark);
             match &lookup {
                 Lookup::Here(_) => {}
@@ -178,13 +196,14 @@ mod tests {
             std::fs::write(at(name), "").unwrap();
         }
         let model = at("model.3ds");
-        let found = |name: &str| match find(&Folder::of(model.to_str().unwrap(), false), name, false).lookup {
-            Lookup::Here(path) => Some(path),
-            other => {
-                assert_eq!(other, Lookup::Nowhere, "{name}");
-                None
-            }
-        };
+        let found =
+            |name: &str| match find(&Folder::of(model.to_str().unwrap(), false), Path::new(""), name, false).lookup {
+                Lookup::Here(path) => Some(path),
+                other => {
+                    assert_eq!(other, Lookup::Nowhere, "{name}");
+                    None
+                }
+            };
         assert_eq!(found("art\\deep.png"), Some(at("art/deep.png")));
         assert_eq!(found("players/female/SKIN.BMP"), Some(at("skin.bmp")));
         assert_eq!(found("C:\\ART\\SKIN.TGA"), Some(at("Skin.PCX")), "pcx comes before bmp");
@@ -194,15 +213,16 @@ mod tests {
         for name in ["other.png", "model", "", "..", "art", "/", "\\"] {
             assert_eq!(found(name), None, "{name}");
         }
-        assert_eq!(find(&Folder::of("/no/such/folder/a.obj", false), "skin.png", false).lookup, Lookup::Nowhere);
-        assert_eq!(find(&Folder::of_files(&[]), "/etc/passwd", false).lookup, Lookup::Nowhere);
+        let nowhere = |folder: &Folder<'_>, name| find(folder, Path::new(""), name, false).lookup == Lookup::Nowhere;
+        assert!(nowhere(&Folder::of("/no/such/folder/a.obj", false), "skin.png"));
+        assert!(nowhere(&Folder::of_files(&[]), "/etc/passwd"));
     }
 
     #[test]
     fn files_out_of_memory_are_found_by_their_names_in_any_case_and_a_single_library_by_any() {
         let files: [(&str, &[u8]); 3] = [("Wood.PNG", b"wood"), ("art/deep.png", b"deep"), ("other.mtl", b"library")];
         let folder = Folder::of_files(&files);
-        let found = |name: &str| match find(&folder, name, false).lookup {
+        let found = |name: &str| match find(&folder, Path::new(""), name, false).lookup {
             Lookup::Here(path) => Some(path),
             _ => None,
         };
@@ -210,10 +230,11 @@ mod tests {
         assert_eq!(found("wood.tga"), Some(PathBuf::from("Wood.PNG")), "another extension");
         assert_eq!(found("art\\deep.png"), Some(PathBuf::from("art/deep.png")));
         assert_eq!(found("stone.png"), None);
-        assert_eq!(folder.read_library("scene.mtl", 7).unwrap(), &b"library"[..]);
-        assert!(folder.read_library("scene.mtl", 6).is_err() && folder.read("scene.bin".as_ref(), 7).is_err());
+        let Lookup::Here(library) = folder.find_library("scene.mtl") else { panic!("the only library is found") };
+        assert_eq!(folder.read_found(&library, 7).unwrap(), &b"library"[..]);
+        assert!(folder.read_found(&library, 6).is_err() && folder.read("scene.bin".as_ref(), 7).is_err());
         let two: [(&str, &[u8]); 2] = [("a.mtl", b"a"), ("b.mtl", b"b")];
-        assert!(Folder::of_files(&two).read_library("c.mtl", 7).is_err());
+        assert_eq!(Folder::of_files(&two).find_library("c.mtl"), Lookup::Nowhere);
         assert!(!Folder::of_files(&[]).is_some() && folder.is_some());
     }
 

@@ -27,6 +27,8 @@ pub(super) struct Soup {
     pub polygon_materials: Vec<u32>,
     /// The materials.
     pub materials: Vec<Material>,
+    /// For each material the folder, from the model's, of the file that describes it; empty if that is the model's.
+    pub material_folders: Vec<PathBuf>,
     /// Each polygon's part or [`NONE`]; empty without parts.
     pub polygon_parts: Vec<u32>,
     /// The parts, each after the one that holds it.

@@ -1,49 +1,17 @@
 //! MTL: the material files that an OBJ file names, and its faces' materials.
 
 use super::chunk::Naming;
+use super::lines::plain;
+use super::material_files;
 use crate::error::{Error, Result};
-use crate::files::{Failure, shown};
-use crate::limits::{MATERIAL_FILE_BYTES, MATERIAL_FILES, MATERIALS};
+use crate::limits::{MATERIAL_FILES, MATERIALS};
 use crate::mesh::folder::Folder;
+use crate::mesh::number::number;
 use crate::mesh::soup::Soup;
 use crate::mesh::{Material, NONE, skin, text};
 use glam::Vec2;
-use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
-
-/// Returns the text of a material library with its files, or a sentence on its absence. A name that is no file is split at
-/// blanks into several names. Empty if the folder holds no files.
-pub(super) fn library<'a>(
-    folder: &Folder<'a>,
-    name: &str,
-) -> std::result::Result<(Cow<'a, [u8]>, Vec<PathBuf>), String> {
-    if !folder.is_some() {
-        return Ok((Cow::Borrowed(b""), Vec::new()));
-    }
-    let name = unquoted(name);
-    let read = |name: &str| folder.read_library(name, MATERIAL_FILE_BYTES);
-    let several = || -> Option<Vec<Cow<'_, [u8]>>> { name.split_whitespace().map(|name| read(name).ok()).collect() };
-    let failure = match read(name) {
-        Ok(text) => return Ok((text, folder.place_of(name).into_iter().collect())),
-        Err(failure) => failure,
-    };
-    match several() {
-        Some(texts) => {
-            let files = name.split_whitespace().filter_map(|name| folder.place_of(name)).collect();
-            Ok((Cow::Owned(texts.join(&b'\n')), files))
-        }
-        None => Err(match failure {
-            Failure::Outside => {
-                format!("{}; its faces get the default colour", skin::outside("material file", name))
-            }
-            Failure::TooLarge(_) | Failure::NoMemory(_) => {
-                format!("the material file {}: {}", shown(name), failure.problem("a material file"))
-            }
-            _ => format!("the material file {} is missing; its faces get the default colour", shown(name)),
-        }),
-    }
-}
 
 /// Reads the material files named and gives the faces their materials.
 pub(super) fn put_on(
@@ -53,11 +21,8 @@ pub(super) fn put_on(
     folder: &Folder<'_>,
     remarks: &mut Vec<String>,
 ) -> Result<()> {
-    let mut found: Vec<Described> = Vec::new();
-    // A name refers to the material read last, but only for later faces.
-    let mut numbers: HashMap<String, usize> = HashMap::new();
+    let mut read = Read::default();
     let (mut libraries, mut used) = (HashSet::new(), HashSet::new());
-    let mut missing = Vec::new();
     let mut current = NONE;
     for (before, naming) in namings {
         match naming {
@@ -67,23 +32,13 @@ pub(super) fn put_on(
                 let problem = format!("it names more than {MATERIAL_FILES} material files; merge them");
                 return Err(Error::model(path, problem));
             }
-            Naming::Library(name) => {
-                let (text, files) = library(folder, name).unwrap_or_else(|sentence| {
-                    missing.push(sentence);
-                    (Cow::Borrowed(b""), Vec::new())
-                });
-                soup.files.extend(files);
-                let more = described(&text, MATERIALS - found.len())
-                    .ok_or_else(|| Error::model(path, format!("it has more than {MATERIALS} materials; merge some")))?;
-                // The last material of a name counts.
-                let names = more.iter().map(|one| one.material.name.clone());
-                numbers.extend(names.zip(found.len()..));
-                found.extend(more);
-            }
+            Naming::Library(name) => read
+                .statement(name, folder)
+                .ok_or_else(|| Error::model(path, format!("it has more than {MATERIALS} materials; merge some")))?,
             Naming::Object(_) | Naming::Group(_) => {}
             Naming::Use(name) => {
                 soup.polygon_materials.resize(*before, current);
-                current = numbers.get(name).map_or(NONE, |number| *number as u32);
+                current = read.numbers.get(name).map_or(NONE, |number| *number as u32);
                 used.insert(name.as_str());
             }
         }
@@ -91,6 +46,8 @@ pub(super) fn put_on(
     if !used.is_empty() {
         soup.polygon_materials.resize(soup.polygon_count(), current);
     }
+    let Read { mut found, numbers, files, missing } = read;
+    soup.files.extend(files);
     let unknown = used.iter().filter(|name| !numbers.contains_key(**name)).count();
     // A missing file's materials are missing, too: they are counted and reported once.
     soup.defects.missing_materials = unknown.max(missing.len());
@@ -101,29 +58,114 @@ pub(super) fn put_on(
         ));
     }
     skin::remark(path, missing, "material files are missing or were not read", remarks);
-    match found.iter().filter(|one| one.is_see_through).count() {
-        0 => {}
-        1 => remarks.push(format!("{path}: not drawn: 1 material's transparency")),
-        count => remarks.push(format!("{path}: not drawn: {count} materials' transparency")),
+    found.iter_mut().for_each(|one| one.finish(!soup.colors.is_empty()));
+    let of_materials =
+        |count: usize| if count == 1 { "1 material's".to_owned() } else { format!("{count} materials'") };
+    let see_through = found.iter().filter(|one| one.is_see_through()).count();
+    if see_through > 0 {
+        remarks.push(format!("{path}: not drawn: {} transparency", of_materials(see_through)));
+    }
+    let foreign = found.iter().filter(|one| one.has_foreign_color).count();
+    if foreign > 0 {
+        let of = of_materials(foreign);
+        remarks.push(format!("{path}: not drawn: {of} Kd as a spectrum or as XYZ; write red, green and blue"));
     }
     move_coordinates(soup, &found);
-    soup.materials = found.into_iter().map(|one| one.material).collect();
+    (soup.materials, soup.material_folders) = found.into_iter().map(|one| (one.material, one.folder)).collect();
     Ok(())
 }
 
-/// A material and its change to texture coordinates.
-pub(super) struct Described {
-    pub material: Material,
-    /// Texture coordinates are multiplied by the first and moved by the second (`-s` and `-o` of `map_Kd`).
-    placing: [Vec2; 2],
-    /// The share of light that it stops (`d`).
-    opacity: f32,
-    /// Whether that is not all, or a picture says how much (`map_d`, which names that of the colours).
-    is_see_through: bool,
+/// The material files read so far.
+#[derive(Default)]
+struct Read {
+    found: Vec<Described>,
+    /// A name refers to the material read last, but only for later faces.
+    numbers: HashMap<String, usize>,
+    files: Vec<PathBuf>,
+    /// A sentence for each missing file.
+    missing: Vec<String>,
 }
 
+impl Read {
+    /// Reads the files that a statement names; `None` if their materials are too many.
+    fn statement(&mut self, statement: &str, folder: &Folder<'_>) -> Option<()> {
+        let (files, missing) = material_files::find(folder, statement);
+        self.missing.extend(missing);
+        for file in files {
+            let text = match file.read(folder) {
+                Ok(text) => text,
+                Err(sentence) => {
+                    self.missing.push(sentence);
+                    continue;
+                }
+            };
+            self.files.extend(file.on_disk(folder));
+            let mut more = described(&text, MATERIALS - self.found.len())?;
+            for one in &mut more {
+                one.material.texture = material_files::picture(folder, &file.folder, &one.pictures).map(PathBuf::from);
+                one.folder.clone_from(&file.folder);
+            }
+            // The last material of a name counts.
+            let names = more.iter().map(|one| one.material.name.clone());
+            self.numbers.extend(names.zip(self.found.len()..));
+            self.found.extend(more);
+        }
+        Some(())
+    }
+}
+
+/// A material as its file describes it.
+#[derive(Default)]
+pub(super) struct Described {
+    pub material: Material,
+    /// The names that its picture may have (`map_Kd`).
+    pictures: Vec<String>,
+    /// The folder of the file that describes it, from the model's.
+    folder: PathBuf,
+    /// Texture coordinates are multiplied by the first and moved by the second (`-s` and `-o` of `map_Kd`).
+    placing: Placing,
+    /// The share of light that it stops (`d`).
+    opacity: Option<f32>,
+    /// The share of light that it lets through (`Tr`), which counts where the other is not given.
+    transparency: Option<f32>,
+    /// Whether a picture says how much (`map_d`, which names that of the colours).
+    has_opacity_picture: bool,
+    /// Whether its colour is a spectrum or in XYZ.
+    has_foreign_color: bool,
+}
+
+impl Described {
+    /// The share of light that it stops. Some programs write `Tr 1` for opaque, others for invisible.
+    fn opacity(&self) -> f32 {
+        let opacity = self.opacity.or(self.transparency.map(|share| 1.0 - share).filter(|share| *share > 0.0));
+        opacity.filter(|share| (0.0..1.0).contains(share)).unwrap_or(1.0)
+    }
+
+    fn is_see_through(&self) -> bool {
+        self.has_opacity_picture || self.opacity() < 1.0
+    }
+
+    /// Decides the material's colours, in a model with colours at its vertices or without.
+    fn finish(&mut self, has_vertex_colors: bool) {
+        let (opacity, is_see_through) = (self.opacity(), self.is_see_through());
+        let material = &mut self.material;
+        // A factor of black would hide the picture or the vertices' colours; exporters write it to mean no colour.
+        let factor = material.color.filter(|color| *color != [0.0; 3]);
+        material.texture_color = factor;
+        if has_vertex_colors {
+            material.color = factor;
+        }
+        if is_see_through {
+            material.blend(opacity);
+        }
+    }
+}
+
+/// A scale and an offset of texture coordinates.
+type Placing = [Vec2; 2];
+
 /// Unchanged coordinates.
-const AS_IT_IS: [Vec2; 2] = [Vec2::ONE, Vec2::ZERO];
+const AS_IT_IS: Placing = [Vec2::ONE, Vec2::ZERO];
 
 /// Returns the materials of a library's text, with complete `newmtl`, `Kd` and `map_Kd` statements; `None` for more than
 /// `most`.
@@ -139,34 +181,37 @@ pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
                     return None;
                 }
                 let material = Material { name: rest.to_owned(), color: None, ..Material::default() };
-                all.push(Described { material, placing: AS_IT_IS, opacity: 1.0, is_see_through: false });
+                all.push(Described { material, placing: AS_IT_IS, ..Described::default() });
             }
-            ("Kd", Some(Described { material, .. })) => {
-                let numbers = rest.split_whitespace().take(3).filter_map(|word| word.parse::<f64>().ok());
-                let color: Vec<f32> =
-                    numbers.filter(|number| number.is_finite()).map(|x| x.clamp(0.0, 1.0) as f32).collect();
-                material.color = color.first_chunk().copied().or(material.color);
+            ("Kd", Some(one)) => {
+                one.has_foreign_color |= rest.starts_with("spectral") || rest.starts_with("xyz");
+                one.material.color = color(rest).or(one.material.color);
             }
-            ("map_Kd", Some(Described { material, placing, .. })) => {
-                let (name, placed) = texture(rest);
-                (material.texture, *placing) = (Some(PathBuf::from(name)), placed);
-            }
-            ("d", Some(Described { opacity, is_see_through, .. })) => {
-                *opacity = rest.parse().ok().filter(|share| (0.0..1.0).contains(share)).unwrap_or(1.0);
-                *is_see_through |= *opacity < 1.0;
-            }
-            ("map_d", Some(Described { is_see_through, .. })) => *is_see_through = true,
+            ("map_Kd", Some(one)) => (one.pictures, one.placing) = texture(rest),
+            ("d", Some(one)) => one.opacity = share(rest.strip_prefix("-halo").unwrap_or(rest)).or(one.opacity),
+            ("Tr", Some(one)) => one.transparency = share(rest).or(one.transparency),
+            ("map_d", Some(one)) => one.has_opacity_picture = true,
             _ => {}
         }
     }
-    for Described { material, opacity, is_see_through, .. } in &mut all {
-        // A factor of black would hide the picture; exporters write it to mean no colour.
-        material.texture_color = material.color.filter(|color| *color != [0.0; 3]);
-        if *is_see_through {
-            material.blend(*opacity);
-        }
-    }
     Some(all)
+}
+
+/// Three numbers as a colour, or a single one as a grey; `None` for anything else.
+fn color(text: &str) -> Option<[f32; 3]> {
+    let text = plain(text);
+    let channel = |word| number::<f64>(word).filter(|channel| channel.is_finite()).map(|x| x.clamp(0.0, 1.0) as f32);
+    let channels: Option<Vec<f32>> = text.split_whitespace().take(3).map(channel).collect();
+    match *channels?.as_slice() {
+        [grey] => Some([grey; 3]),
+        [red, green, blue] => Some([red, green, blue]),
+        _ => None,
+    }
+}
+
+/// A share of light: the text's first word.
+fn share(text: &str) -> Option<f32> {
+    number(plain(text).split_whitespace().next()?)
 }
 
 /// Gives separate texture coordinates to corners whose material scales or moves its picture.
@@ -193,16 +238,22 @@ fn move_coordinates(soup: &mut Soup, materials: &[Described]) {
     }
 }
 
-/// A texture statement's file, whose name may hold blanks, behind its options and between its quotes, if it has any; and what `-s`
-/// and `-o` among those say of the picture's place.
-fn texture(statement: &str) -> (&str, [Vec2; 2]) {
+/// The names that a texture statement's file may have, which may hold blanks, behind its options; and what `-s` and `-o` among
+/// those say of the picture's place.
+fn texture(statement: &str) -> (Vec<String>, Placing) {
     let (mut rest, mut placing) = (statement.trim(), AS_IT_IS);
+    // A name may begin like an unknown option.
+    let mut unknown = None;
     while let Some((option, mut after)) = rest.split_once(char::is_whitespace) {
         let option = option.to_ascii_lowercase();
         let (least, most) = match option.as_str() {
             "-o" | "-s" | "-t" => (1, 3),
             "-mm" => (2, 2),
             "-blendu" | "-blendv" | "-boost" | "-bm" | "-cc" | "-clamp" | "-imfchan" | "-texres" | "-type" => (1, 1),
+            _ if option.strip_prefix('-').is_some_and(|word| word.starts_with(|first: char| first.is_alphabetic())) => {
+                unknown = unknown.or(Some(rest));
+                (1, 3)
+            }
             _ => break,
         };
         // One to three numbers may follow; the last word is the name in any case.
@@ -224,13 +275,8 @@ fn texture(statement: &str) -> (&str, [Vec2; 2]) {
         }
         rest = after.trim_start();
     }
-    (unquoted(rest), placing)
-}
-
-/// A name without the quotes around it.
-fn unquoted(name: &str) -> &str {
-    let quoted = name.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).map(str::trim);
-    quoted.filter(|name| !name.is_empty()).unwrap_or(name)
+    let names = material_files::names(rest).into_iter().chain(unknown);
+    (names.map(str::to_owned).collect(), placing)
 }
 
 #[cfg(test)]
@@ -255,10 +301,13 @@ mod tests {
             ("\"my skin.png\"", "my skin.png"),
             ("-s 1 1 1", "1"),
             ("-clamp", "-clamp"),
+            ("-colorspace sRGB t.png", "t.png"),
+            ("-gamma 2.2 1 -clamp on my t.png", "my t.png"),
+            ("-5 t.png", "-5 t.png"),
         ];
         for (statement, name) in names {
             let all = of(&format!("newmtl a\nmap_Kd\t{statement}\r\n"));
-            assert_eq!(all[0].material.texture, Some(PathBuf::from(name)), "{statement}");
+            assert_eq!(all[0].pictures[0], name, "{statement}");
         }
     }
 
@@ -275,37 +324,69 @@ mod tests {
 
     #[test]
     fn only_whole_statements_count_and_the_last_of_each() {
-        let all = of("Kd 1 1 1\nnewmtl a b\nKd 0 1 7\nKd 1\nKd 1 nan 1 1\nKd x 0 0\nmap_Kd\nnewmtl\nNewmtl c\n");
+        let all = of(
+            "Kd 1 1 1\nnewmtl a b\nKd 0 1 7\nKd 1 0\nKd 1 nan 1 1\nKd x 0 0\nKd -nan(ind)\nKd\nmap_Kd\nnewmtl\nNewmtl c\n",
+        );
         assert_eq!(all.len(), 1);
         assert_eq!((all[0].material.name.as_str(), all[0].material.color), ("a b", Some([0.0, 1.0, 1.0])));
-        assert_eq!(all[0].material.texture, None);
+        assert!(all[0].pictures.is_empty());
         assert!(described(&b"newmtl a\n".repeat(10), 9).is_none());
+    }
+
+    #[test]
+    fn a_single_number_is_a_grey_and_other_kinds_of_colour_are_said() {
+        let one = |text: &str| of(&format!("newmtl a\n{text}\n")).remove(0);
+        assert_eq!(one("Kd 0.5").material.color, Some([0.5; 3]));
+        assert_eq!(one("Kd 0.25 # dark 1").material.color, Some([0.25; 3]));
+        assert_eq!(one("Kd 1 0 0 # red").material.color, Some([1.0, 0.0, 0.0]));
+        let text = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+        for kind in ["spectral a.rfl 1", "xyz 0.5 0.4 0.3", "xyz 0.5"] {
+            let mtl = format!("newmtl a\nKd {kind}\nnewmtl b\nKd 0 0 1\n");
+            let mut remarks = Vec::new();
+            let files = [("m.mtl", mtl.as_bytes())];
+            let soup = super::super::read(text.as_bytes(), "t.obj", &Folder::of_files(&files), &mut remarks).unwrap();
+            assert_eq!(soup.materials[0].color, None, "{kind}");
+            let sentence = "t.obj: not drawn: 1 material's Kd as a spectrum or as XYZ; write red, green and blue";
+            assert_eq!(remarks, [sentence], "{kind}");
+        }
+    }
+
+    #[test]
+    fn a_black_material_does_not_blacken_the_colours_at_vertices() {
+        let color = |vertex: &str, mtl: &str| {
+            let text = format!("mtllib m.mtl\nv 0 0 0 {vertex}\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+            let mtl = format!("newmtl a\n{mtl}\n");
+            let files = [("m.mtl", mtl.as_bytes())];
+            let read = super::super::read(text.as_bytes(), "t.obj", &Folder::of_files(&files), &mut Vec::new());
+            read.unwrap().materials[0].color
+        };
+        assert_eq!(color("1 0.5 0", "Kd 0 0 0"), None);
+        assert_eq!(color("1 0.5 0", "Kd 0 0 0\nd 0.5"), None);
+        assert_eq!(color("1 0.5 0", "Kd 0 0.5 0"), Some([0.0, 0.5, 0.0]));
+        assert_eq!(color("", "Kd 0 0 0"), Some([0.0; 3]), "black where nothing else has a colour");
     }
 
     #[test]
     fn what_a_material_lets_through_is_white() {
         let mixed = |text: &str| {
-            let Described { material, is_see_through, .. } = of(text).remove(0);
-            (material.color, material.texture_color, material.texture_alpha, is_see_through)
+            let mut one = of(text).remove(0);
+            one.finish(false);
+            let is_see_through = one.is_see_through();
+            (one.material.color, one.material.texture_color, one.material.texture_alpha, is_see_through)
         };
         let (red, opaque) = (Some([1.0, 0.0, 0.0]), TextureAlpha::Ignored);
-        for d in ["", "d 1", "d 1.0", "d 2", "d -1", "d nan", "d x", "Tr 1", "d -halo 0.5"] {
+        for d in ["", "d 1", "d 1.0", "d 2", "d -1", "d nan", "d x", "Tr 0", "Tr 1", "Tr 2", "Tr -1", "d 1\nTr 0.5"] {
             assert_eq!(mixed(&format!("newmtl a\nKd 1 0 0\n{d}\n")), (red, red, opaque, false), "{d}");
         }
         let half = TextureAlpha::Blended([255, 0, 0, 64]);
         assert_eq!(mixed("newmtl a\n d 0.25\nKd 1 0 0"), (Some([1.0, 0.75, 0.75]), None, half, true));
         assert_eq!(mixed("newmtl a\nKd 1 0 0\n d 0").0, Some([1.0; 3]));
+        for quarter in
+            ["Tr 0.75", "d -halo 0.25", "d 0.25 # glass", "Tr 0.5\nd 0.25", "d 0.25\nTr 0.25", "d 0.25\nTr 1"]
+        {
+            assert_eq!(mixed(&format!("newmtl a\nKd 1 0 0\n{quarter}\n")).2, half, "{quarter}");
+        }
         let by_picture = TextureAlpha::Blended([255; 4]);
         assert_eq!(mixed("newmtl a\nmap_Kd a.png\nmap_d a.png"), (None, None, by_picture, true));
-    }
-
-    #[test]
-    fn a_library_in_quotes_is_the_one_without_and_its_lines_may_end_in_carriage_returns() {
-        let files: [(&str, &[u8]); 2] = [("my lib.mtl", b"newmtl a\rKd 1 0 0\r"), ("other.mtl", b"")];
-        let folder = Folder::of_files(&files);
-        for name in ["\"my lib.mtl\"", "my lib.mtl"] {
-            let (text, _) = library(&folder, name).unwrap();
-            assert_eq!(described(&text, 9).unwrap()[0].material.color, Some([1.0, 0.0, 0.0]));
-        }
     }
 }
