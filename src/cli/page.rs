@@ -203,8 +203,8 @@ fn built(named: Option<&Path>) -> Result<String> {
         None => Err(Error::value(
             "from",
             "page.html",
-            "this program came without the page; take page.html from a release of tinta, or build it with scripts/web, and name it \
-             with --from FILE",
+            "this program came without its part for browsers; run scripts/web --install in tinta's repository, or name a page.html \
+             of a release with --from FILE",
         )),
     }
 }

@@ -136,7 +136,7 @@ async function measure() {
     const side = state.sides[name];
     try {
       if (styleOf(tables, side).draws_lines) {
-        at(`${name}-lines`).innerHTML = await lines.ask("svg", shown.asked, seen(side));
+        at(`${name}-lines`).innerHTML = await lines.ask("view", shown.asked, seen(side));
         at(`${name}-lines`).hidden = false;
         cost(name, "lines: exact");
         continue;
@@ -144,7 +144,7 @@ async function measure() {
       const ink = pane.ink(JSON.stringify(sideOptions(side)));
       if (!ink) continue;
       const line = at(`${name}-side`).querySelector(".cost");
-      const before = line.textContent;
+      const before = line.textContent.replace(/; line error .*/, "");
       line.textContent = `${before}; looking for the exact lines …`;
       const f1 = await lines.ask("error", shown.asked, seen(), ink);
       line.textContent = `${before}; line error ${(1 - f1).toFixed(3)} (1 − F1 against the exact lines)`;
@@ -158,7 +158,7 @@ async function measure() {
 async function exactOnly() {
   if (!shown) return;
   try {
-    at("exact").innerHTML = await lines.ask("svg", shown.asked, seen());
+    at("exact").innerHTML = await lines.ask("view", shown.asked, seen());
     at("exact").hidden = false;
   } catch (problem) {
     say(sentence(problem));

@@ -42,7 +42,7 @@ export function saving(app) {
   async function exact(options, which) {
     try {
       const file = `${name()}-lines.svg`;
-      hand(file, await lines.ask("svg", app.shown().asked, options, true), "image/svg+xml");
+      hand(file, await lines.ask("file", app.shown().asked, options), "image/svg+xml");
       say(`The ${which ? `${which} side's ` : ""}lines are saved as ${file}.`);
     } catch (problem) {
       say(sentence(problem));

@@ -1,9 +1,9 @@
-// Slow work outside the page: the exact lines of a model, and the error of a picture's ink.
+// The worker that answers requests for slow work. web/classic_worker.py joins it to one script with what it imports: from a folder,
+// Chromium starts no worker that is a module.
 
-import { read } from "./model.js";
+import { found } from "./search.js";
 import init from "./tinta.js";
 
-let known;
 let ready;
 
 onmessage = async ({ data }) => {
@@ -11,16 +11,15 @@ onmessage = async ({ data }) => {
     ready = init({ module_or_path: data.module });
     return;
   }
-  const { number, kind, model, options, ink } = data;
   try {
     await ready;
-    if (known?.key !== model.key) {
-      known?.read.free();
-      known = { key: model.key, read: read(model, options) };
-    }
-    const answer = kind === "svg" ? known.read.svg(options, Boolean(ink)) : known.read.error(options, ink);
-    postMessage({ number, answer });
+    postMessage({ number: data.number, answer: found(data) });
   } catch (problem) {
-    postMessage({ number, problem: problem.message ?? String(problem) });
+    postMessage({ number: data.number, problem: problem.message ?? String(problem) });
   }
+};
+
+// A program that did not arrive: the page hears of an error.
+onmessageerror = () => {
+  throw new Error("the program did not reach the worker");
 };

@@ -1,6 +1,8 @@
 // Shared by the tests: reports to the server, the command line's pictures, comparison of pictures.
 
-const report = (body) => fetch("/report", { method: "POST", body: JSON.stringify(body) });
+/** An address of the server that has these tests: the page may be a file. */
+const address = (path) => new URL(path, import.meta.url);
+const report = (body) => fetch(address("/report"), { method: "POST", body: JSON.stringify(body) });
 
 /** Runs a test and reports whether it passed, with its result. */
 export async function test(name, work) {
@@ -19,7 +21,7 @@ export function assert(holds, problem) {
   if (!holds) throw new Error(problem);
 }
 
-/** Waits until something holds, up to ten seconds. */
+/** Waits until something holds, up to a minute. */
 export async function until(holds, what) {
   const end = performance.now() + 60_000;
   while (!holds()) {
@@ -30,7 +32,7 @@ export async function until(holds, what) {
 
 /** The bytes of the command line's picture with these options, the file's name last. */
 export async function drawn(...words) {
-  const answer = await fetch(`/drawn?${encodeURIComponent(JSON.stringify(words))}`);
+  const answer = await fetch(address(`/drawn?${encodeURIComponent(JSON.stringify(words))}`));
   if (!answer.ok) throw new Error(await answer.text());
   return new Uint8Array(await answer.arrayBuffer());
 }
