@@ -89,8 +89,18 @@
 //!
 //! # Cargo features
 //!
-//! `cli` and `window` are on by default. For the library alone turn them off with `default-features = false` and choose:
-//! `animation`, `formats` (glTF and JPEG), `presets`, `recipes`.
+//! The default ones bring the program: `cli` the command line, `window` the window, `file-dialogue` the system's dialogue in it.
+//! For the library alone turn them off with `default-features = false`, which leaves a third of the crates, and choose:
+//!
+//! | feature | what it brings |
+//! |---|---|
+//! | `animation` | GIF, APNG and numbered pictures of a turn |
+//! | `formats` | glTF models, JPEG pictures |
+//! | `pdf` | drawings as PDF |
+//! | `presets` | options as TOML files, and [`request`] |
+//! | `recipes` | the data in a picture that draw it again; brings `presets` |
+//!
+//! `examples/embedding/` is a program that uses tinta in this way.
 //! Error against run time is measured by the package `tinta-lab`, which lies above this one.
 
 #![deny(unreachable_pub)]
@@ -98,11 +108,9 @@
 // Floors, from the ground up: a module uses only those above it in this list (`tests/floors.rs`).
 
 // Geometry without GL: from a file to visible lines. A separate crate with its own list of floors.
-#[cfg(any(feature = "cli", feature = "recipes"))]
-use tinta_geometry::markup;
 #[cfg(feature = "window")]
 use tinta_geometry::threads;
-use tinta_geometry::{bytes, clock, files, values};
+use tinta_geometry::{bytes, clock, files, markup, values};
 pub use tinta_geometry::{camera, choice, culling, doubled, edges, error, limits, lines, scene, settings, tolerances};
 
 pub mod random;

@@ -61,7 +61,11 @@ impl LineStyle {
     }
 
     /// Refuses a drawing of nothing, and areas by a pen.
-    pub(crate) fn check(&self) -> Result<()> {
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`](crate::Error::Setting) for settings that contradict each other.
+    pub fn check(&self) -> Result<()> {
         if self.is_of_areas_alone && self.areas.is_none() {
             let problem = "style lines draws nothing but lines; leave it out, or add --areas object";
             return Err(Error::setting("no-borders", problem));
