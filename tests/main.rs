@@ -44,6 +44,8 @@ mod inking;
 #[cfg(unix)]
 mod installing;
 mod judge;
+#[cfg(unix)]
+mod licence_texts;
 mod licences;
 mod lines_brute;
 mod lines_degenerate;
