@@ -98,3 +98,4 @@ mod vectors;
 mod why;
 #[cfg(feature = "window")]
 mod window;
+mod workflows;

@@ -1,0 +1,67 @@
+//! The workflows name runners that are still offered, actions by a commit, and scripts that exist.
+
+use crate::support::root;
+
+/// The runners in use. Those of withdrawn systems, such as macos-13, wait for ever.
+const RUNNERS: [&str; 5] = ["ubuntu-latest", "windows-latest", "macos-latest", "macos-15-intel", "${{ matrix.os }}"];
+
+/// Every workflow by its name.
+fn workflows() -> Vec<(String, String)> {
+    let files = std::fs::read_dir(root().join(".github/workflows")).unwrap().map(|file| file.unwrap().path());
+    files.map(|path| (path.display().to_string(), std::fs::read_to_string(path).unwrap())).collect()
+}
+
+/// What follows this key, in every line that has it.
+fn values<'a>(text: &'a str, key: &'a str) -> impl Iterator<Item = &'a str> {
+    text.lines().filter_map(move |line| line.trim_start().trim_start_matches("- ").strip_prefix(key)).map(str::trim)
+}
+
+/// Whether an action is named by a commit, with the release that it is of.
+fn is_pinned(action: &str) -> bool {
+    let Some((name, release)) = action.split_once(" # v") else { return false };
+    let commit = name.split_once('@').map(|(_, commit)| commit).unwrap_or_default();
+    let is_commit = commit.len() == 40 && commit.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
+    is_commit && release.split('.').count() == 3
+}
+
+#[test]
+fn every_job_runs_where_it_can() {
+    let mut count = 0;
+    for (name, text) in workflows() {
+        let listed = values(&text, "os: [").flat_map(|list| list.trim_end_matches(']').split(", "));
+        for runner in values(&text, "runs-on:").chain(listed) {
+            assert!(RUNNERS.contains(&runner), "{name}: {runner} is no known runner");
+            count += 1;
+        }
+    }
+    assert!(count >= 8, "{count} runners");
+}
+
+#[test]
+fn every_action_is_pinned_by_a_commit() {
+    let mut count = 0;
+    for (name, text) in workflows() {
+        for action in values(&text, "uses:") {
+            assert!(is_pinned(action), "{name}: {action}");
+            count += 1;
+        }
+    }
+    assert!(count >= 8, "{count} actions");
+    assert!(!is_pinned("actions/checkout@v4") && !is_pinned("actions/checkout@v4 # v4.2.2"));
+}
+
+#[test]
+fn the_scripts_of_every_job_exist_and_features_and_the_oldest_rust_have_jobs() {
+    let mut scripts = Vec::new();
+    for (name, text) in workflows() {
+        for script in values(&text, "run:").filter_map(|command| command.split(' ').next()) {
+            if script.starts_with("scripts/") {
+                assert!(root().join(script).is_file(), "{name}: there is no {script}");
+                scripts.push(script.to_owned());
+            }
+        }
+    }
+    for needed in ["scripts/features", "scripts/oldest-rust", "scripts/test", "scripts/test-elsewhere"] {
+        assert!(scripts.iter().any(|script| script == needed), "no job runs {needed}");
+    }
+}
