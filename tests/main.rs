@@ -77,6 +77,7 @@ mod plan_facts;
 mod presets;
 mod prune;
 mod prune_pictures;
+mod readme;
 mod recipes;
 mod report;
 mod report_page;
