@@ -47,8 +47,8 @@ pub struct Named {
     pub triangles: usize,
 }
 
-/// All built-in models.
-pub const BUILTINS: [Builtin; 10] = [
+/// All built-in models; static, so that a program holds their files once.
+pub static BUILTINS: [Builtin; 10] = [
     Builtin {
         name: "bust",
         what: "a portrait bust",
