@@ -74,6 +74,7 @@ fn a_crate_without_a_licence_text_is_refused_by_its_name() {
         let home = folder.path().join("registry/src/index/textless-1.0.0");
         std::fs::create_dir_all(&home).unwrap();
         std::fs::write(home.join("Cargo.toml"), "authors = [\"A. Author <a@example.org>\"]\n").unwrap();
+        std::fs::write(home.join("LICENSE"), "../LICENSE").unwrap();
         let output = Command::new(root().join("scripts/third-party-licences"))
             .args(["tinta-cli", "any"])
             .env("PATH", format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap()))
