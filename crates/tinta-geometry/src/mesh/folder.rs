@@ -145,7 +145,8 @@ impl<'a> Folder<'a> {
         Some(real.file_name()?.to_string_lossy().into_owned())
     }
 
-    /// Reads the file of this name.
+    /// Reads the file of this name, as glTF names its buffers.
+    #[cfg(any(feature = "gltf", test))]
     pub(super) fn read(&self, name: &Path, limit: u64) -> Result<Cow<'a, [u8]>, Failure> {
         match &self.place {
             Place::Disk { path, .. } => {
