@@ -361,7 +361,7 @@ mod tests {
             read.unwrap().materials[0].color
         };
         assert_eq!(color("1 0.5 0", "Kd 0 0 0"), None);
-        assert_eq!(color("1 0.5 0", "Kd 0 0 0\nd 0.5"), None);
+        assert_eq!(color("1 0.5 0", "Kd 0 0 0\n d 0.5"), None);
         assert_eq!(color("1 0.5 0", "Kd 0 0.5 0"), Some([0.0, 0.5, 0.0]));
         assert_eq!(color("", "Kd 0 0 0"), Some([0.0; 3]), "black where nothing else has a colour");
     }
@@ -382,7 +382,7 @@ mod tests {
         assert_eq!(mixed("newmtl a\n d 0.25\nKd 1 0 0"), (Some([1.0, 0.75, 0.75]), None, half, true));
         assert_eq!(mixed("newmtl a\nKd 1 0 0\n d 0").0, Some([1.0; 3]));
         for quarter in
-            ["Tr 0.75", "d -halo 0.25", "d 0.25 # glass", "Tr 0.5\nd 0.25", "d 0.25\nTr 0.25", "d 0.25\nTr 1"]
+            ["Tr 0.75", "d -halo 0.25", "d 0.25 # glass", "Tr 0.5\n d 0.25", "d 0.25\nTr 0.25", "d 0.25\nTr 1"]
         {
             assert_eq!(mixed(&format!("newmtl a\nKd 1 0 0\n{quarter}\n")).2, half, "{quarter}");
         }
