@@ -69,7 +69,8 @@ pub(super) fn put(
         outline.pieces.iter().map(|piece| Drawn::read(piece, accessors)).collect::<Result<_, String>>()?;
     let mut skins: HashMap<usize, Vec<DMat4>> = HashMap::new();
     // Most places have the mesh's own weights: its vertices are read once for all of them.
-    let mut known: Option<((&[f32], bool), Vec<Vertices>)> = None;
+    let mut vertices: Vec<Vertices> = Vec::new();
+    let mut shape_read: Option<(&[f32], bool)> = None;
     for Place { node: number, instances } in places {
         let node = &accessors.root.nodes[*number];
         let weights = node.weights.as_ref().or(outline.mesh.weights.as_ref()).map_or(&[][..], Vec::as_slice);
@@ -86,13 +87,13 @@ pub(super) fn put(
         };
         let joints = joints.map(|joints| joints.as_slice());
         let shape = (weights, joints.is_some());
-        if known.as_ref().is_none_or(|(known, _)| *known != shape) {
+        if shape_read != Some(shape) {
             let read = |set| Vertices::read(set, weights, joints.is_some(), accessors);
-            known = Some((shape, outline.sets.iter().map(read).collect::<Result<_, String>>()?));
+            vertices = outline.sets.iter().map(read).collect::<Result<_, String>>()?;
+            shape_read = Some(shape);
         }
-        let vertices = known.as_ref().map_or(&[][..], |(_, vertices)| vertices);
         let scene_from_node = nodes.scene_from_node[*number];
-        let mut put = |place: &DMat4| put_copy(soup, outline, &drawn, vertices, place, joints);
+        let mut put = |place: &DMat4| put_copy(soup, outline, &drawn, &vertices, place, joints);
         match instances {
             None => put(&scene_from_node)?,
             Some(instances) => {
