@@ -321,6 +321,7 @@ fn the_limits_are_documented_as_they_are() {
     let limits = [
         ("MEMORY_FACTOR", MEMORY_FACTOR as u64),
         ("MEMORY_SLACK_BYTES", MEMORY_SLACK_BYTES as u64),
+        ("COPIES_BYTES", COPIES_BYTES),
         ("MODEL_BYTES", MODEL_BYTES),
         ("MATERIAL_FILE_BYTES", MATERIAL_FILE_BYTES),
         ("DRAWING_BYTES", DRAWING_BYTES),

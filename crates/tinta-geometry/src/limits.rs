@@ -16,6 +16,10 @@ pub const MEMORY_FACTOR: usize = 20;
 /// Main memory for reading a file of any size, bytes: tables, threads' buffers, small files of dense formats.
 pub const MEMORY_SLACK_BYTES: usize = 64 << 20;
 
+/// Most main memory for the copies of meshes that a glTF file places many times, bytes, where the system does not tell how much
+/// is free.
+pub const COPIES_BYTES: u64 = 2 << 30;
+
 /// Largest model file, bytes: vertices and corners are counted in 32 bits.
 pub const MODEL_BYTES: u64 = 4 << 30;
 

@@ -56,10 +56,12 @@ fn left(most: Option<String>, used: Option<String>, statistics: Option<String>) 
 ///
 /// [`Error::File`] with both numbers.
 pub(crate) fn check(name: &str, needed: u64, free: Option<u64>) -> Result<()> {
-    match too_much(needed, free) {
-        None => Ok(()),
-        Some(both) => Err(Error::model(name, format!("it takes {both}; close other programs, or make it smaller"))),
-    }
+    refusal(needed, free).map_or(Ok(()), |problem| Err(Error::model(name, problem)))
+}
+
+/// The same as a sentence without the model's name; `None` if there is enough.
+pub(crate) fn refusal(needed: u64, free: Option<u64>) -> Option<String> {
+    too_much(needed, free).map(|both| format!("it takes {both}; close other programs, or make it smaller"))
 }
 
 /// Rejects lines that need more bytes than are free.

@@ -22,6 +22,7 @@ pub mod defects;
 mod folder;
 mod format;
 mod frame;
+mod left_out;
 #[cfg(feature = "gltf")]
 mod gltf;
 mod hilbert;

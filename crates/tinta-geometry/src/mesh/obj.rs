@@ -9,6 +9,7 @@
 mod agreement;
 mod lines;
 mod material_files;
+mod emission;
 mod materials;
 mod chunk;
 mod parts;

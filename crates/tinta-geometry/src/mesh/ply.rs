@@ -8,7 +8,7 @@ mod paint;
 mod payload;
 
 use super::NONE;
-use super::soup::{Corner, Soup, direction, is_too_much};
+use super::soup::{Corner, Soup, direction};
 use crate::error::{Error, Result};
 use crate::files::shown;
 use crate::limits::PLY_HEADER_BYTES;
@@ -281,9 +281,7 @@ impl Contents {
                 }));
                 soup.polygon_sizes.push(3);
                 // A byte may be a triangle: a mesh too large is rejected by the faces read so far.
-                let count = soup.polygon_sizes.len();
-                is_full = count.is_multiple_of(1 << 16)
-                    && is_too_much(file_bytes, soup.positions.len(), soup.corners.len(), count);
+                is_full = soup.polygon_sizes.len().is_multiple_of(1 << 16) && soup.size().is_too_much(file_bytes);
             })?;
         }
         Ok(())

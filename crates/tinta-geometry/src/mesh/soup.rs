@@ -2,7 +2,7 @@
 
 use super::{Defects, Material, NONE, NamedPart, UpAxis};
 use crate::error::{Error, Result};
-use crate::limits::{MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
+use crate::limits::{COPIES_BYTES, MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
 use crate::memory;
 use glam::{DVec3, Vec2, Vec3};
 use std::path::PathBuf;
@@ -49,6 +49,8 @@ pub(super) struct Soup {
     pub files: Vec<PathBuf>,
     /// Bytes of those files that hold vertices and faces.
     pub bytes_beside: usize,
+    /// Whether it may hold one mesh several times: then its reader has compared a single one with the file's size.
+    pub has_copies: bool,
 }
 
 /// Scales a file's normal by a power of two, without rounding, to a length that f32 can square. A normal without a direction
@@ -83,32 +85,89 @@ impl Corner {
     }
 }
 
-/// Whether a mesh with this many vertices, corners and triangles exceeds the memory allowed for files of `file_bytes`.
-pub(super) fn is_too_much(file_bytes: usize, vertices: usize, corners: usize, triangles: usize) -> bool {
-    /// Bytes per vertex, corner and triangle at the peak of building a mesh.
-    const BYTES: [usize; 3] = [80, 12, 90];
-    let most = file_bytes.saturating_mul(MEMORY_FACTOR).saturating_add(MEMORY_SLACK_BYTES);
-    sum(vertices, corners, triangles, BYTES) > most || triangles > TRIANGLES
+/// The amount of data that a mesh is built from.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Size {
+    pub vertices: usize,
+    pub corners: usize,
+    pub triangles: usize,
+    /// Segments and points.
+    pub curves: usize,
 }
 
-/// Bytes of so many vertices, corners and triangles.
-fn sum(vertices: usize, corners: usize, triangles: usize, bytes: [usize; 3]) -> usize {
-    let of_each =
-        [vertices, corners, triangles].into_iter().zip(bytes).map(|(count, bytes)| count.saturating_mul(bytes));
-    of_each.fold(0, usize::saturating_add)
+impl Size {
+    /// Bytes per vertex, corner, triangle, segment or point at the peak of building a mesh.
+    const PEAK_BYTES: [usize; 4] = [80, 12, 90, 40];
+
+    fn bytes(self, of_each: [usize; 4]) -> usize {
+        let Self { vertices, corners, triangles, curves } = self;
+        let counts = [vertices, corners, triangles, curves].into_iter().zip(of_each);
+        counts.map(|(count, bytes)| count.saturating_mul(bytes)).fold(0, usize::saturating_add)
+    }
+
+    /// This and more.
+    pub(super) fn plus(self, more: Self) -> Self {
+        Self {
+            vertices: self.vertices.saturating_add(more.vertices),
+            corners: self.corners.saturating_add(more.corners),
+            triangles: self.triangles.saturating_add(more.triangles),
+            curves: self.curves.saturating_add(more.curves),
+        }
+    }
+
+    /// So many times this.
+    pub(super) fn times(self, count: usize) -> Self {
+        Self {
+            vertices: self.vertices.saturating_mul(count),
+            corners: self.corners.saturating_mul(count),
+            triangles: self.triangles.saturating_mul(count),
+            curves: self.curves.saturating_mul(count),
+        }
+    }
+
+    /// Whether its mesh exceeds the memory allowed for files of `file_bytes`.
+    pub(super) fn is_too_much(self, file_bytes: usize) -> bool {
+        self.bytes(Self::PEAK_BYTES) > bytes_allowed(file_bytes) || self.triangles > TRIANGLES
+    }
+
+    /// Whether there is more than 32 bits count.
+    pub(super) fn is_beyond_count(self) -> bool {
+        self.vertices.max(self.triangles).max(self.curves) > TRIANGLES
+    }
+
+    /// Rejects a mesh that holds copies, before they are made, if it exceeds the free memory: the file's size does not bound it.
+    /// Where the system does not tell its free memory, [`COPIES_BYTES`] bound it beside that size. The error is a sentence without
+    /// the file's name.
+    pub(super) fn check_copies(self, file_bytes: usize, free: Option<u64>) -> std::result::Result<(), String> {
+        let most = free.unwrap_or_else(|| COPIES_BYTES.max(bytes_allowed(file_bytes) as u64));
+        memory::refusal(self.bytes(Self::PEAK_BYTES) as u64, Some(most)).map_or(Ok(()), Err)
+    }
+
+    /// Rejects a soup of this size if its mesh exceeds the free memory.
+    fn check_free(self, free: Option<u64>, name: &str) -> Result<()> {
+        /// Further bytes of each at that peak, beside those already allocated: a little less than measured.
+        const BYTES: [usize; 4] = [10, 0, 60, 0];
+        memory::check(name, self.bytes(BYTES) as u64, free)
+    }
 }
 
-/// Rejects a soup with this many vertices, corners and triangles if its mesh exceeds the free memory.
-fn check_free(vertices: usize, corners: usize, triangles: usize, free: Option<u64>, name: &str) -> Result<()> {
-    /// Further bytes per vertex, corner and triangle at that peak, beside those already allocated: a little less than measured.
-    const BYTES: [usize; 3] = [10, 0, 60];
-    memory::check(name, sum(vertices, corners, triangles, BYTES) as u64, free)
+/// Bytes that a mesh from files of `file_bytes` may take.
+fn bytes_allowed(file_bytes: usize) -> usize {
+    file_bytes.saturating_mul(MEMORY_FACTOR).saturating_add(MEMORY_SLACK_BYTES)
 }
 
 impl Soup {
     /// Returns the number of polygons.
     pub(super) fn polygon_count(&self) -> usize {
         if self.polygon_sizes.is_empty() { self.corners.len() / 3 } else { self.polygon_sizes.len() }
+    }
+
+    /// Returns how much of everything it holds.
+    pub(super) fn size(&self) -> Size {
+        let corners = self.corners.len();
+        let triangles = corners.saturating_sub(2 * self.polygon_count());
+        let curves = self.segments.len() + self.points.len();
+        Size { vertices: self.positions.len(), corners, triangles, curves }
     }
 
     /// Writes the omitted sizes of the polygons so far, all triangles, for others to follow.
@@ -121,18 +180,16 @@ impl Soup {
     /// Rejects a mesh that would exceed the memory allowed for a file of `file_bytes`. Exporters write more bytes per vertex
     /// and face, but two bytes can name a polygon's corner.
     pub(super) fn check_memory(&self, file_bytes: usize, name: &str) -> Result<()> {
-        let triangles = self.corners.len().saturating_sub(2 * self.polygon_count());
-        let file_bytes = file_bytes.saturating_add(self.bytes_beside);
-        let (vertices, corners) = (self.positions.len(), self.corners.len());
-        if !is_too_much(file_bytes, vertices, corners, triangles) {
-            return check_free(vertices, corners, triangles, memory::free(), name);
+        let size = self.size();
+        if self.has_copies || !size.is_too_much(file_bytes.saturating_add(self.bytes_beside)) {
+            return size.check_free(memory::free(), name);
         }
         Err(Error::model(
             name,
             format!(
-                "its {} vertices and {triangles} triangles take more than {MEMORY_FACTOR} times the file's size in memory; \
+                "its {} vertices and {} triangles take more than {MEMORY_FACTOR} times the file's size in memory; \
                  export it again as triangles, or in another format",
-                self.positions.len()
+                size.vertices, size.triangles
             ),
         ))
     }
@@ -145,12 +202,28 @@ mod tests {
     #[test]
     fn a_mesh_that_memory_does_not_hold_is_refused_before_it_is_made() {
         // 10 million triangles take 0.6 GiB beside the soup.
-        let check = |free| check_free(5_000_000, 30_000_000, 10_000_000, free, "a.obj");
+        let size = Size { vertices: 5_000_000, corners: 30_000_000, triangles: 10_000_000, curves: 0 };
+        let check = |free| size.check_free(free, "a.obj");
         let message = check(Some(500 << 20)).unwrap_err().to_string();
         let sentence =
             "a.obj: it takes 0.6 GiB of memory, and 0.5 GiB are free; close other programs, or make it smaller";
         assert_eq!(message, sentence);
         assert!(check(Some(800 << 20)).is_ok() && check(None).is_ok());
-        assert!(check_free(4, 12, 4, Some(0), "a.obj").is_ok(), "what is little is not looked at");
+        let little = Size { vertices: 4, corners: 12, triangles: 4, curves: 0 };
+        assert!(little.check_free(Some(0), "a.obj").is_ok(), "what is little is not looked at");
+    }
+
+    #[test]
+    fn copies_are_bounded_by_free_memory_and_by_a_limit_where_nobody_tells_it() {
+        // A million triangles of half as many vertices take 0.16 GiB while their mesh is built.
+        let million = Size { vertices: 500_000, corners: 3_000_000, triangles: 1_000_000, curves: 0 };
+        assert!(million.times(10).check_copies(0, None).is_ok());
+        assert!(million.times(100).check_copies(0, Some(17 << 30)).is_ok());
+        let sentence = "it takes 15.5 GiB of memory, and 2.0 GiB are free; close other programs, or make it smaller";
+        assert_eq!(million.times(100).check_copies(1000, None), Err(sentence.to_owned()));
+        // As much as any other file of a gibibyte may take.
+        assert!(million.times(100).check_copies(1 << 30, None).is_ok());
+        assert!(!million.times(1000).is_beyond_count() && million.times(1100).is_beyond_count());
+        assert!(million.times(usize::MAX).is_beyond_count(), "without an overflow");
     }
 }

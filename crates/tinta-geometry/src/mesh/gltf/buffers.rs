@@ -1,5 +1,6 @@
 //! A glTF file's data: in GLB behind the JSON, in the JSON itself, or in files of its folder.
 
+use super::extensions::refuse_compressed;
 use super::uri::{self, Uri};
 use crate::files::{Failure, shown};
 use crate::limits::MODEL_BYTES;
@@ -27,11 +28,12 @@ impl<'a> Buffers<'a> {
         let mut buffers = Self { places: Vec::new(), contents: Vec::new(), files: Vec::new(), bytes_beside: 0 };
         // Several buffers may be one file.
         let mut known = HashMap::new();
-        for (number, Buffer { uri, byte_length, .. }) in root.buffers.iter().enumerate() {
+        for (number, Buffer { uri, byte_length, extensions, .. }) in root.buffers.iter().enumerate() {
             let place = match uri {
                 None => match data.filter(|_| number == 0) {
                     Some(data) => Ok(buffers.keep(Cow::Borrowed(data))),
-                    None => Err(format!("its buffer {number} names no data; export it again")),
+                    None => refuse_compressed(extensions.as_ref().map(|extensions| &extensions.others))
+                        .and_then(|()| Err(format!("its buffer {number} names no data; export it again"))),
                 },
                 Some(uri) => match uri::parse(uri)? {
                     Uri::Data(bytes) => Ok(buffers.keep(Cow::Owned(bytes))),

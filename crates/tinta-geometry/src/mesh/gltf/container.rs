@@ -4,9 +4,10 @@
 //! and refuses chunks that the standard says to pass over.
 
 use super::super::format::GLB_MAGIC;
+use super::extensions::with_whole_numbers;
 use crate::bytes::Bytes;
 use crate::files::shown;
-use crate::limits::{MEMORY_FACTOR, MEMORY_SLACK_BYTES};
+use crate::limits::{MATERIALS, MEMORY_FACTOR, MEMORY_SLACK_BYTES};
 use gltf_json::Root;
 use serde::Deserialize;
 use serde::de::{Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
@@ -19,7 +20,10 @@ const JSON_CHUNK: u32 = u32::from_le_bytes(*b"JSON");
 const DATA_CHUNK: u32 = u32::from_le_bytes(*b"BIN\0");
 
 /// Most memory that one object of the JSON becomes, bytes, lists that grow to twice their length among it.
-pub(super) const OBJECT_BYTES: usize = 2048;
+pub(super) const OBJECT_BYTES: usize = 1024;
+
+/// The same of a material, the largest object by far.
+pub(super) const MATERIAL_BYTES: usize = 2560;
 
 /// The same of a member of a list.
 const MEMBER_BYTES: usize = 64;
@@ -85,6 +89,12 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, String> {
     // An object may have two bytes in the file and hundreds in memory.
     let (objects, members) = (memchr::memchr_iter(b'{', json).count(), memchr::memchr_iter(b',', json).count());
     let needed = objects.saturating_mul(OBJECT_BYTES).saturating_add(members.saturating_mul(MEMBER_BYTES));
+    let materials = materials(json, objects);
+    let count = materials.as_ref().map_or(0, |count| *count);
+    if count > MATERIALS {
+        return Err(format!("it has more than {MATERIALS} materials; merge some"));
+    }
+    let needed = needed.saturating_add(count * (MATERIAL_BYTES - OBJECT_BYTES));
     if needed > json.len().saturating_mul(MEMORY_FACTOR).saturating_add(MEMORY_SLACK_BYTES) {
         return Err(format!(
             "its JSON of {} bytes holds {objects} objects, which take more than {MEMORY_FACTOR} times that in memory; \
@@ -92,11 +102,8 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, String> {
             json.len()
         ));
     }
-    let root = Root::from_slice(json).or_else(|error| {
-        // Optional by the standard, and not by the crate.
-        if error.to_string().starts_with("missing field `nodes`") { with_nodes(json) } else { Err(error) }
-    });
-    let root = root.map_err(|error| {
+    let read = |_| Root::from_slice(json).or_else(|error| mended(json).map_err(|_| error));
+    let root = materials.and_then(read).map_err(|error| {
         let version = serde_json::from_slice::<Versioned>(json).ok().and_then(Versioned::version);
         match version {
             Some(version) if !is_read(&version) => old(&version),
@@ -109,9 +116,22 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, String> {
     }
 }
 
-/// The JSON with a list of nodes in scenes that have none.
-fn with_nodes(json: &[u8]) -> Result<Root, serde_json::Error> {
-    let mut root: serde_json::Value = serde_json::from_slice(json)?;
+/// How many materials JSON of so many objects has at most; they are counted only where they may be too many.
+fn materials(json: &[u8], objects: usize) -> Result<usize, serde_json::Error> {
+    #[derive(Deserialize)]
+    struct Counted {
+        #[serde(default)]
+        materials: Vec<IgnoredAny>,
+    }
+    match objects > MATERIALS {
+        false => Ok(objects),
+        true => serde_json::from_slice(json).map(|Counted { materials }| materials.len()),
+    }
+}
+
+/// Reads JSON in forms that the standard allows and the crate refuses: scenes without a list of nodes, `4.0` for `4`.
+fn mended(json: &[u8]) -> Result<Root, serde_json::Error> {
+    let mut root = with_whole_numbers(serde_json::from_slice(json)?);
     let scenes = root.get_mut("scenes").and_then(|scenes| scenes.as_array_mut());
     for scene in scenes.into_iter().flatten().filter_map(|scene| scene.as_object_mut()) {
         scene.entry("nodes").or_insert_with(|| serde_json::Value::Array(Vec::new()));
@@ -183,5 +203,59 @@ impl<'de> Deserialize<'de> for Named {
             }
         }
         from.deserialize_any(Either)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{load, problem, triangle};
+    use crate::limits::MATERIALS;
+    use serde_json::{Value, json};
+
+    /// Writes every whole number with a decimal point, as some programs do.
+    fn with_decimals(value: &mut Value) {
+        match value {
+            Value::Number(number) => *value = number.as_f64().unwrap().into(),
+            Value::Array(list) => list.iter_mut().for_each(with_decimals),
+            Value::Object(object) => object.values_mut().for_each(with_decimals),
+            _ => {}
+        }
+    }
+
+    #[test]
+    fn whole_numbers_may_be_written_as_decimals_anywhere() {
+        let whole = load(&triangle()).unwrap();
+        let mut all = triangle();
+        with_decimals(&mut all);
+        assert!(all.to_string().contains("\"count\":3.0") && all.to_string().contains("\"componentType\":5126.0"));
+        let read = load(&all).unwrap();
+        assert_eq!((read.mesh, read.remarks), (whole.mesh, whole.remarks));
+        // Other numbers stay errors.
+        let mut half = triangle();
+        half["accessors"][0]["count"] = 2.5.into();
+        let message = load(&half).unwrap_err().to_string();
+        assert!(message.contains("invalid type: floating point `2.5`, expected u64"), "{message}");
+    }
+
+    #[test]
+    fn many_small_parts_are_read_and_too_many_materials_are_refused_before_they_are() {
+        // Of each part some ten objects, as CAD programs write them.
+        let mut file = triangle();
+        let part = file["meshes"][0].clone();
+        file["meshes"] = Value::Array(vec![part; 10_000]);
+        let node =
+            |number: usize| json!({"mesh": number, "name": format!("part {number}"), "translation": [number, 0, 0]});
+        file["nodes"] = (0..10_000).map(node).collect();
+        file["scenes"] = json!([{"nodes": (0..10_000).collect::<Vec<usize>>()}]);
+        file["accessors"].as_array_mut().unwrap().extend(vec![
+            json!({"bufferView": 0, "count": 3, "componentType": 5126,
+            "type": "VEC3"});
+            30_000
+        ]);
+        file["bufferViews"].as_array_mut().unwrap().extend(vec![json!({"buffer": 0, "byteLength": 36}); 30_000]);
+        assert_eq!(load(&file).unwrap().mesh.triangles.len(), 10_000);
+        let mut file = triangle();
+        file["materials"] = Value::Array(vec![json!({}); MATERIALS + 1]);
+        assert_eq!(problem(&file), "t.gltf: it has more than 16384 materials; merge some");
     }
 }

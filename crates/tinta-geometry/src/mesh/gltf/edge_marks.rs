@@ -1,45 +1,19 @@
 //! The edges that a glTF file marks as edges to draw: EXT_mesh_primitive_edge_visibility.
 //!
-//! In: the file's JSON, a primitive's triangles. Out: its hard edges, each as two of its vertices. Each edge of each triangle has two
+//! In: a primitive and its triangles. Out: its hard edges, each as two of its vertices. Each edge of each triangle has two
 //! bits, 0 hidden, 1 silhouette, 2 hard, 3 hard and already said; other hard edges are strings of vertices. Silhouettes are left
 //! out: exact lines find those of every view.
 
 use super::accessors::Accessors;
+use super::extensions;
 use gltf_json::Index;
+use gltf_json::mesh::Primitive;
 use serde::Deserialize;
-
-/// The extension's name.
-pub(crate) const EXTENSION: &str = "EXT_mesh_primitive_edge_visibility";
 
 /// The values of two bits that mark an edge.
 const HARD: [u32; 2] = [2, 3];
 
-/// What a file says of its edges, and nothing else of it.
-#[derive(Deserialize, Default)]
-pub(super) struct Said {
-    #[serde(default)]
-    meshes: Vec<SaidOfMesh>,
-}
-
-#[derive(Deserialize)]
-struct SaidOfMesh {
-    #[serde(default)]
-    primitives: Vec<SaidOfPrimitive>,
-}
-
-#[derive(Deserialize)]
-struct SaidOfPrimitive {
-    #[serde(default)]
-    extensions: Extensions,
-}
-
-#[derive(Deserialize, Default)]
-struct Extensions {
-    #[serde(rename = "EXT_mesh_primitive_edge_visibility")]
-    edges: Option<Edges>,
-}
-
-/// What a file says of a primitive's edges.
+/// The extension of a primitive.
 #[derive(Deserialize)]
 pub(super) struct Edges {
     visibility: Option<u32>,
@@ -52,25 +26,12 @@ struct LineString {
     indices: u32,
 }
 
-impl Said {
-    /// Reads what a file's JSON says of its edges.
-    pub(super) fn of(json: &[u8]) -> Result<Self, String> {
-        if memchr::memmem::find(json, EXTENSION.as_bytes()).is_none() {
-            return Ok(Self::default());
-        }
-        let refused = |error: serde_json::Error| {
-            format!("its {EXTENSION} is damaged at line {} of its JSON; export it again", error.line())
-        };
-        serde_json::from_slice(json).map_err(refused)
-    }
-
-    /// Returns what is said of a primitive's edges.
-    pub(super) fn of_primitive(&self, mesh: usize, primitive: usize) -> Option<&Edges> {
-        self.meshes.get(mesh)?.primitives.get(primitive)?.extensions.edges.as_ref()
-    }
-}
-
 impl Edges {
+    /// Reads a primitive's extension; `None` if it has none.
+    pub(super) fn of(primitive: &Primitive) -> Result<Option<Self>, String> {
+        extensions::said(primitive.extensions.as_ref().map(|extensions| &extensions.others), extensions::EDGES)
+    }
+
     /// Returns the marked edges of these triangles, some perhaps several times.
     pub(super) fn marks(&self, triangles: &[[u32; 3]], accessors: &Accessors<'_>) -> Result<Vec<[u32; 2]>, String> {
         let mut marks = Vec::new();
@@ -183,8 +144,10 @@ mod tests {
         let few = "a.gltf: its accessor 2 has 1 bytes for the edges of 2 triangles, which need 2; export it again";
         assert_eq!(message(r#"{"visibility":2}"#, &[18], &[]), few);
         assert!(message(r#"{"visibility":9}"#, &[], &[]).contains("its accessor 9 does not exist"));
+        let damaged = message(r#"{"visibility":"two"}"#, &[], &[]);
         assert!(
-            message(r#"{"visibility":"two"}"#, &[], &[]).contains("edge_visibility is damaged at line 3 of its JSON")
+            damaged.contains("its EXT_mesh_primitive_edge_visibility is damaged (invalid type: string"),
+            "{damaged}"
         );
         let many = message(r#"{"lineStrings":[{"indices":3}]}"#, &[], &[1; 19]);
         assert!(many.contains("has 19 numbers for the strings of 6 edges"), "{many}");

@@ -1,113 +1,15 @@
-//! A glTF mesh's triangles, lines and points: which of its primitives share vertices, and those vertices in every place that shows them.
+//! A glTF mesh's vertices, triangles, lines and points, read once and put in every place that shows them.
 
 use super::accessors::Accessors;
-use super::edge_marks::{Edges, Said};
-use super::materials::Coordinates;
 use super::nodes::Nodes;
+use super::outline::{Outline, Place, PrimitivePart, Set, attribute};
 use crate::mesh::NONE;
 use crate::mesh::soup::{Corner, Soup};
 use glam::{DMat3, DMat4, DVec3, Vec2};
-use gltf_json::mesh::{Mode, MorphTarget, Primitive, Semantic};
-use gltf_json::validation::Checked::{self, Valid};
-use gltf_json::{Accessor, Index, Mesh, Root, Skin};
-use std::borrow::Cow;
-use std::collections::BTreeMap;
+use gltf_json::mesh::{Mode, MorphTarget, Semantic};
+use gltf_json::{Accessor, Index, Skin};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-
-/// A mesh's contents, before reading.
-pub(super) struct Outline<'a> {
-    mesh: &'a Mesh,
-    sets: Vec<Set<'a>>,
-    pieces: Vec<PrimitivePart<'a>>,
-}
-
-/// Vertices that one or several primitives use.
-struct Set<'a> {
-    primitive: &'a Primitive,
-    positions: Index<Accessor>,
-    count: usize,
-    coordinates: Coordinates,
-}
-
-/// A primitive's triangles, lines or points over the vertices of a set.
-struct PrimitivePart<'a> {
-    primitive: &'a Primitive,
-    mode: Mode,
-    set: usize,
-    corners: usize,
-    material: u32,
-    /// What the file says of its edges.
-    edges: Option<&'a Edges>,
-}
-
-impl<'a> Outline<'a> {
-    pub(super) fn of(
-        mesh: &'a Mesh,
-        root: &Root,
-        accessors: &Accessors<'a>,
-        coordinates: &'a [Coordinates],
-        said: impl Fn(usize) -> Option<&'a Edges>,
-    ) -> Result<Self, String> {
-        let mut outline = Self { mesh, sets: Vec::new(), pieces: Vec::new() };
-        let mut known = HashMap::new();
-        for (number, primitive) in mesh.primitives.iter().enumerate() {
-            let mode = match primitive.mode {
-                Valid(mode) => mode,
-                Checked::Invalid => return Err("it has primitives of an unknown kind; export it again".to_owned()),
-            };
-            // The standard lets data be left out that an extension brings.
-            let Some(positions) = attribute(primitive, Semantic::Positions) else {
-                return Err("it has primitives without positions; export it again".to_owned());
-            };
-            let material = primitive.material.map(|material| material.value());
-            if material.is_some_and(|material| material >= root.materials.len()) {
-                return Err("it uses materials that do not exist; export it again".to_owned());
-            }
-            let read_by =
-                material.and_then(|material| coordinates.get(material)).copied().unwrap_or(Coordinates::DEFAULT);
-            let targets: Vec<_> =
-                primitive.targets.iter().flatten().map(|target| (target.positions, target.normals)).collect();
-            // Materials that change texture coordinates have separate vertices.
-            let key = (&primitive.attributes, targets, read_by.set, material.filter(|_| read_by.is_changed));
-            let set = match known.get(&key) {
-                Some(set) => *set,
-                None => {
-                    let count = accessors.count(positions)?;
-                    outline.sets.push(Set { primitive, positions, count, coordinates: read_by });
-                    known.insert(key, outline.sets.len() - 1);
-                    outline.sets.len() - 1
-                }
-            };
-            let corners = match primitive.indices {
-                Some(indices) => accessors.count(indices)?,
-                None => outline.sets[set].count,
-            };
-            let material = material.map_or(NONE, |material| material as u32);
-            outline.pieces.push(PrimitivePart { primitive, mode, set, corners, material, edges: said(number) });
-        }
-        Ok(outline)
-    }
-
-    /// How many vertices it has; a set of none counts as one, as it is work too.
-    pub(super) fn vertices(&self) -> usize {
-        self.sets.iter().map(|set| set.count.max(1)).fold(0, usize::saturating_add)
-    }
-
-    /// How many triangles, segments and points it has at most, likewise.
-    pub(super) fn triangles(&self) -> usize {
-        let triangles = self.pieces.iter().map(|piece| match piece.mode {
-            Mode::Triangles => piece.corners / 3,
-            Mode::Points | Mode::Lines | Mode::LineStrip | Mode::LineLoop => piece.corners,
-            _ => piece.corners.saturating_sub(2),
-        });
-        triangles.map(|triangles| triangles.max(1)).fold(0, usize::saturating_add)
-    }
-}
-
-fn attribute(primitive: &Primitive, semantic: Semantic) -> Option<Index<Accessor>> {
-    primitive.attributes.get(&Valid(semantic)).copied()
-}
 
 /// A set's vertices as the file has them.
 struct Vertices {
@@ -121,49 +23,56 @@ struct Vertices {
     weights: Vec<Vec<([f64; 4], [f64; 4])>>,
 }
 
-/// The meshes that are shown, each with the nodes that show it.
-pub(super) fn outlines<'a>(
-    nodes: &Nodes,
-    root: &'a Root,
-    accessors: &Accessors<'a>,
-    coordinates: &'a [Coordinates],
-    said: &'a Said,
-) -> Result<Vec<(Outline<'a>, Vec<usize>)>, String> {
-    let mut places: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for node in &nodes.shown {
-        if let Some(mesh) = root.nodes[*node].mesh {
-            places.entry(mesh.value()).or_default().push(*node);
-        }
-    }
-    let outline = |(number, nodes): (usize, Vec<usize>)| {
-        let missing = || format!("its mesh {number} does not exist; export it again");
-        let mesh = root.meshes.get(number).ok_or_else(missing)?;
-        let said = |primitive| said.of_primitive(number, primitive);
-        Ok((Outline::of(mesh, root, accessors, coordinates, said)?, nodes))
-    };
-    places.into_iter().map(outline).collect()
+/// The contents of a piece, as indices into the vertices of its set.
+enum Drawn {
+    Points(Vec<u32>),
+    Segments(Vec<[u32; 2]>),
+    Faces {
+        triangles: Vec<[u32; 3]>,
+        /// The edges that the file marks.
+        marks: Vec<[u32; 2]>,
+    },
 }
 
-/// Adds a mesh in all its places; each place is a part.
+impl Drawn {
+    fn read(piece: &PrimitivePart<'_>, accessors: &Accessors<'_>) -> Result<Self, String> {
+        let indices = match piece.primitive.indices {
+            Some(indices) => accessors.indices(indices, piece.corners)?,
+            None => (0..piece.corners as u32).collect(),
+        };
+        Ok(match piece.mode {
+            Mode::Points => Self::Points(indices),
+            Mode::Lines => Self::Segments(indices.as_chunks().0.to_vec()),
+            Mode::LineStrip | Mode::LineLoop => {
+                let closing = indices.last().zip(indices.first()).filter(|_| piece.mode == Mode::LineLoop);
+                let pairs = indices.windows(2).map(|pair| [pair[0], pair[1]]);
+                Self::Segments(pairs.chain(closing.map(|(last, first)| [*last, *first])).collect())
+            }
+            _ => {
+                let every = every_triangle(&indices, piece.mode);
+                let marks = piece.edges.as_ref().map_or(Ok(Vec::new()), |edges| edges.marks(&every, accessors))?;
+                Self::Faces { triangles: without_joins(every, piece.mode), marks }
+            }
+        })
+    }
+}
+
+/// Adds a mesh in all its places; each node that shows it is a part.
 pub(super) fn put(
     soup: &mut Soup,
-    outline: &Outline<'_>,
-    places: &[usize],
+    (outline, places): &(Outline<'_>, Vec<Place>),
     accessors: &Accessors<'_>,
     nodes: &Nodes,
     part_of_node: &[u32],
 ) -> Result<(), String> {
-    let indices: Vec<Vec<u32>> = outline
-        .pieces
-        .iter()
-        .map(|piece| match piece.primitive.indices {
-            Some(indices) => accessors.indices(indices, piece.corners),
-            None => Ok((0..piece.corners as u32).collect()),
-        })
-        .collect::<Result<_, String>>()?;
+    let drawn: Vec<Drawn> =
+        outline.pieces.iter().map(|piece| Drawn::read(piece, accessors)).collect::<Result<_, String>>()?;
     let mut skins: HashMap<usize, Vec<DMat4>> = HashMap::new();
-    for place in places {
-        let node = &accessors.root.nodes[*place];
+    // Most places have the mesh's own weights: its vertices are read once for all of them.
+    let mut vertices: Vec<Vertices> = Vec::new();
+    let mut shape_read: Option<(&[f32], bool)> = None;
+    for Place { node: number, instances } in places {
+        let node = &accessors.root.nodes[*number];
         let weights = node.weights.as_ref().or(outline.mesh.weights.as_ref()).map_or(&[][..], Vec::as_slice);
         let joints = match node.skin {
             None => None,
@@ -177,43 +86,54 @@ pub(super) fn put(
             }),
         };
         let joints = joints.map(|joints| joints.as_slice());
-        let put = |set| {
-            let vertices = Vertices::read(set, weights, joints.is_some(), accessors)?;
-            Placed::put(soup, &vertices, &nodes.scene_from_node[*place], joints)
-        };
-        let sets: Vec<Placed> = outline.sets.iter().map(put).collect::<Result<_, String>>()?;
-        for (piece, indices) in outline.pieces.iter().zip(&indices) {
-            let placed = &sets[piece.set];
-            match piece.mode {
-                Mode::Points => placed.put_points(soup, indices),
-                Mode::Lines => placed.put_segments(soup, indices.chunks_exact(2).map(|pair| [pair[0], pair[1]])),
-                Mode::LineStrip | Mode::LineLoop => {
-                    let closing = indices.last().zip(indices.first()).filter(|_| piece.mode == Mode::LineLoop);
-                    let pairs = indices.windows(2).map(|pair| [pair[0], pair[1]]);
-                    placed.put_segments(soup, pairs.chain(closing.map(|(last, first)| [*last, *first])));
+        let shape = (weights, joints.is_some());
+        if shape_read != Some(shape) {
+            let read = |set| Vertices::read(set, weights, joints.is_some(), accessors);
+            vertices = outline.sets.iter().map(read).collect::<Result<_, String>>()?;
+            shape_read = Some(shape);
+        }
+        let scene_from_node = nodes.scene_from_node[*number];
+        let mut put = |place: &DMat4| put_copy(soup, outline, &drawn, &vertices, place, joints);
+        match instances {
+            None => put(&scene_from_node)?,
+            Some(instances) => {
+                for node_from_mesh in instances.places(accessors)? {
+                    put(&(scene_from_node * node_from_mesh))?;
                 }
-                _ => {
-                    placed.put_faces(soup, &triangles(indices, piece.mode), piece.material);
-                    soup.polygon_parts.resize(soup.polygon_materials.len(), part_of_node[*place]);
-                    placed.put_marks(soup, &every_triangle(indices, piece.mode), piece.edges, accessors)?;
-                }
+            }
+        }
+        soup.polygon_parts.resize(soup.polygon_materials.len(), part_of_node[*number]);
+    }
+    Ok(())
+}
+
+/// Adds a mesh in one place.
+fn put_copy(
+    soup: &mut Soup,
+    outline: &Outline<'_>,
+    drawn: &[Drawn],
+    vertices: &[Vertices],
+    place: &DMat4,
+    joints: Option<&[DMat4]>,
+) -> Result<(), String> {
+    let put = |vertices| Placed::put(soup, vertices, place, joints);
+    let sets: Vec<Placed> = vertices.iter().map(put).collect::<Result<_, String>>()?;
+    for (piece, drawn) in outline.pieces.iter().zip(drawn) {
+        let placed = &sets[piece.set];
+        match drawn {
+            Drawn::Points(points) => placed.put_points(soup, points),
+            Drawn::Segments(segments) => placed.put_segments(soup, segments),
+            Drawn::Faces { triangles, marks } => {
+                placed.put_faces(soup, triangles, piece.material);
+                placed.put_marks(soup, marks);
             }
         }
     }
     Ok(())
 }
 
-/// The triangles that indices stand for, counter-clockwise, without those of strips that only continue elsewhere.
-fn triangles(indices: &[u32], mode: Mode) -> Cow<'_, [[u32; 3]]> {
-    let mut triangles = every_triangle(indices, mode);
-    if mode == Mode::TriangleStrip {
-        triangles.to_mut().retain(|[a, b, c]| a != b && b != c && a != c);
-    }
-    triangles
-}
-
-/// The same with all triangles of strips.
-fn every_triangle(indices: &[u32], mode: Mode) -> Cow<'_, [[u32; 3]]> {
+/// The triangles that indices stand for, counter-clockwise, also those of strips that only continue elsewhere.
+fn every_triangle(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
     match (mode, indices) {
         (Mode::TriangleStrip, _) => {
             let turned = |(place, corners): (usize, &[u32])| match place % 2 {
@@ -223,8 +143,16 @@ fn every_triangle(indices: &[u32], mode: Mode) -> Cow<'_, [[u32; 3]]> {
             indices.windows(3).enumerate().map(turned).collect()
         }
         (Mode::TriangleFan, [first, rest @ ..]) => rest.windows(2).map(|pair| [pair[0], pair[1], *first]).collect(),
-        _ => Cow::Borrowed(indices.as_chunks().0),
+        _ => indices.as_chunks().0.to_vec(),
     }
+}
+
+/// The same without those of strips that only continue elsewhere.
+fn without_joins(mut triangles: Vec<[u32; 3]>, mode: Mode) -> Vec<[u32; 3]> {
+    if mode == Mode::TriangleStrip {
+        triangles.retain(|[a, b, c]| a != b && b != c && a != c);
+    }
+    triangles
 }
 
 /// For each joint of a skin: scene from the mesh as it was bound to it.
@@ -357,7 +285,7 @@ impl Placed {
         soup.defects.out_of_range_faces += indices.len() - (soup.points.len() - before);
     }
 
-    fn put_segments(&self, soup: &mut Soup, segments: impl Iterator<Item = [u32; 2]>) {
+    fn put_segments(&self, soup: &mut Soup, segments: &[[u32; 2]]) {
         for segment in segments {
             match segment.iter().all(|index| (*index as usize) < self.count) {
                 true => soup.segments.push(segment.map(|index| self.first_position + index)),
@@ -366,18 +294,9 @@ impl Placed {
         }
     }
 
-    fn put_marks(
-        &self,
-        soup: &mut Soup,
-        triangles: &[[u32; 3]],
-        edges: Option<&Edges>,
-        accessors: &Accessors<'_>,
-    ) -> Result<(), String> {
-        let Some(edges) = edges else { return Ok(()) };
-        let marks = edges.marks(triangles, accessors)?;
+    fn put_marks(&self, soup: &mut Soup, marks: &[[u32; 2]]) {
         let known = marks.iter().filter(|ends| ends.iter().all(|index| (*index as usize) < self.count));
         soup.marked.extend(known.map(|ends| ends.map(|index| self.first_position + index)));
-        Ok(())
     }
 
     fn put_faces(&self, soup: &mut Soup, triangles: &[[u32; 3]], material: u32) {

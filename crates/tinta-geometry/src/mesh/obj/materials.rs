@@ -1,6 +1,7 @@
 //! MTL: the material files that an OBJ file names, and its faces' materials.
 
 use super::chunk::Naming;
+use super::emission::Emission;
 use super::lines::plain;
 use super::material_files;
 use crate::error::{Error, Result};
@@ -70,6 +71,7 @@ pub(super) fn put_on(
         let of = of_materials(foreign);
         remarks.push(format!("{path}: not drawn: {of} Kd as a spectrum or as XYZ; write red, green and blue"));
     }
+    remarks.extend(Emission::remark(path, found.iter().map(|one| &one.emission)));
     move_coordinates(soup, &found);
     (soup.materials, soup.material_folders) = found.into_iter().map(|one| (one.material, one.folder)).collect();
     Ok(())
@@ -132,6 +134,8 @@ pub(super) struct Described {
     has_opacity_picture: bool,
     /// Whether its colour is a spectrum or in XYZ.
     has_foreign_color: bool,
+    /// The light that it emits (`Ke`, `map_Ke`).
+    emission: Emission,
 }
 
 impl Described {
@@ -155,6 +159,7 @@ impl Described {
         if has_vertex_colors {
             material.color = factor;
         }
+        self.emission.put_on(material);
         if is_see_through {
             material.blend(opacity);
         }
@@ -188,6 +193,8 @@ pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
                 one.material.color = color(rest).or(one.material.color);
             }
             ("map_Kd", Some(one)) => (one.pictures, one.placing) = texture(rest),
+            ("Ke", Some(one)) => one.emission.color = color(rest).unwrap_or(one.emission.color),
+            ("map_Ke", Some(one)) => one.emission.has_picture = true,
             ("d", Some(one)) => one.opacity = share(rest.strip_prefix("-halo").unwrap_or(rest)).or(one.opacity),
             ("Tr", Some(one)) => one.transparency = share(rest).or(one.transparency),
             ("map_d", Some(one)) => one.has_opacity_picture = true,
