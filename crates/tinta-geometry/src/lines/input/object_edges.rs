@@ -32,8 +32,8 @@ pub(in crate::lines) struct RepairedEdges {
 
 impl RepairedEdges {
     pub(in crate::lines) fn new(repaired: RepairedMesh) -> Self {
-        let RepairedMesh { shape, split, whole_faces, on_edges, covered } = repaired;
-        let edges = MeshEdges::new(split);
+        let RepairedMesh { shape, split, edges, whole_faces, on_edges, covered } = repaired;
+        let edges = MeshEdges::with_list(split, edges);
         let is_split = |face: &u32| {
             let whole = whole_faces[*face as usize];
             edges.mesh().triangles[*face as usize] != shape.triangles[whole as usize]

@@ -299,37 +299,41 @@ fn piece_at(faces: &Faces, way: &[u32], point: DVec3) -> usize {
 struct HalfPlanes {
     /// The positions along each edge at which it was split, with its own.
     ways: HashMap<[u32; 2], Vec<u32>>,
-    /// The third corners of all faces at a piece.
-    thirds: HashMap<[u32; 2], Vec<u32>>,
+    /// All faces at a piece: the third corner of each, and the number of the whole face that it is a part of.
+    at_pieces: HashMap<[u32; 2], Vec<(u32, u32)>>,
 }
 
 impl HalfPlanes {
     fn at_touched_edges(split: &SplitEdges, lines: &[FaceCrossing]) -> Self {
         let touched: HashSet<[u32; 2]> = lines.iter().flat_map(|found| found.touching.into_iter().flatten()).collect();
         let ways: HashMap<[u32; 2], Vec<u32>> = touched.into_iter().map(|edge| (edge, split.way(edge))).collect();
-        let mut thirds: HashMap<[u32; 2], Vec<u32>> =
+        let mut at_pieces: HashMap<[u32; 2], Vec<(u32, u32)>> =
             ways.values().flat_map(|way| pieces(way)).map(|piece| (piece, Vec::new())).collect();
         if ways.is_empty() {
-            return Self { ways, thirds };
+            return Self { ways, at_pieces };
         }
+        let mut first_face = 0;
         for (part, start) in split.parts.iter().zip(&split.starts) {
-            for triangle in &part.edges.get().mesh().triangles {
+            for (face, triangle) in (0..).zip(&part.edges.get().mesh().triangles) {
                 let [a, b, c] = triangle.map(|corner| corner + start);
                 for (from, to, third) in [(a, b, c), (b, c, a), (c, a, b)] {
-                    if let Some(thirds) = thirds.get_mut(&[from.min(to), from.max(to)]) {
-                        thirds.push(third);
+                    if let Some(at_piece) = at_pieces.get_mut(&[from.min(to), from.max(to)]) {
+                        at_piece.push((third, first_face + part.whole_face(face)));
                     }
                 }
             }
+            first_face += part.shape().triangles.len() as u32;
         }
-        Self { ways, thirds }
+        Self { ways, at_pieces }
     }
 
-    /// The third corners of the faces at the piece of an edge that is nearest to a point.
-    fn at(&self, faces: &Faces, edge: [u32; 2], point: DVec3) -> &[u32] {
+    /// The third corners of the faces at the piece of an edge that is nearest to a point. The parts of a face that passes through the
+    /// edge, given by its number, are not among them.
+    fn at(&self, faces: &Faces, edge: [u32; 2], point: DVec3, passing: u32) -> impl Iterator<Item = u32> {
         let way = &self.ways[&edge];
         let number = piece_at(faces, way, point);
-        &self.thirds[&[way[number].min(way[number + 1]), way[number].max(way[number + 1])]]
+        let at_piece = &self.at_pieces[&[way[number].min(way[number + 1]), way[number].max(way[number + 1])]];
+        at_piece.iter().filter(move |(_, whole)| *whole != passing).map(|(third, _)| *third)
     }
 
     /// Whether two surfaces pass through one another along a line: around it, half-planes of one and of the other follow one
@@ -353,8 +357,9 @@ impl HalfPlanes {
         let half_planes = |side: usize| -> Vec<DVec2> {
             match found.touching[side] {
                 Some(edge) => {
-                    let thirds = self.at(faces, edge, start.lerp(end, 0.5)).iter();
-                    thirds.map(|third| around(faces.positions[*third as usize])).collect()
+                    let passing = faces.numbers[found.faces[1 - side] as usize];
+                    let thirds = self.at(faces, edge, start.lerp(end, 0.5), passing);
+                    thirds.map(|third| around(faces.positions[third as usize])).collect()
                 }
                 None => {
                     let corners = faces.corners(found.faces[side]).map(around);
