@@ -238,7 +238,7 @@ struct FaceCrossing {
     ends: [DVec3; 2],
     /// Whether it is long enough, and between faces high enough, to be a line: needles are cut but draw none.
     is_line: bool,
-    piercings: [Option<Piercing>; 2],
+    piercings: [Option<Piercing>; 4],
     /// Each face's edge that lies in the other's plane, if any.
     touching: [Option<[u32; 2]>; 2],
 }
@@ -519,7 +519,7 @@ impl FacePlane {
             .filter_map(|corner| pair.crossing(face, corner, (corner + 1) % 3))
             .map(|crossing| crossing.piercing)
             .filter(|piercing| other.contains(piercing.point));
-        let piercings = [piercings.next(), piercings.next()];
+        let piercings = [piercings.next(), piercings.next(), None, None];
         let point = piercings[0]?.point;
         Some(FaceCrossing { faces: places, ends: [point; 2], is_line: false, piercings, touching: [None; 2] })
     }
@@ -582,18 +582,26 @@ fn lie_on_one_line([a, b]: [DVec3; 2], other: [DVec3; 2], distance: f64) -> bool
 impl Pair<'_> {
     /// Returns the line that both have in common, if their parts of it overlap.
     fn common(&self) -> Option<FaceCrossing> {
+        let same_place = self.shortest * self.direction.length();
+        // Where an edge passes through an edge, both are cut.
+        let at_end = |nearer: Crossing, farther: Crossing| {
+            let is_in_both = (nearer.along - farther.along).abs() <= same_place;
+            [Some(nearer.piercing), is_in_both.then_some(farther.piercing)]
+        };
         let mut overlap = true;
-        let (low, high) = match self.shared {
+        let (ends, piercings) = match self.shared {
             None => {
                 let [first, second] = [self.both_crossings(0)?, self.both_crossings(1)?];
-                let low = if first.0.along >= second.0.along { first.0 } else { second.0 };
-                let high = if first.1.along <= second.1.along { first.1 } else { second.1 };
-                // Where an edge passes through an edge, rounding must not lose the cut.
-                if low.along - high.along > self.shortest * self.direction.length() {
+                let low = if first.0.along >= second.0.along { [first.0, second.0] } else { [second.0, first.0] };
+                let high = if first.1.along <= second.1.along { [first.1, second.1] } else { [second.1, first.1] };
+                // Rounding must not lose such a cut.
+                if low[0].along - high[0].along > same_place {
                     return None;
                 }
-                overlap = low.along < high.along;
-                (low.piercing, high.piercing)
+                overlap = low[0].along < high[0].along;
+                let [a, b] = at_end(low[0], low[1]);
+                let [c, d] = at_end(high[0], high[1]);
+                ([low[0].piercing.point, high[0].piercing.point], [a, b, c, d])
             }
             Some([i, j]) => {
                 let start = self.faces.corners(self.places[0])[i];
@@ -604,21 +612,14 @@ impl Pair<'_> {
                 if (first_way > 0.0) != (second_way > 0.0) {
                     return None;
                 }
-                let nearer = if first_way.abs() <= second_way.abs() { first } else { second };
+                let nearer = if first_way.abs() <= second_way.abs() { [first, second] } else { [second, first] };
                 // The shared corner is no piercing: both edges there end anyway.
-                let at_corner = Piercing { edge: [u32::MAX; 2], point: start };
-                (at_corner, nearer.piercing)
+                let [a, b] = at_end(nearer[0], nearer[1]);
+                ([start, nearer[0].piercing.point], [a, b, None, None])
             }
         };
-        let piercings = [low, high].map(|piercing| (piercing.edge[0] != u32::MAX).then_some(piercing));
-        let is_line = overlap && low.point.distance(high.point) > self.shortest;
-        Some(FaceCrossing {
-            faces: self.places,
-            ends: [low.point, high.point],
-            is_line,
-            piercings,
-            touching: self.touching,
-        })
+        let is_line = overlap && ends[0].distance(ends[1]) > self.shortest;
+        Some(FaceCrossing { faces: self.places, ends, is_line, piercings, touching: self.touching })
     }
 
     /// Returns the points where a face's rim passes the other's plane, the lower place along the common line first.
