@@ -82,30 +82,30 @@ impl EdgeList {
     }
 
     /// Replaces the faces of some edges with three faces or more by one or more of them.
-    pub(crate) fn set_faces(&mut self, mesh: &Mesh, changed: &[(u32, Vec<u32>)]) {
+    pub(crate) fn set_faces<'a>(&mut self, mesh: &Mesh, changed: impl Iterator<Item = (u32, &'a [u32])>) {
         let mut crowded = HashMap::new();
         for (edge, faces) in changed {
-            let [low, high] = self.positions[*edge as usize];
+            let [low, high] = self.positions[edge as usize];
             let runs_up = |face: u32| {
                 let [a, b, c] = mesh.triangles[face as usize];
                 [[a, b], [b, c], [c, a]].contains(&[low, high])
             };
-            let (of_edge, incidence) = match *faces.as_slice() {
+            let (of_edge, incidence) = match *faces {
                 [first] => ([first; 2], Incidence::Boundary),
                 [first, second] if runs_up(first) == runs_up(second) => ([first, second], Incidence::InnerReversed),
                 [first, second] => ([first, second], Incidence::Inner),
                 _ => {
-                    crowded.insert(*edge, faces);
+                    crowded.insert(edge, faces);
                     continue;
                 }
             };
-            self.faces[*edge as usize] = of_edge;
-            self.incidence[*edge as usize] = incidence;
+            self.faces[edge as usize] = of_edge;
+            self.incidence[edge as usize] = incidence;
         }
         self.non_manifold.retain(|(edge, _)| self.incidence[*edge as usize] == Incidence::NonManifold);
         for (edge, faces) in &mut self.non_manifold {
             if let Some(fewer) = crowded.get(edge) {
-                faces.clone_from(fewer);
+                *faces = fewer.to_vec();
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Scenes of open faces, most of which touch, lie in one plane or cross along mesh lines.
+//! Scenes of open faces that mostly touch, lie in one plane or cross along mesh lines.
 
 use crate::lines_families::{Family, camera};
 use crate::lines_support::scene_of;

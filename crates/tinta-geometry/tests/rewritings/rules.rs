@@ -80,6 +80,21 @@ fn third(mesh: &Mesh, face: usize, edge: [u32; 2]) -> u32 {
     mesh.triangles[face].into_iter().find(|corner| !edge.contains(corner)).unwrap()
 }
 
+/// Whether an edge that other faces have lies along a segment in part.
+fn lies_along_others(mesh: &Mesh, [a, b]: [u32; 2]) -> bool {
+    let [start, end] = [a, b].map(|corner| mesh.positions[corner as usize]);
+    let along = end - start;
+    let place = |corner: u32| {
+        let from_start = mesh.positions[corner as usize] - start;
+        let is_on_line = along.cross(from_start).length() <= 1e-9 * along.length_squared();
+        is_on_line.then(|| from_start.dot(along) / along.length_squared())
+    };
+    edges(mesh).keys().filter(|edge| **edge != [a.min(b), a.max(b)]).any(|[p, q]| {
+        let places = place(*p).zip(place(*q));
+        places.is_some_and(|(p, q)| p.min(q) < 1.0 - 1e-9 && p.max(q) > 1e-9)
+    })
+}
+
 /// Flips the diagonals of half of the flat quadrangles. It skips models with repeated faces: mixing triangles of two
 /// layers would break both, which never happens in a file of a surface.
 fn flip_diagonals(model: Model, random: &mut Random) -> Model {
@@ -102,9 +117,10 @@ fn flip_diagonals(model: Model, random: &mut Random) -> Model {
             let is_flat = normals.iter().all(|other| other.cross(normals[0]).length() <= 1e-14 * largest * largest);
             // The other diagonal must lie well inside.
             let is_convex = normals.iter().all(|other| other.dot(normals[0]) > 0.01 * largest * normals[0].length());
-            // An existing edge must not get two more faces.
-            let is_new = c != d && !edges(mesh).contains_key(&[c.min(d), c.max(d)]);
-            if is_flat && is_convex && is_new {
+            // An existing edge must not get two more faces, or lose two.
+            let is_alone = c != d && !lies_along_others(mesh, [a, b]) && !lies_along_others(mesh, [c, d]);
+            let is_new = !edges(mesh).contains_key(&[c.min(d), c.max(d)]);
+            if is_flat && is_convex && is_new && is_alone {
                 // Each keeps the orientation of the face that it replaces.
                 let is_up = |face: usize, [x, y, z]: [u32; 3]| {
                     let corners = old.triangles[face];
@@ -184,9 +200,12 @@ fn repeat_all(mut model: Model, random: &mut Random) -> Model {
     })
 }
 
-/// Writes each polygon up to four times, from any corner, in any direction.
+/// Writes each polygon up to four times, from any corner, in any direction. It skips models with repeated faces, as
+/// `flip_diagonals` does.
 fn repeat_polygons(mut model: Model, random: &mut Random) -> Model {
-    model.has_layers = true;
+    if std::mem::replace(&mut model.has_layers, true) {
+        return model;
+    }
     each(model, |mesh| {
         let (most, is_even) = (random.whole(1, 4), random.number() < 0.5);
         let polygons = polygons(mesh);

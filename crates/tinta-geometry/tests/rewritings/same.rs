@@ -39,16 +39,6 @@ pub fn difference(expected: &VisibleLines, actual: &VisibleLines, is_mirrored: b
     lost(&expected, &actual).or_else(|| lost(&actual, &expected))
 }
 
-/// TEMP
-pub fn places(expected: &VisibleLines, actual: &VisibleLines, is_mirrored: bool) -> Option<String> {
-    let alike = |lines: &VisibleLines| {
-        let mut lines = lines.clone();
-        lines.segments.iter_mut().for_each(|segment| segment.class = Class::Boundary);
-        lines
-    };
-    difference(&alike(expected), &alike(actual), is_mirrored)
-}
-
 fn visible(lines: &VisibleLines) -> Vec<(Class, [DVec2; 2])> {
     let pieces = lines.segments.iter().filter(|segment| segment.is_visible && length(segment) > 0.0);
     pieces.map(|segment: &LineSegment| (segment.class, segment.ends_px)).collect()

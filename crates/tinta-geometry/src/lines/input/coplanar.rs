@@ -83,54 +83,79 @@ impl<'a> Planar<'a> {
         edges.positions()[edge as usize].map(|position| self.mesh.positions[position as usize])
     }
 
-    /// The faces that end at an edge all of whose faces lie in one plane: faces on both sides of it continue one another, and
-    /// count no more. `None` if not all lie in one plane, or on one side. If all faces continue, two of them that lie flat.
-    fn ending(&self, edges: &EdgeList, edge: u32) -> Option<Vec<u32>> {
-        let ends = self.ends(edges, edge);
-        let (first, others) = edges.faces(edge).split_first()?;
-        let (mut left, mut right) = (vec![*first], Vec::new());
-        for other in others {
-            match self.fold(ends, [*first, *other]) {
-                Fold::Closed => left.push(*other),
-                Fold::Flat => right.push(*other),
-                Fold::Bent => return None,
-            }
+    /// The faces that end at an edge with three or more. Two flat parts of one polygon continue one another; if all others lie in one
+    /// plane, those on both sides of the edge do too. `None` if no faces continue one another.
+    fn ending(&self, edges: &EdgeList, edge: u32, whole: &impl Fn(u32) -> u32) -> Option<Ending> {
+        let (ends, mesh) = (self.ends(edges, edge), self.mesh);
+        let lie_flat = |a: u32, b: u32| self.fold(ends, [a, b]) == Fold::Flat;
+        let mut faces = edges.faces(edge).to_vec();
+        let are_of_one = |a: u32, b: u32| mesh.file_face(a) == mesh.file_face(b) && lie_flat(a, b);
+        let mut continuing = paired(&mut faces, |a, b| whole(a) == whole(b) || are_of_one(a, b));
+        let mut diagonals = continuing.iter().filter(|[a, b]| whole(*a) != whole(*b));
+        let crossing = diagonals.find_map(|pair| Some([pair[0], self.across(edges, edge, *pair)?]));
+        if let [first, _, _, ..] = *faces.as_slice()
+            && faces.iter().all(|other| *other == first || self.fold(ends, [first, *other]) != Fold::Bent)
+        {
+            let material = |face: u32| mesh.triangle_materials.get(face as usize);
+            let part = |face: u32| mesh.triangle_parts.get(face as usize);
+            let are_alike = |a: u32, b: u32| material(a) == material(b) && part(a) == part(b);
+            continuing.extend(paired(&mut faces, |a, b| are_alike(a, b) && lie_flat(a, b)));
+            continuing.extend(paired(&mut faces, lie_flat));
         }
-        if right.is_empty() {
-            return None;
+        if faces.is_empty() {
+            faces.extend(continuing.first()?);
         }
-        let mesh = self.mesh;
-        let material = |face: u32| mesh.triangle_materials.get(face as usize);
-        let part = |face: u32| mesh.triangle_parts.get(face as usize);
-        // Faces of one polygon continue one another, then those of one material and part.
-        let likeness: [&dyn Fn(u32, u32) -> bool; 3] = [
-            &|a, b| mesh.file_face(a) == mesh.file_face(b),
-            &|a, b| material(a) == material(b) && part(a) == part(b),
-            &|_, _| true,
-        ];
-        let mut flat = None;
-        for continues in likeness {
-            left.retain(|face| {
-                let Some(place) = right.iter().position(|other| continues(*face, *other)) else { return true };
-                flat.get_or_insert([*face, right.remove(place)]);
-                false
-            });
-        }
-        left.append(&mut right);
-        if left.is_empty() {
-            left.extend(flat.into_iter().flatten());
-        }
-        left.sort_unstable();
-        Some(left)
+        (!continuing.is_empty()).then_some(Ending { edge, faces, crossing })
+    }
+
+    /// One of the other faces at an edge along which a polygon continues, if there are some on both sides of its plane.
+    fn across(&self, edges: &EdgeList, edge: u32, polygon: [u32; 2]) -> Option<u32> {
+        let (ends, start) = (self.ends(edges, edge), self.ends(edges, edge)[0]);
+        let is_bent = |face: &u32| polygon.iter().all(|of_polygon| self.fold(ends, [*of_polygon, *face]) == Fold::Bent);
+        let others = || edges.faces(edge).iter().copied().filter(|face| !polygon.contains(face) && is_bent(face));
+        let normal = self.normal(polygon[0]);
+        // Two of a face's corners lie on the edge.
+        let height = |face: u32| self.corners(face).iter().map(|corner| (*corner - start).dot(normal)).sum::<f64>();
+        let has_below = others().any(|face| height(face) < 0.0);
+        others().find(|face| height(*face) > 0.0).filter(|_| has_below)
     }
 }
 
-/// The edges with three faces or more, all in one plane, of which some continue one another, each with the faces that end there: no
-/// diagonal of a flat polygon is an edge, however many polygons lie on one another. A ghost and another face do not continue one
-/// another.
-pub(super) fn ending_faces(mesh: &Mesh, edges: &EdgeList, is_ghost: impl Fn(u32) -> bool) -> Vec<(u32, Vec<u32>)> {
+/// The faces that end at an edge; if none does, two that continue one another.
+pub(super) struct Ending {
+    pub edge: u32,
+    pub faces: Vec<u32>,
+    /// Two faces of surfaces that pass through one another along the edge, which is the first one's own diagonal.
+    pub crossing: Option<[u32; 2]>,
+}
+
+/// Takes pairs out of a list of faces.
+fn paired(faces: &mut Vec<u32>, are_pair: impl Fn(u32, u32) -> bool) -> Vec<[u32; 2]> {
+    let mut pairs = Vec::new();
+    let mut next = 0;
+    while let Some(first) = faces.get(next).copied() {
+        match faces[next + 1..].iter().position(|other| are_pair(first, *other)) {
+            Some(after) => {
+                pairs.push([first, faces.remove(next + 1 + after)]);
+                faces.remove(next);
+            }
+            None => next += 1,
+        }
+    }
+    pairs
+}
+
+/// The edges with three faces or more where some continue one another, each with the faces that end there: no diagonal of a flat
+/// polygon is an edge, whatever else lies along it. `whole` tells the unsplit face that a face is a part of. A ghost and another
+/// face do not continue one another.
+pub(super) fn ending_faces(
+    mesh: &Mesh,
+    edges: &EdgeList,
+    whole: impl Fn(u32) -> u32,
+    is_ghost: impl Fn(u32) -> bool,
+) -> Vec<Ending> {
     let planar = Planar::new(mesh);
     let are_alike = |faces: &[u32]| faces.windows(2).all(|pair| is_ghost(pair[0]) == is_ghost(pair[1]));
     let crowded = edges.non_manifold().filter(|(_, faces)| are_alike(faces));
-    crowded.filter_map(|(edge, _)| Some((edge, planar.ending(edges, edge)?))).collect()
+    crowded.filter_map(|(edge, _)| planar.ending(edges, edge, &whole)).collect()
 }

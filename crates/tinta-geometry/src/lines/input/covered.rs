@@ -1,13 +1,13 @@
 //! Coplanar faces that cover one another, as in models made to be seen from both sides.
 //!
-//! Input: a mesh and its edges. Output: the faces to remove so that each region of a plane counts once. The result
-//! does not depend on diagonals, first corners or directions of the polygons: only sides of whole polygons are compared.
+//! Input: a mesh and its edges. Output: the faces to remove. Then each region of a plane counts once, whatever the diagonals,
+//! first corners and directions of its polygons: only sides of whole polygons are compared.
 //!
 //! Sheets with the same outline cover one another. A sheet continues across each stretch of an edge that has exactly
 //! one polygon on either side. A region ends at stretches with more polygons on one side than on the other, so all parts of it are
-//! covered equally often. Regions covered three times or more come first, because a triangle that two layers have in common is no
-//! sheet of its own. Faces can overlap only if two of them lie on the same side of an edge, or of collinear edges; other
-//! meshes need one test per edge.
+//! covered equally often. Regions covered three times or more come first: there, two layers may have a triangle in common that is
+//! no sheet. Faces can overlap only if two of them lie on the same side of an edge, or of collinear edges; other meshes need one
+//! test per edge.
 
 use crate::disjoint_sets::DisjointSets;
 use crate::edges::EdgeList;
@@ -52,10 +52,10 @@ pub(in crate::lines) fn covered_faces(mesh: &Mesh, edges: &EdgeList, chains: &[C
 /// Edges per batch of a thread.
 const EDGES_A_THREAD: usize = 8192;
 
-/// What lies of a polygon of the file in a plane.
+/// A polygon of the file, without the parts that leave a plane.
 struct Polygon {
     faces: Vec<u32>,
-    /// The stretches of its outline; its own diagonals are none.
+    /// The stretches of its outline, without its own diagonals.
     sides: Vec<Side>,
 }
 
@@ -244,8 +244,8 @@ impl Planar<'_> {
 }
 
 impl Plane<'_> {
-    /// Removes the polygons that are not needed to cover each connected region once, where the outlines of regions have at least
-    /// so many polygons or occur before. Returns whether there were any.
+    /// Removes regions whose outline another one has, and of regions covered at least so often all but one layer. Returns whether
+    /// there were any.
     fn remove_covered(&mut self, least: i32, joins: fn(&AtPiece) -> bool) -> bool {
         let (mut outlines, mut covered) = (HashSet::new(), HashSet::new());
         for Region { polygons, balances } in self.regions(joins) {

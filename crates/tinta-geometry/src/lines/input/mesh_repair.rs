@@ -9,7 +9,7 @@
 //! Cracks wider than `--weld` stay open.
 
 use crate::edges::EdgeList;
-use crate::lines::input::coplanar::ending_faces;
+use crate::lines::input::coplanar::{Ending, ending_faces};
 use crate::lines::input::covered::covered_faces;
 use crate::lines::input::face_subset::keep_faces;
 use crate::lines::input::split_t_junctions::{Split, chains, split_at_junctions};
@@ -25,8 +25,10 @@ pub(in crate::lines) struct RepairedMesh {
     pub shape: Arc<Mesh>,
     /// The mesh whose edges become lines: its faces are split at vertices on their sides.
     pub split: Arc<Mesh>,
-    /// Its edges. One within a plane has only the faces that end there.
+    /// Its edges, each with the faces that end there.
     pub edges: EdgeList,
+    /// The edges along which a surface passes through a polygon that has a diagonal there, each with a face of the shape of either.
+    pub crossings: Vec<(u32, [u32; 2])>,
     /// For each split face, the face of the shape that it is a part of.
     pub whole_faces: Vec<u32>,
     /// The vertices on each split edge, in order.
@@ -60,20 +62,31 @@ pub(in crate::lines) fn repaired(
     let edges = split.as_ref().map_or(edges, |split| Cow::Owned(EdgeList::new(&split.mesh)));
     let split_mesh = split.as_ref().map_or(&*shape, |split| &split.mesh);
     let is_ghost = |face: u32| ghosts.is_some_and(|is_ghost| is_ghost(split_mesh, face));
-    let ending = ending_faces(split_mesh, &edges, is_ghost);
+    let whole = |face: u32| split.as_ref().map_or(face, |split| split.whole_faces[face as usize]);
+    let ending = ending_faces(split_mesh, &edges, whole, is_ghost);
     if lines.is_empty() && covered.is_empty() && split.is_none() && ending.is_empty() {
         return None;
     }
     let mut edges = edges.into_owned();
-    edges.set_faces(split_mesh, &ending);
+    let crossing = |ending: &Ending| Some((ending.edge, ending.crossing?.map(whole)));
+    let crossings = ending.iter().filter_map(crossing).collect();
+    edges.set_faces(split_mesh, ending.iter().map(|ending| (ending.edge, ending.faces.as_slice())));
     let covered = covered.len();
     Some(match split {
         Some(Split { mesh, whole_faces, on_edges }) => {
-            RepairedMesh { shape, split: Arc::new(mesh), edges, whole_faces, on_edges, covered }
+            RepairedMesh { shape, split: Arc::new(mesh), edges, crossings, whole_faces, on_edges, covered }
         }
         None => {
             let whole_faces = (0..shape.triangles.len() as u32).collect();
-            RepairedMesh { split: shape.clone(), edges, shape, whole_faces, on_edges: BTreeMap::new(), covered }
+            RepairedMesh {
+                split: shape.clone(),
+                edges,
+                crossings,
+                shape,
+                whole_faces,
+                on_edges: BTreeMap::new(),
+                covered,
+            }
         }
     })
 }
