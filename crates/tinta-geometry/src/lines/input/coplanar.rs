@@ -85,12 +85,19 @@ impl<'a> Planar<'a> {
 
     /// The faces that end at an edge with three or more. Two flat parts of one polygon continue one another; if all others lie in one
     /// plane, those on both sides of the edge do too. `None` if no faces continue one another.
-    fn ending(&self, edges: &EdgeList, edge: u32, whole: &impl Fn(u32) -> u32) -> Option<Ending> {
+    fn ending(&self, edges: &EdgeList, edge: u32, kinds: &Kinds) -> Option<Ending> {
         let (ends, mesh) = (self.ends(edges, edge), self.mesh);
+        let whole = kinds.whole;
         let lie_flat = |a: u32, b: u32| self.fold(ends, [a, b]) == Fold::Flat;
-        let mut faces = edges.faces(edge).to_vec();
-        let are_of_one = |a: u32, b: u32| mesh.file_face(a) == mesh.file_face(b) && lie_flat(a, b);
-        let mut continuing = paired(&mut faces, |a, b| whole(a) == whole(b) || are_of_one(a, b));
+        let (mut faces, mut continuing) = (Vec::new(), Vec::new());
+        let mut by_polygon = edges.faces(edge).to_vec();
+        by_polygon.sort_by_key(|face| mesh.file_face(*face));
+        for polygon in by_polygon.chunk_by(|a, b| mesh.file_face(*a) == mesh.file_face(*b)) {
+            let mut polygon = polygon.to_vec();
+            continuing.extend(paired(&mut polygon, |a, b| whole(a) == whole(b) || lie_flat(a, b)));
+            faces.append(&mut polygon);
+        }
+        faces.sort_unstable();
         let mut diagonals = continuing.iter().filter(|[a, b]| whole(*a) != whole(*b));
         let crossing = diagonals.find_map(|pair| Some([pair[0], self.across(edges, edge, *pair)?]));
         if let [first, _, _, ..] = *faces.as_slice()
@@ -98,9 +105,11 @@ impl<'a> Planar<'a> {
         {
             let material = |face: u32| mesh.triangle_materials.get(face as usize);
             let part = |face: u32| mesh.triangle_parts.get(face as usize);
+            let is_ghost = kinds.is_ghost;
+            let continue_one_another = |a: u32, b: u32| is_ghost(a) == is_ghost(b) && lie_flat(a, b);
             let are_alike = |a: u32, b: u32| material(a) == material(b) && part(a) == part(b);
-            continuing.extend(paired(&mut faces, |a, b| are_alike(a, b) && lie_flat(a, b)));
-            continuing.extend(paired(&mut faces, lie_flat));
+            continuing.extend(paired(&mut faces, |a, b| are_alike(a, b) && continue_one_another(a, b)));
+            continuing.extend(paired(&mut faces, continue_one_another));
         }
         if faces.is_empty() {
             faces.extend(continuing.first()?);
@@ -145,17 +154,17 @@ fn paired(faces: &mut Vec<u32>, are_pair: impl Fn(u32, u32) -> bool) -> Vec<[u32
     pairs
 }
 
+/// What decides whether two faces continue one another, besides their places.
+pub(super) struct Kinds<'a> {
+    /// The unsplit face that a face is a part of.
+    pub whole: &'a dyn Fn(u32) -> u32,
+    /// Whether it hides nothing.
+    pub is_ghost: &'a dyn Fn(u32) -> bool,
+}
+
 /// The edges with three faces or more where some continue one another, each with the faces that end there: no diagonal of a flat
-/// polygon is an edge, whatever else lies along it. `whole` tells the unsplit face that a face is a part of. A ghost and another
-/// face do not continue one another.
-pub(super) fn ending_faces(
-    mesh: &Mesh,
-    edges: &EdgeList,
-    whole: impl Fn(u32) -> u32,
-    is_ghost: impl Fn(u32) -> bool,
-) -> Vec<Ending> {
+/// polygon is an edge, whatever else lies along it. A ghost and another face do not continue one another.
+pub(super) fn ending_faces(mesh: &Mesh, edges: &EdgeList, kinds: &Kinds) -> Vec<Ending> {
     let planar = Planar::new(mesh);
-    let are_alike = |faces: &[u32]| faces.windows(2).all(|pair| is_ghost(pair[0]) == is_ghost(pair[1]));
-    let crowded = edges.non_manifold().filter(|(_, faces)| are_alike(faces));
-    crowded.filter_map(|(edge, _)| planar.ending(edges, edge, &whole)).collect()
+    edges.non_manifold().filter_map(|(edge, _)| planar.ending(edges, edge, kinds)).collect()
 }

@@ -9,7 +9,7 @@
 //! Cracks wider than `--weld` stay open.
 
 use crate::edges::EdgeList;
-use crate::lines::input::coplanar::{Ending, ending_faces};
+use crate::lines::input::coplanar::{Ending, Kinds, ending_faces};
 use crate::lines::input::covered::covered_faces;
 use crate::lines::input::face_subset::keep_faces;
 use crate::lines::input::split_t_junctions::{Split, chains, split_at_junctions};
@@ -63,7 +63,7 @@ pub(in crate::lines) fn repaired(
     let split_mesh = split.as_ref().map_or(&*shape, |split| &split.mesh);
     let is_ghost = |face: u32| ghosts.is_some_and(|is_ghost| is_ghost(split_mesh, face));
     let whole = |face: u32| split.as_ref().map_or(face, |split| split.whole_faces[face as usize]);
-    let ending = ending_faces(split_mesh, &edges, whole, is_ghost);
+    let ending = ending_faces(split_mesh, &edges, &Kinds { whole: &whole, is_ghost: &is_ghost });
     if lines.is_empty() && covered.is_empty() && split.is_none() && ending.is_empty() {
         return None;
     }
