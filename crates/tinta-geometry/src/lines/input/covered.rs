@@ -52,6 +52,9 @@ pub(in crate::lines) fn covered_faces(mesh: &Mesh, edges: &EdgeList, chains: &[C
 /// Edges per batch of a thread.
 const EDGES_A_THREAD: usize = 8192;
 
+/// At each stretch, the faces to the left minus those to the right.
+type Balances = BTreeMap<[u32; 2], i32>;
+
 /// A polygon of the file, without the parts that leave a plane.
 struct Polygon {
     faces: Vec<u32>,
@@ -196,7 +199,7 @@ impl Planar<'_> {
     fn plane(&self, cluster: &[u32]) -> Plane<'_> {
         let largest = cluster.iter().map(|face| self.normal(*face)).max_by(|a, b| a.length().total_cmp(&b.length()));
         let normal = largest.unwrap_or_default();
-        let mut polygons: BTreeMap<u32, (Vec<u32>, BTreeMap<[u32; 2], i32>)> = BTreeMap::new();
+        let mut polygons: BTreeMap<u32, (Vec<u32>, Balances)> = BTreeMap::new();
         for (face, pieces) in cluster.iter().zip(self.pieces(cluster)) {
             let is_turned = self.normal(*face).dot(normal) < 0.0;
             let (faces, balances) = polygons.entry(self.mesh.file_face(*face)).or_default();
@@ -206,7 +209,7 @@ impl Planar<'_> {
                 *balances.entry([from.min(to), from.max(to)]).or_default() += if is_left { 1 } else { -1 };
             }
         }
-        let polygon = |(faces, balances): (Vec<u32>, BTreeMap<[u32; 2], i32>)| {
+        let polygon = |(faces, balances): (Vec<u32>, Balances)| {
             let sides = balances.into_iter().filter(|(_, balance)| *balance != 0).collect();
             Polygon { faces, sides }
         };
