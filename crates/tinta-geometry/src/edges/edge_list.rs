@@ -1,5 +1,8 @@
 //! The edges of a mesh, each once, with the faces at each.
 
+use crate::mesh::Mesh;
+use std::collections::HashMap;
+
 /// Each edge of a mesh once, with its faces.
 ///
 /// Edges are numbered by their lower position, then by first appearance in the faces' order. The number of threads does not
@@ -71,5 +74,39 @@ impl EdgeList {
     /// Returns the number of faces without edges, which repeat a position or name one that does not exist.
     pub fn degenerate_faces(&self) -> usize {
         self.degenerate_faces
+    }
+
+    /// The edges with three faces or more, each with its faces; ascending.
+    pub(crate) fn non_manifold(&self) -> impl Iterator<Item = (u32, &[u32])> {
+        self.non_manifold.iter().map(|(edge, faces)| (*edge, faces.as_slice()))
+    }
+
+    /// Replaces the faces of some edges with three faces or more by one or more of them.
+    pub(crate) fn set_faces<'a>(&mut self, mesh: &Mesh, changed: impl Iterator<Item = (u32, &'a [u32])>) {
+        let mut crowded = HashMap::new();
+        for (edge, faces) in changed {
+            let [low, high] = self.positions[edge as usize];
+            let runs_up = |face: u32| {
+                let [a, b, c] = mesh.triangles[face as usize];
+                [[a, b], [b, c], [c, a]].contains(&[low, high])
+            };
+            let (of_edge, incidence) = match *faces {
+                [first] => ([first; 2], Incidence::Boundary),
+                [first, second] if runs_up(first) == runs_up(second) => ([first, second], Incidence::InnerReversed),
+                [first, second] => ([first, second], Incidence::Inner),
+                _ => {
+                    crowded.insert(edge, faces);
+                    continue;
+                }
+            };
+            self.faces[edge as usize] = of_edge;
+            self.incidence[edge as usize] = incidence;
+        }
+        self.non_manifold.retain(|(edge, _)| self.incidence[*edge as usize] == Incidence::NonManifold);
+        for (edge, faces) in &mut self.non_manifold {
+            if let Some(fewer) = crowded.get(edge) {
+                *faces = fewer.to_vec();
+            }
+        }
     }
 }

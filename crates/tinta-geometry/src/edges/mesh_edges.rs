@@ -20,6 +20,11 @@ impl MeshEdges {
     /// Builds the list; everything else is computed on first use.
     pub fn new(mesh: Arc<Mesh>) -> Self {
         let list = EdgeList::new(&mesh);
+        Self::with_list(mesh, list)
+    }
+
+    /// Takes a list built from the mesh.
+    pub(crate) fn with_list(mesh: Arc<Mesh>, list: EdgeList) -> Self {
         Self { mesh, list, silhouettes: OnceLock::new(), classes: Mutex::new(None), smooth: Mutex::new(None) }
     }
 

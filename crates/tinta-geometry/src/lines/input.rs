@@ -1,10 +1,12 @@
 //! The lines of a scene before their visibility is decided: objects with repaired meshes, edges by class, other
 //! features.
 
+mod coplanar;
 pub(super) mod covered;
 pub(super) mod face_subset;
 pub(super) mod feature;
 pub(super) mod features;
+mod layers;
 pub(super) mod mesh_repair;
 mod normal_creases;
 pub(super) mod object_edges;

@@ -7,6 +7,7 @@ use super::{NONE, triangle_normal, triangulate};
 use crate::threads::{in_parallel, threads_for};
 use earcut::Earcut;
 use glam::DVec3;
+use std::collections::HashSet;
 
 /// Triangles in the polygons' order; each list is as long as `triangles`, or empty if the soup has no such data.
 #[derive(Default)]
@@ -28,7 +29,7 @@ pub(super) struct Pieces {
     pub degenerate: usize,
     /// How many polygons had too many corners to be cut.
     pub too_long: usize,
-    /// How many repeated another.
+    /// How many belonged to a polygon that repeated another.
     pub duplicate: usize,
     /// How many polygons named a corner twice in a row.
     pub repeated_corners: usize,
@@ -157,19 +158,32 @@ impl Pieces {
         self.repeated_corners += other.repeated_corners;
     }
 
-    /// Drops triangles that repeat an earlier one with the same orientation; the opposite side is another triangle.
+    /// Drops polygons with the same triangles as an earlier one, in the same orientation; the opposite side is another polygon. A
+    /// triangle that two different polygons have in common belongs to both.
     ///
     /// `vertices` is the total number of vertices.
     pub(super) fn drop_duplicates(&mut self, vertices: usize) {
-        let mut repeated = repeated(&self.triangles, vertices);
+        let repeated = repeated(&self.triangles, vertices);
         if repeated.is_empty() {
             return;
         }
-        repeated.sort_unstable();
         self.number();
-        self.duplicate += repeated.len();
-        let keep: Vec<bool> =
-            (0..self.triangles.len() as u32).map(|index| repeated.binary_search(&index).is_err()).collect();
+        let repeated: HashSet<[u32; 3]> =
+            repeated.into_iter().map(|index| turned(self.triangles[index as usize])).collect();
+        let mut known: HashSet<Vec<[u32; 3]>> = HashSet::new();
+        let mut keep = Vec::with_capacity(self.triangles.len());
+        for polygon in self.polygons.chunk_by(|a, b| a == b) {
+            let mut triangles: Vec<[u32; 3]> =
+                self.triangles[keep.len()..][..polygon.len()].iter().map(|triangle| turned(*triangle)).collect();
+            triangles.sort_unstable();
+            let occurs_again = triangles.iter().all(|triangle| repeated.contains(triangle));
+            let is_new = !occurs_again || known.insert(triangles);
+            self.duplicate += if is_new { 0 } else { polygon.len() };
+            keep.resize(keep.len() + polygon.len(), is_new);
+        }
+        if self.duplicate == 0 {
+            return;
+        }
         retain(&mut self.triangles, &keep);
         retain(&mut self.face_normals, &keep);
         retain(&mut self.normals, &keep);
@@ -250,7 +264,6 @@ fn retain<T>(items: &mut Vec<T>, keep: &[bool]) {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use std::collections::HashSet;
 
     proptest! {
         #[test]

@@ -167,3 +167,69 @@ fn a_face_without_height_along_an_inner_edge_draws_no_line() {
         assert_px(total(&found, true), expected, "with a face without height");
     }
 }
+
+/// A hexagon in a plane.
+const HEXAGON: &str = "v 2 0 0\nv 1 2 0\nv -1 2 0\nv -2 0 0\nv -1 -2 0\nv 1 -2 0\n";
+
+#[test]
+fn polygons_in_one_plane_count_once_whatever_their_diagonals() {
+    let hexagon = "f 2 3 4 5 6 1\n";
+    let layers = "f 1 2 3 4 5 6\nf 2 3 4 5 6 1\nf 4 5 6 1 2 3\n";
+    let beside = "v 0 5 0\nv 3 3 0\nf 1 3 7 8\n";
+    let square = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 3 .5 0\nv .5 3 0\n";
+    for (what, text, expected) in [
+        ("once", format!("{HEXAGON}{hexagon}"), 1349.5),
+        ("three times", format!("{HEXAGON}{layers}"), 1349.5),
+        ("four times", format!("{HEXAGON}{layers}f 6 5 4 3 2 1\n"), 1349.5),
+        ("once, and a quad on a chord", format!("{HEXAGON}{hexagon}{beside}"), 1616.7),
+        ("with a diagonal on the chord", format!("{HEXAGON}f 1 2 3 4 5 6\n{beside}"), 1616.7),
+        ("twice, and a quad on a chord", format!("{HEXAGON}f 1 2 3 4 5 6\nf 4 3 2 1 6 5\n{beside}"), 1616.7),
+        ("three times, and a quad on a chord", format!("{HEXAGON}{layers}{beside}"), 1616.7),
+        ("two quads, one diagonal", format!("{square}f 1 2 3 4\nf 1 5 3 6\n"), 2305.8),
+        ("two quads, two diagonals", format!("{square}f 2 3 4 1\nf 1 5 3 6\n"), 2305.8),
+        ("two quads, each twice", format!("{square}f 1 2 3 4\nf 3 6 1 5\nf 4 3 2 1\nf 5 3 6 1\n"), 2305.8),
+    ] {
+        let found = lines(&scene_of(vec![read(&text)], view("20,30", false)));
+        assert_px(of_class(&found, Class::Boundary, true), expected, what);
+        assert_px(total(&found, true), expected, what);
+    }
+}
+
+/// The faces of two polygons, from each corner and in each direction.
+fn written(first: &[u32], second: &[u32]) -> Vec<String> {
+    let face =
+        |corners: &[u32]| format!("f{}\n", corners.iter().map(|corner| format!(" {corner}")).collect::<String>());
+    let all = |corners: &[u32]| -> Vec<String> {
+        let from = |start: usize| {
+            let mut corners = corners.to_vec();
+            corners.rotate_left(start);
+            let reversed: Vec<u32> = corners.iter().rev().copied().collect();
+            [face(&corners), face(&reversed)]
+        };
+        (0..corners.len()).flat_map(from).collect()
+    };
+    let (firsts, seconds) = (all(first), all(second));
+    let both = |first: &String| seconds.iter().map(|second| format!("{first}{second}")).collect::<Vec<_>>();
+    firsts.iter().flat_map(both).collect()
+}
+
+#[test]
+fn a_face_that_crosses_another_along_a_mesh_line_from_their_common_corner_intersects_it() {
+    let wall = "v 1 1 0\nv 1 2 0\nv 1 1 1\nv 1 2 1\nv 2 2 1\nv 0 2 1\n";
+    let sheet = "v 0 0 0\nv 2 0 0\nv 1 1 0\nv 1 -1 0\nv 0 0 -1\nv 0 0 1\n";
+    let of_sheet = |faces: String| format!("{sheet}{faces}f 2 1 4\n");
+    let walls: Vec<String> = written(&[1, 2, 4, 3], &[5, 1, 6]).iter().map(|faces| format!("{wall}{faces}")).collect();
+    let sheets: Vec<String> = written(&[1, 2, 3], &[2, 5, 6]).into_iter().map(of_sheet).collect();
+    for (texts, at, parallel, expected) in [
+        (&walls, "30,20", false, [1279.8, 170.6]),
+        (&walls, "30,20", true, [1238.4, 172.0]),
+        (&sheets, "30,15", false, [1299.7, 285.8]),
+        (&sheets, "30,15", true, [1324.4, 301.9]),
+    ] {
+        for text in texts {
+            let found = lines(&scene_of(vec![read(text)], view(at, parallel)));
+            assert_px(of_class(&found, Class::Boundary, true), expected[0], text);
+            assert_px(of_class(&found, Class::Intersection, true), expected[1], text);
+        }
+    }
+}

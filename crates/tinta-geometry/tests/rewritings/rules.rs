@@ -13,7 +13,7 @@ pub struct Rewriting {
     pub rewrite: fn(Model, &mut Random) -> Model,
 }
 
-pub const REWRITINGS: [Rewriting; 15] = [
+pub const REWRITINGS: [Rewriting; 16] = [
     Rewriting { name: "faces turned", rewrite: turn_faces },
     Rewriting { name: "parts inside out", rewrite: turn_parts },
     Rewriting { name: "faces from another corner", rewrite: rotate_faces },
@@ -29,7 +29,11 @@ pub const REWRITINGS: [Rewriting; 15] = [
     Rewriting { name: "moved with its camera", rewrite: move_rigidly },
     Rewriting { name: "mirrored", rewrite: mirror },
     Rewriting { name: "another size", rewrite: resize },
+    Rewriting { name: "polygons repeated with other diagonals", rewrite: repeat_polygons },
 ];
+
+/// The rule that comes last in a chain: the others know triangles only.
+pub const OF_POLYGONS: usize = REWRITINGS.len() - 1;
 
 fn each(mut model: Model, mut change: impl FnMut(&mut Mesh)) -> Model {
     model.meshes.iter_mut().for_each(&mut change);
@@ -76,6 +80,21 @@ fn third(mesh: &Mesh, face: usize, edge: [u32; 2]) -> u32 {
     mesh.triangles[face].into_iter().find(|corner| !edge.contains(corner)).unwrap()
 }
 
+/// Whether an edge that other faces have lies along a segment in part.
+fn lies_along_others(mesh: &Mesh, [a, b]: [u32; 2]) -> bool {
+    let [start, end] = [a, b].map(|corner| mesh.positions[corner as usize]);
+    let along = end - start;
+    let place = |corner: u32| {
+        let from_start = mesh.positions[corner as usize] - start;
+        let is_on_line = along.cross(from_start).length() <= 1e-9 * along.length_squared();
+        is_on_line.then(|| from_start.dot(along) / along.length_squared())
+    };
+    edges(mesh).keys().filter(|edge| **edge != [a.min(b), a.max(b)]).any(|[p, q]| {
+        let places = place(*p).zip(place(*q));
+        places.is_some_and(|(p, q)| p.min(q) < 1.0 - 1e-9 && p.max(q) > 1e-9)
+    })
+}
+
 /// Flips the diagonals of half of the flat quadrangles. It skips models with repeated faces: mixing triangles of two
 /// layers would break both, which never happens in a file of a surface.
 fn flip_diagonals(model: Model, random: &mut Random) -> Model {
@@ -98,9 +117,10 @@ fn flip_diagonals(model: Model, random: &mut Random) -> Model {
             let is_flat = normals.iter().all(|other| other.cross(normals[0]).length() <= 1e-14 * largest * largest);
             // The other diagonal must lie well inside.
             let is_convex = normals.iter().all(|other| other.dot(normals[0]) > 0.01 * largest * normals[0].length());
-            // An existing edge must not get two more faces.
-            let is_new = c != d && !edges(mesh).contains_key(&[c.min(d), c.max(d)]);
-            if is_flat && is_convex && is_new {
+            // An existing edge must not get two more faces, or lose two.
+            let is_alone = c != d && !lies_along_others(mesh, [a, b]) && !lies_along_others(mesh, [c, d]);
+            let is_new = !edges(mesh).contains_key(&[c.min(d), c.max(d)]);
+            if is_flat && is_convex && is_new && is_alone {
                 // Each keeps the orientation of the face that it replaces.
                 let is_up = |face: usize, [x, y, z]: [u32; 3]| {
                     let corners = old.triangles[face];
@@ -178,6 +198,82 @@ fn repeat_all(mut model: Model, random: &mut Random) -> Model {
         let other = others.next().unwrap();
         mesh.triangles.extend(other.triangles.into_iter().map(|[a, b, c]| [c, b, a]));
     })
+}
+
+/// Writes each polygon up to four times, from any corner, in any direction. It skips models with repeated faces, as
+/// `flip_diagonals` does.
+fn repeat_polygons(mut model: Model, random: &mut Random) -> Model {
+    if std::mem::replace(&mut model.has_layers, true) {
+        return model;
+    }
+    each(model, |mesh| {
+        let (most, is_even) = (random.whole(1, 4), random.number() < 0.5);
+        let polygons = polygons(mesh);
+        (mesh.triangles, mesh.file_faces) = (Vec::new(), Vec::new());
+        let mut number = 0;
+        for mut corners in polygons {
+            for _ in 0..if is_even { most } else { random.whole(1, most) } {
+                let count = corners.len();
+                corners.rotate_left((random.number() * count as f64) as usize);
+                if random.number() < 0.5 {
+                    corners.reverse();
+                }
+                mesh.triangles.extend(corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]));
+                mesh.file_faces.resize(mesh.triangles.len(), number);
+                number += 1;
+            }
+        }
+    })
+}
+
+/// A mesh's triangles joined into convex polygons across edges that two flat ones share.
+fn polygons(mesh: &Mesh) -> Vec<Vec<u32>> {
+    let mut polygons: Vec<Vec<u32>> = mesh.triangles.iter().map(|corners| corners.to_vec()).collect();
+    let mut polygon_of: Vec<usize> = (0..polygons.len()).collect();
+    for (edge, faces) in edges(mesh) {
+        let &[first, second] = faces.as_slice() else { continue };
+        let (first, second) = (polygon_of[first], polygon_of[second]);
+        if first == second {
+            continue;
+        }
+        // From one end of the edge the long way to the other, and back.
+        let from = |polygon: usize, start: u32| {
+            let mut corners = polygons[polygon].clone();
+            let place = corners.iter().position(|corner| *corner == start).unwrap();
+            corners.rotate_left(place);
+            if edge.contains(&corners[1]) {
+                corners[1..].reverse();
+            }
+            corners
+        };
+        let (there, back) = (from(first, edge[0]), from(second, edge[1]));
+        let joined = [&there[..there.len() - 1], &back[..back.len() - 1]].concat();
+        if is_convex(mesh, &joined) {
+            polygon_of.iter_mut().filter(|polygon| **polygon == second).for_each(|polygon| *polygon = first);
+            polygons[first] = joined;
+            polygons[second].clear();
+        }
+    }
+    polygons.retain(|corners| !corners.is_empty());
+    polygons
+}
+
+/// Whether corners in one plane turn the same way, all by more than rounding.
+fn is_convex(mesh: &Mesh, corners: &[u32]) -> bool {
+    let point = |corner: u32| mesh.positions[corner as usize];
+    let normal = |[a, b, c]: [u32; 3]| (point(b) - point(a)).cross(point(c) - point(a));
+    let mut normals = Vec::new();
+    for (place, from) in corners.iter().enumerate() {
+        let to = corners[(place + 1) % corners.len()];
+        let others = corners.iter().filter(|other| *other != from && **other != to);
+        normals.extend(others.map(|other| normal([*from, to, *other])));
+    }
+    let largest = normals.iter().map(|normal| normal.length()).fold(0.0, f64::max);
+    let agrees = |other: &DVec3| {
+        other.cross(normals[0]).length() <= 1e-14 * largest * largest
+            && other.dot(normals[0]) > 0.01 * largest * normals[0].length()
+    };
+    normals.len() == corners.len() * (corners.len() - 2) && normals.iter().all(agrees)
 }
 
 fn split_and_weld(model: Model, random: &mut Random) -> Model {

@@ -1,19 +1,22 @@
 //! Coplanar faces that cover one another, as in models made to be seen from both sides.
 //!
-//! Input: a mesh and its edges. Output: the faces to remove so that each region of a plane counts once. The result
-//! does not depend on diagonals, first corners or directions of the triangles.
+//! Input: a mesh and its edges. Output: the faces to remove. Then each region of a plane counts once, whatever the diagonals,
+//! first corners and directions of its polygons: only sides of whole polygons are compared.
 //!
 //! Sheets with the same outline cover one another. A sheet continues across each stretch of an edge that has exactly
-//! one face on either side. If shared diagonals join or split sheets, regions are used instead. A region ends at
-//! stretches with more faces on one side than on the other, so all parts of it are covered equally often. Faces can
-//! overlap only if two of them lie on the same side of an edge, or of collinear edges; other meshes need one test per
-//! edge.
+//! one polygon on either side. A region ends at stretches with more polygons on one side than on the other, so all parts of it are
+//! covered equally often. Regions covered three times or more come first: there, two layers may have a triangle in common that is
+//! no sheet. Faces can overlap only if two of them lie on the same side of an edge, or of collinear edges; other meshes need one
+//! test per edge.
 
+use crate::disjoint_sets::DisjointSets;
 use crate::edges::EdgeList;
+use crate::lines::input::coplanar::{Fold, LARGEST_SINE, Planar};
+use crate::lines::input::layers::{Side, one_layer};
 use crate::lines::input::split_t_junctions::{Chain, vertices_on};
 use crate::mesh::Mesh;
 use crate::threads::{in_chunks, threads_for};
-use crate::tolerances::{CONTACT, PRINTED_DIGITS, WELD};
+use crate::tolerances::CONTACT;
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -34,128 +37,65 @@ pub(in crate::lines) fn covered_faces(mesh: &Mesh, edges: &EdgeList, chains: &[C
     }
     let edge_of: HashMap<[u32; 2], u32> = edges.positions().iter().copied().zip(0..).collect();
     let mut covered = HashSet::new();
-    for mut cluster in planar.clusters(edges, &edge_of, &pairs, &links) {
-        // A single repeated face splits its sheet until it is removed.
-        loop {
-            let mut of_cluster = planar.covered_of(&cluster, is_sheet);
-            if of_cluster.is_empty() {
-                of_cluster = planar.covered_of(&cluster, is_region);
-            }
-            if of_cluster.is_empty() {
-                break;
-            }
-            cluster.retain(|face| !of_cluster.contains(face));
-            covered.extend(of_cluster);
-        }
+    for cluster in planar.clusters(edges, &edge_of, &pairs, &links) {
+        let mut plane = planar.plane(&cluster);
+        while plane.remove_covered(3, is_region)
+            || plane.remove_covered(2, is_sheet)
+            || plane.remove_covered(2, is_region)
+        {}
+        let kept: HashSet<u32> = plane.polygons.iter().flat_map(|polygon| &polygon.faces).copied().collect();
+        covered.extend(cluster.into_iter().filter(|face| !kept.contains(face)));
     }
     covered
-}
-
-/// A mesh whose faces are tested against one another's planes.
-struct Planar<'a> {
-    mesh: &'a Mesh,
-    /// Distances, in file units: below `weld` positions coincide, below `digits` coordinates with six digits may
-    /// deviate from a plane.
-    weld: f64,
-    digits: f64,
 }
 
 /// Edges per batch of a thread.
 const EDGES_A_THREAD: usize = 8192;
 
-/// Sine of the largest angle between coplanar faces.
-const LARGEST_SINE: f64 = 0.01;
+/// At each stretch, the faces to the left minus those to the right.
+type Balances = BTreeMap<[u32; 2], i32>;
 
-/// The coplanar faces at a stretch of an edge.
+/// A polygon of the file, without the parts that leave a plane.
+struct Polygon {
+    faces: Vec<u32>,
+    /// The stretches of its outline, without its own diagonals.
+    sides: Vec<Side>,
+}
+
+/// The polygons of a plane.
+struct Plane<'a> {
+    planar: &'a Planar<'a>,
+    normal: DVec3,
+    polygons: Vec<Polygon>,
+}
+
+/// The polygons at a stretch of an edge.
 #[derive(Default)]
 struct AtPiece {
-    /// Their indices in the list of the plane's faces.
-    faces: Vec<usize>,
-    /// Faces to the left of the stretch minus those to the right.
+    /// Their indices in the list of the plane's polygons.
+    polygons: Vec<u32>,
+    /// Polygons to the left of the stretch minus those to the right.
     balance: i32,
 }
 
-/// Faces connected across some stretches of edges.
+/// Polygons connected across some stretches of edges.
 #[derive(Default)]
 struct Region {
-    /// Their indices in the list of the plane's faces.
-    faces: Vec<usize>,
-    /// At each stretch, these faces to the left minus those to the right: 0 inside.
+    /// Their indices in the list of the plane's polygons.
+    polygons: Vec<usize>,
+    /// At each stretch, these polygons to the left minus those to the right: 0 inside.
     balances: HashMap<[u32; 2], i32>,
 }
 
 fn is_sheet(at_piece: &AtPiece) -> bool {
-    at_piece.balance == 0 && at_piece.faces.len() == 2
+    at_piece.balance == 0 && at_piece.polygons.len() == 2
 }
 
 fn is_region(at_piece: &AtPiece) -> bool {
     at_piece.balance == 0
 }
 
-/// The position of two faces at an edge.
-#[derive(Clone, Copy, PartialEq)]
-enum Fold {
-    /// Coplanar, on the same side of the edge.
-    Closed,
-    /// Coplanar, on opposite sides of the edge.
-    Flat,
-    Bent,
-}
-
-impl<'a> Planar<'a> {
-    fn new(mesh: &'a Mesh) -> Self {
-        let (low, high) = mesh.bounds();
-        let diagonal = low.distance(high);
-        Self { mesh, weld: WELD * diagonal, digits: PRINTED_DIGITS * diagonal }
-    }
-
-    fn corners(&self, face: u32) -> [DVec3; 3] {
-        self.mesh.triangles[face as usize].map(|corner| self.mesh.positions[corner as usize])
-    }
-
-    fn normal(&self, face: u32) -> DVec3 {
-        let [a, b, c] = self.corners(face);
-        (b - a).cross(c - a)
-    }
-
-    /// The position of two faces at a line between two points; their farthest corners from it decide.
-    fn fold(&self, [start, end]: [DVec3; 2], faces: [u32; 2]) -> Fold {
-        let along = (end - start).normalize_or_zero();
-        let across = |face: u32| {
-            let corners = self.corners(face).map(|corner| {
-                let from_start = corner - start;
-                from_start - along * along.dot(from_start)
-            });
-            let [a, b, c] = corners;
-            let farther = |a: DVec3, b: DVec3| if b.length_squared() > a.length_squared() { b } else { a };
-            farther(farther(a, b), c)
-        };
-        let [first, second] = faces.map(across);
-        let (short, long) =
-            if first.length_squared() <= second.length_squared() { (first, second) } else { (second, first) };
-        let distance = short.cross(long).length() / long.length();
-        let longest = start.distance(end).max(short.length());
-        let is_in_plane = distance <= CONTACT * longest + self.weld
-            || distance <= self.digits && distance <= LARGEST_SINE * short.length();
-        match short.dot(long) > 0.0 {
-            _ if !is_in_plane => Fold::Bent,
-            true => Fold::Closed,
-            false => Fold::Flat,
-        }
-    }
-
-    /// Whether two faces at an edge form an angle below 90 degrees: a quick test that settles most edges.
-    fn is_acute(&self, [start, end]: [DVec3; 2], faces: [u32; 2]) -> bool {
-        let along = end - start;
-        // Two of a face's corners lie on the edge, so the sum is the third corner, shifted along the edge.
-        let [first, second] = faces.map(|face| self.corners(face).iter().map(|corner| *corner - start).sum::<DVec3>());
-        first.dot(second) * along.length_squared() > first.dot(along) * second.dot(along)
-    }
-
-    fn ends(&self, edges: &EdgeList, edge: u32) -> [DVec3; 2] {
-        edges.positions()[edge as usize].map(|position| self.mesh.positions[position as usize])
-    }
-
+impl Planar<'_> {
     /// Adds the pairs of coplanar faces on the same side of an edge.
     fn add_pairs_at(&self, edges: &EdgeList, edge: u32, pairs: &mut Vec<[u32; 2]>) {
         let ends = self.ends(edges, edge);
@@ -255,82 +195,25 @@ impl<'a> Planar<'a> {
         clusters
     }
 
-    /// The faces of a plane that are not needed to cover each connected region once.
-    fn covered_of(&self, cluster: &[u32], joins: fn(&AtPiece) -> bool) -> HashSet<u32> {
+    /// The polygons of a cluster of coplanar faces.
+    fn plane(&self, cluster: &[u32]) -> Plane<'_> {
         let largest = cluster.iter().map(|face| self.normal(*face)).max_by(|a, b| a.length().total_cmp(&b.length()));
         let normal = largest.unwrap_or_default();
-        let pieces = self.pieces(cluster);
-        // A face to the left of a stretch adds 1, one to the right subtracts 1.
-        let mut at_piece: HashMap<[u32; 2], AtPiece> = HashMap::new();
-        let mut sides: Vec<Vec<([u32; 2], i32)>> = Vec::with_capacity(cluster.len());
-        for (index, face) in cluster.iter().enumerate() {
+        let mut polygons: BTreeMap<u32, (Vec<u32>, Balances)> = BTreeMap::new();
+        for (face, pieces) in cluster.iter().zip(self.pieces(cluster)) {
             let is_turned = self.normal(*face).dot(normal) < 0.0;
-            let side = |[from, to]: &[u32; 2]| {
+            let (faces, balances) = polygons.entry(self.mesh.file_face(*face)).or_default();
+            faces.push(*face);
+            for [from, to] in pieces {
                 let is_left = (from < to) != is_turned;
-                ([*from.min(to), *from.max(to)], if is_left { 1 } else { -1 })
-            };
-            let of_face: Vec<_> = pieces[index].iter().map(side).collect();
-            for (piece, side) in &of_face {
-                let at_piece = at_piece.entry(*piece).or_default();
-                at_piece.faces.push(index);
-                at_piece.balance += side;
-            }
-            sides.push(of_face);
-        }
-        let mut region_of: Vec<usize> = (0..cluster.len()).collect();
-        for at_piece in at_piece.values().filter(|at_piece| joins(at_piece)) {
-            for pair in at_piece.faces.windows(2) {
-                let (a, b) = (root(&mut region_of, pair[0]), root(&mut region_of, pair[1]));
-                region_of[a.max(b)] = a.min(b);
+                *balances.entry([from.min(to), from.max(to)]).or_default() += if is_left { 1 } else { -1 };
             }
         }
-        let mut regions: BTreeMap<usize, Region> = BTreeMap::new();
-        for (index, of_face) in sides.iter().enumerate() {
-            let region = regions.entry(root(&mut region_of, index)).or_default();
-            region.faces.push(index);
-            of_face.iter().for_each(|(piece, side)| *region.balances.entry(*piece).or_default() += side);
-        }
-        let (mut outlines, mut covered) = (HashSet::new(), HashSet::new());
-        for Region { faces, balances } in regions.into_values() {
-            let mut outline: Vec<([u32; 2], i32)> = balances.into_iter().filter(|(_, side)| *side != 0).collect();
-            outline.sort_unstable();
-            let times = outline.first().map_or(0, |(_, side)| side.abs());
-            if times == 0 || outline.iter().any(|(_, side)| side.abs() != times) {
-                continue;
-            }
-            outline.iter_mut().for_each(|(_, side)| *side = side.signum());
-            let numbers: Vec<u32> = faces.iter().map(|face| cluster[*face]).collect();
-            if !outlines.insert(outline) {
-                covered.extend(numbers);
-            } else if times > 1 {
-                let of_region: Vec<&[([u32; 2], i32)]> = faces.iter().map(|face| sides[*face].as_slice()).collect();
-                covered.extend(self.beyond_one_layer(&numbers, &of_region, normal));
-            }
-        }
-        covered
-    }
-
-    /// For faces that cover a region several times: all except one layer of them; none if no layer is found.
-    fn beyond_one_layer(&self, faces: &[u32], sides: &[&[([u32; 2], i32)]], normal: DVec3) -> Vec<u32> {
-        if faces.len() > MOST_IN_LAYERS {
-            return Vec::new();
-        }
-        let (right, up) = normal.normalize_or_zero().any_orthonormal_pair();
-        let flat = |face: &u32| self.corners(*face).map(|corner| DVec2::new(corner.dot(right), corner.dot(up)));
-        let mut at_piece: HashMap<[u32; 2], Vec<(usize, i32)>> = HashMap::new();
-        for (index, of_face) in sides.iter().enumerate() {
-            of_face.iter().for_each(|(piece, side)| at_piece.entry(*piece).or_default().push((index, *side)));
-        }
-        let balance = |piece: &[u32; 2]| at_piece[piece].iter().map(|(_, side)| *side).sum::<i32>();
-        let mut rim: Vec<([u32; 2], i32)> = at_piece.keys().map(|piece| (*piece, balance(piece).signum())).collect();
-        rim.retain(|(_, side)| *side != 0);
-        rim.sort_unstable();
-        let flat = faces.iter().map(flat).collect();
-        let mut layer =
-            Layer { sides, at_piece: &at_piece, flat, weld: self.weld, kept: Vec::new(), tries: MOST_TRIES };
-        let is_whole = layer.fill(rim);
-        let beyond = (0..faces.len()).filter(|face| !layer.kept.contains(face)).map(|face| faces[face]);
-        if is_whole { beyond.collect() } else { Vec::new() }
+        let polygon = |(faces, balances): (Vec<u32>, Balances)| {
+            let sides = balances.into_iter().filter(|(_, balance)| *balance != 0).collect();
+            Polygon { faces, sides }
+        };
+        Plane { planar: self, normal, polygons: polygons.into_values().map(polygon).collect() }
     }
 
     /// Each face's sides, cut into stretches at all of the cluster's vertices on them.
@@ -363,76 +246,65 @@ impl<'a> Planar<'a> {
     }
 }
 
-/// One layer of a region, while it is assembled.
-struct Layer<'a> {
-    /// For each face its stretches, and its side of each.
-    sides: &'a [&'a [([u32; 2], i32)]],
-    at_piece: &'a HashMap<[u32; 2], Vec<(usize, i32)>>,
-    flat: Vec<[DVec2; 3]>,
-    weld: f64,
-    kept: Vec<usize>,
-    tries: usize,
-}
-
-/// Most faces of a region that is split into layers: each is compared with all, recursively.
-const MOST_IN_LAYERS: usize = 1000;
-
-/// Most faces tried for one layer.
-const MOST_TRIES: usize = 100_000;
-
-impl Layer<'_> {
-    /// Adds faces until each of these stretches has one on the given side, and each stretch of the added faces one on
-    /// the other side. Adds nothing if such faces do not exist.
-    fn fill(&mut self, mut open: Vec<([u32; 2], i32)>) -> bool {
-        let has = |layer: &Self, (piece, side): ([u32; 2], i32)| {
-            layer.at_piece[&piece].iter().any(|(face, of_face)| *of_face == side && layer.kept.contains(face))
-        };
-        while let Some(wanted) = open.pop() {
-            if has(self, wanted) {
+impl Plane<'_> {
+    /// Removes regions whose outline another one has, and of regions covered at least so often all but one layer. Returns whether
+    /// there were any.
+    fn remove_covered(&mut self, least: i32, joins: fn(&AtPiece) -> bool) -> bool {
+        let (mut outlines, mut covered) = (HashSet::new(), HashSet::new());
+        for Region { polygons, balances } in self.regions(joins) {
+            let mut outline: Vec<Side> = balances.into_iter().filter(|(_, side)| *side != 0).collect();
+            outline.sort_unstable();
+            let times = outline.first().map_or(0, |(_, side)| side.abs());
+            if times == 0 || outline.iter().any(|(_, side)| side.abs() != times) {
                 continue;
             }
-            let (piece, side) = wanted;
-            for (face, of_face) in &self.at_piece[&piece] {
-                let fits = |other: &usize| !overlap(self.flat[*face], self.flat[*other], self.weld);
-                if *of_face != side || self.tries == 0 || !self.kept.iter().all(fits) {
-                    continue;
-                }
-                self.tries -= 1;
-                let before = self.kept.len();
-                self.kept.push(*face);
-                let is_inner = |piece: &[u32; 2]| self.at_piece[piece].iter().map(|(_, side)| side).sum::<i32>() == 0;
-                let across = self.sides[*face].iter().filter(|(piece, _)| is_inner(piece));
-                let more = open.iter().copied().chain(across.map(|(piece, side)| (*piece, -side))).collect();
-                if self.fill(more) {
-                    return true;
-                }
-                self.kept.truncate(before);
+            outline.iter_mut().for_each(|(_, side)| *side = side.signum());
+            if !outlines.insert(outline) {
+                covered.extend(polygons);
+            } else if times >= least {
+                covered.extend(self.beyond_one_layer(&polygons));
             }
-            return false;
         }
-        true
+        let mut numbers = 0..;
+        self.polygons.retain(|_| numbers.next().is_some_and(|number| !covered.contains(&number)));
+        !covered.is_empty()
     }
-}
 
-/// Whether two coplanar triangles overlap by more than a strip of this width along a side.
-fn overlap(first: [DVec2; 3], second: [DVec2; 3], distance: f64) -> bool {
-    let is_apart = |one: [DVec2; 3], other: [DVec2; 3]| {
-        let turn = (one[1] - one[0]).perp_dot(one[2] - one[0]).signum();
-        (0..3).any(|side| {
-            let (from, along) = (one[side], one[(side + 1) % 3] - one[side]);
-            let inward = along.perp() * turn;
-            let margin = (distance + CONTACT * along.length()) * along.length();
-            other.iter().all(|corner| inward.dot(*corner - from) <= margin)
-        })
-    };
-    !is_apart(first, second) && !is_apart(second, first)
-}
-
-/// The root of an element, among sets stored as lists of parents.
-fn root(parents: &mut [usize], mut element: usize) -> usize {
-    while parents[element] != element {
-        parents[element] = parents[parents[element]];
-        element = parents[element];
+    /// The polygons connected across the stretches that join them.
+    fn regions(&self, joins: fn(&AtPiece) -> bool) -> Vec<Region> {
+        let mut at_pieces: HashMap<[u32; 2], AtPiece> = HashMap::new();
+        for (number, polygon) in (0..).zip(&self.polygons) {
+            for (piece, side) in &polygon.sides {
+                let at_piece = at_pieces.entry(*piece).or_default();
+                at_piece.polygons.push(number);
+                at_piece.balance += side;
+            }
+        }
+        let mut sets = DisjointSets::new(self.polygons.len());
+        for at_piece in at_pieces.values().filter(|at_piece| joins(at_piece)) {
+            at_piece.polygons.windows(2).for_each(|pair| sets.join([pair[0], pair[1]]));
+        }
+        let mut regions: BTreeMap<u32, Region> = BTreeMap::new();
+        for (number, polygon) in self.polygons.iter().enumerate() {
+            let region = regions.entry(sets.root(number as u32)).or_default();
+            region.polygons.push(number);
+            polygon.sides.iter().for_each(|(piece, side)| *region.balances.entry(*piece).or_default() += side);
+        }
+        regions.into_values().collect()
     }
-    element
+
+    /// Of polygons that cover a region several times: all except one layer of them; none if no layer is found.
+    fn beyond_one_layer(&self, numbers: &[usize]) -> Vec<usize> {
+        let (right, up) = self.normal.normalize_or_zero().any_orthonormal_pair();
+        let flat = |face: &u32| self.planar.corners(*face).map(|corner| DVec2::new(corner.dot(right), corner.dot(up)));
+        let polygons = || numbers.iter().map(|number| &self.polygons[*number]);
+        let sides: Vec<&[Side]> = polygons().map(|polygon| polygon.sides.as_slice()).collect();
+        let flat = polygons().map(|polygon| polygon.faces.iter().map(flat).collect()).collect();
+        match one_layer(&sides, flat, self.planar.weld) {
+            Some(kept) => {
+                (0..numbers.len()).filter(|index| !kept.contains(index)).map(|index| numbers[index]).collect()
+            }
+            None => Vec::new(),
+        }
+    }
 }

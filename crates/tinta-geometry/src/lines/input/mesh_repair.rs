@@ -9,6 +9,7 @@
 //! Cracks wider than `--weld` stay open.
 
 use crate::edges::EdgeList;
+use crate::lines::input::coplanar::{Ending, Kinds, ending_faces};
 use crate::lines::input::covered::covered_faces;
 use crate::lines::input::face_subset::keep_faces;
 use crate::lines::input::split_t_junctions::{Split, chains, split_at_junctions};
@@ -24,6 +25,10 @@ pub(in crate::lines) struct RepairedMesh {
     pub shape: Arc<Mesh>,
     /// The mesh whose edges become lines: its faces are split at vertices on their sides.
     pub split: Arc<Mesh>,
+    /// Its edges, each with the faces that end there.
+    pub edges: EdgeList,
+    /// The edges along which a surface passes through a polygon that has a diagonal there, each with a face of the shape of either.
+    pub crossings: Vec<(u32, [u32; 2])>,
     /// For each split face, the face of the shape that it is a part of.
     pub whole_faces: Vec<u32>,
     /// The vertices on each split edge, in order.
@@ -53,16 +58,35 @@ pub(in crate::lines) fn repaired(
     };
     shape.leave_out(&covered);
     let split = split_at_junctions(&shape.mesh, &shape.edges);
-    let is_repaired = !lines.is_empty() || !covered.is_empty() || split.is_some();
-    let shape = shape.mesh;
+    let WorkingMesh { mesh: shape, edges } = shape;
+    let edges = split.as_ref().map_or(edges, |split| Cow::Owned(EdgeList::new(&split.mesh)));
+    let split_mesh = split.as_ref().map_or(&*shape, |split| &split.mesh);
+    let is_ghost = |face: u32| ghosts.is_some_and(|is_ghost| is_ghost(split_mesh, face));
+    let whole = |face: u32| split.as_ref().map_or(face, |split| split.whole_faces[face as usize]);
+    let ending = ending_faces(split_mesh, &edges, &Kinds { whole: &whole, is_ghost: &is_ghost });
+    if lines.is_empty() && covered.is_empty() && split.is_none() && ending.is_empty() {
+        return None;
+    }
+    let mut edges = edges.into_owned();
+    let crossing = |ending: &Ending| Some((ending.edge, ending.crossing?.map(whole)));
+    let crossings = ending.iter().filter_map(crossing).collect();
+    edges.set_faces(split_mesh, ending.iter().map(|ending| (ending.edge, ending.faces.as_slice())));
     let covered = covered.len();
-    is_repaired.then(|| match split {
+    Some(match split {
         Some(Split { mesh, whole_faces, on_edges }) => {
-            RepairedMesh { shape, split: Arc::new(mesh), whole_faces, on_edges, covered }
+            RepairedMesh { shape, split: Arc::new(mesh), edges, crossings, whole_faces, on_edges, covered }
         }
         None => {
             let whole_faces = (0..shape.triangles.len() as u32).collect();
-            RepairedMesh { split: shape.clone(), shape, whole_faces, on_edges: BTreeMap::new(), covered }
+            RepairedMesh {
+                split: shape.clone(),
+                edges,
+                crossings,
+                shape,
+                whole_faces,
+                on_edges: BTreeMap::new(),
+                covered,
+            }
         }
     })
 }

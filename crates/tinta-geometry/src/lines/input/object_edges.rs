@@ -23,6 +23,7 @@ pub(in crate::lines) enum Edges<'a> {
 pub(in crate::lines) struct RepairedEdges {
     edges: MeshEdges,
     shape: Arc<Mesh>,
+    crossings: Vec<(u32, [u32; 2])>,
     whole_faces: Vec<u32>,
     /// Edges with two faces, at least one of which was split, ascending.
     at_split_faces: Vec<u32>,
@@ -32,15 +33,15 @@ pub(in crate::lines) struct RepairedEdges {
 
 impl RepairedEdges {
     pub(in crate::lines) fn new(repaired: RepairedMesh) -> Self {
-        let RepairedMesh { shape, split, whole_faces, on_edges, covered } = repaired;
-        let edges = MeshEdges::new(split);
+        let RepairedMesh { shape, split, edges, crossings, whole_faces, on_edges, covered } = repaired;
+        let edges = MeshEdges::with_list(split, edges);
         let is_split = |face: &u32| {
             let whole = whole_faces[*face as usize];
             edges.mesh().triangles[*face as usize] != shape.triangles[whole as usize]
         };
         let is_at_one = |edge: &u32| matches!(edges.list().faces(*edge), faces @ [_, _] if faces.iter().any(is_split));
         let at_split_faces = (0..edges.list().len() as u32).filter(is_at_one).collect();
-        Self { edges, shape, whole_faces, at_split_faces, on_edges, covered }
+        Self { edges, shape, crossings, whole_faces, at_split_faces, on_edges, covered }
     }
 
     /// Whether exactly one of the two faces at an edge is seen from the front. For split faces the whole face
@@ -118,17 +119,21 @@ impl ObjectEdges<'_> {
         }
     }
 
-    /// Whether an edge runs through the inside of a split face. A face that lies on it may have an edge there too:
-    /// that edge counts separately, unless its two faces lie flat on either side.
+    /// Whether an edge runs through the inside of a split face and no other face ends there.
     pub(in crate::lines) fn is_within_a_face(&self, edge: u32) -> bool {
-        if matches!(self.edges, Edges::OfScene(_)) {
-            return false;
-        }
-        let mut faces = self.edges.get().list().faces(edge).to_vec();
-        faces.sort_unstable_by_key(|face| self.whole_face(*face));
-        let of_wholes = faces.chunk_by(|a, b| self.whole_face(*a) == self.whole_face(*b));
-        let others: Vec<u32> = of_wholes.filter(|parts| parts.len() != 2).flatten().copied().collect();
-        others.len() < faces.len() && (others.is_empty() || self.lie_flat(edge, &others))
+        let Edges::Repaired(repaired) = &self.edges else { return false };
+        matches!(*repaired.edges.list().faces(edge), [first, second] if self.whole_face(first) == self.whole_face(second))
+    }
+
+    /// The edges, each by its ends, along which two faces of the shape pass through one another, one of them with a diagonal of its
+    /// polygon there.
+    pub(in crate::lines) fn crossings(&self) -> impl Iterator<Item = ([u32; 2], [u32; 2])> {
+        let crossings = match &self.edges {
+            Edges::OfScene(_) => &[][..],
+            Edges::Repaired(repaired) => &repaired.crossings,
+        };
+        let positions = self.edges.get().list().positions();
+        crossings.iter().map(|(edge, faces)| (positions[*edge as usize], *faces))
     }
 
     /// Whether coplanar faces of one material and two parts meet at an edge, and all other faces at it lie behind them.
