@@ -4,7 +4,7 @@
 //! diagonals, so that they lie on each other even where they are not flat. A polygon that meets a corner twice is left alone.
 
 use super::soup::{Corner, Soup};
-use crate::threads::{in_parallel, sort_by, threads_for};
+use crate::threads::{in_parallel, threads_for};
 use std::collections::HashMap;
 
 /// The polygons that go round the same corners as an earlier one, each with the first of them.
@@ -18,15 +18,15 @@ pub(super) fn same_polygons(soup: &Soup, starts: &[u32], welded: &[u32]) -> Same
         let polygon = polygon as usize;
         &soup.corners[starts[polygon] as usize..starts[polygon + 1] as usize]
     };
-    let threads = threads_for(count);
-    let keys = in_parallel(count, threads, |polygons| {
+    let keys = in_parallel(count, threads_for(count), |polygons| {
         let polygons = polygons.map(|polygon| polygon as u32).filter(|polygon| corners_of(*polygon).len() > 3);
         // A sum does not depend on the first corner or the direction.
         let key = |polygon: u32| corners_of(polygon).iter().fold(0u64, |sum, it| sum.wrapping_add(mixed(it, welded)));
         polygons.map(|polygon| (key(polygon), polygon)).collect::<Vec<_>>()
     });
     let mut keys = keys.concat();
-    sort_by(&mut keys, threads, Ord::cmp);
+    keep_repeated(&mut keys);
+    keys.sort_unstable();
     let mut same = SamePolygons::new();
     for alike in keys.chunk_by(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
         let mut firsts: HashMap<Vec<u32>, u32> = HashMap::new();
@@ -39,6 +39,26 @@ pub(super) fn same_polygons(soup: &Soup, starts: &[u32], welded: &[u32]) -> Same
         }
     }
     same
+}
+
+/// Drops most entries whose key comes once, and none of the others, in less time than sorting takes.
+fn keep_repeated(keys: &mut Vec<(u64, u32)>) {
+    // With 16 slots an entry, few keys share one by chance.
+    let bits = (keys.len() * 16).next_power_of_two().max(64);
+    let slot = |key: u64| {
+        let bit = (key >> (64 - bits.trailing_zeros())) as usize;
+        (bit / 64, 1u64 << (bit % 64))
+    };
+    let (mut once, mut again) = (vec![0u64; bits / 64], vec![0u64; bits / 64]);
+    for (key, _) in keys.iter() {
+        let (word, bit) = slot(*key);
+        again[word] |= once[word] & bit;
+        once[word] |= bit;
+    }
+    keys.retain(|(key, _)| {
+        let (word, bit) = slot(*key);
+        again[word] & bit != 0
+    });
 }
 
 /// Returns the corners of a polygon in the order of the first of its kind, and whether they run the other way there.
@@ -130,5 +150,16 @@ mod tests {
             let (corners, is_turned) = in_order_of(&at(first), &at(own), &WELDED).unwrap();
             assert_eq!((corners, is_turned), (at(&expected), is_expected_turned), "{first:?} {own:?}");
         }
+    }
+
+    #[test]
+    fn keys_that_repeat_are_kept_and_nearly_all_others_dropped() {
+        let mut keys: Vec<(u64, u32)> =
+            (0..1000u32).map(|it| (mixed(&Corner::at(it), &(0..1000).collect::<Vec<_>>()), it)).collect();
+        keys.extend((0..10).map(|it| (keys[it * 7].0, 1000 + it as u32)));
+        keep_repeated(&mut keys);
+        let kept = |number: u32| keys.iter().any(|(_, it)| *it == number);
+        assert!((0..10).all(|it| kept(it * 7) && kept(1000 + it)));
+        assert!(keys.len() < 200, "{}", keys.len());
     }
 }

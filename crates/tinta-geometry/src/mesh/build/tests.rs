@@ -1,8 +1,8 @@
 //! Soups made by hand, and the meshes that come of them.
 
 use super::*;
-use crate::mesh::UpAxis;
 use crate::mesh::soup::direction;
+use crate::mesh::{Normals, UpAxis};
 use glam::Vec2;
 
 fn square() -> Soup {
