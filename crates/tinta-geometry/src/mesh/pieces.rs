@@ -109,7 +109,8 @@ impl Pieces {
         let Some((corners, is_turned)) = in_order_of(first, corners, welded) else { return };
         self.triangulate(first, soup, knife);
         for [a, b, c] in &knife.cut {
-            let triangle = if is_turned { [c, b, a] } else { [a, b, c] };
+            // Each begins at the same corner: drivers may round the rest differently.
+            let triangle = if is_turned { [a, c, b] } else { [a, b, c] };
             self.push(soup, welded, triangle.map(|index| corners[*index as usize]), polygon);
         }
     }
