@@ -79,6 +79,17 @@ impl Gl {
         None
     }
 
+    /// Sets whether faces turned away are skipped.
+    fn cull(&self, skips_back_faces: bool) {
+        // SAFETY: the context is current; the names are of GL 2.1.
+        unsafe {
+            match skips_back_faces {
+                true => self.glow.enable(glow::CULL_FACE),
+                false => self.glow.disable(glow::CULL_FACE),
+            }
+        }
+    }
+
     /// The functions of immediate mode, if the driver has them.
     fn immediate(&self) -> Result<&Immediate> {
         self.immediate.as_ref().map_err(|missing| {

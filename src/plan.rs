@@ -123,6 +123,8 @@ pub struct Draw {
     pub blend: Blend,
     /// Whether to skip faces turned away from the eye (clockwise in the picture).
     pub cull_back_faces: bool,
+    /// Whether of doubled faces, two that lie on each other, the one turned away is skipped ([`Part::is_doubled`]).
+    pub culls_doubled_faces: bool,
     /// glPolygonOffset's factor and units: how far faces are pushed back, by their slope and in steps of depth.
     pub polygon_offset: Option<[f32; 2]>,
     /// The pixels it may change; `None` for all.
@@ -164,6 +166,7 @@ impl Draw {
             depth: Depth::TestAndWrite,
             blend: Blend::Replace,
             cull_back_faces: false,
+            culls_doubled_faces: false,
             polygon_offset: None,
             scissor: None,
             faces: None,

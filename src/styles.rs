@@ -43,6 +43,7 @@ mod shading;
 mod show;
 mod suggestive;
 mod supersample;
+mod surfaces;
 mod textured;
 mod tones;
 mod vectors;
@@ -274,6 +275,8 @@ impl Style {
             Self::Charcoal(charcoal) | Self::Sand(charcoal) => charcoal.remarks(scene),
             _ => Vec::new(),
         };
+        remarks.extend(surfaces::of_doubled_faces(self, scene));
+        remarks.extend(surfaces::of_averaged_normals(scene));
         if self.leaves_textures_out(scene) {
             let remark = "the model's textures or colours at vertices are not drawn; --surface textured draws them";
             remarks.push(remark.to_owned());

@@ -153,7 +153,7 @@ const MISTAKES: [(&str, &str); 98] = [
     ),
     (
         "render twice.obj -o out.png --strict",
-        "twice.obj: 1 duplicate triangle; repair the model, or leave out --strict to draw it without them",
+        "twice.obj: 1 duplicate triangle; repair the model, or leave out --strict to draw it all the same",
     ),
     (
         "render triangle.obj -o out.xyz",

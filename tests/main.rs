@@ -19,6 +19,7 @@ mod cli_stdin;
 mod corpus;
 mod docs;
 mod docs_run;
+mod doubled_faces;
 mod dxf;
 mod edges;
 mod examples;

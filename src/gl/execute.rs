@@ -305,13 +305,9 @@ impl Resources {
                     gl.depth_mask(false);
                 }
             }
-            if draw.cull_back_faces {
-                gl.enable(glow::CULL_FACE);
-                gl.cull_face(glow::BACK);
-                gl.front_face(glow::CCW);
-            } else {
-                gl.disable(glow::CULL_FACE);
-            }
+            gl.cull_face(glow::BACK);
+            gl.front_face(glow::CCW);
+            self.gl.cull(draw.cull_back_faces);
             match draw.polygon_offset {
                 Some([factor, units]) => {
                     gl.enable(glow::POLYGON_OFFSET_FILL);

@@ -137,6 +137,9 @@ impl Resources {
                 if let Some(unit) = material_unit {
                     self.textures.bind_material(object, part.material, unit);
                 }
+                if draw.culls_doubled_faces {
+                    self.gl.cull(draw.cull_back_faces || part.is_doubled);
+                }
                 // SAFETY: the context is current.
                 unsafe { self.gl.legacy.color(color) };
                 if self.submission != Submission::Buffers {

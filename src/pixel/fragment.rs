@@ -94,7 +94,8 @@ impl PreparedDraw<'_> {
         let mut held = depth.map_or(1.0, f64::from);
         let mut fragments = Vec::new();
         for cover in self.triangles.covering(at) {
-            if self.draw.cull_back_faces && !cover.is_front {
+            let is_culled = self.draw.cull_back_faces || self.draw.culls_doubled_faces && cover.triangle.is_doubled;
+            if is_culled && !cover.is_front {
                 continue;
             }
             let mut depth = cover.depth;

@@ -1,7 +1,7 @@
 //! The triangles of a draw as GL sees them: which of them cover a pixel's middle, and each corner's share there.
 
 use crate::gl::square::Square;
-use crate::mesh::{NONE, VertexArrays};
+use crate::mesh::{NONE, Part, VertexArrays};
 use crate::plan::{Draw, Faces, Geometry, Paint};
 use crate::scene::{Color, Scene};
 use glam::{DMat3, DVec3, Mat4, Vec4};
@@ -29,6 +29,8 @@ pub(super) struct Triangle {
     pub(super) corners: [u32; 3],
     /// The material of its part; [`NONE`] for none.
     pub(super) material: u32,
+    /// Whether another lies on its back.
+    pub(super) is_doubled: bool,
     /// The colour of its part.
     color: [f32; 4],
     clip: [Vec4; 3],
@@ -97,8 +99,9 @@ impl<'a> Triangles<'a> {
                 coordinates: [&[]; 2],
             });
             let clip = triangles.clip_of_last_group();
+            let whole = Part { material: NONE, is_doubled: false, first: 0, count: 6 };
             for (number, corners) in [[0, 1, 2], [0, 2, 3]].into_iter().enumerate() {
-                triangles.push((number, corners), &clip, NONE, square.color);
+                triangles.push((number, corners), &clip, &whole, square.color);
             }
         }
         if let Geometry::Objects(paint) = &draw.geometry {
@@ -148,7 +151,7 @@ impl<'a> Triangles<'a> {
             for (place, corners) in indices[first..first + part.count as usize].as_chunks::<3>().0.iter().enumerate() {
                 let place = first / 3 + place;
                 let in_mesh = arrays.order.get(place).map_or(place, |number| *number as usize);
-                self.push((in_mesh, *corners), &clip, part.material, color);
+                self.push((in_mesh, *corners), &clip, part, color);
             }
         }
     }
@@ -161,7 +164,7 @@ impl<'a> Triangles<'a> {
     }
 
     /// Adds a triangle of the last group, by its number, corners and projected vertices.
-    fn push(&mut self, (number, corners): (usize, [u32; 3]), vertices: &[Vec4], material: u32, color: [f32; 4]) {
+    fn push(&mut self, (number, corners): (usize, [u32; 3]), vertices: &[Vec4], of: &Part, color: [f32; 4]) {
         let clip = corners.map(|corner| vertices[corner as usize]);
         let mut bounds = [[0.0; 2], self.size];
         if clip.iter().all(|corner| corner.w > 0.0) {
@@ -177,7 +180,9 @@ impl<'a> Triangles<'a> {
         let number_here = self.all.len() as u32;
         let (lowest, highest) = (bounds[0][1].max(0.0) as usize, bounds[1][1].max(0.0) as usize);
         self.rows.iter_mut().take(highest + 1).skip(lowest).for_each(|row| row.push(number_here));
-        self.all.push(Triangle { group: self.groups.len() - 1, number, corners, material, color, clip, bounds });
+        let Part { material, is_doubled, .. } = *of;
+        let group = self.groups.len() - 1;
+        self.all.push(Triangle { group, number, corners, material, is_doubled, color, clip, bounds });
     }
 
     /// Returns a corner's place in the picture, pixels from the lower left, as a driver computes it.

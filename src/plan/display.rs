@@ -111,6 +111,8 @@ impl fmt::Display for Draw {
         }
         if self.cull_back_faces {
             write!(out, ", back faces left out")?;
+        } else if self.culls_doubled_faces {
+            write!(out, ", of doubled faces the back ones left out")?;
         }
         if let Some([factor, units]) = self.polygon_offset {
             write!(out, ", pushed back by ({factor}, {units})")?;

@@ -16,6 +16,7 @@ pub use pictures::{CharcoalPictures, TextureSource};
 
 use self::layout::Layout;
 use self::pictures::{Made, TextureSettings};
+use super::surfaces::has_doubled_faces;
 use super::textured::textured;
 use super::{Show, Supersample};
 use crate::doubled::doubled_faces;
@@ -258,7 +259,8 @@ impl Charcoal {
             }));
         }
         if show != Show::Paper {
-            let objects = self.objects(show, is_sand, &layout);
+            let culls_doubled_faces = self.improve.two_sided && has_doubled_faces(scene);
+            let objects = Draw { culls_doubled_faces, ..self.objects(show, is_sand, &layout) };
             // The text's sand already has textures in its own way.
             let own = textured(scene, &objects).filter(|_| show == Show::Final && !is_sand);
             steps.push(Step::Draw(objects));

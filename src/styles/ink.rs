@@ -6,6 +6,7 @@
 use super::border::{reach, taps};
 use super::lens::DepthRange;
 use super::map::map_texture;
+use super::surfaces::has_doubled_faces;
 use super::textured::textured;
 use super::{
     ALL_STYLES, IMAGE_SPACE, INK, INKING, LineWidth, MapTarget, Show, Supersample, Tones, cull, lens, no_borders,
@@ -272,6 +273,7 @@ impl Ink {
         let objects = Draw {
             uniforms,
             cull_back_faces: self.cull_back_faces,
+            culls_doubled_faces: has_doubled_faces(scene),
             facts: Facts::plain(),
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };
@@ -317,6 +319,7 @@ impl Ink {
             uniforms,
             textures: if published { Vec::new() } else { self.tones.textures() },
             cull_back_faces: self.cull_back_faces,
+            culls_doubled_faces: has_doubled_faces(scene),
             facts: Facts { shorter: self.tones.shorter(&program), ..Facts::plain() },
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };

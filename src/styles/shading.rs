@@ -53,8 +53,8 @@ fn of_object(scene: &Scene, light: Light, gradients: &Gradients<'_>, number: usi
             let first = list.indices.len() as u32;
             list.indices.extend_from_slice(&arrays.indices[face * 3..][..3]);
             match list.parts.last_mut() {
-                Some(last) if last.material == part.material => last.count += 3,
-                _ => list.parts.push(Part { material: part.material, first, count: 3 }),
+                Some(last) if (last.material, last.is_doubled) == (part.material, part.is_doubled) => last.count += 3,
+                _ => list.parts.push(Part { first, count: 3, ..*part }),
             }
         }
     }

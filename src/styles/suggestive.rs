@@ -6,6 +6,7 @@
 //! suggestive`).
 
 use super::ink::Ink;
+use super::surfaces::has_doubled_faces;
 use super::{ALL_STYLES, SUGGESTIVE, Show, Supersample, Tones, cull, no_borders, supersample};
 use crate::error::{Error, Result};
 use crate::plan::{Depth, Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Texture, Uniform, Value, WhereEven};
@@ -97,7 +98,7 @@ impl Suggestive {
         let sampling = if show == Show::Map { Supersample::One } else { self.supersample };
         let mut passes = Vec::new();
         if show == Show::Map || (self.is_inked && show != Show::Tones) {
-            passes.push(self.shade_pass(show != Show::Map));
+            passes.push(self.shade_pass(scene, show != Show::Map));
         }
         if matches!(show, Show::Final | Show::Tones) {
             let toned = Ink { tones: self.tones.clone(), cull_back_faces: self.cull_back_faces, ..Ink::default() };
@@ -137,10 +138,11 @@ impl Suggestive {
     }
 
     /// Draws each pixel's cosine between normal and view.
-    fn shade_pass(&self, is_read: bool) -> Pass {
+    fn shade_pass(&self, scene: &Scene, is_read: bool) -> Pass {
         let program = Program { vertex: "dietrich/dietrich.vert", fragments: vec!["improved/facing.frag"] };
         let objects = Draw {
             cull_back_faces: self.cull_back_faces,
+            culls_doubled_faces: has_doubled_faces(scene),
             facts: Facts::plain(),
             ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         };

@@ -12,12 +12,13 @@ pub(super) fn textured(scene: &Scene, shaded: &Draw) -> Option<Step> {
             Some(lists) => Paint::Colors(Arc::new(lists)),
             None => Paint::Uniform([1.0; 4]),
         };
-        let Draw { cull_back_faces, polygon_offset, .. } = *shaded;
+        let Draw { cull_back_faces, culls_doubled_faces, polygon_offset, .. } = *shaded;
         Step::Draw(Draw {
             textures: vec![("own", Texture::Material)],
             depth: Depth::Equal,
             blend: Blend::Multiply,
             cull_back_faces,
+            culls_doubled_faces,
             polygon_offset,
             faces: shaded.faces.clone(),
             facts: Facts::plain(),

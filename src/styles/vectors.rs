@@ -1,5 +1,6 @@
 //! What a style draws into a file of vectors: exact areas, or strokes that stand for them, and exact lines above. No GL here.
 
+use super::surfaces::of_averaged_normals;
 use super::{Cartoon, CreaseBy, Ink, LineStyle, LineWidth, Mrt, Style, Tones};
 use crate::error::{Error, Result};
 use crate::lines::{
@@ -158,7 +159,10 @@ impl Vectors {
 
     /// Returns remarks on what the areas leave out, a sentence each.
     pub fn remarks(&self, scene: &Scene) -> Vec<String> {
-        let mut remarks = Vec::new();
+        let mut remarks = match self.rule {
+            AreaRule::Tones(..) => of_averaged_normals(scene),
+            AreaRule::Joined(_) => Vec::new(),
+        };
         if matches!(self.rule, AreaRule::Joined(Joined::Face | Joined::Object)) {
             return remarks;
         }

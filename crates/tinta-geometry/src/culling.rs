@@ -85,7 +85,7 @@ fn without(arrays: &VertexArrays, is_culled: &[bool], left_out: usize) -> DrawnF
         faces.filter(|(_, is_culled)| !**is_culled).for_each(|(corners, _)| indices.extend_from_slice(corners));
         let count = indices.len() as u32 - first;
         if count > 0 {
-            parts.push(Part { material: part.material, first, count });
+            parts.push(Part { first, count, ..*part });
         }
     }
     DrawnFaces { indices, parts, left_out }

@@ -71,7 +71,7 @@ pub enum Error {
         cause: Option<io::Error>,
     },
     /// A model has defects and `--strict` is set.
-    #[error("{}: {defects}; repair the model, or leave out strict to draw it without them", path.display())]
+    #[error("{}: {defects}; repair the model, or leave out strict to draw it all the same", path.display())]
     Strict {
         /// The file as the user named it.
         path: PathBuf,
@@ -351,7 +351,7 @@ impl Error {
             }
             Self::Strict { path, defects } => {
                 format!(
-                    "{}: {defects}; repair the model, or leave out --strict to draw it without them",
+                    "{}: {defects}; repair the model, or leave out --strict to draw it all the same",
                     path.display()
                 )
             }
@@ -428,8 +428,8 @@ mod tests {
             ),
             (
                 strict,
-                "a.obj: 2 empty faces; repair the model, or leave out strict to draw it without them",
-                "a.obj: 2 empty faces; repair the model, or leave out --strict to draw it without them",
+                "a.obj: 2 empty faces; repair the model, or leave out strict to draw it all the same",
+                "a.obj: 2 empty faces; repair the model, or leave out --strict to draw it all the same",
             ),
             (
                 Error::gl("drawing", "GL_SIZE"),

@@ -16,6 +16,7 @@
 //! ```
 
 mod build;
+mod coincident;
 mod curves;
 mod curves_of_soup;
 pub mod defects;
@@ -35,10 +36,13 @@ mod obj;
 mod options;
 mod pieces;
 mod ply;
+mod same_polygons;
 mod section;
+mod sides;
 mod skin;
 mod soup;
 mod stl;
+mod take_normals;
 mod text;
 mod three_ds;
 mod triangle_mesh;

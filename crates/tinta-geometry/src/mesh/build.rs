@@ -3,10 +3,9 @@
 //! It drops and counts bad faces, welds vertices, cuts polygons into triangles, computes missing normals and leaves out unused
 //! vertices.
 
-use super::normals::Splitting;
 use super::pieces::Pieces;
 use super::soup::{Corner, Soup};
-use super::{Curves, Cut, Defects, LoadOptions, LoadStage, Mesh, NONE, Normals, normals, options, weld};
+use super::{Curves, Cut, Defects, LoadOptions, LoadStage, Mesh, NONE, options, weld};
 use crate::error::{Error, Result};
 use crate::limits::{CONCAVE_CORNERS, CROSSING_CORNERS};
 use crate::tolerances::LARGEST_COORDINATE;
@@ -103,6 +102,7 @@ impl Soup {
         defects.long_polygons += pieces.too_long;
         defects.repeated_corners += pieces.repeated_corners;
         defects.duplicate_triangles += pieces.duplicate;
+        defects.doubled_triangles += pieces.doubled;
         let curves = Curves::of(&self, &finite);
         check_coordinates(&curves.positions, name)?;
         if pieces.triangles.is_empty() && curves.is_empty() {
@@ -155,7 +155,7 @@ impl Soup {
             mesh.position_colors.clear();
         }
         watch(LoadStage::Normals);
-        mesh.take_normals(&self.normals, &pieces.face_normals, options);
+        mesh.take_normals(&self.normals, &pieces.face_normals, options, remarks);
         if options.strict && !mesh.defects.is_empty() {
             return Err(Error::Strict { path: name.into(), defects: mesh.defects.to_string() });
         }
@@ -247,67 +247,6 @@ fn compact(all: &[DVec3], triangles: &mut [[u32; 3]]) -> (Vec<DVec3>, Vec<u32>) 
         *index = number[*index as usize];
     }
     (positions, file_vertices)
-}
-
-/// Least share of the smoothing angle at which an edge continues a crease that ends at it: chamfers of 30 degrees beside one of
-/// 45.
-const NEARLY: f64 = 2.0 / 3.0;
-
-/// Least cosine between a face's own normal and the file's normal for it, which may have few digits or belong to a polygon that
-/// is not flat: 5 degrees.
-const OWN: f64 = 0.996;
-
-impl Mesh {
-    /// Takes the file's normals where wanted and usable, and computes the rest.
-    fn take_normals(&mut self, file_normals: &[Vec3], face_normals: &[DVec3], options: &LoadOptions) {
-        let angle = options.smooth_angle_degrees.to_radians();
-        let all = Splitting { cos_smooth: angle.cos(), cos_beside: None };
-        let lasting = Splitting { cos_beside: Some((angle * NEARLY).cos()), ..all };
-        let (file_normals, splitting): (&[Vec3], Splitting) = match options.normals {
-            Normals::File => (file_normals, all),
-            Normals::Smooth => (&[], all),
-            Normals::Lasting if self.repeats_faces(file_normals, face_normals, options) => (&[], lasting),
-            Normals::Lasting => (file_normals, lasting),
-            Normals::Flat => (&[], Splitting { cos_smooth: 2.0, ..all }),
-            Normals::Dachsbacher => {
-                self.normals = normals::one_a_position(self.positions.len(), &self.triangles, face_normals);
-                self.triangle_normals.clone_from(&self.triangles);
-                return;
-            }
-        };
-        let mut number = vec![NONE; file_normals.len()];
-        for slot in self.triangle_normals.as_flattened_mut() {
-            let Some(normal) = file_normals.get(*slot as usize).and_then(|normal| normal.try_normalize()) else {
-                *slot = NONE;
-                continue;
-            };
-            let file_index = std::mem::replace(slot, number[*slot as usize]) as usize;
-            if *slot == NONE {
-                *slot = self.normals.len() as u32;
-                number[file_index] = *slot;
-                self.normals.push(options.up_axis.to_y_up(normal.as_dvec3()).as_vec3());
-            }
-        }
-        let (normals, triangle_normals) = (&mut self.normals, &mut self.triangle_normals);
-        normals::fill_missing(&self.positions, &self.triangles, face_normals, splitting, normals, triangle_normals);
-    }
-}
-
-impl Mesh {
-    /// Whether nearly all of a file's normals are the faces' own: such a file does not tell smooth from sharp.
-    fn repeats_faces(&self, file_normals: &[Vec3], face_normals: &[DVec3], options: &LoadOptions) -> bool {
-        let corners =
-            self.triangle_normals.iter().zip(face_normals).flat_map(|(corners, face)| corners.map(|it| (it, face)));
-        let (mut own, mut given) = (0usize, 0usize);
-        for (corner, face) in corners {
-            let Some(normal) = file_normals.get(corner as usize).and_then(|normal| normal.try_normalize()) else {
-                continue;
-            };
-            given += 1;
-            own += usize::from(options.up_axis.to_y_up(normal.as_dvec3()).dot(*face) > OWN);
-        }
-        own * 100 > given * 95
-    }
 }
 
 fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {

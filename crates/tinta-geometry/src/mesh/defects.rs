@@ -14,6 +14,8 @@ pub struct Defects {
     pub long_polygons: usize,
     /// Triangles that repeat another with the same orientation, left out.
     pub duplicate_triangles: usize,
+    /// Pairs of triangles with the same corners, one each way: surfaces written twice, once for each side. Readers keep both.
+    pub doubled_triangles: usize,
     /// Vertices with a coordinate that is NaN or infinite; the faces that use them are left out.
     pub non_finite_vertices: usize,
     /// Faces, lines and points that name a vertex the file does not hold, left out.
@@ -22,6 +24,9 @@ pub struct Defects {
     pub unused_vertices: usize,
     /// Corners whose normal is missing, zero or not finite; a computed one replaces it.
     pub unusable_normals: usize,
+    /// Corners that take a normal from the file which stands more than 45 degrees off their face, if these are more than a tenth of
+    /// the file's; otherwise 0. They blur tones at sharp edges, but the file may mean it: ignored by `is_empty`.
+    pub averaged_normals: usize,
     /// Corners whose texture coordinates are missing or not finite.
     pub unusable_texture_coordinates: usize,
     /// Polygons that repeat a corner in a row, which then counts once; harmless, and ignored by `is_empty`.
@@ -36,8 +41,8 @@ pub struct Defects {
 impl Defects {
     /// Whether the file is clean; harmless defects do not count.
     pub fn is_empty(&self) -> bool {
-        let Self { repeated_corners, covered_triangles, .. } = *self;
-        *self == Self { repeated_corners, covered_triangles, ..Self::default() }
+        let Self { repeated_corners, covered_triangles, averaged_normals, .. } = *self;
+        *self == Self { repeated_corners, covered_triangles, averaged_normals, ..Self::default() }
     }
 
     /// Returns the defects' effect on the picture, and whether the reader must act.
@@ -58,6 +63,8 @@ impl<'a> std::iter::Sum<&'a Self> for Defects {
             degenerate_triangles: sum.degenerate_triangles + one.degenerate_triangles,
             long_polygons: sum.long_polygons + one.long_polygons,
             duplicate_triangles: sum.duplicate_triangles + one.duplicate_triangles,
+            doubled_triangles: sum.doubled_triangles + one.doubled_triangles,
+            averaged_normals: sum.averaged_normals + one.averaged_normals,
             non_finite_vertices: sum.non_finite_vertices + one.non_finite_vertices,
             out_of_range_faces: sum.out_of_range_faces + one.out_of_range_faces,
             unused_vertices: sum.unused_vertices + one.unused_vertices,
@@ -76,10 +83,16 @@ impl fmt::Display for Defects {
             (self.degenerate_triangles, "degenerate triangle", "degenerate triangles"),
             (self.long_polygons, "polygon of too many corners", "polygons of too many corners"),
             (self.duplicate_triangles, "duplicate triangle", "duplicate triangles"),
+            (self.doubled_triangles, "triangle written for both sides", "triangles written for both sides"),
             (self.non_finite_vertices, "vertex that is not finite", "vertices that are not finite"),
             (self.out_of_range_faces, "face with an index out of range", "faces with an index out of range"),
             (self.unused_vertices, "unused vertex", "unused vertices"),
             (self.unusable_normals, "corner without a usable normal", "corners without a usable normal"),
+            (
+                self.averaged_normals,
+                "corner whose normal stands far off its face (harmless)",
+                "corners whose normals stand far off their faces (harmless)",
+            ),
             (
                 self.unusable_texture_coordinates,
                 "corner without usable texture coordinates",

@@ -184,8 +184,9 @@ fn made(
             "{path}: the model's flat base suggests that {up} points up; if it lies on its side, add --up-axis {up}"
         ));
     }
-    // The reader, which knows their names, has already reported missing materials.
-    let others = Defects { missing_materials: 0, ..mesh.defects.clone() };
+    // The reader, which knows their names, has already reported missing materials. What double faces and averaged normals do
+    // depends on the style, which reports them.
+    let others = Defects { missing_materials: 0, doubled_triangles: 0, averaged_normals: 0, ..mesh.defects.clone() };
     if others != Defects::default() {
         remarks.push(format!("{path}: {others}; {}", others.consequence()));
     }

@@ -83,7 +83,8 @@ impl LoadOptions {
                 "normals",
                 "WHERE",
                 "Normals: file (the file's; if it has none, as smooth), smooth (computed, see --smooth-angle), \
-                 lasting (the file's; if it has none, computed without the noise of scans, with sharp edges only at \
+                 checked (the file's, unless many stand far off their faces), \
+                 lasting (as checked; if the file has none, computed without the noise of scans, with sharp edges only at \
                  long creases), flat (one for each face), dachsbacher (one for each vertex, as in his text)",
                 |load: &mut Self| &mut load.normals,
             ),
@@ -149,9 +150,11 @@ crate::choices! {
     pub enum Normals {
         /// From the file; computed smooth where the file has none.
         File = "file",
+        /// From the file, unless many of them are averaged over sharp edges; computed smooth otherwise.
+        Checked = "checked",
         /// Computed: smooth up to the smoothing angle.
         Smooth = "smooth",
-        /// From the file. Where it has none, or only repeats those of the faces, smooth, and split only along creases that extend over a share of the model: single
+        /// Checked as well. Where the file has none, or only repeats those of the faces, smooth, and split only along creases that extend over a share of the model: single
         /// sharp edges of scans and of models with few triangles are smoothed, and so is a scan's noise.
         Lasting = "lasting",
         /// Computed: one normal per face.

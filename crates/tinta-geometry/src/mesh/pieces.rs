@@ -2,6 +2,8 @@
 //!
 //! In: polygons and the vertices' welding. Out: triangles over welded but not yet renumbered positions.
 
+use super::coincident::{Coincident, coincident, sorted};
+use super::same_polygons::{in_order_of, same_polygons};
 use super::soup::{Corner, Soup};
 use super::{NONE, triangle_normal, triangulate};
 use crate::threads::{in_parallel, threads_for};
@@ -31,6 +33,8 @@ pub(super) struct Pieces {
     pub too_long: usize,
     /// How many belonged to a polygon that repeated another.
     pub duplicate: usize,
+    /// How many have another on their back: pairs with the same corners.
+    pub doubled: usize,
     /// How many polygons named a corner twice in a row.
     pub repeated_corners: usize,
 }
@@ -39,49 +43,26 @@ impl Pieces {
     /// Returns all triangles with area of the polygons with finite vertices.
     pub(super) fn of(soup: &Soup, finite: &[bool], welded: &[u32]) -> Self {
         let starts = starts(soup);
+        let same = same_polygons(soup, &starts, welded);
         let count = soup.polygon_count();
         let pieces = in_parallel(count, threads_for(count), |polygons| {
             let mut pieces = Self { first: polygons.start, ..Self::default() };
             pieces.reserve(polygons.len(), soup);
-            let (mut earcut, mut cut, mut points, mut once) = (Earcut::new(), Vec::new(), Vec::new(), Vec::new());
+            let mut knife = Knife::default();
+            let corners_of = |polygon: usize| match starts.as_slice() {
+                [] => &soup.corners[polygon * 3..][..3],
+                starts => &soup.corners[starts[polygon] as usize..starts[polygon + 1] as usize],
+            };
             for polygon in polygons {
-                let corners = match starts.as_slice() {
-                    [] => &soup.corners[polygon * 3..][..3],
-                    starts => &soup.corners[starts[polygon] as usize..starts[polygon + 1] as usize],
-                };
+                let corners = corners_of(polygon);
                 if corners.iter().any(|corner| !finite[corner.position as usize]) {
                     continue;
                 }
-                if let [a, b, c] = *corners {
-                    pieces.push(soup, welded, [a, b, c], polygon);
-                    continue;
+                match (corners, same.get(&(polygon as u32)).map(|first| corners_of(*first as usize))) {
+                    ([a, b, c], _) => pieces.push(soup, welded, [*a, *b, *c], polygon),
+                    (_, None) => pieces.cut(soup, welded, corners, polygon, &mut knife),
+                    (_, Some(first)) => pieces.cut_like(first, soup, welded, corners, polygon, &mut knife),
                 }
-                once.clear();
-                once.extend_from_slice(corners);
-                once.dedup_by_key(|corner| corner.position);
-                while once.len() > 1 && once.first().map(|own| own.position) == once.last().map(|own| own.position) {
-                    once.pop();
-                }
-                pieces.repeated_corners += usize::from(once.len() < corners.len());
-                let corners = once.as_slice();
-                if corners.len() <= 3 {
-                    match *corners {
-                        [a, b, c] => pieces.push(soup, welded, [a, b, c], polygon),
-                        _ => pieces.degenerate += 1,
-                    }
-                    continue;
-                }
-                points.clear();
-                points.extend(corners.iter().map(|corner| soup.positions[corner.position as usize]));
-                if !triangulate::triangulate(&points, &mut earcut, &mut cut) {
-                    pieces.too_long += 1;
-                    continue;
-                }
-                // If earcut finds no area, the lost triangles count as degenerate.
-                pieces.degenerate += (corners.len() - 2).saturating_sub(cut.len());
-                cut.iter().for_each(|triangle| {
-                    pieces.push(soup, welded, triangle.map(|index| corners[index as usize]), polygon);
-                });
             }
             pieces
         });
@@ -90,6 +71,64 @@ impl Pieces {
         all.reserve(count.saturating_sub(all.triangles.len()), soup);
         pieces.for_each(|piece| all.append(piece));
         all
+    }
+
+    /// Adds the triangles of a polygon.
+    fn cut(&mut self, soup: &Soup, welded: &[u32], corners: &[Corner], polygon: usize, knife: &mut Knife) {
+        let once = &mut knife.once;
+        once.clear();
+        once.extend_from_slice(corners);
+        once.dedup_by_key(|corner| corner.position);
+        while once.len() > 1 && once.first().map(|own| own.position) == once.last().map(|own| own.position) {
+            once.pop();
+        }
+        self.repeated_corners += usize::from(once.len() < corners.len());
+        match *once.as_slice() {
+            [a, b, c] => self.push(soup, welded, [a, b, c], polygon),
+            [] | [_] | [_, _] => self.degenerate += 1,
+            _ => {
+                let once = std::mem::take(once);
+                self.triangulate(&once, soup, knife);
+                for triangle in &knife.cut {
+                    self.push(soup, welded, triangle.map(|index| once[index as usize]), polygon);
+                }
+                knife.once = once;
+            }
+        }
+    }
+
+    /// Adds the triangles of a polygon that goes round the corners of an earlier one, along that one's diagonals.
+    fn cut_like(
+        &mut self,
+        first: &[Corner],
+        soup: &Soup,
+        welded: &[u32],
+        corners: &[Corner],
+        polygon: usize,
+        knife: &mut Knife,
+    ) {
+        let Some((corners, is_turned)) = in_order_of(first, corners, welded) else { return };
+        self.triangulate(first, soup, knife);
+        for [a, b, c] in &knife.cut {
+            // Each begins at the same corner: drivers may round the rest differently.
+            let triangle = if is_turned { [a, c, b] } else { [a, b, c] };
+            self.push(soup, welded, triangle.map(|index| corners[*index as usize]), polygon);
+        }
+    }
+
+    /// Finds the triangles of a polygon of four corners or more.
+    fn triangulate(&mut self, corners: &[Corner], soup: &Soup, knife: &mut Knife) {
+        let Knife { earcut, cut, points, .. } = knife;
+        points.clear();
+        points.extend(corners.iter().map(|corner| soup.positions[corner.position as usize]));
+        match triangulate::triangulate(points, earcut, cut) {
+            // If earcut finds no area, the lost triangles count as degenerate.
+            true => self.degenerate += (corners.len() - 2).saturating_sub(cut.len()),
+            false => {
+                self.too_long += 1;
+                cut.clear();
+            }
+        }
     }
 
     /// Room for so many triangles of a soup.
@@ -155,26 +194,28 @@ impl Pieces {
         self.polygons.append(&mut other.polygons);
         self.parts.append(&mut other.parts);
         self.degenerate += other.degenerate;
+        self.too_long += other.too_long;
         self.repeated_corners += other.repeated_corners;
     }
 
     /// Drops polygons with the same triangles as an earlier one, in the same orientation; the opposite side is another polygon. A
-    /// triangle that two different polygons have in common belongs to both.
+    /// triangle that two different polygons have in common belongs to both. Counts triangles that have another on their back.
     ///
     /// `vertices` is the total number of vertices.
     pub(super) fn drop_duplicates(&mut self, vertices: usize) {
-        let repeated = repeated(&self.triangles, vertices);
+        let Coincident { repeated, opposite } = coincident(&self.triangles, vertices);
+        self.doubled += opposite.len();
         if repeated.is_empty() {
             return;
         }
         self.number();
-        let repeated: HashSet<[u32; 3]> =
-            repeated.into_iter().map(|index| turned(self.triangles[index as usize])).collect();
-        let mut known: HashSet<Vec<[u32; 3]>> = HashSet::new();
+        let repeated: HashSet<([u32; 3], bool)> =
+            repeated.into_iter().map(|index| sorted(self.triangles[index as usize])).collect();
+        let mut known: HashSet<Vec<([u32; 3], bool)>> = HashSet::new();
         let mut keep = Vec::with_capacity(self.triangles.len());
         for polygon in self.polygons.chunk_by(|a, b| a == b) {
-            let mut triangles: Vec<[u32; 3]> =
-                self.triangles[keep.len()..][..polygon.len()].iter().map(|triangle| turned(*triangle)).collect();
+            let mut triangles: Vec<([u32; 3], bool)> =
+                self.triangles[keep.len()..][..polygon.len()].iter().map(|triangle| sorted(*triangle)).collect();
             triangles.sort_unstable();
             let occurs_again = triangles.iter().all(|triangle| repeated.contains(triangle));
             let is_new = !occurs_again || known.insert(triangles);
@@ -194,53 +235,15 @@ impl Pieces {
     }
 }
 
-/// Rotates a triangle to put its lowest vertex first.
-fn turned([a, b, c]: [u32; 3]) -> [u32; 3] {
-    if a < b && a < c {
-        [a, b, c]
-    } else if b < c {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    }
-}
-
-/// Returns the numbers of all triangles that repeat an earlier one, in any order.
-///
-/// Triangles are ordered by their lowest vertex alone, by counting; the few that share it are sorted.
-fn repeated(triangles: &[[u32; 3]], vertices: usize) -> Vec<u32> {
-    // For each vertex where its triangles end; once they are ordered, where they begin.
-    let mut ends = vec![0u32; vertices + 1];
-    let lowest = |[a, b, c]: &[u32; 3]| *a.min(b).min(c) as usize;
-    triangles.iter().for_each(|triangle| ends[lowest(triangle)] += 1);
-    let mut end = 0;
-    for count in &mut ends {
-        end += *count;
-        *count = end;
-    }
-    let mut order = vec![0u32; triangles.len()];
-    for (number, triangle) in triangles.iter().enumerate().rev() {
-        let end = &mut ends[lowest(triangle)];
-        *end -= 1;
-        order[*end as usize] = number as u32;
-    }
-    let starts = ends;
-    let found = in_parallel(vertices, threads_for(triangles.len()), |range| {
-        let mut found = Vec::new();
-        let mut some: Vec<([u32; 3], u32)> = Vec::new();
-        for vertex in range {
-            let group = &order[starts[vertex] as usize..starts[vertex + 1] as usize];
-            if group.len() > 1 {
-                some.clear();
-                some.extend(group.iter().map(|number| (turned(triangles[*number as usize]), *number)));
-                some.sort_unstable();
-                let pairs = some.windows(2).filter(|pair| pair[0].0 == pair[1].0);
-                found.extend(pairs.map(|pair| pair[1].1));
-            }
-        }
-        found
-    });
-    found.concat()
+/// What cutting needs, kept between polygons to reuse its memory.
+#[derive(Default)]
+struct Knife {
+    earcut: Earcut<f64>,
+    /// A polygon's triangles, by its corners.
+    cut: Vec<[u32; 3]>,
+    points: Vec<DVec3>,
+    /// A polygon's corners without those that it names again in a row.
+    once: Vec<Corner>,
 }
 
 /// Where each polygon's corners begin, and where the last one's end; empty where all are triangles.
@@ -258,36 +261,4 @@ fn starts(soup: &Soup) -> Vec<u32> {
 fn retain<T>(items: &mut Vec<T>, keep: &[bool]) {
     let mut flags = keep.iter();
     items.retain(|_| flags.next().copied().unwrap_or(false));
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn triangles_that_come_again_are_those_a_set_has_seen(
-            triangles in prop::collection::vec(prop::array::uniform3(0u32..5), 0..200)
-        ) {
-            let is_sound = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
-            let triangles: Vec<[u32; 3]> = triangles.into_iter().filter(is_sound).collect();
-            let mut seen = HashSet::new();
-            let expected: Vec<u32> =
-                (0..triangles.len()).filter(|i| !seen.insert(turned(triangles[*i]))).map(|i| i as u32).collect();
-            let mut found = repeated(&triangles, 5);
-            found.sort_unstable();
-            prop_assert_eq!(found, expected);
-        }
-    }
-
-    #[test]
-    fn a_turned_triangle_goes_the_same_way_round() {
-        for triangle in [[1, 2, 3], [3, 1, 2], [2, 3, 1]] {
-            assert_eq!(turned(triangle), [1, 2, 3]);
-        }
-        for triangle in [[1, 3, 2], [3, 2, 1], [2, 1, 3]] {
-            assert_eq!(turned(triangle), [1, 3, 2]);
-        }
-    }
 }

@@ -1,5 +1,6 @@
 //! A mesh as GL wants it: f32 vertices with one normal each, indices, and runs of one material.
 
+use super::coincident::coincident;
 use super::hilbert::hilbert_code;
 use super::normals::Incidence;
 use super::triangle_mesh::bytes_of;
@@ -22,7 +23,7 @@ pub struct VertexArrays {
     pub position_vertices: Vec<u32>,
     /// The mesh's triangles in drawing order: whose indices come first, second and so on.
     pub order: Vec<u32>,
-    /// The runs of triangles that share a material, in drawing order.
+    /// The runs of triangles that share a material and are all doubled or none, in drawing order.
     pub parts: Vec<Part>,
     /// The mesh's own centre, world space, subtracted in f64 before anything becomes f32.
     pub centre: DVec3,
@@ -33,6 +34,8 @@ pub struct VertexArrays {
 pub struct Part {
     /// Into the mesh's materials, or [`NONE`].
     pub material: u32,
+    /// Whether each of its triangles lies on another with the same corners the other way round: one of both faces the eye.
+    pub is_doubled: bool,
     /// First index.
     pub first: u32,
     /// Number of indices.
@@ -44,11 +47,12 @@ impl VertexArrays {
     pub fn new(mesh: &Mesh, unit: f64) -> Self {
         let (low, high) = if mesh.positions.is_empty() { mesh.extent() } else { mesh.bounds() };
         let centre = low * 0.5 + high * 0.5;
-        let (corners, order) = both(|| CornerVertices::new(mesh, centre, unit), || drawing_order(mesh));
+        let is_doubled = doubled(mesh);
+        let (corners, order) = both(|| CornerVertices::new(mesh, centre, unit), || drawing_order(mesh, &is_doubled));
         let CornerVertices { vertices, texture_coordinates, colors, corner_vertices, position_vertices } = corners;
         let indices: Vec<[u32; 3]> = order.iter().map(|triangle| corner_vertices[*triangle as usize]).collect();
         let indices = indices.into_flattened();
-        let parts = parts(mesh, &order);
+        let parts = parts(mesh, &order, &is_doubled);
         let mut arrays =
             Self { vertices, texture_coordinates, colors, indices, position_vertices, order, parts, centre };
         arrays.number_by_first_use();
@@ -171,7 +175,7 @@ impl<'a> CornerKeys<'a> {
 /// Sorts the triangles by material and then along a space-filling curve: neighbours are drawn together and share cached
 /// vertices. A scan in its file's order costs a quarter more (GL picks among equal depths the triangle drawn first, so only the
 /// order of coincident triangles can show).
-fn drawing_order(mesh: &Mesh) -> Vec<u32> {
+fn drawing_order(mesh: &Mesh, is_doubled: &[bool]) -> Vec<u32> {
     let (low, high) = mesh.bounds();
     let scale = 1023.0 / (high - low).max_element();
     let threads = threads_for(mesh.triangles.len());
@@ -183,19 +187,36 @@ fn drawing_order(mesh: &Mesh) -> Vec<u32> {
     });
     sort_by(&mut keys, threads, u64::cmp);
     let mut order: Vec<u32> = keys.into_iter().map(|key| key as u32).collect();
-    if !mesh.triangle_materials.is_empty() {
-        order.sort_by_key(|triangle| mesh.triangle_materials[*triangle as usize]);
+    if !mesh.triangle_materials.is_empty() || !is_doubled.is_empty() {
+        order.sort_by_key(|triangle| kind(mesh, is_doubled, *triangle));
     }
     order
 }
 
-fn parts(mesh: &Mesh, order: &[u32]) -> Vec<Part> {
+/// A triangle's material, and whether it is doubled: what its [`Part`] has in common.
+fn kind(mesh: &Mesh, is_doubled: &[bool], triangle: u32) -> (u32, bool) {
+    let material = mesh.triangle_materials.get(triangle as usize).copied().unwrap_or(NONE);
+    (material, is_doubled.get(triangle as usize).copied().unwrap_or_default())
+}
+
+/// Which triangles have another with the same corners on their back; empty if none has.
+fn doubled(mesh: &Mesh) -> Vec<bool> {
+    if mesh.defects.doubled_triangles == 0 {
+        return Vec::new();
+    }
+    let mut is_doubled = vec![false; mesh.triangles.len()];
+    let pairs = coincident(&mesh.triangles, mesh.positions.len()).opposite;
+    pairs.as_flattened().iter().for_each(|triangle| is_doubled[*triangle as usize] = true);
+    is_doubled
+}
+
+fn parts(mesh: &Mesh, order: &[u32], is_doubled: &[bool]) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     for (place, &triangle) in order.iter().enumerate() {
-        let material = mesh.triangle_materials.get(triangle as usize).copied().unwrap_or(NONE);
+        let (material, is_doubled) = kind(mesh, is_doubled, triangle);
         match parts.last_mut() {
-            Some(part) if part.material == material => part.count += 3,
-            _ => parts.push(Part { material, first: place as u32 * 3, count: 3 }),
+            Some(part) if (part.material, part.is_doubled) == (material, is_doubled) => part.count += 3,
+            _ => parts.push(Part { material, is_doubled, first: place as u32 * 3, count: 3 }),
         }
     }
     parts

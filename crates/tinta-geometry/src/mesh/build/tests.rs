@@ -1,8 +1,8 @@
 //! Soups made by hand, and the meshes that come of them.
 
 use super::*;
-use crate::mesh::UpAxis;
 use crate::mesh::soup::direction;
+use crate::mesh::{Normals, UpAxis};
 use glam::Vec2;
 
 fn square() -> Soup {
@@ -60,6 +60,7 @@ fn defects_are_counted_and_left_out() {
     let expected = Defects {
         degenerate_triangles: 2,
         duplicate_triangles: 1,
+        doubled_triangles: 1,
         non_finite_vertices: 1,
         unused_vertices: 1,
         ..Defects::default()
