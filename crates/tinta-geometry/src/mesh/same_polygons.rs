@@ -156,7 +156,8 @@ mod tests {
     fn keys_that_repeat_are_kept_and_nearly_all_others_dropped() {
         let mut keys: Vec<(u64, u32)> =
             (0..1000u32).map(|it| (mixed(&Corner::at(it), &(0..1000).collect::<Vec<_>>()), it)).collect();
-        keys.extend((0..10).map(|it| (keys[it * 7].0, 1000 + it as u32)));
+        let again: Vec<(u64, u32)> = (0..10).map(|it| (keys[it * 7].0, 1000 + it as u32)).collect();
+        keys.extend(again);
         keep_repeated(&mut keys);
         let kept = |number: u32| keys.iter().any(|(_, it)| *it == number);
         assert!((0..10).all(|it| kept(it * 7) && kept(1000 + it)));
