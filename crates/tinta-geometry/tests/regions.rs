@@ -54,6 +54,8 @@ const NEAR_BORDER_PX: f64 = 0.01;
 struct Checked {
     pixels: usize,
     near_borders: usize,
+    /// Regions whose rings touch one another.
+    touching: usize,
     wrong: usize,
     example: String,
 }
@@ -79,6 +81,7 @@ fn check_labels<T: Copy + PartialEq + std::fmt::Debug>(
     assert!((sum - whole).abs() <= 1e-9 * whole, "{name}: {sum} of {whole}");
     let by_corners: f64 = found.regions.iter().flat_map(|region| &region.loops).map(|corners| area(corners)).sum();
     assert!((by_corners.abs() - whole).abs() <= 1e-9 * whole, "{name}: {by_corners} of {whole}");
+    let touching = found.regions.iter().filter(|region| has_valid_rings(region, name)).count();
     let mut region_of = vec![usize::MAX; size[0] * size[1]];
     for (number, region) in found.regions.iter().enumerate() {
         fill(region, size, |pixel| {
@@ -86,7 +89,7 @@ fn check_labels<T: Copy + PartialEq + std::fmt::Debug>(
             region_of[pixel] = number;
         });
     }
-    let mut checked = Checked { pixels: region_of.len(), ..Checked::default() };
+    let mut checked = Checked { pixels: region_of.len(), touching, ..Checked::default() };
     for (pixel, (number, hit)) in region_of.into_iter().zip(first_hits(scene)).enumerate() {
         assert_ne!(number, usize::MAX, "{name}: no region at {pixel}");
         let seen = found.regions[number].seen;
@@ -134,6 +137,19 @@ fn touches(scene: &Scene, point: DVec3, seen: SeenFace) -> bool {
         inward.dot(on_plane - from) >= -1e-6 * longest
     });
     distance.abs() <= 2.0 * (CONTACT * longest + WELD * low.distance(high)) && inside
+}
+
+/// Asserts that a region's rings are simple and the first one is its outline, as OGC's polygons are; returns whether rings touch.
+fn has_valid_rings<T>(region: &Region<T>, name: &str) -> bool {
+    let bits = |point: &DVec2| point.to_array().map(f64::to_bits);
+    let mut corners = BTreeSet::new();
+    for (number, ring) in region.loops.iter().enumerate() {
+        let own: BTreeSet<[u64; 2]> = ring.iter().map(bits).collect();
+        assert_eq!(own.len(), ring.len(), "{name}: a ring meets a corner twice: {ring:?}");
+        assert_eq!((area(ring) > 0.0) == (area(&region.loops[0]) > 0.0), number == 0, "{name}: {:?}", region.loops);
+        corners.extend(own);
+    }
+    corners.len() < region.loops.iter().map(Vec::len).sum()
 }
 
 /// The signed area of a polygon.
@@ -191,6 +207,7 @@ fn add(all: &mut Checked, one: Checked) {
     all.pixels += one.pixels;
     all.near_borders += one.near_borders;
     all.wrong += one.wrong;
+    all.touching += one.touching;
     if one.wrong > 0 {
         println!("{} wrong, {}", one.wrong, one.example);
         all.example = one.example;
