@@ -236,8 +236,7 @@ impl Scene {
         }
         check_size(settings.size)?;
         // A section's plane may leave nothing of a model.
-        let (left, gone): (Vec<_>, Vec<_>) =
-            meshes.into_iter().partition(|mesh| !mesh.triangles.is_empty() || !mesh.curves.is_empty());
+        let (gone, left): (Vec<_>, Vec<_>) = meshes.into_iter().partition(|mesh| mesh.is_empty());
         if let (true, Some(mesh)) = (left.is_empty(), gone.first()) {
             let problem =
                 format!("nothing is left of {}, which lies wholly in front of the plane; move the plane", mesh.name);

@@ -496,6 +496,21 @@ fn two_squares_one_behind_the_other_have_three_regions() {
 }
 
 #[test]
+fn a_hole_that_touches_its_outline_in_a_corner_is_a_ring_of_its_own() {
+    let at = |corners: [[f64; 2]; 4], z: f64| {
+        mesh(corners.map(|[x, y]| DVec3::new(x, y, z)).to_vec(), vec![[0, 1, 2], [0, 2, 3]])
+    };
+    let square = at([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]], 0.0);
+    let before = at([[1.0, 0.0], [0.5, 0.5], [0.0, 0.0], [0.5, -0.5]], 1.0);
+    let settings = SceneSettings { camera: view("front", true), ..SceneSettings::default() };
+    let scene = Scene::new([square, before], &settings).unwrap();
+    let found = Regions::joined_by(&scene, Joined::Object, &Progress::default()).unwrap();
+    let square = found.regions.iter().find(|it| it.seen.is_some_and(|seen| seen.object == 0)).unwrap();
+    assert!(has_valid_rings(square, "square"), "its rings touch");
+    assert_eq!(square.loops.iter().map(Vec::len).collect::<Vec<_>>(), [5, 4]);
+}
+
+#[test]
 fn regions_end_when_asked() {
     let scene = scene(0, &mut Random::seeded(1)).1;
     let late = Regions::with_progress(&scene, &Progress::within(Duration::ZERO));

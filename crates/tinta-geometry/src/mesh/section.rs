@@ -114,7 +114,7 @@ impl Mesh {
         let is_closed = cutter.close(unit.normal);
         let curves = clipped(&self.curves, &of_curves, cutter.next_vertex);
         let mesh = cutter.finished(&self, curves);
-        let cut = match mesh.triangles.is_empty() && mesh.curves.is_empty() {
+        let cut = match mesh.is_empty() {
             true => Cut::Gone,
             false if is_closed => Cut::Closed,
             false => Cut::Open,
