@@ -8,7 +8,7 @@
 use super::{Mesh, NONE};
 use crate::disjoint_sets::DisjointSets;
 use glam::DVec3;
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 
 /// A face at an edge.
 struct HalfEdge {
@@ -188,11 +188,15 @@ fn unbalanced(sides: impl Iterator<Item = (u32, bool)>) -> Vec<u32> {
 
 /// For each shell the one whose hollow it bounds.
 fn hollows(shells: &[Shell], mesh: &Mesh) -> Vec<Option<usize>> {
-    let around: Vec<Vec<usize>> = (0..shells.len())
-        .map(|inner| {
-            (0..shells.len()).filter(|it| *it != inner && shells[*it].encloses(mesh, &shells[inner])).collect()
-        })
-        .collect();
+    let furthest = furthest_corners(shells, mesh);
+    let is_around = |outer: usize, inner: usize| {
+        outer != inner
+            && shells[outer].is_larger(&shells[inner])
+            && !furthest[inner].is_empty()
+            && furthest[inner].iter().all(|corner| shells[outer].is_around(mesh, *corner))
+    };
+    let around: Vec<Vec<usize>> =
+        (0..shells.len()).map(|inner| (0..shells.len()).filter(|outer| is_around(*outer, inner)).collect()).collect();
     let mut order: Vec<usize> = (0..shells.len()).collect();
     order.sort_by_key(|shell| around[*shell].len());
     let mut hollow_of = vec![None; shells.len()];
@@ -207,6 +211,28 @@ fn hollows(shells: &[Shell], mesh: &Mesh) -> Vec<Option<usize>> {
     hollow_of
 }
 
+/// The outermost corners of each shell along the axes, without those that shells share.
+fn furthest_corners(shells: &[Shell], mesh: &Mesh) -> Vec<Vec<DVec3>> {
+    let corners =
+        |shell: &Shell| shell.faces.iter().flat_map(|(face, _)| mesh.triangles[*face as usize]).collect::<Vec<_>>();
+    let mut owners = vec![NONE; mesh.positions.len()];
+    let mut is_shared = vec![false; mesh.positions.len()];
+    for (number, shell) in (0u32..).zip(shells) {
+        for corner in corners(shell) {
+            let owner = std::mem::replace(&mut owners[corner as usize], number);
+            is_shared[corner as usize] |= owner != NONE && owner != number;
+        }
+    }
+    let along = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+    let of_shell = |shell: &Shell| {
+        let own = corners(shell).into_iter().filter(|corner| !is_shared[*corner as usize]);
+        let points: Vec<DVec3> = own.map(|corner| mesh.positions[corner as usize]).collect();
+        let furthest = |axis: &DVec3| points.iter().copied().max_by(|a, b| a.dot(*axis).total_cmp(&b.dot(*axis)));
+        along.iter().filter_map(furthest).collect()
+    };
+    shells.iter().map(of_shell).collect()
+}
+
 impl Shell {
     /// Whether another shell is a solid of its own even inside this one: of another part, and wound like this one in the file.
     fn is_beside(&self, mesh: &Mesh, other: &Self) -> bool {
@@ -215,22 +241,10 @@ impl Shell {
         part(self) != part(other) && is_outward(self) == is_outward(other)
     }
 
-    /// Whether another shell lies within this one: its outermost corners along the axes, those aside that both share.
-    fn encloses(&self, mesh: &Mesh, other: &Self) -> bool {
+    /// Whether another shell may lie within this one.
+    fn is_larger(&self, other: &Self) -> bool {
         let [[low, high], [other_low, other_high]] = [self.bounds, other.bounds];
-        let is_within = low.cmple(other_low).all() && other_high.cmple(high).all();
-        if !is_within || self.volume.abs() <= other.volume.abs() {
-            return false;
-        }
-        let own: HashSet<u32> = self.faces.iter().flat_map(|(face, _)| mesh.triangles[*face as usize]).collect();
-        let corners = other.faces.iter().flat_map(|(face, _)| mesh.triangles[*face as usize]);
-        let points: Vec<DVec3> = corners
-            .filter(|corner| !own.contains(corner))
-            .filter_map(|corner| mesh.positions.get(corner as usize).copied())
-            .collect();
-        let along = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
-        let furthest = along.map(|axis| points.iter().copied().max_by(|a, b| a.dot(axis).total_cmp(&b.dot(axis))));
-        furthest.iter().all(|point| point.is_some_and(|point| self.is_around(mesh, point)))
+        low.cmple(other_low).all() && other_high.cmple(high).all() && self.volume.abs() > other.volume.abs()
     }
 
     /// Whether a ray from a point leaves this shell an odd number of times.
