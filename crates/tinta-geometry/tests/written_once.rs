@@ -1,4 +1,4 @@
-//! What coincides in a written file is written once, and nothing is lost by that; lines on the picture's rim are drawn.
+//! Lines that coincide in a file are written once, and none is lost; lines on the picture's rim are drawn.
 
 extern crate tinta_geometry as tinta;
 
@@ -38,7 +38,7 @@ fn length_px([[ax, ay], [bx, by]]: [[i64; 2]; 2]) -> f64 {
     ((bx - ax) as f64).hypot((by - ay) as f64) / 1e3
 }
 
-/// The lengths of what stretches cover, each place once, and of what they cover twice, pixels.
+/// The length that stretches cover, each place once, and the length that they cover twice, pixels.
 fn once_and_twice(stretches: &[[[i64; 2]; 2]]) -> [f64; 2] {
     let mut of_lines: BTreeMap<(i64, i64, i128), Vec<[f64; 2]>> = BTreeMap::new();
     for [a, b] in stretches {

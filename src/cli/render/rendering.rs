@@ -14,7 +14,7 @@ pub(super) struct Rendering<'a> {
 }
 
 impl Rendering<'_> {
-    /// Records of the models of which a section leaves something.
+    /// Records of the models that a section leaves.
     pub(super) fn model_records(&self, scene: &Scene) -> Vec<ModelRecord> {
         let count = scene.objects.len() / self.request.scene.copies as usize;
         scene.objects[..count].iter().map(|object| ModelRecord::new(&object.mesh)).collect()

@@ -3,7 +3,7 @@
 //! In: a [`Mesh`]. Out: [`Shells`]. The faces of each shell are turned to one orientation, and
 //! the sign of its volume tells the outside. Shells that meet along an edge of four faces stay two if each is closed without the
 //! other. A shell inside another one bounds a hollow of it: its outside is the enclosed space. Wound alike and of another part, it
-//! is a solid of its own. Open and one-sided surfaces belong to no shell.
+//! is another solid. Open and one-sided surfaces belong to no shell.
 
 use super::{Mesh, NONE};
 use crate::disjoint_sets::DisjointSets;
@@ -83,7 +83,7 @@ struct Orientation {
     /// Each face twice, unchanged and reversed.
     sets: DisjointSets,
     count: usize,
-    /// For each face what it belongs to.
+    /// The shell of each face.
     shell_of: Vec<ShellOf>,
 }
 
@@ -92,7 +92,7 @@ struct Orientation {
 enum ShellOf {
     /// None: its surface is open or one-sided.
     None,
-    /// Its set, which is closed by itself.
+    /// Its set, which is closed alone.
     Set,
     /// Several sets that are closed together as the file winds them, by the number of the first.
     Joint(u32),
@@ -234,7 +234,7 @@ fn furthest_corners(shells: &[Shell], mesh: &Mesh) -> Vec<Vec<DVec3>> {
 }
 
 impl Shell {
-    /// Whether another shell is a solid of its own even inside this one: of another part, and wound like this one in the file.
+    /// Whether another shell is another solid even inside this one: of another part, and wound like this one in the file.
     fn is_beside(&self, mesh: &Mesh, other: &Self) -> bool {
         let part = |shell: &Self| shell.faces.first().and_then(|(face, _)| mesh.triangle_parts.get(*face as usize));
         let is_outward = |shell: &Self| (shell.volume > 0.0) != shell.faces.first().is_some_and(|(_, turned)| *turned);

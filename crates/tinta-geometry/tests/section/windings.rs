@@ -255,7 +255,7 @@ fn a_box_and_a_hollow_one_are_closed_alike_inwards_and_outwards() {
         if shells.len() == 1 {
             super::assert_closed(&cut, what);
         }
-        // An insert of another part, wound as what holds it, is a solid of its own.
+        // An insert of another part, wound as what holds it, is another solid.
         if what == "hollow, all outwards" {
             cut = shells.iter().map(Shell::mesh).reduce(|all, next| both(&all, &next)).unwrap();
             cut.parts = ["block", "insert"].map(|name| NamedPart { name: name.to_owned(), within: u32::MAX }).to_vec();

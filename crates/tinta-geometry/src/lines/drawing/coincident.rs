@@ -1,7 +1,7 @@
 //! Lines that coincide in a written file, each kept once.
 //!
-//! In: the paths of a drawing's layers. Out: the same without what runs along a path of a higher layer, or an earlier one of its
-//! own, once all are rounded to the decimals of a file. Visibility joins lines that touch; those a thousandth of a pixel apart are
+//! In: the paths of a drawing's layers. Out: the same without the stretches that run along a path of a higher layer, or an earlier
+//! path of the same one, when all are rounded to the decimals of a file. Visibility joins lines that touch; those a thousandth of a pixel apart are
 //! two lines in space, and one in a file.
 
 use crate::edges::Class;
@@ -11,7 +11,7 @@ use crate::lines::drawing::text::in_steps;
 use glam::{DVec2, I64Vec2};
 use std::collections::{BTreeMap, HashMap};
 
-/// Removes from layers, the lowest first, what is drawn already.
+/// Removes repeated stretches from layers, the lowest first.
 pub(super) fn keep_once<'a>(layers: impl DoubleEndedIterator<Item = &'a mut Vec<LinePath>>) {
     let mut drawn: HashMap<Line, Covered> = HashMap::new();
     for paths in layers.rev() {
@@ -45,7 +45,7 @@ fn greatest_common_divisor(a: u64, b: u64) -> u64 {
     if b == 0 { a } else { greatest_common_divisor(b, a % b) }
 }
 
-/// What is drawn of a line: disjoint stretches, each from its lower end to its higher one.
+/// The drawn parts of a line: disjoint stretches, each from its lower end to its higher one.
 #[derive(Default)]
 struct Covered(BTreeMap<i64, i64>);
 
@@ -108,7 +108,7 @@ struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// Adds what lies between two shares of the stretch from one point to another.
+    /// Adds the part between two shares of the stretch from one point to another.
     fn add(&mut self, [first, last]: [usize; 2], [from, to]: [f64; 2]) {
         let points = &self.path.points_px;
         let [start, end] = [first, last].map(|place| points[place % points.len()]);
@@ -121,7 +121,7 @@ impl Parts<'_> {
             1.0 => end,
             _ => start.lerp(end, share),
         };
-        // Only the first part keeps the stroke's number, so that numbers stay unique.
+        // Only the first part keeps the stroke's number: numbers are unique.
         let stroke = self.path.stroke.filter(|_| self.open.is_empty());
         let (points_px, segments) = (vec![at(from)], Vec::new());
         let mut part = LinePath { points_px, segments, is_closed: false, stroke, ..*self.path };

@@ -10,13 +10,13 @@ use std::collections::{HashMap, HashSet};
 pub(super) struct Cap {
     /// Their positions, counter-clockwise like the outline.
     pub(super) triangles: Vec<[u32; 3]>,
-    /// A side of the outline, as it was given.
+    /// A given side of the outline.
     pub(super) side: [u32; 2],
     /// Whether all sides ran with the solid at their right: an open surface wound inwards.
     pub(super) is_turned: bool,
 }
 
-/// The caps over what lies at the left of directed sides, and whether they use all of these. Sides without anything at their left
+/// The caps at the left of directed sides, and whether they use all of these. Sides without anything at their left
 /// are turned.
 pub(super) fn over(sides: &[[u32; 2]], in_plane: impl Fn(u32) -> DVec2) -> (Vec<Cap>, bool) {
     let found = Found::of(sides, &in_plane);
@@ -64,8 +64,8 @@ impl Found {
     }
 }
 
-/// Directions in which a cap is tried. Rounding decides for earcut which corners in line it drops, and of some ten thousand caps it
-/// drops too much of one; turned by an angle it decides otherwise.
+/// Directions in which a cap is tried. Rounding decides for earcut which corners in line it drops, and it drops too
+/// much of one cap in ten thousand; turned by an angle it decides otherwise.
 const TURNS: u32 = 8;
 
 /// Triangles over an outline and its holes that use every side of them; `None` if that fails. A ring may meet a corner twice.
@@ -101,7 +101,7 @@ struct Sides {
     /// The places of the rings, one ring after the other.
     places: Vec<Place>,
     places_of: HashMap<u32, Vec<usize>>,
-    /// Largest distance from a line of what lies on it.
+    /// Largest distance of a point that lies on a line.
     tolerance: f64,
 }
 
@@ -150,7 +150,7 @@ impl Sides {
             None
         };
         starts.iter().find_map(way).or_else(|| {
-            // Away from both ends, so that each part is shorter.
+            // Away from both ends: each part is shorter.
             let least = self.tolerance * line.length();
             let is_within = |along: f64| along > least && along < line.length_squared() - least;
             let mut between: Vec<&Place> = self.places.iter().filter(|place| is_on(place)).collect();

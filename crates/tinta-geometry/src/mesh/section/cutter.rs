@@ -171,7 +171,7 @@ impl Cutter {
     }
 
     /// The sides in the plane at which each solid is open, the way its caps run along them: with the solid at their left, seen from
-    /// the plane's front. What belongs to no solid comes last.
+    /// the plane's front. Faces of no solid come last.
     fn open_sides(&self) -> BTreeMap<u32, Vec<OpenSide>> {
         let mut open: HashMap<(u32, [u32; 2]), Vec<u32>> = HashMap::new();
         let mut order = Vec::new();
@@ -202,7 +202,7 @@ impl Cutter {
 
     /// Adds a cap that belongs to a face's solid and is wound as that face is.
     fn add_cap(&mut self, cap: &Cap, from: u32, normal: DVec3) {
-        let is_turned = !self.is_outside[from as usize] != cap.is_turned;
+        let is_turned = self.is_outside[from as usize] == cap.is_turned;
         let number = self.mesh.normals.len() as u32;
         self.mesh.normals.push((if is_turned { -normal } else { normal }).as_vec3());
         for [a, b, c] in &cap.triangles {
