@@ -108,7 +108,7 @@ fn star(points: u32, lattice: bool) -> Vec<DVec2> {
         return corners.map(|[x, y]| DVec2::new(f64::from(x), f64::from(y))).to_vec();
     }
     let outer = regular(2 * points, 3.0);
-    outer.iter().enumerate().map(|(at, it)| if at % 2 == 0 { *it } else { *it * 0.4 }).collect()
+    outer.iter().enumerate().map(|(at, it)| if at.is_multiple_of(2) { *it } else { *it * 0.4 }).collect()
 }
 
 /// The shells of a random solid, the hollows' fronts in the hollow; all corners on a lattice for half of them.
@@ -160,7 +160,7 @@ fn cutting(random: &mut Random, shells: &[Shell], number: u32) -> SectionPlane {
         6 => (b - a).cross(c - a),
         _ => any,
     };
-    let through = if number % 3 == 0 { a } else { a.lerp(b, 0.5 + 0.4 * random.signed()).lerp(c, 0.3) };
+    let through = if number.is_multiple_of(3) { a } else { a.lerp(b, 0.5 + 0.4 * random.signed()).lerp(c, 0.3) };
     SectionPlane { normal, offset: normal.dot(through) }
 }
 
