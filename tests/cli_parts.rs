@@ -126,3 +126,20 @@ fn an_assembly_has_parts_by_its_nodes() {
     let svg = drawn(&folder, &model, "a.svg", &["--part", "*: ghost", "--part", "bolt*: solid, color=red"]);
     assert!(layers(&svg).iter().any(|(label, color)| label == "visible crease * + bolt*" && color == "#ff0000"));
 }
+
+#[test]
+fn of_several_models_one_beyond_a_sections_plane_is_left_out() {
+    let folder = Folder::new();
+    let (boxes, out) = (boxes(&folder), folder.path("cut.svg"));
+    let beyond = folder.file("beyond.obj", b"v 0 0 5\nv 1 0 5\nv 0 1 5\nf 1 2 3\n");
+    let output = tinta(&["render", &boxes, &beyond, "--section", "z=1.25", "-o", &out, "--json", "--copies", "2"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("beyond.obj: it lies wholly in front") && said.lines().count() == 1, "{said}");
+    let record: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(record.to_string().contains("boxes.obj") && std::fs::metadata(&out).is_ok(), "{record}");
+    let alone = tinta(&["render", &beyond, "--section", "z=1.25", "-o", &out]);
+    let said = String::from_utf8_lossy(&alone.stderr);
+    assert_eq!(alone.status.code(), Some(2), "{said}");
+    assert!(said.contains("nothing is left of") && said.contains("move the plane"), "{said}");
+}

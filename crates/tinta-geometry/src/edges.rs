@@ -24,7 +24,6 @@ mod edge_list;
 mod persistent_creases;
 mod mesh_edges;
 mod orientation;
-mod outside;
 mod silhouette;
 mod smooth;
 #[cfg(feature = "gltf")]

@@ -218,7 +218,8 @@ const LARGEST_COPIES: u32 = 10_000;
 const FITTED_POINTS: usize = 4_000_000;
 
 impl Scene {
-    /// Places the meshes at their coordinates and fits the camera to them. Accepts meshes and shared meshes.
+    /// Places the meshes at their coordinates and fits the camera to them. Accepts meshes and shared meshes; leaves out those of
+    /// which a section has left nothing.
     ///
     /// # Errors
     ///
@@ -234,7 +235,14 @@ impl Scene {
             ));
         }
         check_size(settings.size)?;
-        let objects = on_grid(&meshes, settings.copies);
+        // A section's plane may leave nothing of a model.
+        let (gone, left): (Vec<_>, Vec<_>) = meshes.into_iter().partition(|mesh| mesh.is_empty());
+        if let (true, Some(mesh)) = (left.is_empty(), gone.first()) {
+            let problem =
+                format!("nothing is left of {}, which lies wholly in front of the plane; move the plane", mesh.name);
+            return Err(Error::setting("section", problem));
+        }
+        let objects = on_grid(&left, settings.copies);
         let corners: Vec<DVec3> = objects.iter().flat_map(Object::box_corners).collect();
         let (low, high) = bounds(&corners);
         let (centre, radius) = (low * 0.5 + high * 0.5, (high * 0.5 - low * 0.5).length());

@@ -54,6 +54,8 @@ const NEAR_BORDER_PX: f64 = 0.01;
 struct Checked {
     pixels: usize,
     near_borders: usize,
+    /// Regions whose rings touch one another.
+    touching: usize,
     wrong: usize,
     example: String,
 }
@@ -79,6 +81,7 @@ fn check_labels<T: Copy + PartialEq + std::fmt::Debug>(
     assert!((sum - whole).abs() <= 1e-9 * whole, "{name}: {sum} of {whole}");
     let by_corners: f64 = found.regions.iter().flat_map(|region| &region.loops).map(|corners| area(corners)).sum();
     assert!((by_corners.abs() - whole).abs() <= 1e-9 * whole, "{name}: {by_corners} of {whole}");
+    let touching = found.regions.iter().filter(|region| has_valid_rings(region, name)).count();
     let mut region_of = vec![usize::MAX; size[0] * size[1]];
     for (number, region) in found.regions.iter().enumerate() {
         fill(region, size, |pixel| {
@@ -86,7 +89,7 @@ fn check_labels<T: Copy + PartialEq + std::fmt::Debug>(
             region_of[pixel] = number;
         });
     }
-    let mut checked = Checked { pixels: region_of.len(), ..Checked::default() };
+    let mut checked = Checked { pixels: region_of.len(), touching, ..Checked::default() };
     for (pixel, (number, hit)) in region_of.into_iter().zip(first_hits(scene)).enumerate() {
         assert_ne!(number, usize::MAX, "{name}: no region at {pixel}");
         let seen = found.regions[number].seen;
@@ -134,6 +137,19 @@ fn touches(scene: &Scene, point: DVec3, seen: SeenFace) -> bool {
         inward.dot(on_plane - from) >= -1e-6 * longest
     });
     distance.abs() <= 2.0 * (CONTACT * longest + WELD * low.distance(high)) && inside
+}
+
+/// Asserts that a region's rings are simple and the first one is its outline, as OGC's polygons are; returns whether rings touch.
+fn has_valid_rings<T>(region: &Region<T>, name: &str) -> bool {
+    let bits = |point: &DVec2| point.to_array().map(f64::to_bits);
+    let mut corners = BTreeSet::new();
+    for (number, ring) in region.loops.iter().enumerate() {
+        let own: BTreeSet<[u64; 2]> = ring.iter().map(bits).collect();
+        assert_eq!(own.len(), ring.len(), "{name}: a ring meets a corner twice: {ring:?}");
+        assert_eq!((area(ring) > 0.0) == (area(&region.loops[0]) > 0.0), number == 0, "{name}: {:?}", region.loops);
+        corners.extend(own);
+    }
+    corners.len() < region.loops.iter().map(Vec::len).sum()
 }
 
 /// The signed area of a polygon.
@@ -191,6 +207,7 @@ fn add(all: &mut Checked, one: Checked) {
     all.pixels += one.pixels;
     all.near_borders += one.near_borders;
     all.wrong += one.wrong;
+    all.touching += one.touching;
     if one.wrong > 0 {
         println!("{} wrong, {}", one.wrong, one.example);
         all.example = one.example;
@@ -476,6 +493,21 @@ fn two_squares_one_behind_the_other_have_three_regions() {
     assert!((large - 3.0 * small).abs() < 1e-3, "{large} {small}");
     let background = found.regions.iter().find(|region| region.seen.is_none()).unwrap();
     assert_eq!(background.loops.len(), 2, "the picture's frame, and a hole");
+}
+
+#[test]
+fn a_hole_that_touches_its_outline_in_a_corner_is_a_ring_of_its_own() {
+    let at = |corners: [[f64; 2]; 4], z: f64| {
+        mesh(corners.map(|[x, y]| DVec3::new(x, y, z)).to_vec(), vec![[0, 1, 2], [0, 2, 3]])
+    };
+    let square = at([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]], 0.0);
+    let before = at([[1.0, 0.0], [0.5, 0.5], [0.0, 0.0], [0.5, -0.5]], 1.0);
+    let settings = SceneSettings { camera: view("front", true), ..SceneSettings::default() };
+    let scene = Scene::new([square, before], &settings).unwrap();
+    let found = Regions::joined_by(&scene, Joined::Object, &Progress::default()).unwrap();
+    let square = found.regions.iter().find(|it| it.seen.is_some_and(|seen| seen.object == 0)).unwrap();
+    assert!(has_valid_rings(square, "square"), "its rings touch");
+    assert_eq!(square.loops.iter().map(Vec::len).collect::<Vec<_>>(), [5, 4]);
 }
 
 #[test]

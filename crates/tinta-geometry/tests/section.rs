@@ -2,6 +2,9 @@
 
 extern crate tinta_geometry as tinta;
 
+#[path = "section/windings.rs"]
+mod windings;
+
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -211,8 +214,14 @@ fn a_plane_that_meets_nothing_changes_nothing_and_one_that_leaves_nothing_is_ref
         assert_eq!(cube.clone().section(&plane(text)).unwrap(), (cube.clone(), Cut::Missed), "{text}");
     }
     for text in ["y=-1", "-y=-2.5"] {
-        let error = cube.clone().section(&plane(text)).unwrap_err().to_string();
+        let (nothing, cut) = cube.clone().section(&plane(text)).unwrap();
+        assert_eq!((nothing.triangles.len(), cut), (0, Cut::Gone), "{text}");
+        let settings = SceneSettings::default();
+        let error = Scene::new([nothing.clone()], &settings).unwrap_err().to_string();
         assert!(error.contains("lies wholly in front of the plane") && !error.contains('\n'), "{error}");
+        // Beside another model it takes no part.
+        let scene = Scene::new([nothing, cube.clone()], &settings).unwrap();
+        assert_eq!((scene.objects.len(), scene.radius), (1, Scene::new([cube.clone()], &settings).unwrap().radius));
     }
 }
 

@@ -170,14 +170,19 @@ fn numbers_of(names: &[String], movement: &str, path: &str) -> Result<Vec<usize>
 
 /// Scenes with one camera, which has the models of all of them in view, and a fixed place for each copy.
 fn one_scene_a_frame(frames: Vec<Vec<Arc<Mesh>>>, settings: &SceneSettings) -> Result<Vec<Scene>> {
-    let models = frames[0].len();
-    let meshes: Vec<Arc<Mesh>> = frames.iter().flatten().cloned().collect();
-    let mesh_count = meshes.len();
+    // A section may leave nothing of a model in some frames.
+    let left = |frame: &(usize, &Arc<Mesh>)| !frame.1.is_empty();
+    let numbered = frames.iter().enumerate().flat_map(|(frame, meshes)| meshes.iter().map(move |mesh| (frame, mesh)));
+    let (frame_of, meshes): (Vec<usize>, Vec<Arc<Mesh>>) =
+        numbered.filter(left).map(|(frame, mesh)| (frame, mesh.clone())).unzip();
+    if let Some(frame) = (0..frames.len()).find(|frame| !frame_of.contains(frame)) {
+        return Err(Error::setting("section", format!("nothing is left of frame {frame}; move the plane")));
+    }
     let mut together = Scene::new(meshes, settings)?;
     let objects = std::mem::take(&mut together.objects);
     let mut scenes: Vec<Scene> = frames.iter().map(|_| together.clone()).collect();
     for (index, object) in objects.into_iter().enumerate() {
-        scenes[index % mesh_count / models].objects.push(object);
+        scenes[frame_of[index % frame_of.len()]].objects.push(object);
     }
     Ok(scenes)
 }

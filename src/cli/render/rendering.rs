@@ -14,9 +14,10 @@ pub(super) struct Rendering<'a> {
 }
 
 impl Rendering<'_> {
-    /// Records of the models.
+    /// Records of the models that a section leaves.
     pub(super) fn model_records(&self, scene: &Scene) -> Vec<ModelRecord> {
-        scene.objects[..self.request.models.len()].iter().map(|object| ModelRecord::new(&object.mesh)).collect()
+        let count = scene.objects.len() / self.request.scene.copies as usize;
+        scene.objects[..count].iter().map(|object| ModelRecord::new(&object.mesh)).collect()
     }
 
     /// The record of this drawing.

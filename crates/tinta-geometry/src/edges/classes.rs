@@ -1,10 +1,9 @@
 //! The classes of an edge that are independent of the view.
 
-use super::outside::fronts_outside;
 use super::{EdgeList, Incidence};
 use crate::choice::Choice;
 use crate::error::{Error, ParseError, Result};
-use crate::mesh::{Mesh, NONE, triangle_normal};
+use crate::mesh::{Mesh, NONE, Shells, triangle_normal};
 use crate::settings::{Kind, Problem, Setting, Value};
 use crate::threads::{filled, in_parallel, threads_for};
 use crate::tolerances::{CREASE_DIGITS, PARALLEL_COSINE};
@@ -364,7 +363,8 @@ impl Classes {
             edges,
             normals: &normals,
             cosine: crease_angle.cosine,
-            fronts_outside: (!wanted.and(TURNS).is_empty()).then(|| fronts_outside(mesh, edges)),
+            fronts_outside: (!wanted.and(TURNS).is_empty())
+                .then(|| Shells::of(mesh).fronts_outside(mesh.triangles.len())),
             seams: Seams::of(mesh, wanted),
         };
         let has_marks = wanted.contains(Class::Marked) && !mesh.marked.is_empty();

@@ -2,6 +2,7 @@
 
 pub(super) mod areas;
 pub(super) mod chain;
+pub(super) mod coincident;
 pub(super) mod curves;
 pub(super) mod drawn_labels;
 pub(super) mod drawn_layers;

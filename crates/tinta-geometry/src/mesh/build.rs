@@ -163,6 +163,7 @@ impl Soup {
         let (mesh, cut) = mesh.section(plane)?;
         match cut {
             Cut::Closed => {}
+            Cut::Gone => remarks.push(format!("{name}: it lies wholly in front of the section's plane, which cuts it away")),
             Cut::Missed => remarks.push(format!("{name}: the section's plane meets nothing to cut away; move the plane")),
             Cut::Open => remarks.push(format!(
                 "{name}: the surface is open, or its faces disagree on the outside, where --section cuts it; no faces close the cut there"

@@ -143,6 +143,11 @@ impl Mesh {
         }
     }
 
+    /// Whether it has no face, curve or point: a section may leave nothing.
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty() && self.curves.is_empty()
+    }
+
     /// The 0-based face of the file that a triangle is, or is cut from.
     pub fn file_face(&self, triangle: u32) -> u32 {
         self.file_faces.get(triangle as usize).copied().unwrap_or(triangle)

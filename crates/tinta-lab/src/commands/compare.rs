@@ -235,8 +235,8 @@ fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &m
     }
     let styles = [request.in_style(how.left)?.style, request.in_style(how.right)?.style];
     let meshes = request.models(&session.models)?.meshes;
-    let count = meshes.len();
     let scene = Scene::new(meshes, &request.scene)?;
+    let count = scene.objects.len() / request.scene.copies as usize;
     let renderer = request.renderer(session)?;
     let mut draw = |style: &tinta::Style| -> Result<Drawing> {
         let start = Instant::now();

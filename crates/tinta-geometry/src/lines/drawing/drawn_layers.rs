@@ -6,6 +6,7 @@ use crate::edges::Class;
 use crate::error::{Error, Result};
 use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
+use crate::lines::drawing::coincident::keep_once;
 use crate::lines::drawing::drawn_labels::{DrawnLabel, drawn_labels, height_px};
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::page::Page;
@@ -104,16 +105,20 @@ impl<'a> Drawing<'a> {
             paths_of.entry((Layer::Hatch(hatch.tone), 0)).or_default().extend(strokes);
         }
         paths.into_iter().for_each(|path| paths_of.entry((path.layer(), path.look)).or_default().push(path));
-        let mut layers = Vec::with_capacity(paths_of.len());
+        let mut drawn = Vec::with_capacity(paths_of.len());
         for layer in Layer::upwards() {
-            for (look, settings) in (0..).zip(&looks).filter(|(_, settings)| settings.draws(layer.is_visible())) {
-                if let Some(paths) = paths_of.remove(&(layer, look)) {
-                    let part = lines.looks.get(look as usize).map_or(String::new(), |look| look.name.clone());
-                    let drawn = DrawnLayer::new(layer, paths, &page, settings, lines.size);
-                    layers.push(DrawnLayer { look, part, ..drawn });
-                }
+            for (look, _) in (0..).zip(&looks).filter(|(_, settings)| settings.draws(layer.is_visible())) {
+                drawn.extend(paths_of.remove(&(layer, look)).map(|paths| (layer, look, paths)));
             }
         }
+        keep_once(drawn.iter_mut().filter(|(layer, ..)| !matches!(layer, Layer::Hatch(_))).map(|(.., paths)| paths));
+        drawn.retain(|(.., paths)| !paths.is_empty());
+        let styled = |(layer, look, paths): (Layer, u32, Vec<LinePath>)| {
+            let part = lines.looks.get(look as usize).map_or(String::new(), |look| look.name.clone());
+            let drawn = DrawnLayer::new(layer, paths, &page, &looks[look as usize], lines.size);
+            DrawnLayer { look, part, ..drawn }
+        };
+        let layers = drawn.into_iter().map(styled).collect();
         let mut labels = drawn_labels(&lines.labels, settings, page.units);
         let texts = areas.into_iter().flat_map(|areas| &areas.keys).flat_map(|key| &key.texts);
         labels.extend(texts.map(|text| text.drawn(height_px(page.units))));

@@ -10,26 +10,28 @@ use glam::DVec2;
 /// Returns a polyline's points without those within [`STRAIGHT_PX`] of the straight lines between the others. The first
 /// point stays, and an open polyline's last.
 pub(in crate::lines) fn simplified(points_px: &[DVec2], is_closed: bool) -> Vec<DVec2> {
-    let mut points = points_px.to_vec();
-    if is_closed {
-        points.extend(points_px.first());
-    }
-    let Some(first) = points.first() else { return points };
-    let mut kept = vec![*first];
+    simplified_places(points_px, is_closed).into_iter().map(|place| points_px[place]).collect()
+}
+
+/// The numbers of the points that [`simplified`] keeps.
+pub(in crate::lines) fn simplified_places(points_px: &[DVec2], is_closed: bool) -> Vec<usize> {
+    let Some(first) = points_px.first() else { return Vec::new() };
+    let mut kept = vec![0];
     let mut cone = Cone::at(*first);
-    for pair in points.windows(2) {
-        let [previous, point] = [pair[0], pair[1]];
-        if !cone.contains(point) {
-            kept.push(previous);
+    let mut previous = *first;
+    for (place, point) in points_px.iter().skip(1).chain(is_closed.then_some(first)).enumerate() {
+        if !cone.contains(*point) {
+            kept.push(place);
             cone = Cone::at(previous);
         }
-        cone.narrow(point);
+        cone.narrow(*point);
+        previous = *point;
     }
     if !is_closed {
-        kept.extend(points.last());
-    } else if kept.len() == 1 {
+        kept.push(points_px.len() - 1);
+    } else if kept.len() == 1 && points_px.len() > 1 {
         // All turns are within the tolerance; a path needs at least two points.
-        kept.extend(points_px.get(1));
+        kept.push(1);
     }
     kept
 }

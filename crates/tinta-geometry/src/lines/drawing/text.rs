@@ -2,10 +2,15 @@
 
 use crate::lines::drawing::curves::Step;
 use crate::scene::Color;
-use glam::DVec2;
+use glam::{DVec2, I64Vec2};
 
 /// Decimals of a coordinate: a thousandth of a pixel.
 const DECIMALS: u32 = 3;
+
+/// A point in the steps of a file's coordinates.
+pub(in crate::lines) fn in_steps(point_px: DVec2) -> I64Vec2 {
+    (point_px * f64::from(10_u32.pow(DECIMALS))).round().as_i64vec2()
+}
 
 /// A number with at most `decimals` decimals, without trailing zeros, never `-0`.
 pub(in crate::lines) fn decimal(value: f64, decimals: u32) -> String {

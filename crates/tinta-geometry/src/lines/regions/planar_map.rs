@@ -157,6 +157,12 @@ impl PlanarMap {
         if half.is_multiple_of(2) { [a, b] } else { [b, a] }
     }
 
+    /// Twice the area inside a ring of points, grid steps squared; negative if it runs clockwise.
+    pub(super) fn area(&self, ring: &[u32]) -> i128 {
+        let point = |at: usize| self.points[ring[at % ring.len()] as usize];
+        (0..ring.len()).map(|at| i128::from(point(at).perp_dot(point(at + 1)))).sum()
+    }
+
     pub(super) fn cell_count(&self) -> usize {
         self.areas.len()
     }

@@ -5,6 +5,7 @@ use super::planar_map::PlanarMap;
 use super::snap::{Segment, ordered};
 use crate::values::Size;
 use glam::DVec2;
+use std::collections::HashMap;
 
 /// The regions of a view. `T` says what is seen in a region.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,8 +32,8 @@ pub struct SeenFace {
 pub struct Region<T = Option<SeenFace>> {
     /// The face that is seen; `None` for background.
     pub seen: T,
-    /// Closed polygons without a repeated last corner: the outer one, then holes, which run the other way. Pixels from the upper
-    /// left, y down.
+    /// Closed polygons without a repeated last corner: the outer one, then holes, which run the other way. None meets a corner twice;
+    /// holes may touch the others in corners. Pixels from the upper left, y down.
     pub loops: Vec<Vec<DVec2>>,
     /// Area without the holes, square pixels.
     pub area_px: f64,
@@ -55,13 +56,37 @@ pub(super) fn walked<T: Copy + PartialEq>(borders: Vec<Border<T>>, grid: &Grid) 
         broken += loops.iter().filter(is_mixed).count();
         // What is outside all regions may form cells, too.
         let Some(seen) = seen else { continue };
-        let corners = |first: &u32| {
-            map.from(*first).map(|half| grid.px(map.points[map.ends(half)[0] as usize].as_dvec2())).collect()
-        };
+        let rings = loops.iter().flat_map(|first| {
+            let mut rings = simple_rings(map.from(*first).map(|half| map.ends(half)[0]));
+            // The outer one first, of those that an outer loop falls into.
+            rings.sort_by_key(|ring| map.area(ring) <= 0);
+            rings
+        });
+        let px = |point: &u32| grid.px(map.points[*point as usize].as_dvec2());
+        let loops = rings.map(|ring| ring.iter().map(px).collect()).collect();
         let area_px = grid.area_px(map.areas[cell as usize]);
-        regions.push(Region { seen, loops: loops.iter().map(corners).collect(), area_px });
+        regions.push(Region { seen, loops, area_px });
     }
     (regions, broken)
+}
+
+/// A closed walk as rings that meet no point twice: those of a loop that touches itself, each an outline or a hole.
+fn simple_rings(points: impl Iterator<Item = u32>) -> Vec<Vec<u32>> {
+    let mut rings = Vec::new();
+    let mut path: Vec<u32> = Vec::new();
+    let mut places: HashMap<u32, usize> = HashMap::new();
+    for point in points {
+        if let Some(place) = places.get(&point).copied() {
+            path[place..].iter().for_each(|passed| {
+                places.remove(passed);
+            });
+            rings.push(path.drain(place..).collect());
+        }
+        places.insert(point, path.len());
+        path.push(point);
+    }
+    rings.push(path);
+    rings
 }
 
 impl<T: Copy> Regions<T> {

@@ -137,9 +137,13 @@ impl<'a> LineIndex<'a> {
     pub(in crate::lines) fn wanted(&self, index: usize) -> Option<(Image, [f64; 2])> {
         self.features[index].class?;
         let image = self.images[index]?;
-        let inside = image.inside(self.space.size, 0.0)?;
-        let has_length = || image.length() * (inside[1] - inside[0]) > self.shortest_px;
-        (self.features[index].class == Some(Class::Point) || has_length()).then_some((image, inside))
+        let inside = image.inside(self.space.size, 0.0);
+        // A line on the picture's rim is inside, to whichever side it is rounded.
+        let beside = image.inside(self.space.size, (4.0 * image.noise_px).min(self.shortest_px));
+        let length = |part: Option<[f64; 2]>| part.map_or(0.0, |[from, to]| image.length() * (to - from));
+        let inside = if length(beside) - length(inside) > self.shortest_px { beside } else { inside };
+        let is_drawn = self.features[index].class == Some(Class::Point) || length(inside) > self.shortest_px;
+        inside.filter(|_| is_drawn).map(|inside| (image, inside))
     }
 
     /// The ends in the world of a line's part between two places of its image: of a free line as it is, not lifted.

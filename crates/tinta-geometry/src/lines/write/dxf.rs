@@ -19,6 +19,9 @@ use crate::scene::Color;
 use glam::DVec2;
 use std::fmt::{Display, Write};
 
+/// The number of the unit of coordinates.
+const MILLIMETRES: u8 = 4;
+
 /// The layer of labels.
 const LABELS: &str = "labels";
 
@@ -145,6 +148,11 @@ impl Text<'_> {
         section(self, "HEADER");
         self.pair(9, "$ACADVER");
         self.pair(1, "AC1009");
+        // Newer than release 12, whose readers skip variables that they do not know; without it some take inches.
+        if self.page.units.px_per_mm.is_some() {
+            self.pair(9, "$INSUNITS");
+            self.pair(70, MILLIMETRES);
+        }
         let lower_left = self.page.origin_px + DVec2::new(0.0, self.page.extent_px.y);
         let upper_right = self.page.origin_px + DVec2::new(self.page.extent_px.x, 0.0);
         for (name, corner) in [("$EXTMIN", lower_left), ("$EXTMAX", upper_right)] {
