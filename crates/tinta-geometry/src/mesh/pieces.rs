@@ -3,7 +3,8 @@
 //! In: polygons and the vertices' welding. Out: triangles over welded but not yet renumbered positions.
 
 use super::soup::{Corner, Soup};
-use super::{NONE, triangle_normal, triangulate};
+use super::triangulate::{self, Cut};
+use super::{NONE, triangle_normal};
 use crate::threads::{in_parallel, threads_for};
 use earcut::Earcut;
 use glam::DVec3;
@@ -28,6 +29,8 @@ pub(super) struct Pieces {
     pub degenerate: usize,
     /// How many polygons had too many corners to be cut.
     pub too_long: usize,
+    /// How many polygons cross themselves.
+    pub crossing: usize,
     /// How many repeated another.
     pub duplicate: usize,
     /// How many polygons named a corner twice in a row.
@@ -72,9 +75,13 @@ impl Pieces {
                 }
                 points.clear();
                 points.extend(corners.iter().map(|corner| soup.positions[corner.position as usize]));
-                if !triangulate::triangulate(&points, &mut earcut, &mut cut) {
-                    pieces.too_long += 1;
-                    continue;
+                match triangulate::triangulate(&points, &mut earcut, &mut cut) {
+                    Cut::Whole => {}
+                    Cut::Crossing => pieces.crossing += 1,
+                    Cut::TooLong => {
+                        pieces.too_long += 1;
+                        continue;
+                    }
                 }
                 // If earcut finds no area, the lost triangles count as degenerate.
                 pieces.degenerate += (corners.len() - 2).saturating_sub(cut.len());
