@@ -62,6 +62,12 @@ impl Picture {
         [0, 1, 2, 3].map(|channel| self.pixels[start + channel])
     }
 
+    /// Whether all its pixels are the same.
+    pub fn is_of_one_color(&self) -> bool {
+        // Bytes that equal those of the pixel before.
+        self.pixels.get(4..).is_none_or(|rest| *rest == self.pixels[..rest.len()])
+    }
+
     /// Returns the same colours without transparency.
     #[must_use]
     pub fn opaque(mut self) -> Self {

@@ -19,11 +19,13 @@
 //! ```
 
 mod draw;
+mod emptiness;
 mod layers;
 mod model_cache;
 mod session;
 
 pub use draw::{Drawn, DrawnLines, DrawnPicture, ReadModels, Times};
+pub use emptiness::empty_remark;
 pub use layers::{Layer, OF_PAPER, ignored_remark, layers, pixels_on_paper};
 pub use model_cache::{Model, ModelCache};
 pub use session::Session;

@@ -226,10 +226,14 @@ impl<S: Selection<Of = Request>> Chosen<S> {
         models: &[String],
         below: &Below<'_>,
     ) -> Result<(Request, Vec<String>)> {
-        if let Some(camera) = below.camera.map(camera_file::read).transpose()? {
+        let mut aspect = None;
+        if let Some(path) = below.camera {
+            let (camera, of_file) = camera_file::read(path)?;
             layers.insert(layers.len() - 1, Layer::Camera(camera));
+            aspect = of_file.map(|aspect| (path, aspect));
         }
-        let (mut request, remarks) = Request::from_layers(&layers)?;
+        let (mut request, mut remarks) = Request::from_layers(&layers)?;
+        remarks.extend(aspect.and_then(|(path, aspect)| camera_file::aspect_remark(path, aspect, request.scene.size)));
         for (option, path) in &self.paths {
             request.set_path(option, path)?;
         }

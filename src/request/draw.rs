@@ -1,5 +1,6 @@
 //! From a request to a picture or lines.
 
+use super::emptiness::{empty_remark, reason};
 use super::{ModelCache, Request, Session, ignored_remark};
 use crate::clock::Instant;
 use crate::edges::SilhouetteRule;
@@ -11,7 +12,7 @@ use crate::picture::Picture;
 use crate::plan::Plan;
 use crate::plan::prune::{Kept, Omission, Pruned, prune};
 use crate::renderer::{Renderer, milliseconds_since};
-use crate::scene::Scene;
+use crate::scene::{Scene, Unseen};
 use crate::settings::HasSettings;
 use crate::styles::{LineStyle, Vectors, ViewAreas, is_of_vectors};
 use std::collections::HashMap;
@@ -88,6 +89,15 @@ pub struct DrawnLines {
     pub load_ms: f64,
 }
 
+/// The remark on a drawing without any visible line.
+fn no_line(scene: &Scene) -> String {
+    let why = match scene.unseen(scene.size, false) {
+        unseen @ Some(Unseen::Behind | Unseen::Beside | Unseen::CutOff) => format!(": {}", reason(scene, unseen)),
+        _ => "; see --classes, --eye and --target".to_owned(),
+    };
+    format!("no line of these classes is visible in this picture{why}")
+}
+
 /// The models of a request.
 #[derive(Debug)]
 pub struct ReadModels {
@@ -125,9 +135,15 @@ impl Request {
         let scene = Scene::new(meshes, &self.scene)?;
         let style = self.line_style().unwrap_or_default();
         style.check()?;
-        let remarks = vectors.map_or(Vec::new(), |vectors| vectors.remarks(&scene));
+        let mut remarks = scene.crack_remarks();
+        remarks.extend(scene.far_remark());
+        remarks.extend(vectors.into_iter().flat_map(|vectors| vectors.remarks(&scene)));
         let lines = self.lines(&scene, progress)?;
         let areas = self.areas(&scene, &lines, progress)?;
+        let has_areas = areas.as_ref().is_some_and(|areas| areas.drawn.corners_px.is_some());
+        if !has_areas && !lines.segments.iter().any(|segment| segment.is_visible) {
+            remarks.push(no_line(&scene));
+        }
         Ok(Drawn::Lines(Box::new(DrawnLines { scene, files, style, lines, areas, remarks, load_ms })))
     }
 
@@ -336,10 +352,11 @@ impl Request {
         times.plan_ms = of_loading.plan_ms + milliseconds_since(start);
         let of_vectors = self.options.keys().filter(|option| is_of_vectors(option, self.style.style_name()));
         let ignored = ignored_remark(of_vectors.map(String::as_str), &[self.style.name()]);
-        let remarks = [self.style.remarks(&scene), renderer.remarks(&plan), ignored.into_iter().collect()].concat();
+        let mut remarks = [self.style.remarks(&scene), renderer.remarks(&plan), ignored.into_iter().collect()].concat();
         let start = Instant::now();
         let picture = renderer.draw(&scene, &plan)?;
         times.first_frame_ms = milliseconds_since(start);
+        remarks.extend(empty_remark(&scene, &published, &picture, renderer)?);
         let Times { load_ms, stages, arrays_ms, .. } = of_loading;
         let times = Times { load_ms, stages, arrays_ms, ..times };
         Ok(DrawnPicture { scene, files, published, plan, omissions, kept, remarks, picture, times })

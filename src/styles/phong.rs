@@ -39,6 +39,7 @@ impl Phong {
                 "Share of the colour seen where no light falls; more lightens the shadows",
                 |phong: &mut Self| &mut phong.ambient,
             )
+            .limits(0.0..=1.0)
             .ours("E shows Phong shading in figures 5a and 8 and prints no weights"),
             Setting::field(
                 "specular",
@@ -46,6 +47,7 @@ impl Phong {
                 "Weight of the white highlight; more is brighter",
                 |phong: &mut Self| &mut phong.specular,
             )
+            .limits(0.0..=1.0)
             .ours("E shows Phong shading in figures 5a and 8 and prints no weights"),
             Setting::field(
                 "shininess",
@@ -54,6 +56,7 @@ impl Phong {
                 |phong: &mut Self| &mut phong.shininess,
             )
             .ours("E shows Phong shading in figures 5a and 8 and prints no exponent")
+            .limits(1.0..=10_000.0)
             .range(1.0, 200.0, 0),
         ];
         let common = vec![

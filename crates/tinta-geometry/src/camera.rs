@@ -30,6 +30,7 @@ use crate::settings::{Kind, Problem, Setting, Value, under};
 use crate::tolerances::{
     CAMERA_ALIGNMENT, DEPTH_MARGIN, LARGEST_COORDINATE, LARGEST_EXACT_DISTANCE, NEAREST_FRACTION, SAME_POINT,
 };
+use crate::values::short;
 use glam::dcamera::rh::proj::opengl;
 use glam::dcamera::rh::view::look_at_mat4;
 use glam::{DMat4, DVec2, DVec3};
@@ -428,7 +429,11 @@ impl CameraSettings {
         if near >= far {
             return Err(Error::settings(
                 &["near", "far"],
-                format!("the near plane must be nearer to the eye than the far plane; they are {near} and {far} away"),
+                format!(
+                    "the near plane must be nearer to the eye than the far plane; they are {} and {} away",
+                    short(near),
+                    short(far)
+                ),
             ));
         }
         Ok((near, far))

@@ -39,8 +39,8 @@ pub fn doubled_faces(mesh: &Mesh) -> usize {
     let origin = (low + high) * 0.5;
     let face = |triangle: &[u32; 3]| {
         let corners @ [a, b, c] = triangle.map(|corner| mesh.positions[corner as usize] - origin);
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        Face { corners, middle: (a + b + c) / 3.0, near: longest * DOUBLED }
+        let shortest = a.distance(b).min(b.distance(c)).min(c.distance(a));
+        Face { corners, middle: (a + b + c) / 3.0, near: shortest * DOUBLED }
     };
     let faces: Vec<Face> = mesh.triangles.iter().map(face).collect();
     let area = |face: &Face| {
@@ -108,6 +108,46 @@ mod tests {
         assert_eq!(sheets(-0.02, 0.0), 1, "the lower one is above");
         assert_eq!(sheets(0.02, 0.04), 1, "they cross");
         assert_eq!(sheets(-0.5, 0.0), 0, "they are far apart");
+    }
+
+    /// Closed boxes of these sides in a row along x, so far apart, wound outwards; and where each is written once more,
+    /// turned round.
+    fn boxes(count: u32, sides: [f64; 3], apart: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+        let corner = |number: u32, corner: u32| {
+            let at = |axis: usize| f64::from(corner >> axis & 1) * sides[axis];
+            [at(0) + f64::from(number) * (sides[0] + apart), at(1), at(2)]
+        };
+        let quads: [[u32; 4]; 6] = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let corners = (0..count).flat_map(|number| (0..8).map(move |place| (number, place)));
+        let triangles = (0..count).flat_map(|number| quads.map(|quad| quad.map(|place| place + number * 8)));
+        (
+            corners.map(|(number, place)| corner(number, place)).collect(),
+            triangles.flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
+        )
+    }
+
+    #[test]
+    fn fences_blinds_and_louvres_have_none_and_the_same_written_twice_have_all() {
+        for (name, (corners, triangles)) in [
+            ("fence", boxes(30, [0.02, 1.0, 0.02], 0.02)),
+            ("blind", boxes(30, [0.005, 1.0, 0.05], 0.03)),
+            ("louvres", boxes(100, [0.0005, 1.0, 0.01], 0.002)),
+        ] {
+            assert_eq!(doubled(&corners, &triangles), 0, "{name}");
+            let other_sides = triangles.iter().map(|[a, b, c]| [*c, *b, *a]);
+            let twice: Vec<[u32; 3]> = triangles.iter().copied().chain(other_sides).collect();
+            let least_seen = doubled(&corners, &twice);
+            assert!(least_seen * 3 >= triangles.len(), "{name}: {least_seen} of {}", triangles.len());
+        }
+        // Louvres without thickness, all wound alike.
+        let slat = |number: u32| {
+            let y = f64::from(number) * 0.002;
+            [[0.0, y, 0.0], [1.0, y, 0.0], [1.0, y + 0.001, 0.01], [0.0, y + 0.001, 0.01]]
+        };
+        let corners: Vec<[f64; 3]> = (0..500).flat_map(slat).collect();
+        let triangles: Vec<[u32; 3]> =
+            (0..500).map(|number| number * 4).flat_map(|at| [[at, at + 1, at + 2], [at, at + 2, at + 3]]).collect();
+        assert_eq!(doubled(&corners, &triangles), 0);
     }
 
     #[test]

@@ -25,9 +25,11 @@
 mod extent;
 mod precision;
 mod turntable;
+mod unseen;
 mod vertex_boxes;
 
 pub use crate::values::{Background, Color, Rectangle, Size};
+pub use unseen::Unseen;
 
 use crate::camera::{Camera, CameraSettings, Projection};
 use crate::curvature::{Curvatures, KeptCurvatures};
@@ -250,7 +252,8 @@ impl Scene {
             return Err(Error::model(
                 &objects[0].mesh.name,
                 format!(
-                    "the scene's radius is {radius:e}; scale the model to between {:e} and {:e} units",
+                    "the scene's radius is {:e}; scale the model to between {:e} and {:e} units",
+                    length_of_any(high * 0.5 - low * 0.5),
                     SCENE_RADIUS.start(),
                     SCENE_RADIUS.end()
                 ),
@@ -426,6 +429,12 @@ impl Scene {
     pub fn triangle_count(&self) -> usize {
         self.objects.iter().map(|object| object.mesh.triangles.len()).sum()
     }
+}
+
+/// The length of a vector whose squares may be no numbers of f64.
+fn length_of_any(vector: DVec3) -> f64 {
+    let largest = vector.abs().max_element();
+    if largest > 0.0 { (vector / largest).length() * largest } else { 0.0 }
 }
 
 impl Object {

@@ -314,14 +314,24 @@ impl<T: Clone + 'static> Setting<T> {
 
     /// Accepts only whole numbers within these limits.
     #[must_use]
-    pub fn whole(mut self, limits: RangeInclusive<u32>) -> Self {
+    pub fn whole(self, limits: RangeInclusive<u32>) -> Self {
+        let sentence = format!("give a whole number from {} to {}", limits.start(), limits.end());
+        self.accepting(move |text| text.parse().is_ok_and(|number| limits.contains(&number)), sentence)
+    }
+
+    /// Accepts only numbers within these limits.
+    #[must_use]
+    pub fn limits(self, limits: RangeInclusive<f64>) -> Self {
+        let sentence = format!("give a number from {} to {}", limits.start(), limits.end());
+        self.accepting(move |text| text.parse().is_ok_and(|number| limits.contains(&number)), sentence)
+    }
+
+    /// Refuses texts other than these, and other than the word of an open setting, with this sentence.
+    fn accepting(mut self, is_right: impl Fn(&str) -> bool + Send + Sync + 'static, sentence: String) -> Self {
         let (set, open) = (self.set, self.open);
-        self.set = Box::new(move |of, text| {
-            let number = text.trim().parse().ok();
-            if Some(text) != open && !number.is_some_and(|number| limits.contains(&number)) {
-                return Err(format!("give a whole number from {} to {}", limits.start(), limits.end()).into());
-            }
-            set(of, text)
+        self.set = Box::new(move |of, text| match Some(text) == open || is_right(text.trim()) {
+            true => set(of, text),
+            false => Err(sentence.clone().into()),
         });
         self
     }

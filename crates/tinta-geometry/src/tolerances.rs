@@ -110,6 +110,10 @@ pub const SHORTEST_LINE: f64 = 1e-7;
 /// Largest rounding error of a coordinate, as a share of the largest one in the scene: a few of f64's last places.
 pub const COORDINATE_NOISE: f64 = 16.0 * f64::EPSILON;
 
+/// Rounding of coordinates far from the origin, pixels, above which exact lines are not called exact: an end of a line may be off
+/// by as much elsewhere.
+pub const LOST_PX: f64 = 0.05;
+
 /// Sine of the angle between a face and the view below which the face is edge-on. A surface may end at each side of such a
 /// face, and a side shared with a face that is not edge-on is silhouette. An unnecessary one costs a ray.
 pub const EDGE_ON: f64 = 1e-9;
@@ -170,8 +174,9 @@ pub const BASE_SHARE: f64 = 0.1;
 /// geometric mean. The doll's is 0.03.
 pub const BASE_MARGIN: f64 = 0.02;
 
-/// Largest distance between corners of two faces that are the two sides of one thin part, as a share of the longest side: some
-/// steps of a Quake 2 model's byte coordinates, on a wing a quarter of the model's size.
+/// Largest distance between corners of two faces that are the two sides of one thin part, as a share of the shortest side: a
+/// step or two of a Quake 2 model's byte coordinates, on a wing a quarter of the model's size. Bars and slats are thin, too, and
+/// lie farther apart than that.
 pub const DOUBLED: f64 = 1.0 / 12.0;
 
 /// Least area of such a face, as a share of its model's: in a picture of 512 pixels a dozen or so.

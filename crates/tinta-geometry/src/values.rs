@@ -168,6 +168,20 @@ impl Background {
     }
 }
 
+/// Returns a number for a message: with an exponent where its decimals would be long.
+///
+/// ```
+/// use tinta_geometry::values::short;
+///
+/// assert_eq!([short(0.25), short(100.0), short(1e-300), short(2e60)], ["0.25", "100", "1e-300", "2e60"]);
+/// ```
+pub fn short(number: f64) -> String {
+    match number == 0.0 || (1e-4..1e7).contains(&number.abs()) {
+        true => number.to_string(),
+        false => format!("{number:e}"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

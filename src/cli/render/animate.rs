@@ -12,7 +12,7 @@ use tinta::mesh::ModelFrame;
 use tinta::plan::prune::Pruned;
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
-use tinta::request::{AnimationSettings, ModelCache, ReadModels, Request, Session};
+use tinta::request::{AnimationSettings, ModelCache, ReadModels, Request, Session, empty_remark};
 use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings};
 
 /// Default time of a turn, milliseconds; each of a few views is shown for at most 200.
@@ -62,16 +62,18 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
     let mut writer = AnimationWriter::new(target.clone(), scenes.len() as u32, delay_ms)?;
     let mut frame_ms = Vec::new();
     let mut verdict = Verdict::Good;
+    let (mut remarks, mut empty) = (Vec::new(), Vec::new());
     for (number, scene) in scenes.iter().enumerate() {
         let frame = Instant::now();
         let (published, Pruned { mut plan, .. }) = request.plans(scene, renderer)?;
         plan.submission = run.submission;
         if number == 0 {
-            let remarks = [request.style.remarks(scene), renderer.remarks(&plan)].concat();
+            remarks = [request.style.remarks(scene), renderer.remarks(&plan)].concat();
             remarks.iter().for_each(|remark| super::super::say(&format!("tinta: {remark}")));
         }
         let picture = renderer.draw(scene, &plan)?;
         frame_ms.push(milliseconds_since(frame));
+        empty.extend(empty_remark(scene, &published, &picture, renderer)?);
         if run.verify && verdict == Verdict::Good {
             verdict = prune::verify(output, renderer, scene, &published, &picture)?;
         }
@@ -80,6 +82,11 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
     }
     let written = writer.finish()?;
     drop(progress);
+    if let [first, ..] = &empty[..] {
+        let remark = format!("{} of {} pictures are empty; the first: {first}", empty.len(), scenes.len());
+        super::super::say(&format!("tinta: {remark}"));
+        remarks.push(remark);
+    }
     if !run.json {
         return Ok(verdict);
     }
@@ -91,6 +98,7 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
         "show": request.show,
         "size": scenes[0].size,
         "gl": renderer.context(),
+        "remarks": remarks,
         "frames": scenes.len(),
         "delay_ms": delay_ms,
         "bytes": written.bytes,

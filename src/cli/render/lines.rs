@@ -54,11 +54,7 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     };
     let Drawn::Lines(drawn) = drawn else { return Ok(Verdict::Good) };
     let DrawnLines { scene, files, style, lines, areas, remarks, load_ms } = *drawn;
-    scene.crack_remarks().iter().chain(&remarks).for_each(|remark| say(&format!("tinta: {remark}")));
-    let has_areas = areas.as_ref().is_some_and(|areas| areas.drawn.corners_px.is_some());
-    if !has_areas && !lines.segments.iter().any(|segment| segment.is_visible) {
-        say("tinta: no line of these classes is visible in this picture; see --classes, --eye and --target");
-    }
+    remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
 
     let start = Instant::now();
     if format == Format::Dxf && areas.as_ref().is_some_and(|areas| !areas.drawn.fills.is_empty()) {
@@ -109,7 +105,7 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
         times: lines.times,
         lines_ms,
     }));
-    let mut record = rendering.record(&scene, load_ms, Vec::new(), made);
+    let mut record = rendering.record(&scene, load_ms, remarks, made);
     record.model.defects.covered_triangles = lines.covered_triangles;
     super::super::print_json(&record).map(|()| Verdict::Good)
 }

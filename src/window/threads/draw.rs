@@ -11,7 +11,7 @@ use crate::plan::Plan;
 use crate::renderer::{Renderer, StepValues, median, milliseconds_since};
 use crate::request::Request;
 use crate::scene::{Rectangle, Scene};
-use crate::styles::{Show, Style};
+use crate::styles::{Show, Style, StyleName};
 use crate::window::threads::coarse;
 use crate::window::threads::explain::PixelJob;
 use crate::window::threads::job::{Cost, Drawing, Job};
@@ -19,6 +19,7 @@ use crate::window::threads::line_measure::LineMeasure;
 use crate::window::threads::report::{Report, Reporter};
 use crate::window::values::event::Side;
 use std::collections::HashMap;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Instant;
@@ -73,6 +74,16 @@ pub struct Drawer {
     are_tried: bool,
     /// Those that it drew with last.
     good_shaders: HashMap<String, String>,
+    warmed: Option<Warmed>,
+}
+
+/// What the driver has compiled and uploaded.
+#[derive(Debug)]
+struct Warmed {
+    /// The models drawn last.
+    scene: Arc<Scene>,
+    /// Their pictures drawn before.
+    pictures: Vec<(StyleName, Show)>,
 }
 
 impl Drawer {
@@ -83,7 +94,8 @@ impl Drawer {
     /// As [`Renderer::new`].
     pub fn new(backend: Backend) -> Result<Self> {
         let renderer = Renderer::new(backend)?;
-        Ok(Self { read_back: None, renderer, shaders: HashMap::new(), are_tried: true, good_shaders: HashMap::new() })
+        let (shaders, good_shaders) = (HashMap::new(), HashMap::new());
+        Ok(Self { read_back: None, renderer, shaders, are_tried: true, good_shaders, warmed: None })
     }
 
     /// The context's own description.
@@ -102,7 +114,7 @@ impl Drawer {
     ///
     /// As [`Renderer::replace_shaders`].
     pub fn replace_shaders(&mut self, shaders: HashMap<String, String>) -> Result<()> {
-        self.read_back = None;
+        (self.read_back, self.warmed) = (None, None);
         self.renderer.replace_shaders(shaders.clone())?;
         self.shaders = shaders;
         self.are_tried = false;
@@ -137,17 +149,27 @@ impl Drawer {
     fn draw_once(&mut self, job: &Job) -> Result<Vec<Drawing>> {
         let scene = job.scene()?;
         let draw = |(side, style, show): &(Side, Style, Show)| {
+            let drawn = if job.is_coarse { &crate::styles::coarse(style) } else { style };
+            // The time is that of a frame, not of the driver's compiling and uploading before the first one.
+            if self.is_first(job, drawn.style_name(), *show) {
+                self.draw_scene(&scene, drawn, *show)?;
+            }
             let start = Instant::now();
-            let picture = match job.is_coarse {
-                true => {
-                    let picture = self.draw_scene(&scene, &crate::styles::coarse(style), *show)?;
-                    coarse::enlarged(&picture, job.settings.size)
-                }
-                false => self.draw_scene(&scene, style, *show)?,
-            };
+            let picture = self.draw_scene(&scene, drawn, *show)?;
+            let picture = if job.is_coarse { coarse::enlarged(&picture, job.settings.size) } else { picture };
             Ok(Drawing { side: *side, picture, frame_ms: milliseconds_since(start) })
         };
         job.drawings.iter().map(draw).collect()
+    }
+
+    /// Whether a picture of these models is drawn for the first time; it is not from now on.
+    fn is_first(&mut self, job: &Job, style: StyleName, show: Show) -> bool {
+        let warmed = self.warmed.take().filter(|warmed| Arc::ptr_eq(&warmed.scene, &job.scene));
+        let mut warmed = warmed.unwrap_or_else(|| Warmed { scene: job.scene.clone(), pictures: Vec::new() });
+        let is_first = !warmed.pictures.contains(&(style, show));
+        warmed.pictures.extend(is_first.then_some((style, show)));
+        self.warmed = Some(warmed);
+        is_first
     }
 
     /// Draws a scene, pruned of everything that cannot change the picture.
@@ -246,5 +268,33 @@ fn work(backend: Backend, number: usize, orders: &Receiver<Order>, reporter: &Re
                 Err(error) => Report::ShadersRefused(error),
             },
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{LoadOptions, load};
+    use crate::orbit::Orbit;
+    use crate::scene::{SceneSettings, Size};
+
+    #[test]
+    fn a_picture_is_first_once_for_each_style_and_model_and_new_shaders() {
+        let mesh = Arc::new(load("builtin:open-box", &LoadOptions::default()).unwrap().mesh);
+        let settings = SceneSettings { size: Size { width: 16, height: 16 }, ..SceneSettings::default() };
+        let scene = || Arc::new(Scene::new(vec![mesh.clone()], &settings).unwrap());
+        let style = Style::named(StyleName::Phong);
+        let drawings = vec![(Side::Left, style.clone(), Show::Final)];
+        let job =
+            Job { scene: scene(), orbit: Orbit::default(), settings: settings.clone(), drawings, is_coarse: false };
+        let mut drawer = Drawer::new(Backend::Auto).unwrap();
+        drawer.draw(&job).unwrap();
+        assert!(!drawer.is_first(&job, StyleName::Phong, Show::Final));
+        assert!(drawer.is_first(&job, StyleName::ThreePass, Show::Final));
+        assert!(drawer.is_first(&job, StyleName::ThreePass, Show::Borders));
+        assert!(drawer.is_first(&Job { scene: scene(), ..job.clone() }, StyleName::Phong, Show::Final));
+        drawer.draw(&job).unwrap();
+        drawer.replace_shaders(HashMap::new()).unwrap();
+        assert!(drawer.is_first(&job, StyleName::Phong, Show::Final));
     }
 }

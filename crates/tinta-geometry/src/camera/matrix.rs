@@ -9,7 +9,13 @@ use glam::{DMat3, DMat4, DVec3, DVec4, Vec4Swizzles};
 const SLACK: f64 = 1e-4;
 
 impl CameraSettings {
-    /// Returns the camera with this matrix to clip space, for the aspect that the matrix contains. x points right and
+    /// Returns the aspect (width over height) of the picture that a matrix to clip space is for, with square pixels.
+    pub fn aspect_of_clip_from_world(matrix: &DMat4) -> f64 {
+        matrix.row(1).xyz().length() / matrix.row(0).xyz().length()
+    }
+
+    /// Returns the camera with this matrix to clip space, whose aspect
+    /// [`aspect_of_clip_from_world`](Self::aspect_of_clip_from_world) returns. x points right and
     /// y up. In perspective the depth may have any form; in a parallel projection it must grow away from the eye. The
     /// near and far planes stay unset and are fitted.
     ///
@@ -124,6 +130,7 @@ mod tests {
                     let others = DMat4::from_scale(DVec3::new(1.0, 1.0, 0.5)) * matrix * 3.0;
                     for matrix in [matrix, others] {
                         let again = matrix_of(&CameraSettings::of_clip_from_world(&matrix).unwrap(), aspect);
+                        assert!((CameraSettings::aspect_of_clip_from_world(&matrix) - aspect).abs() < 1e-9);
                         for point in points() {
                             let apart = again.project_point3(point) - matrix.project_point3(point);
                             assert!(apart.truncate().length() < 1e-9, "{settings:?}: {apart}");

@@ -100,6 +100,7 @@ impl Soup {
         pieces.drop_duplicates(self.positions.len());
         defects.degenerate_triangles += pieces.degenerate;
         defects.long_polygons += pieces.too_long;
+        defects.crossing_polygons += pieces.crossing;
         defects.repeated_corners += pieces.repeated_corners;
         defects.duplicate_triangles += pieces.duplicate;
         defects.doubled_triangles += pieces.doubled;
@@ -257,6 +258,7 @@ fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
         missing_materials: 0,
         unusable_normals: 0,
         unusable_texture_coordinates: 0,
+        unusable_colors: 0,
         ..defects.clone()
     };
     let problem = if !of_faces.is_empty() {

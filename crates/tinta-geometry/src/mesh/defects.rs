@@ -12,6 +12,8 @@ pub struct Defects {
     pub degenerate_triangles: usize,
     /// Polygons with too many corners to triangulate, left out: [`limits`](crate::limits).
     pub long_polygons: usize,
+    /// Polygons that cross themselves: which parts of them are filled is chance.
+    pub crossing_polygons: usize,
     /// Triangles that repeat another with the same orientation, left out.
     pub duplicate_triangles: usize,
     /// Pairs of triangles with the same corners, one each way: surfaces written twice, once for each side. Readers keep both.
@@ -34,6 +36,8 @@ pub struct Defects {
     /// Triangles that coplanar triangles cover, as in models made to be seen from both sides. Readers keep them;
     /// [`VisibleLines`](crate::VisibleLines) counts them and leaves them out. Harmless, too.
     pub covered_triangles: usize,
+    /// Colours of materials that are not three finite numbers from 0 to 1; they are brought there, or left out.
+    pub unusable_colors: usize,
     /// Missing material files and materials; their faces get the default colour.
     pub missing_materials: usize,
 }
@@ -51,6 +55,10 @@ impl Defects {
             "parts of the model are missing; export it again"
         } else if self.unusable_normals + self.unusable_texture_coordinates > 0 {
             "shading or textures may be wrong there; export the model again"
+        } else if self.crossing_polygons > 0 {
+            "what such polygons fill is chance; split them into triangles"
+        } else if self.unusable_colors > 0 {
+            "those materials have other colours; correct the material file"
         } else {
             "this does not change the picture"
         }
@@ -62,6 +70,7 @@ impl<'a> std::iter::Sum<&'a Self> for Defects {
         all.fold(Self::default(), |sum, one| Self {
             degenerate_triangles: sum.degenerate_triangles + one.degenerate_triangles,
             long_polygons: sum.long_polygons + one.long_polygons,
+            crossing_polygons: sum.crossing_polygons + one.crossing_polygons,
             duplicate_triangles: sum.duplicate_triangles + one.duplicate_triangles,
             doubled_triangles: sum.doubled_triangles + one.doubled_triangles,
             averaged_normals: sum.averaged_normals + one.averaged_normals,
@@ -72,6 +81,7 @@ impl<'a> std::iter::Sum<&'a Self> for Defects {
             unusable_texture_coordinates: sum.unusable_texture_coordinates + one.unusable_texture_coordinates,
             repeated_corners: sum.repeated_corners + one.repeated_corners,
             covered_triangles: sum.covered_triangles + one.covered_triangles,
+            unusable_colors: sum.unusable_colors + one.unusable_colors,
             missing_materials: sum.missing_materials + one.missing_materials,
         })
     }
@@ -82,6 +92,7 @@ impl fmt::Display for Defects {
         let kinds = [
             (self.degenerate_triangles, "degenerate triangle", "degenerate triangles"),
             (self.long_polygons, "polygon of too many corners", "polygons of too many corners"),
+            (self.crossing_polygons, "polygon that crosses itself", "polygons that cross themselves"),
             (self.duplicate_triangles, "duplicate triangle", "duplicate triangles"),
             (self.doubled_triangles, "triangle written for both sides", "triangles written for both sides"),
             (self.non_finite_vertices, "vertex that is not finite", "vertices that are not finite"),
@@ -104,6 +115,7 @@ impl fmt::Display for Defects {
                 "polygons that name a corner twice in a row (harmless)",
             ),
             (self.covered_triangles, "triangle that others cover (harmless)", "triangles that others cover (harmless)"),
+            (self.unusable_colors, "material without a usable colour", "materials without a usable colour"),
             (self.missing_materials, "missing material", "missing materials"),
         ];
         let mut separator = "";

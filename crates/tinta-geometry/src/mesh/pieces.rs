@@ -5,7 +5,8 @@
 use super::coincident::{Coincident, coincident, sorted};
 use super::same_polygons::{in_order_of, same_polygons};
 use super::soup::{Corner, Soup};
-use super::{NONE, triangle_normal, triangulate};
+use super::triangulate::{self, Cut};
+use super::{NONE, triangle_normal};
 use crate::threads::{in_parallel, threads_for};
 use earcut::Earcut;
 use glam::DVec3;
@@ -31,6 +32,8 @@ pub(super) struct Pieces {
     pub degenerate: usize,
     /// How many polygons had too many corners to be cut.
     pub too_long: usize,
+    /// How many polygons cross themselves.
+    pub crossing: usize,
     /// How many belonged to a polygon that repeated another.
     pub duplicate: usize,
     /// How many have another on their back: pairs with the same corners.
@@ -122,13 +125,15 @@ impl Pieces {
         points.clear();
         points.extend(corners.iter().map(|corner| soup.positions[corner.position as usize]));
         match triangulate::triangulate(points, earcut, cut) {
-            // If earcut finds no area, the lost triangles count as degenerate.
-            true => self.degenerate += (corners.len() - 2).saturating_sub(cut.len()),
-            false => {
+            Cut::Whole => {}
+            Cut::Crossing => self.crossing += 1,
+            Cut::TooLong => {
                 self.too_long += 1;
-                cut.clear();
+                return cut.clear();
             }
         }
+        // If earcut finds no area, the lost triangles count as degenerate.
+        self.degenerate += (corners.len() - 2).saturating_sub(cut.len());
     }
 
     /// Room for so many triangles of a soup.

@@ -8,17 +8,28 @@ mod ears;
 mod simple_polygon;
 
 use crate::limits::{CONCAVE_CORNERS, CROSSING_CORNERS};
+use crate::tolerances::NEEDLE;
 use earcut::Earcut;
 use ears::cut_ears;
 use glam::{DVec2, DVec3};
 use simple_polygon::is_simple;
 
+/// How a polygon was cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Cut {
+    /// Into triangles that lie side by side.
+    Whole,
+    /// Into triangles of another area than its own, because it crosses itself: what they fill is chance.
+    Crossing,
+    /// Not at all: it has more than [`CONCAVE_CORNERS`] and is not convex, or more than [`CROSSING_CORNERS`] and crosses itself.
+    TooLong,
+}
+
 /// Splits one polygon (its corners' positions, in order) into triangles of corner numbers.
 ///
-/// `out` is cleared and gets `corners.len() - 2` triangles for a simple polygon, fewer where it has no area to cut, none where
-/// it has more than [`CONCAVE_CORNERS`] and is not convex, or more than [`CROSSING_CORNERS`] and crosses itself: then it returns false.
+/// `out` is cleared and gets `corners.len() - 2` triangles for a simple polygon, fewer where it has no area to cut.
 /// Time grows with n log n for most long polygons; the slowest known of 32,768 corners takes a third of a second.
-pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut Vec<[u32; 3]>) -> bool {
+pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut Vec<[u32; 3]>) -> Cut {
     out.clear();
     match corners.len() {
         0..=2 => {}
@@ -28,25 +39,35 @@ pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut
             let normal = newell_normal(corners);
             if normal == DVec3::ZERO || is_convex(corners, normal) {
                 out.extend((1..count as u32 - 1).map(|i| [0, i, i + 1]));
-            } else {
-                if count > CONCAVE_CORNERS {
-                    return false;
+                let has_area =
+                    normal == DVec3::ZERO && out.iter().any(|cut| area(cut.map(|i| corners[i as usize])) > NEEDLE);
+                return if has_area { Cut::Crossing } else { Cut::Whole };
+            }
+            if count > CONCAVE_CORNERS {
+                return Cut::TooLong;
+            }
+            let plane: Vec<DVec2> = project(corners, normal).collect();
+            if count > CROSSING_CORNERS {
+                let is_simple = is_simple(&plane);
+                if is_simple {
+                    cut_ears(&plane, out);
                 }
-                let plane: Vec<DVec2> = project(corners, normal).collect();
-                if count > CROSSING_CORNERS {
-                    let is_simple = is_simple(&plane);
-                    if is_simple {
-                        cut_ears(&plane, out);
-                    }
-                    return is_simple;
-                }
-                let mut indices: Vec<u32> = Vec::new();
-                earcut.earcut(plane.iter().map(|point| point.to_array()), &[], &mut indices);
-                out.extend(indices.chunks_exact(3).map(|t| oriented([t[0], t[1], t[2]], corners, normal)));
+                return if is_simple { Cut::Whole } else { Cut::TooLong };
+            }
+            let mut indices: Vec<u32> = Vec::new();
+            earcut.earcut(plane.iter().map(|point| point.to_array()), &[], &mut indices);
+            out.extend(indices.chunks_exact(3).map(|t| oriented([t[0], t[1], t[2]], corners, normal)));
+            let cut: f64 = out.iter().map(|cut| area(cut.map(|i| plane[i as usize].extend(0.0)))).sum();
+            if (cut - normal.length() * 0.5).abs() > NEEDLE {
+                return Cut::Crossing;
             }
         }
     }
-    true
+    Cut::Whole
+}
+
+fn area([a, b, c]: [DVec3; 3]) -> f64 {
+    (b - a).cross(c - a).length() * 0.5
 }
 
 /// The corners moved to the first one and scaled to a size of 1 to 2, which keeps products of lengths ordinary numbers. The
@@ -221,6 +242,30 @@ mod tests {
         spiked.splice(0..0, [tip, tip + DVec2::X, tip + DVec2::ONE, tip + DVec2::X]);
         let spiked = flat(spiked);
         assert!((area_vector(&spiked, &cut(&spiked)).1 - area).abs() < 1e-12);
+    }
+
+    #[test]
+    fn polygons_that_cross_themselves_are_told_from_those_that_touch_themselves() {
+        let of = |flat: &[DVec2]| {
+            let (u, v) = (DVec3::new(0.6, 0.8, 0.0), DVec3::new(-0.48, 0.36, 0.8));
+            let corners: Vec<DVec3> = flat.iter().map(|point| (u * point.x + v * point.y) * 300.0).collect();
+            triangulate(&corners, &mut Earcut::new(), &mut Vec::new())
+        };
+        let points = |flat: &[(f64, f64)]| -> Vec<DVec2> { flat.iter().map(|(x, y)| DVec2::new(*x, *y)).collect() };
+        // A bow tie of two equal halves, whose areas cancel, one of two unequal ones, and a star drawn in one go.
+        assert_eq!(of(&points(&[(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)])), Cut::Crossing);
+        assert_eq!(of(&points(&[(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 0.3)])), Cut::Crossing);
+        let pentagram: Vec<DVec2> =
+            (0..5).map(|i| DVec2::from_angle(f64::from(i) * 0.8 * std::f64::consts::PI)).collect();
+        assert_eq!(of(&pentagram), Cut::Crossing);
+        for count in [4, 5, 32, 600, 1000] {
+            assert_eq!(of(&comb(count)), Cut::Whole, "comb of {count}");
+            assert_eq!(of(&star(count, 1e-3)), Cut::Whole, "star of {count}");
+            assert_eq!(of(&keyhole(count.max(6))), Cut::Whole, "keyhole of {count}");
+            assert_eq!(of(&zigzag(count.max(6))), Cut::Whole, "zigzag of {count}");
+        }
+        assert_eq!(of(&[DVec2::ZERO; 6]), Cut::Whole);
+        assert_eq!(of(&points(&[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (0.5, 0.0)])), Cut::Whole);
     }
 
     #[test]

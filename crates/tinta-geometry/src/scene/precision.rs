@@ -3,7 +3,8 @@
 use super::Scene;
 use crate::camera::{Camera, Projection};
 use crate::error::{Error, Result};
-use crate::tolerances::{LARGEST_DISTANCE, LARGEST_EXACT_DISTANCE, LEAST_DEPTH_STEPS};
+use crate::tolerances::{COORDINATE_NOISE, LARGEST_DISTANCE, LARGEST_EXACT_DISTANCE, LEAST_DEPTH_STEPS, LOST_PX};
+use crate::values::short;
 
 impl Scene {
     /// The eye's distance from the scene's centre, scene radii.
@@ -26,6 +27,27 @@ impl Scene {
         }
     }
 
+    /// Returns a remark on exact lines of a scene so far from the origin, for its size, that numbers do not tell its points
+    /// apart to [`LOST_PX`] of the picture.
+    pub fn far_remark(&self) -> Option<String> {
+        let reach = self.centre.abs().max_element().max(self.camera.eye.abs().max_element());
+        let shown = match self.camera.projection {
+            Projection::Perspective { fov_y_degrees } => {
+                2.0 * (fov_y_degrees.to_radians() * 0.5).tan() * (self.camera.eye - self.centre).length()
+            }
+            Projection::Parallel { height } => height,
+        };
+        let px_per_unit = f64::from(self.size.height) / shown;
+        (COORDINATE_NOISE * reach * px_per_unit > LOST_PX).then(|| {
+            format!(
+                "{reach:.1e} units from the origin numbers are {:.1e} apart, {} pixels here: lines may be missing, and hidden ones \
+                 drawn; move the model nearer to the origin",
+                reach * f64::EPSILON,
+                short((reach * f64::EPSILON * px_per_unit * 1e3).round() / 1e3)
+            )
+        })
+    }
+
     /// Refuses a scene without faces, because GL draws nothing else, and a camera that GL cannot draw this scene with: f32
     /// matrices are too coarse for the depth, or the planes leave the depth buffer too few steps. Exact lines need neither.
     ///
@@ -39,7 +61,14 @@ impl Scene {
             return Err(Error::model(name, problem));
         }
         let distance = self.distance();
-        if distance > LARGEST_DISTANCE || !self.clip_from_view().is_finite() {
+        let clip_from_view = self.clip_from_view();
+        if let Projection::Parallel { height } = self.camera.projection
+            && !(clip_from_view.x_axis.is_finite() && clip_from_view.y_axis.is_finite())
+        {
+            let problem = "GL cannot enlarge the model so much; show more of it";
+            return Err(Error::value("height", short(height), problem));
+        }
+        if distance > LARGEST_DISTANCE || !clip_from_view.is_finite() {
             return Err(Error::settings(
                 &["fov", "eye", "near", "far"],
                 format!(
@@ -70,11 +99,81 @@ impl Scene {
             return Err(Error::settings(
                 &["near", "far"],
                 format!(
-                    "the planes, {near} and {far} away, are so far apart that {steps:.0} of the depth buffer's 16777216 steps are left for the scene, \
-                     which is {nearest:.3} to {farthest:.3} away; leave the options out, or bring the planes closer to that"
+                    "the planes, {} and {} away, are so far apart that {steps:.0} of the depth buffer's 16777216 steps are left for the scene, \
+                     which is {nearest:.3} to {farthest:.3} away; leave the options out, or bring the planes closer to that",
+                    short(near),
+                    short(far)
                 ),
             ));
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::camera::CameraSettings;
+    use crate::lines::{LineSettings, VisibleLines};
+    use crate::mesh::{LoadOptions, Mesh};
+    use crate::scene::{Scene, SceneSettings};
+    use glam::DVec3;
+    use std::sync::Arc;
+
+    /// A cube of side 2 with its middle here: all its coordinates are whole numbers up to 1e15.
+    fn cube(middle: DVec3, camera: CameraSettings) -> Scene {
+        let corner = |number: u32| DVec3::from_array([0, 1, 2].map(|axis| f64::from(number >> axis & 1) * 2.0 - 1.0));
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles: Vec<[u32; 3]> = sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+        let corners = (0..8).map(|number| corner(number) + middle).collect();
+        let mesh = Mesh::of_triangles("a cube", corners, &triangles, &LoadOptions::default()).unwrap();
+        Scene::new(vec![Arc::new(mesh)], &SceneSettings { camera, ..SceneSettings::default() }).unwrap()
+    }
+
+    fn visible_px(scene: &Scene) -> f64 {
+        let lines = VisibleLines::of(scene, &LineSettings::default()).unwrap();
+        lines.segments.iter().filter(|segment| segment.is_visible).map(|it| it.ends_px[0].distance(it.ends_px[1])).sum()
+    }
+
+    #[test]
+    fn lines_far_from_the_origin_are_right_or_remarked() {
+        let mut wrong = 0;
+        for parallel in [false, true] {
+            let camera = CameraSettings { parallel, ..CameraSettings::default() };
+            let near = visible_px(&cube(DVec3::ZERO, camera.clone()));
+            for power in 3..=15 {
+                let far = cube(DVec3::new(1.0, -1.0, 1.0) * 10.0f64.powi(power), camera.clone());
+                let (remark, px) = (far.far_remark(), visible_px(&far));
+                let is_right = (px - near).abs() < 0.01 * near;
+                assert!(is_right || remark.is_some(), "1e{power}: {px} instead of {near}");
+                wrong += usize::from(!is_right);
+                assert!(remark.is_none() || power > 9, "1e{power}: {remark:?}");
+            }
+        }
+        assert!(wrong > 0, "the remark has a reason");
+        let remark = cube(DVec3::splat(1e15), CameraSettings::default()).far_remark().unwrap();
+        assert!(remark.contains("1.0e15") && remark.contains("nearer to the origin"), "{remark}");
+    }
+
+    #[test]
+    fn numbers_of_messages_are_short_and_name_the_right_option() {
+        let refused = |camera| cube(DVec3::ZERO, camera).check_precision().unwrap_err().to_string();
+        let height = refused(CameraSettings { parallel: true, height: Some(1e-300), ..CameraSettings::default() });
+        assert!(height.starts_with("height 1e-300: "), "{height}");
+        let planes = refused(CameraSettings { near: Some(1e-300), ..CameraSettings::default() });
+        assert!(planes.contains("1e-300") && planes.len() < 300, "{planes}");
+        let crossed = CameraSettings { near: Some(1e300), far: Some(1e-300), ..CameraSettings::default() };
+        let crossed = cube(DVec3::ZERO, CameraSettings::default())
+            .seen_with(&SceneSettings { camera: crossed, ..SceneSettings::default() })
+            .unwrap_err()
+            .to_string();
+        assert!(crossed.contains("1e300 and 1e-300") && crossed.len() < 200, "{crossed}");
+        let tiny = Mesh::of_triangles(
+            "a speck",
+            [DVec3::ZERO, DVec3::X, DVec3::Y].map(|corner| corner * 1e-300).to_vec(),
+            &[[0, 1, 2]],
+            &LoadOptions::default(),
+        );
+        let said = tiny.and_then(|mesh| Scene::new(vec![Arc::new(mesh)], &SceneSettings::default())).unwrap_err();
+        assert!(said.to_string().contains("e-301"), "{said}");
     }
 }

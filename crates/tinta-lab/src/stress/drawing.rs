@@ -1,7 +1,7 @@
 //! Draws a case by every backend, with and without pruning, and takes its measurements.
 
 use super::cases::{Drawing, Study, side_px};
-use super::figures::{Exact, Figures, covered_px, differing_px, non_finite};
+use super::figures::{Exact, Figures, covered_px, darkness, differing_px, doubled_pairs, non_finite};
 use super::jitter::{Flips, Popped, flips, jittered};
 use super::outcome::Outcome;
 use super::variants::Variant;
@@ -15,6 +15,7 @@ use tinta::error::{Error, Result};
 use tinta::picture::Picture;
 use tinta::plan::prune::prune;
 use tinta::renderer::Renderer;
+use tinta::request::empty_remark;
 use tinta::scene::{Scene, SceneSettings, Size};
 use tinta::styles::Show;
 
@@ -45,12 +46,21 @@ impl Subject {
     pub(super) fn new(drawing: &Drawing, largest: Size, folder: &Path) -> Result<Self> {
         let scene = scene(drawing, largest, folder)?;
         let mut subject = Self {
-            figures: Figures::from([("non_finite", non_finite(&scene) as f64)]),
+            figures: Figures::from([
+                ("non_finite", non_finite(&scene) as f64),
+                ("far_said", f64::from(scene.far_remark().is_some())),
+            ]),
             scene,
             exact: None,
             turn: Vec::new(),
             twin: None,
         };
+        let aspect = drawing.matrix.as_ref().map(CameraSettings::aspect_of_clip_from_world);
+        subject.figures.extend(aspect.map(|aspect| ("matrix_aspect", aspect)));
+        // In a large scene copies share a mesh, and so do pairs.
+        if drawing.copies == 1 {
+            subject.figures.insert("doubled_pairs", doubled_pairs(&subject.scene) as f64);
+        }
         match drawing.study {
             Study::Picture => {}
             Study::Full => {
@@ -88,7 +98,14 @@ impl Subject {
         let picture = renderer.draw(&self.scene, &prune(&plan, &self.scene, &pruning).plan)?;
         let full = renderer.draw(&self.scene, &plan)?;
         let mut figures = self.figures.clone();
-        figures.insert("covered_px", covered_px(&picture));
+        let empty_said = empty_remark(&self.scene, &plan, &picture, renderer)?.is_some();
+        let covered_px = covered_px(&picture);
+        figures.extend([
+            ("covered_px", covered_px),
+            ("darkness", darkness(&picture)),
+            ("empty_said", f64::from(empty_said)),
+            ("silently_empty", f64::from(covered_px == 0.0 && !empty_said)),
+        ]);
         figures.insert("pruned_differing_px", differing_px(&picture, &full));
         if let Some(twin) = &self.twin {
             let twin = renderer.draw(twin, &style.plan(twin, Show::Final)?)?;

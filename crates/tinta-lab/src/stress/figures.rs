@@ -4,6 +4,7 @@ use crate::compare::InkMask;
 use crate::measure::{Reference, ReferenceLight};
 use glam::Vec3;
 use std::collections::BTreeMap;
+use tinta::doubled::doubled_faces;
 use tinta::edges::Class;
 use tinta::error::Result;
 use tinta::lines::{LineSettings, VisibleLines};
@@ -129,6 +130,17 @@ pub(super) fn differing_px(first: &Picture, second: &Picture) -> f64 {
 /// Pixels that are not white.
 pub(super) fn covered_px(picture: &Picture) -> f64 {
     picture.pixels.chunks_exact(4).filter(|pixel| pixel[..3] != [u8::MAX; 3]).count() as f64
+}
+
+/// How dark a picture is: 0 white, 1 black.
+pub(super) fn darkness(picture: &Picture) -> f64 {
+    let sum: f64 = picture.pixels.chunks_exact(4).flat_map(|pixel| &pixel[..3]).map(|byte| f64::from(*byte)).sum();
+    1.0 - sum / (255.0 * 3.0 * picture.size.pixel_count() as f64)
+}
+
+/// The pairs of faces that lie on each other, in all meshes.
+pub(super) fn doubled_pairs(scene: &Scene) -> usize {
+    scene.objects.iter().map(|object| doubled_faces(&object.mesh)).sum()
 }
 
 #[cfg(test)]

@@ -13,7 +13,10 @@ pub(super) fn outcome(path: &Path, content: &Content) -> Outcome {
         return Outcome::Refused { kind: "test", sentence: format!("the file cannot be made ({error})") };
     }
     let outcome = match load(&path.to_string_lossy(), &LoadOptions::default()) {
-        Ok(loaded) => Outcome::Rendered(Figures::from([("triangles", loaded.mesh.triangles.len() as f64)])),
+        Ok(loaded) => Outcome::Rendered(Figures::from([
+            ("triangles", loaded.mesh.triangles.len() as f64),
+            ("has_defects", f64::from(!loaded.mesh.defects.is_empty())),
+        ])),
         Err(error) => Outcome::refused(&error),
     };
     // It lies in a temporary folder, which goes in the end in any case.

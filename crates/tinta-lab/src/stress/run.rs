@@ -124,9 +124,9 @@ impl Summary {
 }
 
 /// Figures that must be 0 wherever they are known: no infinite value, no visible omission, no difference between backends, no
-/// edge that flips without cause.
-const ALWAYS_NONE: [&str; 4] =
-    ["non_finite", "pruned_differing_px", "backends_differing_px", "edges_flipped_unexplained"];
+/// edge that flips without cause, no empty picture without a remark.
+const ALWAYS_NONE: [&str; 5] =
+    ["non_finite", "pruned_differing_px", "backends_differing_px", "edges_flipped_unexplained", "silently_empty"];
 
 impl Expected {
     fn text(&self) -> String {

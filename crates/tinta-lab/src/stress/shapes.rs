@@ -60,6 +60,10 @@ pub enum Shape {
     Terraces,
     /// A wavy sheet, pressed flat along z, of this many squares along each side.
     Flat(u32),
+    /// A comb of this many separate teeth, each as wide as the gap beside it.
+    Comb(u32),
+    /// A fence of this many closed bars, each as far from the next as it is wide.
+    Fence(u32),
     /// A shape that a file brings.
     Written(Written),
     /// A long strip from in front of the eye of these cases to far behind it, through the point (1, 1, 1) of eye space, the place
@@ -184,6 +188,20 @@ impl Shape {
                 )
             }
             Self::Flat(side) => sheet(side),
+            Self::Comb(teeth) => {
+                let width = 0.5 / f64::from(teeth);
+                let tooth = |number: u32| {
+                    let left = f64::from(number) * 2.0 * width;
+                    [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| DVec3::new(left + x * width, y, 0.0))
+                };
+                let faces =
+                    (0..teeth).flat_map(|number| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|i| i + number * 4)));
+                ((0..teeth).flat_map(tooth).collect(), faces.collect())
+            }
+            Self::Fence(bars) => (0..bars).fold(Triangles::default(), |fence, number| {
+                let low = DVec3::X * f64::from(number) * 0.04;
+                both(fence, cube(low, low + DVec3::new(0.02, 1.0, 0.02)))
+            }),
             Self::ThroughTheLight => {
                 let points = vec![
                     DVec3::ONE,

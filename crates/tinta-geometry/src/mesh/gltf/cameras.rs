@@ -5,12 +5,13 @@ use super::nodes::Nodes;
 use crate::camera::CameraSettings;
 use glam::DVec3;
 
-/// The camera of a glTF or GLB file's bytes, in the file's coordinates; `None` if its scene shows none.
+/// The camera of a glTF or GLB file's bytes, in the file's coordinates, with the aspect (width over height) of its picture, if
+/// the file gives one; `None` if its scene shows none.
 ///
 /// # Errors
 ///
 /// A sentence without the file's name for what is no such file.
-pub fn camera(file: &[u8]) -> std::result::Result<Option<CameraSettings>, String> {
+pub fn camera(file: &[u8]) -> std::result::Result<Option<(CameraSettings, Option<f64>)>, String> {
     let (json, _) = container::open(file)?;
     let root = container::parse(json)?;
     let nodes = Nodes::of(&root)?;
@@ -30,10 +31,13 @@ pub fn camera(file: &[u8]) -> std::result::Result<Option<CameraSettings>, String
     };
     match (&camera.perspective, &camera.orthographic) {
         (Some(perspective), _) => {
-            Ok(Some(CameraSettings { fov_y_degrees: f64::from(perspective.yfov).to_degrees(), ..settings }))
+            let settings = CameraSettings { fov_y_degrees: f64::from(perspective.yfov).to_degrees(), ..settings };
+            Ok(Some((settings, perspective.aspect_ratio.map(f64::from))))
         }
         (None, Some(orthographic)) => {
-            Ok(Some(CameraSettings { parallel: true, height: Some(2.0 * f64::from(orthographic.ymag)), ..settings }))
+            let [half_width, half_height] = [orthographic.xmag, orthographic.ymag].map(f64::from);
+            let settings = CameraSettings { parallel: true, height: Some(2.0 * half_height), ..settings };
+            Ok(Some((settings, Some(half_width / half_height))))
         }
         (None, None) => Err("its camera is neither perspective nor orthographic; export it again".to_owned()),
     }

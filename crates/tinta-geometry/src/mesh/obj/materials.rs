@@ -72,6 +72,7 @@ pub(super) fn put_on(
         remarks.push(format!("{path}: not drawn: {of} Kd as a spectrum or as XYZ; write red, green and blue"));
     }
     remarks.extend(Emission::remark(path, found.iter().map(|one| &one.emission)));
+    soup.defects.unusable_colors = found.iter().filter(|one| one.has_unusable_color).count();
     move_coordinates(soup, &found);
     (soup.materials, soup.material_folders) = found.into_iter().map(|one| (one.material, one.folder)).collect();
     Ok(())
@@ -136,6 +137,8 @@ pub(super) struct Described {
     has_foreign_color: bool,
     /// The light that it emits (`Ke`, `map_Ke`).
     emission: Emission,
+    /// Whether its colour is neither three numbers from 0 to 1 nor one.
+    has_unusable_color: bool,
 }
 
 impl Described {
@@ -178,8 +181,13 @@ pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
     let mut all: Vec<Described> = Vec::new();
     let text = text::decoded(text);
     for line in String::from_utf8_lossy(&text::with_newlines(&text)).lines() {
-        let Some((keyword, rest)) = line.trim().split_once(char::is_whitespace) else { continue };
+        // `Kd` alone is one word.
+        let line = line.trim();
+        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         let rest = rest.trim();
+        if rest.is_empty() && keyword != "Kd" {
+            continue;
+        }
         match (keyword, all.last_mut()) {
             ("newmtl", _) => {
                 if all.len() >= most {
@@ -189,7 +197,9 @@ pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
                 all.push(Described { material, placing: AS_IT_IS, ..Described::default() });
             }
             ("Kd", Some(one)) => {
-                one.has_foreign_color |= rest.starts_with("spectral") || rest.starts_with("xyz");
+                let is_foreign = rest.starts_with("spectral") || rest.starts_with("xyz");
+                one.has_foreign_color |= is_foreign;
+                one.has_unusable_color |= !is_foreign && !is_color(rest);
                 one.material.color = color(rest).or(one.material.color);
             }
             ("map_Kd", Some(one)) => (one.pictures, one.placing) = texture(rest),
@@ -202,6 +212,13 @@ pub(super) fn described(text: &[u8], most: usize) -> Option<Vec<Described>> {
         }
     }
     Some(all)
+}
+
+/// Whether a text is three numbers from 0 to 1, or a single one, but for a last digit.
+fn is_color(text: &str) -> bool {
+    let numbers: Vec<Option<f64>> = plain(text).split_whitespace().take(3).map(number).collect();
+    let is_right = |number: &Option<f64>| number.is_some_and(|number| (-1e-6..=1.0 + 1e-6).contains(&number));
+    [1, 3].contains(&numbers.len()) && numbers.iter().all(is_right)
 }
 
 /// Three numbers as a colour, or a single one as a grey; `None` for anything else.
@@ -371,6 +388,18 @@ mod tests {
         assert_eq!(color("1 0.5 0", "Kd 0 0 0\n d 0.5"), None);
         assert_eq!(color("1 0.5 0", "Kd 0 0.5 0"), Some([0.0, 0.5, 0.0]));
         assert_eq!(color("", "Kd 0 0 0"), Some([0.0; 3]), "black where nothing else has a colour");
+    }
+
+    #[test]
+    fn colours_that_are_none_are_counted_and_sound_ones_are_not() {
+        let is_counted = |kd: &str| of(&format!("newmtl a\n{kd}\n"))[0].has_unusable_color;
+        for kd in ["Kd nan 0 0", "Kd -1 2 1e30", "Kd", "Kd ", "Kd .5 .5 inf", "Kd 1 1", "Kd red 0 0", "Kd 1 1 1\nKd x"]
+        {
+            assert!(is_counted(kd), "{kd}");
+        }
+        for kd in ["", "Kd 0 0.5 1", "Kd 1 1 1.0000001", "Kd 1e-9 -0 1 4", "Kd 0.5", "Kd xyz 1 1 2"] {
+            assert!(!is_counted(kd), "{kd}");
+        }
     }
 
     #[test]

@@ -60,12 +60,12 @@ pub(super) fn cases() -> Vec<Case> {
         ("the eye in the plane of a face", DVec3::new(1.0, 0.3, 5.0), middle),
         ("the eye in the planes of two faces", DVec3::new(1.0, 1.0, 4.0), middle),
         ("the eye on the line of an edge", DVec3::new(1.0, 1.0, 5.0), DVec3::new(1.0, 1.0, 0.0)),
-        ("everything behind the eye", DVec3::new(0.5, 0.5, 5.0), DVec3::new(0.5, 0.5, 9.0)),
         ("the eye 19000 radii away", DVec3::new(0.5, 0.5, 16_000.0), middle),
     ];
     for (name, eye, target) in places {
         all.push(rendered(name.to_owned(), cube(camera(eye, target))));
     }
+    all.extend(empty());
     let far_away = camera(DVec3::new(0.5, 0.5, 1e6), middle);
     all.push(Case::refused(Group::Depth, "the eye a million radii away", cube(far_away), "setting", "--eye"));
     let same = camera(middle, middle);
@@ -79,6 +79,23 @@ pub(super) fn cases() -> Vec<Case> {
     let parallel = CameraSettings { parallel: true, ..camera(DVec3::new(1.0, 0.5, 5.0), DVec3::new(1.0, 0.5, 0.0)) };
     all.push(rendered("in parallel, two faces edge-on".to_owned(), cube(parallel)));
     all
+}
+
+/// Pictures in which nothing is seen, which the program says.
+fn empty() -> Vec<Case> {
+    let (front, middle) = (DVec3::new(0.5, 0.5, 5.0), DVec3::splat(0.5));
+    let looking = |target| CameraSettings { eye: Some(front), target: Some(target), ..CameraSettings::default() };
+    let planes = |near, far| CameraSettings { near: Some(near), far: Some(far), ..looking(middle) };
+    let cameras = [
+        ("everything behind the eye", looking(DVec3::new(0.5, 0.5, 9.0))),
+        ("everything beside the picture", looking(DVec3::new(90.0, 0.5, 4.0))),
+        ("everything before the near plane", planes(100.0, 200.0)),
+        ("everything beyond the far plane", planes(1.0, 2.0)),
+    ];
+    let said = |(name, camera): (&str, CameraSettings)| {
+        rendered(name.to_owned(), Drawing { camera, ..Drawing::default() }).with("empty_said", 1.0, 1.0)
+    };
+    cameras.into_iter().map(said).collect()
 }
 
 fn rendered(name: String, drawing: Drawing) -> Case {

@@ -25,7 +25,7 @@ pub(super) fn cases() -> Vec<Case> {
     // A chunk that declares two gigabytes, inside one that also does.
     let three_ds =
         [&0x4d4d_u16.to_le_bytes()[..], &u32::MAX.to_le_bytes(), &0x3d3d_u16.to_le_bytes(), &u32::MAX.to_le_bytes()];
-    vec![
+    let mut all = vec![
         case("an empty file", "empty.obj", Content::Bytes(Vec::new()), refused("empty")),
         case("a file that is not there", "missing.obj", Content::Missing, refused("no such file")),
         case("a folder", "folder.obj", Content::Folder, refused("directory")),
@@ -50,6 +50,20 @@ pub(super) fn cases() -> Vec<Case> {
         case("two billion frames", "lie.md2", Content::Bytes(md2), refused("lie.md2")),
         case("chunks longer than their file", "lie.3ds", Content::Bytes(three_ds.concat()), refused("lie.3ds")),
         case("a name of two lines", "two\nlines.obj", text("f"), refused("lines.obj")),
-        case("a square", "sound.obj", text(&format!("{SQUARE}f 1 2 3 4\n")), Expected::Rendered),
-    ]
+        case("a square", "sound.obj", text(&format!("{SQUARE}f 1 2 3 4\n")), Expected::Rendered).with(
+            "has_defects",
+            0.0,
+            0.0,
+        ),
+        case("a square that crosses itself", "bow-tie.obj", text(&format!("{SQUARE}f 1 3 2 4\n")), Expected::Rendered)
+            .with("has_defects", 1.0, 1.0),
+    ];
+    // The file is its own material file.
+    for (number, kd) in ["Kd nan 0 0", "Kd -1 2 1e30", "Kd", "Kd .5 .5 inf"].into_iter().enumerate() {
+        let file = ["kd-0.obj", "kd-1.obj", "kd-2.obj", "kd-3.obj"][number];
+        let content = text(&format!("mtllib {file}\nnewmtl a\n{kd}\n{SQUARE}usemtl a\nf 1 2 3 4\n"));
+        let name = format!("a material whose colour is {kd}");
+        all.push(case(&name, file, content, Expected::Rendered).with("has_defects", 1.0, 1.0));
+    }
+    all
 }

@@ -4,15 +4,15 @@
 use super::case::{Case, Drawing, Expected, Group, Study};
 use crate::stress::{Shape, Variant, Written};
 use glam::{DMat4, DVec3, DVec4};
-use tinta::camera::CameraSettings;
+use tinta::camera::{CameraSettings, View};
 use tinta::scene::Size;
-use tinta::styles::{Border, Cartoon, Charcoal, Inking, MapEncoding, Style, StyleName};
+use tinta::styles::{Border, Cartoon, Charcoal, Inking, MapEncoding, PaintMode, Style, StyleName};
 
 /// Share of pixels that may differ between pictures of one surface whose numbers round differently.
 const ROUNDED: f64 = 0.002;
 
 pub(super) fn cases() -> Vec<Case> {
-    [normals(), textures(), matrices(), models(), exponents(), depths()].concat()
+    [normals(), textures(), matrices(), models(), exponents(), combs(), depths()].concat()
 }
 
 fn drawn(name: impl Into<String>, answer: &'static str, drawing: Drawing) -> Case {
@@ -120,6 +120,13 @@ fn matrices() -> Vec<Case> {
             of(matrix()),
         ),
     ];
+    let wider = same(
+        "a camera matrix five times as wide",
+        "its vertical scale counts, and --camera says what its sides lose",
+        of(scaled(5.0, 1.0, 1.0)),
+        of(matrix()),
+    );
+    all.push(wider.with("matrix_aspect", 0.2 - 1e-9, 0.2 + 1e-9));
     let mut sheared = DMat4::IDENTITY;
     sheared.y_axis.x = 0.3;
     let refused = [
@@ -179,6 +186,30 @@ fn exponents() -> Vec<Case> {
     let case =
         |(exponent, answer): (f32, _)| drawn(format!("a contrast exponent of {exponent:e}"), answer, of(exponent));
     answers.into_iter().map(case).collect()
+}
+
+/// Smoothed lines write depth even where their alpha is next to 0, and GL_LESS refuses every later line there: what lies
+/// dense fades (D11). How dark a front view of 512 x 512 pixels is, by the number of a comb's teeth.
+fn combs() -> Vec<Case> {
+    let comb = |teeth: u32, writes_depth: bool, darkness: f64| {
+        let inking = Inking { paint: PaintMode::None, writes_depth, ..Inking::default() };
+        let option = if writes_depth { "write" } else { "test" };
+        let drawing = Drawing {
+            shape: Shape::Comb(teeth),
+            camera: CameraSettings { view: "front".parse().unwrap_or(View::DEFAULT), ..CameraSettings::default() },
+            size: Size { width: 512, height: 512 },
+            variants: vec![Variant::new(format!("inking --paint none --ink-depth {option}"), Style::Inking(inking))],
+            study: Study::Picture,
+            ..Drawing::default()
+        };
+        let answer = if writes_depth { "lines keep out those drawn later beside them" } else { "dense lines are dark" };
+        let case = drawn(format!("a comb of {teeth} teeth, --ink-depth {option}"), answer, drawing);
+        case.with("darkness", darkness - 0.02, darkness + 0.02)
+    };
+    let written = [(200, 0.49), (500, 0.21), (2000, 0.055)];
+    let mut all: Vec<Case> = written.map(|(teeth, darkness)| comb(teeth, true, darkness).degrades()).into();
+    all.extend(written.map(|(teeth, _)| comb(teeth, false, 0.85)));
+    all
 }
 
 /// Distances of the eye from the four squares of [`Shape::Terraces`], of the planes' far one, and a pixel's width at distance 1.

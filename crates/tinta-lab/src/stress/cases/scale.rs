@@ -31,7 +31,16 @@ pub(super) fn cases() -> Vec<Case> {
         let offset = DVec3::new(1.0, -0.7, 0.4) * distance;
         let drawing = compared(Drawing { shape: Shape::Builtin("builtin:gear"), offset, ..Drawing::default() });
         let case = rendered(format!("a gear {distance:e} units away from the origin"), drawing);
-        all.push(case.with("twin_differing", 0.0, differing).with("twin_lines_differing", 0.0, differing));
+        let case = case.with("twin_differing", 0.0, differing).with("twin_lines_differing", 0.0, differing);
+        all.push(case.with("far_said", 0.0, 0.0));
+    }
+    // All coordinates are whole numbers, but numbers there are up to an eighth apart, which exact lines cannot know.
+    for distance in [1e14, 1e15] {
+        let offset = DVec3::new(1.0, -1.0, 1.0) * distance;
+        let drawing = Drawing { shape: Shape::Cube, scale: 2.0, offset, study: Study::Picture, ..Drawing::default() };
+        all.push(
+            rendered(format!("a cube {distance:e} units away from the origin"), drawing).with("far_said", 1.0, 1.0),
+        );
     }
     let smaller = Shape::CubeAndSmaller(1e6);
     all.push(rendered(

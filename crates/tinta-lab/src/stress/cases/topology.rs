@@ -18,7 +18,11 @@ pub(super) fn cases() -> Vec<Case> {
         rendered("triangles with next to no area among others", Shape::Slivers),
         rendered("each triangle three times", Shape::Duplicates).with("non_manifold", 0.0, 0.0),
         // The exact lines take two faces back to back for one sheet: the cube's own lines remain.
-        rendered("each triangle also the other way round", Shape::OppositeDuplicates).with("non_manifold", 0.0, 0.0),
+        rendered("each triangle also the other way round", Shape::OppositeDuplicates)
+            .with("non_manifold", 0.0, 0.0)
+            .with("doubled_pairs", 12.0, 12.0),
+        // Bars are thin, too, and no two sides of one sheet.
+        rendered("a fence of 30 bars", Shape::Fence(30)).with("doubled_pairs", 0.0, 0.0),
         rendered("five faces on an edge", Shape::Fins(5)).with("non_manifold", 1.0, 1.0),
         rendered("a Moebius strip", Shape::Moebius).with("boundary", 128.0, 128.0),
         rendered("inside out", Shape::InsideOut(3)).with("boundary", 0.0, 0.0),
