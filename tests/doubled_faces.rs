@@ -108,7 +108,7 @@ fn sheet(random: &mut Random) -> Shape {
     for place in (0..COLUMNS * (COLUMNS - 1)).filter(|place| place % COLUMNS + 1 < COLUMNS) {
         let [a, b, c, d] = [place, place + 1, place + COLUMNS + 1, place + COLUMNS];
         // Holes lie apart from each other: sides that meet in a corner alone may be either's fronts.
-        let may_be_hole = place % COLUMNS % 2 == 0 && place / COLUMNS % 2 == 0;
+        let may_be_hole = (place % COLUMNS).is_multiple_of(2) && (place / COLUMNS).is_multiple_of(2);
         match random.bits() % 8 {
             0 if may_be_hole => {}
             1 | 2 => faces.extend([vec![a, b, c], vec![a, c, d]]),

@@ -419,6 +419,6 @@ fn a_camera_has_no_size() {
     }
     // A node above moves it.
     let moved = camera(json!({"scale": [2.0, 2.0, 2.0]}), json!({}));
-    assert_ne!(moved.eye, plain.eye);
-    assert_eq!(moved.up, plain.up);
+    assert_ne!(moved.0.eye, plain.0.eye);
+    assert_eq!(moved.0.up, plain.0.up);
 }

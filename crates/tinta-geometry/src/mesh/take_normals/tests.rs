@@ -105,7 +105,7 @@ fn sheet(heights: &[f64], missing: u64) -> (Vec<DVec3>, Vec<Vec<u32>>) {
     let at = |place: u32| DVec3::new(f64::from(place % COLUMNS), heights[place as usize], -f64::from(place / COLUMNS));
     let positions = (0..heights.len() as u32).map(at).collect();
     let places = (0..heights.len() as u32 - COLUMNS).filter(|place| place % COLUMNS + 1 < COLUMNS);
-    let may_be_hole = |place: u32| place % COLUMNS % 2 == 0 && place / COLUMNS % 2 == 0;
+    let may_be_hole = |place: u32| (place % COLUMNS).is_multiple_of(2) && (place / COLUMNS).is_multiple_of(2);
     let is_hole = |place: &u32| missing >> (place * 2) & 3 == 0 && may_be_hole(*place);
     let faces = places.filter(|place| !is_hole(place)).flat_map(|place| {
         let [a, b, c, d] = [place, place + 1, place + COLUMNS + 1, place + COLUMNS];
