@@ -107,6 +107,7 @@ fn every_sentence_quoted_in_troubleshooting_is_said() {
         "render builtin:open-box -o a.png --style inking --line-width 300 --size 16",
         "render builtin:open-box -o a.png --style inking --texture on --size 16",
         "render builtin:open-box -o a.svg --eye 100,0,0 --target 200,0,0",
+        "render builtin:open-box -o a.png --eye 100,0,0 --target 200,0,0",
     ] {
         all.push_str(&said(&[], words));
     }

@@ -44,15 +44,13 @@ fn a_turntable_is_as_many_different_pictures_and_begins_with_the_view() {
 }
 
 #[test]
-fn a_gif_without_a_turn_is_one_picture_the_same_as_the_png() {
+fn a_name_of_an_animation_without_a_turn_is_refused() {
     let folder = Folder::new();
-    let (gif_path, png) = (folder.path("a.gif"), folder.path("a.png"));
-    for path in [&gif_path, &png] {
-        render(&["builtin:open-box", "--size", "40", "-o", path]);
+    for name in ["a.gif", "a.apng", "%d.png", "%d.svg"] {
+        let path = folder.path(name);
+        refused_in_one_line(&["render", "builtin:open-box", "-o", &path], &[name, "add --turntable 60", "drawing.png"]);
     }
-    let frames = gif(&gif_path);
-    assert_eq!(frames.len(), 1);
-    assert!(*frames[0].buffer() == image::open(png).unwrap().into_rgba8());
+    assert_eq!(std::fs::read_dir(folder.path(".")).unwrap().count(), 0);
 }
 
 #[test]
@@ -217,15 +215,15 @@ fn what_makes_no_animation_is_refused() {
     };
     refused("a.png", &["--turntable", "4"], &["a.png: this names one picture", ".gif or .apng", "frame-%04d.png"]);
     refused("-", &["--turntable", "4"], &["-: this names one picture"]);
-    refused("no/such/a.gif", &[], &["no/such/a.gif: the folder no/such does not exist"]);
-    refused(&folder.path("%d.jpg"), &["--transparent"], &["no transparency"]);
+    refused("no/such/a.gif", &["--turntable", "4"], &["no/such/a.gif: the folder no/such does not exist"]);
+    refused(&folder.path("%d.jpg"), &["--turntable", "4", "--transparent"], &["no transparency"]);
     refused(&out, &["--turntable", "0"], &["--turntable", "from 1 to 10000"]);
     refused(&out, &["--turntable", "4", "--frame-delay", "5"], &["--frame-delay", "from 20 to 60000"]);
     refused(&out, &["--turntable", "4", "--animate"], &["--turntable", "--animate"]);
     refused(&out, &["--animate", "--model-frame", "2"], &["--animate", "--model-frame"]);
     refused(&out, &["--animate"], &["--animate: builtin:ant has no frames", "--turntable"]);
     refused(&out, &["--turntable", "4", "--dump", "steps"], &["--dump: this is for one picture"]);
-    refused(&out, &["--explain"], &["--explain: this is for one picture"]);
-    refused(&out, &["--frames", "9"], &["--frames: this is for one picture"]);
+    refused(&out, &["--turntable", "4", "--explain"], &["--explain: this is for one picture"]);
+    refused(&out, &["--turntable", "4", "--frames", "9"], &["--frames: this is for one picture"]);
     assert!(!std::path::Path::new(&out).exists());
 }

@@ -49,15 +49,20 @@ fn shaders(program: &Program) -> impl Iterator<Item = &'static str> {
     [program.vertex].into_iter().chain(program.fragments.iter().copied())
 }
 
-/// The names of the uniforms that a shader declares and uses.
+/// The names of the uniforms that a shader declares without a value and uses.
 fn uniforms(text: &str) -> Vec<&str> {
     let words: Vec<Token<'_>> =
         tokens(text).into_iter().filter(|token| token.kind != Kind::Between && !token.is_directive).collect();
     let mut names = Vec::new();
     for (place, _) in words.iter().enumerate().filter(|(_, token)| token.text == "uniform") {
-        // A type follows, then names with commas between them.
-        let declared = words[place + 1..].iter().take_while(|token| token.text != ";").skip(1);
-        names.extend(declared.filter(|token| token.kind == Kind::Word).map(|token| token.text));
+        // A type follows, then names with commas between them; a value may have commas of its own.
+        let mut declared = words[place + 1..].iter().take_while(|token| token.text != ";").skip(1).peekable();
+        while let Some(token) = declared.next() {
+            if declared.peek().is_some_and(|next| next.text == "=") {
+                break;
+            }
+            names.extend((token.kind == Kind::Word).then_some(token.text));
+        }
     }
     names.retain(|name| words.iter().filter(|token| token.text == *name).count() > 1);
     names
@@ -74,8 +79,8 @@ mod tests {
 
     #[test]
     fn uniforms_are_those_declared_and_used() {
-        let text = "#define uniform no\nuniform vec3 a, b;\nuniform sampler3D Noise; // uniform float c;\nuniform float unused;\n\
-                    void main() { gl_FragColor = vec4(a + b, texture3D(Noise, a).r); }";
+        let text = "#define uniform no\nuniform vec3 a, b;\nuniform sampler3D Noise; // uniform float c;\nuniform float unused, set = 1.0;\n\
+                    void main() { gl_FragColor = vec4(a + b * set, texture3D(Noise, a).r); }";
         assert_eq!(uniforms(text), ["a", "b", "Noise"]);
     }
 

@@ -13,10 +13,8 @@ use crate::error::{Error, Result};
 use crate::settings::{Kind, Problem, Value};
 use crate::tolerances::ON_PLANE;
 use cutter::Cutter;
+pub use cutter::SECTION;
 use glam::DVec3;
-
-/// The name of the part that holds the cut's faces.
-pub const SECTION: &str = "section";
 
 const NO_PLANE: &str = "its numbers must be finite, and its normal not 0";
 

@@ -33,7 +33,7 @@ fn triangles_know_the_polygon_that_they_are_cut_from() {
     };
     face(&[0, 1, 4]); // on one line
     face(&[2, 1, 4]);
-    face(&[1, 2, 0]); // repeats half of the square, turned
+    face(&[1, 4, 2]); // repeats it, turned
     face(&[3, 2, 1, 0]);
     let mixed = mesh(soup);
     assert_eq!(mixed.file_faces, [0, 0, 2, 4, 4]);
@@ -50,13 +50,14 @@ fn defects_are_counted_and_left_out() {
         soup.corners.extend(indices.iter().map(|index| Corner::at(*index)));
         soup.polygon_sizes.push(indices.len() as u32);
     };
-    face(&[1, 2, 0]); // repeats half of the square, turned
+    face(&[1, 2, 0]); // half of the square, which is another polygon
+    face(&[2, 0, 1]); // repeats it, turned
     face(&[2, 1, 0]); // its other side
     face(&[0, 1, 1]);
     face(&[0, 1, 6]); // on one line
     face(&[0, 1, 5]); // not finite
     let mesh = mesh(soup);
-    assert_eq!(mesh.triangles.len(), 3);
+    assert_eq!(mesh.triangles.len(), 4);
     let expected = Defects {
         degenerate_triangles: 2,
         duplicate_triangles: 1,

@@ -71,7 +71,8 @@ pub(super) fn put(
     // Most places have the mesh's own weights: its vertices are read once for all of them.
     let mut vertices: Vec<Vertices> = Vec::new();
     let mut shape_read: Option<(&[f32], bool)> = None;
-    for Place { node: number, instances } in places {
+    let mut places = places.iter().peekable();
+    while let Some(Place { node: number, instances }) = places.next() {
         let node = &accessors.root.nodes[*number];
         let weights = node.weights.as_ref().or(outline.mesh.weights.as_ref()).map_or(&[][..], Vec::as_slice);
         let joints = match node.skin {
@@ -93,31 +94,26 @@ pub(super) fn put(
             shape_read = Some(shape);
         }
         let scene_from_node = nodes.scene_from_node[*number];
-        let mut put = |place: &DMat4| put_copy(soup, outline, &drawn, &vertices, place, joints);
-        match instances {
-            None => put(&scene_from_node)?,
-            Some(instances) => {
-                for node_from_mesh in instances.places(accessors)? {
-                    put(&(scene_from_node * node_from_mesh))?;
-                }
+        let copies = match instances {
+            None => vec![scene_from_node],
+            Some(instances) => instances.places(accessors)?.map(|from_mesh| scene_from_node * from_mesh).collect(),
+        };
+        for (number, copy) in copies.iter().enumerate() {
+            let put = |vertices| Placed::put(soup, vertices, copy, joints);
+            let sets: Vec<Placed> = vertices.iter().map(put).collect::<Result<_, String>>()?;
+            if number + 1 == copies.len() && places.peek().is_none() {
+                // Before the corners take their memory.
+                vertices = Vec::new();
             }
+            put_pieces(soup, outline, &drawn, &sets);
         }
         soup.polygon_parts.resize(soup.polygon_materials.len(), part_of_node[*number]);
     }
     Ok(())
 }
 
-/// Adds a mesh in one place.
-fn put_copy(
-    soup: &mut Soup,
-    outline: &Outline<'_>,
-    drawn: &[Drawn],
-    vertices: &[Vertices],
-    place: &DMat4,
-    joints: Option<&[DMat4]>,
-) -> Result<(), String> {
-    let put = |vertices| Placed::put(soup, vertices, place, joints);
-    let sets: Vec<Placed> = vertices.iter().map(put).collect::<Result<_, String>>()?;
+/// Adds a mesh's points, lines and faces between vertices that are placed.
+fn put_pieces(soup: &mut Soup, outline: &Outline<'_>, drawn: &[Drawn], sets: &[Placed]) {
     for (piece, drawn) in outline.pieces.iter().zip(drawn) {
         let placed = &sets[piece.set];
         match drawn {
@@ -129,7 +125,6 @@ fn put_copy(
             }
         }
     }
-    Ok(())
 }
 
 /// The triangles that indices stand for, counter-clockwise, also those of strips that only continue elsewhere.

@@ -1,10 +1,12 @@
 //! A mesh being cut: the faces behind the plane, whole or clipped, and the caps that close them.
 
-use super::SECTION;
 use super::caps::{self, Cap};
 use crate::mesh::{Curves, Mesh, NONE, NamedPart, Shells};
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, HashMap};
+
+/// The name of the part that holds the cut's faces.
+pub const SECTION: &str = "section";
 
 /// A mesh being cut: its old vertices and faces, and the new ones.
 pub(super) struct Cutter {
