@@ -385,7 +385,7 @@ impl Request {
 }
 
 impl Request {
-    /// Names the file of the request's own folder of shaders in which a statement stands.
+    /// Names a statement's file in the request's own folder of shaders.
     fn in_own_shader(&self, error: Error) -> Error {
         match (error, &self.glsl) {
             (Error::Statement { path, line, problem }, Some(folder)) => {

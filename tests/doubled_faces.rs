@@ -183,7 +183,7 @@ fn surfaces_written_twice_are_drawn_as_one_with_its_sides_turned_to_the_eye() {
     }
 }
 
-/// What the program says about a drawing, its exit code and its answer as JSON.
+/// The program's remarks on a drawing, its exit code and its answer as JSON.
 fn said(line: &[&str]) -> (String, Option<i32>, Value) {
     let output = tinta(line);
     let json = serde_json::from_slice(&output.stdout).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! README's commands run as they are typed, by a program that was just installed.
+//! A freshly installed program runs README's commands.
 
 use crate::support::root;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ fn installed(place: &Path) -> PathBuf {
     program
 }
 
-/// What a program says and writes in this folder, without a display.
+/// The program's output and files in this folder, without a display.
 fn run(program: &Path, words: &str, folder: &Path) -> Output {
     let mut command = Command::new(program);
     for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {

@@ -14,7 +14,7 @@ use tinta::{Backend, Error, Picture, Recipe, Result, Size, StyleName};
 /// The command.
 pub(super) const COMMAND: Command = Command {
     examples: &[
-        "tinta again cow.png                             draw it again and compare, without a new file",
+        "tinta again cow.png                             draw it again and compare",
         "tinta again cow.png -o again.png                keep the new picture",
     ],
     ..Command::new("again", <Arguments as clap::Args>::augment_args, |matches, _| run(&given::<Arguments>(matches)?))

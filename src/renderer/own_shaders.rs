@@ -21,7 +21,8 @@ pub(super) fn remarks(plan: &Plan, own: &HashMap<String, String>) -> Vec<String>
             unused.join(", ")
         ));
     }
-    for path in paths {
+    // GL's side sets the uniforms of its own programs.
+    for path in paths.into_iter().filter(|path| !path.starts_with("fixed/")) {
         let of_path = programs.iter().filter(|(_, program)| shaders(program).any(|shader| shader == path));
         let mut unset: Vec<String> = Vec::new();
         for (draw, program) in of_path {

@@ -131,7 +131,7 @@ mod tests {
         let mut renderer = Renderer::new(Backend::Auto).unwrap();
         let picture = renderer.draw(&scene, &plan).unwrap();
         assert_eq!(empty_remark(&scene, &plan, &picture, &mut renderer).unwrap(), None);
-        // Without light, shaders or colours of its own every face is white.
+        // Without light, shaders and colours every face is white.
         for step in plan.passes.iter_mut().flat_map(|pass| &mut pass.steps) {
             if let Step::Draw(draw) = step {
                 (draw.program, draw.textures) = (None, Vec::new());

@@ -407,7 +407,7 @@ impl Parser<'_> {
     }
 }
 
-/// The member of GL's state that a name after a dot means, if what is before it is a structure of it.
+/// The member of GL's state that a name after a dot means; `None` behind any other expression.
 fn state_member(of: &Expression, member: &str) -> Option<ExpressionKind> {
     let (structure, number) = match &of.kind {
         ExpressionKind::Variable(name) => (name, None),

@@ -24,8 +24,8 @@ fn sided(name: &str) -> Option<&str> {
     name.strip_prefix("gl_Front").or_else(|| name.strip_prefix("gl_Back"))
 }
 
-/// Returns the value of a member of a structure, or of the structure of this number; `None` for unknown members and numbers, and for
-/// those in which drivers differ: the largest size of points, and half vectors while fixed-function lighting is off.
+/// Returns the value of a member of a structure, or of the structure of this number; `None` for unknown members and numbers, and where
+/// drivers differ: the largest size of points, and half vectors while fixed-function lighting is off.
 pub(crate) fn member(structure: &str, number: Option<f64>, member: &str) -> Option<Value> {
     let number = number.unwrap_or_default();
     if !(0.0..LIGHTS).contains(&number) {

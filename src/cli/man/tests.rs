@@ -54,7 +54,7 @@ fn examples_are_on_the_pages_of_their_commands() {
     assert_eq!(page("tinta-render.1").matches("\ntinta render ").count(), 6);
     // With its second line.
     assert!(page("tinta-render.1").contains("read options from a file"));
-    assert_eq!(page("tinta-again.1").matches("\ntinta again ").count(), 1);
+    assert_eq!(page("tinta-again.1").matches("\ntinta again ").count(), 2);
 }
 
 #[test]

@@ -62,7 +62,7 @@ pub enum Shape {
     Flat(u32),
     /// A comb of this many separate teeth, each as wide as the gap beside it.
     Comb(u32),
-    /// A fence of this many closed bars, each as far from the next as it is wide.
+    /// A fence of this many closed bars, with gaps of a bar's width.
     Fence(u32),
     /// A shape that a file brings.
     Written(Written),
