@@ -17,12 +17,8 @@ pub(super) fn of_doubled_faces(style: &Style, scene: &Scene) -> Vec<String> {
         Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => cartoon.cull_back_faces,
         Style::Mrt(mrt) => mrt.cull_back_faces,
         Style::Inking(inking) => inking.cull_back_faces,
-        // It draws both sides alike.
-        Style::Dietrich(_) => true,
-        // They find such faces, and those that nearly lie on each other, by their own rule.
-        Style::Charcoal(_) | Style::Sand(_) => true,
-        // They draw the one that faces the eye.
-        Style::Ink(_) | Style::Suggestive(_) | Style::Lines(_) => true,
+        // The others draw both sides alike or the one that faces the eye, or find such faces by their own rule.
+        _ => true,
     };
     if chooses {
         return Vec::new();

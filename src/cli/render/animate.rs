@@ -82,11 +82,7 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
     }
     let written = writer.finish()?;
     drop(progress);
-    if let [first, ..] = &empty[..] {
-        let remark = format!("{} of {} pictures are empty; the first: {first}", empty.len(), scenes.len());
-        super::super::say(&format!("tinta: {remark}"));
-        remarks.push(remark);
-    }
+    remarks.extend(of_empty(&empty, scenes.len()).inspect(|remark| super::super::say(&format!("tinta: {remark}"))));
     if !run.json {
         return Ok(verdict);
     }
@@ -109,6 +105,12 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
         "whole_ms": milliseconds_since(start),
     }))
     .map(|()| verdict)
+}
+
+/// The remark on the empty pictures of an animation, given theirs.
+fn of_empty(remarks: &[String], pictures: usize) -> Option<String> {
+    let first = remarks.first()?;
+    Some(format!("{} of {pictures} pictures are empty; the first: {first}", remarks.len()))
 }
 
 /// A scene for each picture, and how long reading took, milliseconds.
