@@ -2,7 +2,7 @@
 
 use super::{Defects, Material, NONE, NamedPart, UpAxis};
 use crate::error::{Error, Result};
-use crate::limits::{COPIES_BYTES, MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
+use crate::limits::{MEMORY_FACTOR, MEMORY_SLACK_BYTES, TRIANGLES};
 use crate::memory;
 use glam::{DVec3, Vec2, Vec3};
 use std::path::PathBuf;
@@ -105,6 +105,22 @@ impl Size {
         counts.map(|(count, bytes)| count.saturating_mul(bytes)).fold(0, usize::saturating_add)
     }
 
+    /// Whether its mesh exceeds the memory allowed for files of `file_bytes`.
+    pub(super) fn is_too_much(self, file_bytes: usize) -> bool {
+        self.bytes(Self::PEAK_BYTES) > bytes_allowed(file_bytes) || self.triangles > TRIANGLES
+    }
+
+    /// Rejects a soup of this size if its mesh exceeds the free memory.
+    fn check_free(self, free: Option<u64>, name: &str) -> Result<()> {
+        /// Further bytes of each at that peak, beside those already allocated: a little less than measured.
+        const BYTES: [usize; 4] = [10, 0, 60, 0];
+        memory::check(name, self.bytes(BYTES) as u64, free)
+    }
+}
+
+/// Of the one format that writes copies.
+#[cfg(feature = "gltf")]
+impl Size {
     /// This and more.
     pub(super) fn plus(self, more: Self) -> Self {
         Self {
@@ -125,29 +141,17 @@ impl Size {
         }
     }
 
-    /// Whether its mesh exceeds the memory allowed for files of `file_bytes`.
-    pub(super) fn is_too_much(self, file_bytes: usize) -> bool {
-        self.bytes(Self::PEAK_BYTES) > bytes_allowed(file_bytes) || self.triangles > TRIANGLES
-    }
-
     /// Whether there is more than 32 bits count.
     pub(super) fn is_beyond_count(self) -> bool {
         self.vertices.max(self.triangles).max(self.curves) > TRIANGLES
     }
 
     /// Rejects a mesh that holds copies, before they are made, if it exceeds the free memory: the file's size does not bound it.
-    /// Where the system does not tell its free memory, [`COPIES_BYTES`] bound it beside that size. The error is a sentence without
-    /// the file's name.
+    /// Where the system does not tell its free memory, [`COPIES_BYTES`](crate::limits::COPIES_BYTES) bound it beside that size. The
+    /// error is a sentence without the file's name.
     pub(super) fn check_copies(self, file_bytes: usize, free: Option<u64>) -> std::result::Result<(), String> {
-        let most = free.unwrap_or_else(|| COPIES_BYTES.max(bytes_allowed(file_bytes) as u64));
+        let most = free.unwrap_or_else(|| crate::limits::COPIES_BYTES.max(bytes_allowed(file_bytes) as u64));
         memory::refusal(self.bytes(Self::PEAK_BYTES) as u64, Some(most)).map_or(Ok(()), Err)
-    }
-
-    /// Rejects a soup of this size if its mesh exceeds the free memory.
-    fn check_free(self, free: Option<u64>, name: &str) -> Result<()> {
-        /// Further bytes of each at that peak, beside those already allocated: a little less than measured.
-        const BYTES: [usize; 4] = [10, 0, 60, 0];
-        memory::check(name, self.bytes(BYTES) as u64, free)
     }
 }
 
@@ -213,6 +217,7 @@ mod tests {
         assert!(little.check_free(Some(0), "a.obj").is_ok(), "what is little is not looked at");
     }
 
+    #[cfg(feature = "gltf")]
     #[test]
     fn copies_are_bounded_by_free_memory_and_by_a_limit_where_nobody_tells_it() {
         // A million triangles of half as many vertices take 0.16 GiB while their mesh is built.
