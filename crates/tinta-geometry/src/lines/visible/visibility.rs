@@ -22,7 +22,8 @@ impl LineIndex<'_> {
     /// The wanted lines' pieces, in the lines' order; with how many boxes were looked at. Of all lines, unless the time is over
     /// before: then of some, each as a whole.
     pub(in crate::lines) fn segments(&self, progress: &Progress) -> (Vec<LineSegment>, u64) {
-        const LINES: usize = 64;
+        /// Few: of any part of the time the lines done represent the rest.
+        const LINES: usize = 16;
         progress.begin(Phase::Lines, self.features.len());
         // Not one after the other: what is left then takes as long as what is done, and a part is one of the whole picture.
         let parts = spread_chunks(self.features.len(), LINES, cores(), |range| {
