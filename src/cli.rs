@@ -27,6 +27,7 @@ mod page;
 pub mod progress;
 mod program;
 pub mod render;
+mod run_settings;
 mod selection;
 mod signals;
 mod standard_input;

@@ -140,7 +140,7 @@ pub mod animation;
 #[cfg(feature = "presets")]
 pub mod preset;
 pub mod shell;
-#[cfg(feature = "recipes")]
+#[cfg(feature = "presets")]
 pub mod recipe;
 pub mod record;
 #[cfg(feature = "presets")]
@@ -174,7 +174,7 @@ pub use output::TextTarget;
 pub use picture::{Picture, Target};
 #[cfg(feature = "presets")]
 pub use preset::Preset;
-#[cfg(feature = "recipes")]
+#[cfg(feature = "presets")]
 pub use recipe::Recipe;
 pub use renderer::Renderer;
 #[cfg(feature = "presets")]

@@ -19,13 +19,17 @@
 //! ```
 
 mod draw;
+mod drawing;
 mod emptiness;
+mod format;
 mod layers;
 mod model_cache;
 mod session;
 
-pub use draw::{Drawn, DrawnLines, DrawnPicture, ReadModels, Times};
+pub use draw::{Drawn, DrawnPicture, ReadModels, Times};
+pub use drawing::{DrawnLines, Written};
 pub use emptiness::empty_remark;
+pub use format::{Format, Wanted};
 pub use layers::{Layer, OF_PAPER, ignored_remark, layers, pixels_on_paper};
 pub use model_cache::{Model, ModelCache};
 pub use session::Session;
@@ -37,8 +41,9 @@ use crate::gl::Backend;
 use crate::glsl::BUILT_IN;
 use crate::mesh::LoadOptions;
 use crate::plan::prune::{Pruning, Rule};
+use crate::recipe::{Driver, FileRecord, Recipe, files_read};
 use crate::renderer::Renderer;
-use crate::scene::SceneSettings;
+use crate::scene::{Scene, SceneSettings, Size};
 use crate::settings::{HasSettings, Kind, Options, Setting, Table, names_of, under, within};
 use crate::styles::{Ramp, Show, Style, StyleName, TextureSource};
 use std::collections::BTreeMap;
@@ -66,12 +71,8 @@ pub struct Request {
     pub glsl: Option<String>,
     /// What to leave out of the published plan.
     pub pruning: PruneSettings,
-    /// Whether a style of passes is drawn as vectors where it can be: areas of tone, and exact lines above them. Default no.
-    pub as_vectors: bool,
-    /// Whether to find all pieces of exact lines, including those that the drawing does not show and short ones. Default no.
-    pub tells_all: bool,
-    /// Whether hidden lines are found though the drawing does not show them, and it is counted where smooth silhouettes break. Default no.
-    pub tells_hidden: bool,
+    /// The drawing's title. Default the models' names without their folders.
+    pub title: Option<String>,
     /// The options that the request was made from. Recipes and presets keep them.
     pub options: Options,
     /// Where options that come from a look or a file stand.
@@ -287,9 +288,7 @@ impl Request {
             backend: Backend::default(),
             glsl: None,
             pruning: PruneSettings::default(),
-            as_vectors: false,
-            tells_all: false,
-            tells_hidden: false,
+            title: None,
             options: Options::new(),
             sources: BTreeMap::new(),
             paths: Vec::new(),
@@ -307,13 +306,40 @@ impl Request {
         Self { models, ..self }
     }
 
-    /// Returns the models' names without their folders, the title of a drawing of them.
+    /// The title of the drawing.
     pub fn title(&self) -> String {
+        if let Some(title) = &self.title {
+            return title.clone();
+        }
         let names = self.models.iter().map(|model| match Path::new(model).file_name() {
             Some(name) => name.to_string_lossy(),
             None => model.into(),
         });
         names.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The recipe of a drawing of this request in a scene that begins with its models. `beside` are the files read besides the
+    /// models; `gl` is who drew, `None` for lines. `record` is given each file's path once; a file without a record, such as one
+    /// that is gone since it was read, is left out, and drawing the recipe reports the difference.
+    pub fn recipe(
+        &self,
+        scene: &Scene,
+        beside: &[PathBuf],
+        gl: Option<Driver>,
+        record: impl Fn(&Path) -> Option<FileRecord>,
+    ) -> Recipe {
+        let Size { width, height } = self.scene.size;
+        let paths = files_read(&self.models, beside, scene, gl.as_ref().map(|_| &self.style));
+        Recipe {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            command: "render".to_owned(),
+            style: self.style.name().to_owned(),
+            size: [width, height],
+            models: self.models.clone(),
+            options: self.options.clone(),
+            files: paths.iter().filter_map(|path| record(path)).collect(),
+            gl,
+        }
     }
 
     /// Whether the picture has no background.

@@ -167,3 +167,17 @@ fn a_circle_is_found_through_re_exports_and_every_way_of_naming_a_file() {
     ];
     assert_eq!(circles_of(&parent), [["a.rs", "a/b.rs"]]);
 }
+
+#[test]
+fn a_circle_is_found_through_a_file_that_hands_a_name_on() {
+    let facade = |code| {
+        [
+            ("lib.rs", "mod a; mod b;"),
+            ("a.rs", "use super::b::C; pub struct A;"),
+            ("b.rs", code),
+            ("b/c.rs", "pub struct C;"),
+        ]
+    };
+    assert_eq!(circles_of(&facade("mod c; pub use c::C; fn f(a: super::a::A) {}")), [["a.rs", "b.rs"]]);
+    assert!(circles_of(&facade("mod c; pub use c::C;")).is_empty());
+}

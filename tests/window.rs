@@ -222,7 +222,7 @@ fn files_saved_from_the_viewer_are_those_its_commands_write() {
     viewer.rest().unwrap();
     for (event, name) in [
         (ViewerEvent::SavePicture, "open-box-three-pass.png"),
-        (ViewerEvent::SaveLines, "open-box-lines.svg"),
+        (ViewerEvent::SaveLines, "open-box-three-pass.svg"),
         (ViewerEvent::SaveTurn, "open-box-three-pass.gif"),
         (ViewerEvent::SavePreset, "open-box-three-pass.toml"),
     ] {
@@ -288,18 +288,22 @@ fn saved(viewer: &mut Viewer, event: ViewerEvent) -> String {
 }
 
 #[test]
-fn lines_are_saved_byte_for_byte_as_the_command_line_writes_them() {
+fn lines_tones_areas_and_sheets_are_saved_byte_for_byte_as_the_command_line_writes_them() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("b o x.obj");
     std::fs::copy(root().join("models/open-box.obj"), &file).unwrap();
     let lines = |option: &str, value: &str| ViewerEvent::Lines(option.to_owned(), value.to_owned());
     for model in ["builtin:gear", file.to_str().unwrap()] {
         let mut viewer = saving_viewer(model, folder.path());
-        let steps: [Vec<ViewerEvent>; 4] = [
+        let steps: [Vec<ViewerEvent>; 7] = [
+            // Tones.
             vec![],
+            vec![style("ink"), ViewerEvent::Turn([0.1, 0.0])],
             vec![ViewerEvent::Overlay(Side::Left, true), lines("--hidden", "dashed"), ViewerEvent::Turn([0.3, 0.1])],
             vec![style("lines"), lines("--class-colors", "outline=red,crease=royalblue"), ViewerEvent::Zoom(1.5)],
             vec![ViewerEvent::Look("technical".to_owned()), ViewerEvent::Background("tan".to_owned())],
+            vec![lines("--areas", "face")],
+            vec![ViewerEvent::LinesDefault("--areas".to_owned()), lines("--sheet", "third")],
         ];
         for (number, step) in steps.into_iter().enumerate() {
             shown(&mut viewer, step);
@@ -311,6 +315,7 @@ fn lines_are_saved_byte_for_byte_as_the_command_line_writes_them() {
             assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
             let [saved, again] = [Path::new(name), &again].map(|path| std::fs::read_to_string(path).unwrap());
             assert!(saved.contains("<path"), "{model} {number}");
+            assert_eq!(saved.contains("id=\"fill-"), [0, 1, 5].contains(&number), "{model} {number}");
             assert!(saved == again, "{model} {number}: {command}");
         }
     }

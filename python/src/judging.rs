@@ -41,7 +41,7 @@ pub(crate) fn measure<'py>(
     };
     let asked = Asked::new("measure", &meshes, given, &Basis { style: Some("three-pass"), ..Basis::default() })?;
     let scene = drawable(py, meshes, &asked.request.scene)?;
-    let subject = done(py, || (), move || Subject::new(&asked.title, scene, 0.0))?;
+    let subject = done(py, || (), move || Subject::new(&asked.request.title(), scene, 0.0))?;
     let rows = drawn(py, backend, move |renderer| {
         let (measured, left_out) = tinta_lab::measure::measure(renderer, &subject, &settings, &how, |_| ())?;
         match left_out.is_empty() {

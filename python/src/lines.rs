@@ -12,13 +12,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::sync::{Arc, OnceLock};
 use tinta::glam::DVec3;
-use tinta::lines::{
-    Areas, GHOST_OPACITY, LineSegment, Progress, Raster, chain, drawn_layers, pdf_of_paths, raster, svg_of_paths,
-};
-use tinta::picture::Note;
-use tinta::recipe::KEYWORD;
-use tinta::record::drawing_json;
-use tinta::{DrawingSettings, Error, Recipe, Request, Result, Scene, VisibleLines};
+use tinta::lines::{GHOST_OPACITY, LineSegment, Progress, drawn_layers};
+use tinta::request::{DrawnLines, Format, Wanted};
+use tinta::{Error, Request, Result, Scene, VisibleLines};
 
 /// The lines found in a scene.
 #[pyclass(frozen, module = "tinta_npr._native")]
@@ -48,7 +44,7 @@ pub(crate) fn lines(
         || progress.cancel(),
         move || {
             let scene = scene(&meshes, &request.scene)?;
-            let lines = request.all_lines(&scene, &watched)?;
+            let lines = request.all_lines(&scene, Wanted::default(), &watched)?;
             Ok((lines, scene))
         },
     )?;
@@ -60,49 +56,24 @@ pub(crate) fn lines(
     Ok(Lines { lines: Arc::new(lines), scene: Arc::new(scene), asked, all: OnceLock::new() })
 }
 
-/// What a drawing is made of.
-pub(crate) struct Found<'a> {
-    pub lines: &'a VisibleLines,
-    pub drawing: &'a DrawingSettings,
-    request: &'a Request,
-    scene: &'a Scene,
-    progress: &'a Progress,
-}
-
-impl Found<'_> {
-    /// The areas below the lines.
-    fn areas(&self) -> Result<Option<Areas>> {
-        Ok(self.request.areas(self.scene, self.lines, self.progress)?.map(|areas| areas.drawn))
-    }
-
-    /// Refuses areas where there are only lines.
-    fn refuse_areas(&self) -> Result<()> {
-        match self.request.vectors()? {
-            Some(_) => {
-                Err(Error::setting("areas", "pixels and layers are of lines alone; leave it out, or write a .svg"))
-            }
-            None => Ok(()),
-        }
-    }
-}
-
 /// The lines of another request: the existing ones, or new ones if it shows more of them.
 fn found(
     lines: Arc<VisibleLines>,
     scene: &Scene,
     [before, now]: [&Request; 2],
+    wanted: Wanted,
     progress: &Progress,
 ) -> Result<Arc<VisibleLines>> {
-    match before.finds_all_for(now) {
+    match before.finds_all_for(now, wanted)? {
         true => Ok(lines),
-        false => now.all_lines(scene, progress).map(Arc::new),
+        false => now.all_lines(scene, wanted, progress).map(Arc::new),
     }
 }
 
 impl Lines {
     /// Refuses what one camera is needed for.
     fn one_view(&self) -> PyResult<()> {
-        match self.asked.request.line_style().and_then(|style| style.sheet) {
+        match self.asked.request.line_style().map_err(raised)?.and_then(|style| style.sheet) {
             Some(_) => Err(raised(Error::setting("sheet", "a sheet has four cameras; ask for lines of one view"))),
             None => Ok(()),
         }
@@ -114,62 +85,73 @@ impl Lines {
         if let Some(all) = self.all.get() {
             return Ok(all.clone());
         }
-        let (lines, scene, before) = (self.lines.clone(), self.scene.clone(), self.asked.request.clone());
-        let mut request = before.clone();
-        request.tells_all = true;
-        let progress = Arc::new(Progress::default());
-        let watched = progress.clone();
-        let all = done(
-            py,
-            || progress.cancel(),
-            move || {
-                let lines = found(lines, &scene, [&before, &request], &watched)?;
-                let drawing = request.line_style().unwrap_or_default().drawing;
-                match drawing.min_length {
-                    None => Ok(lines),
-                    Some(_) => lines.without_specks_with_progress(&drawing, &watched).map(Arc::new),
-                }
-            },
-        )?;
+        let wanted = Format::Json.wanted(false);
+        let all = self.with_lines(py, self.asked.clone(), wanted, move |Found { asked, scene, lines, progress }| {
+            asked.request.drawing((*scene).clone(), lines, wanted, progress).map(|drawn| drawn.lines)
+        })?;
         // Another thread may have been here first: then both keep its result.
         Ok(self.all.get_or_init(|| all).clone())
     }
 
-    /// Processes the lines with the settings of a drawing of them; `file` is its name.
-    pub(crate) fn drawn<T: Send + 'static>(
+    /// Works with the lines that this request wants.
+    fn with_lines<T: Send + 'static>(
         &self,
         py: Python<'_>,
-        given: &Bound<'_, PyDict>,
-        file: Option<(&'static str, Option<String>)>,
+        asked: Asked,
+        wanted: Wanted,
         work: impl FnOnce(Found<'_>) -> Result<T> + Send + 'static,
     ) -> PyResult<T> {
-        let asked = self.asked.with(options("Lines.svg", given)?).map_err(raised)?;
         let (lines, scene, before) = (self.lines.clone(), self.scene.clone(), self.asked.request.clone());
         let progress = Arc::new(Progress::default());
         let watched = progress.clone();
-        done(
-            py,
-            || progress.cancel(),
-            move || {
-                let lines = found(lines, &scene, [&before, &asked.request], &watched)?;
-                let recipe = file.as_ref().and_then(|_| asked.recipe(&scene, None));
-                let (name, title) = file.unwrap_or_default();
-                let settings = DrawingSettings {
-                    title: title.unwrap_or(asked.title),
-                    command: recipe.as_ref().map(|recipe| recipe.command_line(name)).unwrap_or_default(),
-                    recipe: recipe.as_ref().and_then(Recipe::json).unwrap_or_default(),
-                    ..asked.request.line_style().unwrap_or_default().drawing
-                };
-                work(Found {
-                    lines: &lines,
-                    drawing: &settings,
-                    request: &asked.request,
-                    scene: &scene,
-                    progress: &watched,
-                })
-            },
-        )
+        let work = move || {
+            let lines = found(lines, &scene, [&before, &asked.request], wanted, &watched)?;
+            work(Found { asked: &asked, scene, lines, progress: &watched })
+        };
+        done(py, || progress.cancel(), work)
     }
+
+    /// The request with the settings of a drawing, and its title.
+    fn asked_with(&self, given: &Bound<'_, PyDict>, title: Option<String>) -> PyResult<Asked> {
+        let mut asked = self.asked.with(options("Lines.svg", given)?).map_err(raised)?;
+        asked.request.title = title.or(asked.request.title);
+        Ok(asked)
+    }
+
+    /// A file of the drawing; `put` is given the drawing and may put others in place of its lines and areas.
+    pub(crate) fn written<'py>(
+        &self,
+        py: Python<'py>,
+        (given, title): (&Bound<'py, PyDict>, Option<String>),
+        format: Format,
+        put: impl FnOnce(&mut DrawnLines) -> Result<()> + Send + 'static,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let asked = self.asked_with(given, title)?;
+        let wanted = format.wanted(false);
+        let bytes = self.with_lines(py, asked, wanted, move |Found { asked, scene, lines, progress }| {
+            let mut drawn = asked.request.drawing((*scene).clone(), lines, wanted, progress)?;
+            put(&mut drawn)?;
+            drawn.written(format, None, asked.recipe(&scene, None).as_ref())?.bytes()
+        })?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+}
+
+/// The format of this name.
+pub(crate) fn format_named(name: &str) -> Format {
+    match name {
+        "pdf" => Format::Pdf,
+        "png" => Format::Picture,
+        _ => Format::Svg,
+    }
+}
+
+/// The lines of a request.
+struct Found<'a> {
+    asked: &'a Asked,
+    scene: Arc<Scene>,
+    lines: Arc<VisibleLines>,
+    progress: &'a Progress,
 }
 
 #[pymethods]
@@ -208,47 +190,21 @@ impl Lines {
         Ok(counts)
     }
 
-    /// The SVG file's text.
-    #[pyo3(signature = (given, title=None))]
-    fn svg(&self, py: Python<'_>, given: &Bound<'_, PyDict>, title: Option<String>) -> PyResult<String> {
-        self.drawn(py, given, Some(("drawing.svg", title)), |found| {
-            let lines = found.lines.without_specks(found.drawing)?;
-            svg_of_paths(&lines, chain(&lines.segments), found.areas()?.as_ref(), found.drawing)
-        })
-    }
-
-    /// The PDF file's bytes.
-    #[pyo3(signature = (given, title=None))]
-    fn pdf<'py>(
+    /// The bytes of the drawing's file: "svg", "pdf" or "png", which is as large as the lines' picture.
+    #[pyo3(signature = (format, given, title=None))]
+    fn file<'py>(
         &self,
         py: Python<'py>,
+        format: &str,
         given: &Bound<'py, PyDict>,
         title: Option<String>,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = self.drawn(py, given, Some(("drawing.pdf", title)), |found| {
-            let lines = found.lines.without_specks(found.drawing)?;
-            pdf_of_paths(&lines, chain(&lines.segments), found.areas()?.as_ref(), found.drawing)
-        })?;
-        Ok(PyBytes::new(py, &bytes))
-    }
-
-    /// The PNG file's bytes, as large as the lines' picture.
-    #[pyo3(signature = (given, title=None))]
-    fn png<'py>(
-        &self,
-        py: Python<'py>,
-        given: &Bound<'py, PyDict>,
-        title: Option<String>,
-    ) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = self.drawn(py, given, Some(("drawing.png", title)), |found| {
-            found.refuse_areas()?;
-            let settings = found.drawing;
-            let Raster { size, pixels } = raster(found.lines, settings)?;
-            let recipe =
-                (!settings.recipe.is_empty()).then(|| Note { keyword: KEYWORD, text: settings.recipe.clone() });
-            tinta::Picture { size, pixels }.png_bytes(recipe.as_ref())
-        })?;
-        Ok(PyBytes::new(py, &bytes))
+        let format = format_named(format);
+        if format == Format::Picture && self.asked.request.vectors().map_err(raised)?.is_some() {
+            let problem = "pixels and layers are of lines alone; leave it out, or write a .svg";
+            return Err(raised(Error::setting("areas", problem)));
+        }
+        self.written(py, (given, title), format, |_| Ok(()))
     }
 
     /// The JSON file's text: all pieces and the camera.
@@ -258,10 +214,11 @@ impl Lines {
         let progress = Arc::new(Progress::default());
         let watched = progress.clone();
         let written = move || {
-            let areas = request.areas(&scene, &all, &watched)?;
-            drawing_json(&all, areas.as_ref().map(|areas| &areas.regions), &scene)
+            let drawn = request.drawing((*scene).clone(), all, Format::Json.wanted(false), &watched)?;
+            drawn.written(Format::Json, None, None)?.bytes()
         };
-        done(py, || progress.cancel(), written)
+        let bytes = done(py, || progress.cancel(), written)?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
     /// Where the camera shows points of the drawn scene: pixels, y down; NaN behind the eye.
@@ -281,7 +238,10 @@ impl Lines {
 
     /// The drawing as plain values: its layers from the lowest to the highest.
     fn layers<'py>(&self, py: Python<'py>, given: &Bound<'py, PyDict>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let layers = self.drawn(py, given, None, |found| drawn_layers(found.lines, found.drawing))?;
+        let asked = self.asked_with(given, None)?;
+        let layers = self.with_lines(py, asked, Wanted::default(), |Found { asked, lines, .. }| {
+            drawn_layers(&lines, &asked.request.line_style()?.unwrap_or_default().drawing)
+        })?;
         let described = |drawn: tinta::lines::DrawnLayer| -> PyResult<Bound<'py, PyDict>> {
             let layer = PyDict::new(py);
             let [visibility, name] = drawn.layer.words();

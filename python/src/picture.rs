@@ -14,7 +14,6 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use tinta::picture::Note;
 use tinta::recipe::KEYWORD;
-use tinta::request::empty_remark;
 use tinta::settings::Options;
 use tinta::styles::is_ignored;
 use tinta::{Error, ParseError, Recipe, Size, Target, TextTarget};
@@ -46,13 +45,10 @@ pub(crate) fn render(
     warn(py, &ignored(given, asked.request.style.name())?)?;
     let scene = drawable(py, meshes, &asked.request.scene)?;
     let (picture, recipe, remarks) = drawn(py, asked.request.backend, move |renderer| {
-        let request = &asked.request;
-        let (published, pruned) = request.plans(&scene, renderer)?;
-        let mut remarks = [request.style.remarks(&scene), renderer.remarks(&pruned.plan)].concat();
-        let picture = renderer.draw(&scene, &pruned.plan)?;
-        remarks.extend(empty_remark(&scene, &published, &picture, renderer)?);
-        let recipe = asked.recipe(&scene, Some(renderer.context()));
-        Ok((picture, recipe.as_ref().and_then(Recipe::json), remarks))
+        let published = asked.request.style.plan(&scene, asked.request.show)?;
+        let drawn = asked.request.drawn_picture(scene, published, renderer)?;
+        let recipe = asked.recipe(&drawn.scene, Some(renderer.context()));
+        Ok((drawn.picture, recipe.as_ref().and_then(Recipe::json), drawn.remarks))
     })?;
     warn(py, &remarks)?;
     let shape = [picture.size.height as usize, picture.size.width as usize, 4];

@@ -2,7 +2,7 @@
 
 use crate::arrays::{points, shaped};
 use crate::errors::raised;
-use crate::lines::{Found, Lines};
+use crate::lines::{Lines, format_named};
 use crate::request::{Basis, asked};
 use crate::settings::options;
 use crate::work::done;
@@ -11,10 +11,10 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList};
 use std::sync::Arc;
 use tinta::choice::Choice;
-use tinta::lines::{Areas, Joined, Progress, Surface, chain, painted, pdf_of_paths, svg_of_paths};
+use tinta::lines::{Areas, Joined, Progress, Surface, painted};
 use tinta::record::regions_json;
 use tinta::styles::{LineStyle, Vectors, ViewAreas};
-use tinta::{Color, Error, Result, Scene, Size, Style};
+use tinta::{Color, Error, Scene, Size, Style};
 
 /// The areas of the lines' view.
 #[pyclass(frozen, module = "tinta_npr._native")]
@@ -67,38 +67,13 @@ pub(crate) fn regions(
     look: Option<&str>,
 ) -> PyResult<Regions> {
     let of = lines.get();
-    let is_alone = of.asked.request.line_style().is_some_and(|style| style.is_of_areas_alone);
+    let is_alone = of.asked.request.line_style().map_err(raised)?.is_some_and(|style| style.is_of_areas_alone);
     let vectors = vectors(by, given, (style, look), is_alone, of.scene.size)?;
     let (scene, found) = (of.scene.clone(), of.lines.clone());
     let progress = Arc::new(Progress::default());
     let (watched, seen) = (progress.clone(), scene.clone());
     let areas = done(py, || progress.cancel(), move || vectors.areas(&seen, &found, &watched))?;
     Ok(Regions { areas: Arc::new(areas), scene, lines, is_alone })
-}
-
-impl Regions {
-    /// The drawing, in its own colours or in these, one for each region.
-    fn drawn<T: Send + 'static>(
-        &self,
-        py: Python<'_>,
-        given: &Bound<'_, PyDict>,
-        (name, title): (&'static str, Option<String>),
-        colors: Option<PyReadonlyArray2<'_, f64>>,
-        write: impl FnOnce(Found<'_>, &Areas) -> Result<T> + Send + 'static,
-    ) -> PyResult<T> {
-        let (areas, is_alone) = (self.areas.clone(), self.is_alone);
-        let colors: Option<Vec<Color>> = colors.map(|colors| {
-            let rows = colors.as_array();
-            rows.rows().into_iter().map(|row| Color([row[0] as f32, row[1] as f32, row[2] as f32])).collect()
-        });
-        self.lines.get().drawn(py, given, Some((name, title)), move |found| match colors {
-            Some(colors) => {
-                let fills = painted(&areas.regions, !is_alone, |number| colors[number]);
-                write(found, &Areas { fills, ..Areas::around(&areas.regions) })
-            }
-            None => write(found, &areas.drawn),
-        })
-    }
 }
 
 #[pymethods]
@@ -129,33 +104,29 @@ impl Regions {
         self.areas.regions.regions.iter().map(of_region).collect()
     }
 
-    /// The SVG file's text.
-    fn svg(
-        &self,
-        py: Python<'_>,
-        given: &Bound<'_, PyDict>,
-        title: Option<String>,
-        colors: Option<PyReadonlyArray2<'_, f64>>,
-    ) -> PyResult<String> {
-        self.drawn(py, given, ("drawing.svg", title), colors, |found, areas| {
-            let lines = found.lines.without_specks(found.drawing)?;
-            svg_of_paths(&lines, chain(&lines.segments), Some(areas), found.drawing)
-        })
-    }
-
-    /// The PDF file's bytes.
-    fn pdf<'py>(
+    /// The bytes of the drawing's file, "svg" or "pdf", in its own colours or in these, one for each region.
+    fn file<'py>(
         &self,
         py: Python<'py>,
+        format: &str,
         given: &Bound<'py, PyDict>,
         title: Option<String>,
         colors: Option<PyReadonlyArray2<'_, f64>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = self.drawn(py, given, ("drawing.pdf", title), colors, |found, areas| {
-            let lines = found.lines.without_specks(found.drawing)?;
-            pdf_of_paths(&lines, chain(&lines.segments), Some(areas), found.drawing)
-        })?;
-        Ok(PyBytes::new(py, &bytes))
+        let (areas, is_alone) = (self.areas.clone(), self.is_alone);
+        let colors: Option<Vec<Color>> = colors.map(|colors| {
+            let rows = colors.as_array();
+            rows.rows().into_iter().map(|row| Color([row[0] as f32, row[1] as f32, row[2] as f32])).collect()
+        });
+        self.lines.get().written(py, (given, title), format_named(format), move |drawn| {
+            let mut areas = (*areas).clone();
+            if let Some(colors) = colors {
+                let fills = painted(&areas.regions, !is_alone, |number| colors[number]);
+                areas.drawn = Areas { fills, ..Areas::around(&areas.regions) };
+            }
+            drawn.areas = Some(areas);
+            Ok(())
+        })
     }
 
     /// The JSON file's text.

@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
 use tinta::gl::ContextInfo;
 use tinta::preset::Look;
-use tinta::recipe::{Driver, FileRecord, Recipe, files_read};
+use tinta::recipe::{Driver, FileRecord, Recipe};
 use tinta::request::layers;
 use tinta::settings::{OptionValue, Options};
 use tinta::{Error, ParseError, Preset, Request, Result, Scene};
@@ -20,8 +20,6 @@ pub(crate) struct Asked {
     pub request: Request,
     /// Paths of the models; `None` if one has no file.
     models: Option<Vec<String>>,
-    /// The title of the drawing.
-    pub title: String,
     /// The other files read with the models.
     beside: Vec<PathBuf>,
 }
@@ -55,9 +53,9 @@ impl Asked {
         let file_name = |name: String| {
             Path::new(&name).file_name().map_or(name.clone(), |file| file.to_string_lossy().into_owned())
         };
-        let title = names.map(file_name).filter(|name| !name.is_empty()).collect::<Vec<_>>().join(", ");
+        request.title = Some(names.map(file_name).filter(|name| !name.is_empty()).collect::<Vec<_>>().join(", "));
         let beside = meshes.iter().flat_map(|mesh| mesh.get().files.clone()).collect();
-        Ok(Self { request, models: paths, title, beside })
+        Ok(Self { request, models: paths, beside })
     }
 
     /// The same with additional options.
@@ -69,26 +67,15 @@ impl Asked {
         // The request keeps only given options.
         let options = all.into_iter().filter(|(name, _)| name != "style" || self.request.options.contains_key("style"));
         let mut other = Self { request, ..self.clone() };
+        other.request.title = self.request.title.clone();
         other.request.options = options.collect();
         Ok(other)
     }
 
     /// The recipe of a drawing; `None` if a model has no file, because such a drawing cannot be made again.
     pub(crate) fn recipe(&self, scene: &Scene, context: Option<&ContextInfo>) -> Option<Recipe> {
-        let models = self.models.clone()?;
-        let style = &self.request.style;
-        let paths = files_read(&models, &self.beside, scene, context.map(|_| style));
-        Some(Recipe {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            command: "render".to_owned(),
-            style: style.name().to_owned(),
-            size: [scene.size.width, scene.size.height],
-            // One that has gone since it was read is left out.
-            files: paths.iter().filter_map(|path| FileRecord::of(path).ok()).collect(),
-            models,
-            options: self.request.options.clone(),
-            gl: context.map(Driver::new),
-        })
+        let request = self.request.clone().with_models(self.models.clone()?);
+        Some(request.recipe(scene, &self.beside, context.map(Driver::new), |path| FileRecord::of(path).ok()))
     }
 }
 

@@ -1,16 +1,15 @@
 //! Several views on one page: lines and areas of each at its place, some seen through others, and keys to their colours.
 
-use crate::lines::Lines;
-use crate::regions::Regions;
+use crate::lines::{Lines, format_named};
+use crate::regions::Regions as ViewRegions;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::sync::Arc;
 use tinta::glam::DVec2;
-use tinta::lines::{
-    Areas, FillGroup, Key, KeyText, Raster, Region, Surface, chain, painted, pdf_of_paths, raster, svg_of_paths,
-};
+use tinta::lines::{Areas, FillGroup, Key, KeyText, Region, Regions, Surface, painted};
 use tinta::mesh::NONE;
+use tinta::request::DrawnLines;
 use tinta::styles::ViewAreas;
 use tinta::{Color, Error, Size, VisibleLines};
 
@@ -20,7 +19,7 @@ use tinta::{Color, Error, Size, VisibleLines};
 pub(crate) struct View<'py> {
     lines: Py<Lines>,
     /// Its areas, a colour for each, and their opacity.
-    areas: Option<(Py<Regions>, PyReadonlyArray2<'py, f64>, f32)>,
+    areas: Option<(Py<ViewRegions>, PyReadonlyArray2<'py, f64>, f32)>,
     /// Its upper left corner, pixels.
     at: [f64; 2],
     /// The number of each of its objects on the sheet; below 0: it is left out.
@@ -49,11 +48,6 @@ pub(crate) fn sheet<'py>(
     keys: Vec<GivenKey>,
     title: Option<String>,
 ) -> PyResult<Bound<'py, PyBytes>> {
-    let name = match format {
-        "pdf" => "drawing.pdf",
-        "png" => "drawing.png",
-        _ => "drawing.svg",
-    };
     let taken = |view: &View<'_>| {
         let fills = view.areas.as_ref().map(|(regions, colors, opacity)| {
             let rows = colors.as_array();
@@ -70,7 +64,7 @@ pub(crate) fn sheet<'py>(
     };
     let all: Vec<_> = views.iter().map(taken).collect();
     let keys: Vec<Key> = keys.into_iter().map(key).collect();
-    let work = move |found: crate::lines::Found<'_>| {
+    let put = move |drawn: &mut DrawnLines| {
         let mut sheet = VisibleLines::none(Size { width: size.0, height: size.1 });
         let mut areas = Areas { keys, ..Areas::default() };
         let is_one = all.len() == 1;
@@ -79,7 +73,7 @@ pub(crate) fn sheet<'py>(
                 return Err(Error::setting("part", "several views have one style for all parts; leave it out"));
             }
             let on_sheet = |object: u32| objects.get(object as usize).and_then(|object| u32::try_from(*object).ok());
-            let mut lines = lines.without_specks(found.drawing)?;
+            let mut lines = lines.without_specks(&drawn.style.drawing)?;
             lines
                 .segments
                 .retain_mut(|segment| on_sheet(segment.object).map(|object| segment.object = object).is_some());
@@ -88,18 +82,12 @@ pub(crate) fn sheet<'py>(
                 fills.put(&mut areas, *at, on_sheet, if is_one { NONE } else { number as u32 });
             }
         }
-        match name {
-            "drawing.pdf" => pdf_of_paths(&sheet, chain(&sheet.segments), Some(&areas), found.drawing),
-            "drawing.png" => {
-                let Raster { size, pixels } = raster(&sheet, found.drawing)?;
-                tinta::Picture { size, pixels }.png_bytes(None)
-            }
-            _ => svg_of_paths(&sheet, chain(&sheet.segments), Some(&areas), found.drawing).map(String::into_bytes),
-        }
+        let regions = Regions { size: sheet.size, regions: Vec::new(), broken: 0 };
+        (drawn.lines, drawn.areas) = (Arc::new(sheet), Some(ViewAreas { regions, drawn: areas }));
+        Ok(())
     };
     let Some(first) = views.first() else { return Ok(PyBytes::new(py, &[])) };
-    let bytes = first.lines.get().drawn(py, &PyDict::new(py), Some((name, title)), work)?;
-    Ok(PyBytes::new(py, &bytes))
+    first.lines.get().written(py, (&PyDict::new(py), title), format_named(format), put)
 }
 
 impl Fills {

@@ -9,13 +9,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
+use tinta::request::Session;
 use tinta::{Backend, Error, Renderer, Result};
 
-/// The contexts that are open.
-type Renderers = Vec<(Backend, Renderer)>;
-
-/// A job for the renderers.
-type Job = Box<dyn FnOnce(&mut Renderers) + Send>;
+/// A job for the open contexts.
+type Job = Box<dyn FnOnce(&mut Session) + Send>;
 
 struct Studio {
     /// A process that was forked from this one has the value and not the thread.
@@ -30,9 +28,9 @@ impl Studio {
     fn open() -> std::io::Result<Self> {
         let (jobs, receiver) = channel::<Job>();
         let work = move || {
-            let mut renderers = Renderers::new();
+            let mut session = Session::for_many(Renderer::new);
             while let Ok(job) = receiver.recv() {
-                job(&mut renderers);
+                job(&mut session);
             }
         };
         let thread = std::thread::Builder::new().name("tinta-studio".to_owned()).spawn(work)?;
@@ -49,30 +47,19 @@ pub(crate) fn drawn<T: Send + 'static>(
     let (sender, receiver) = sync_channel(1);
     let is_cancelled = Arc::new(AtomicBool::new(false));
     let cancelled = is_cancelled.clone();
-    let job: Job = Box::new(move |renderers| {
+    let job: Job = Box::new(move |session| {
         if cancelled.load(Ordering::Relaxed) {
             return;
         }
-        let result = opened(renderers, backend).and_then(work);
+        let result = session.renderer(backend).and_then(work);
         if matches!(result, Err(Error::ContextLost { .. })) {
-            renderers.clear();
+            session.close();
         }
         // The caller may have stopped waiting.
         drop(sender.send(result));
     });
     submit(job)?;
     wait(py, receiver, || is_cancelled.store(true, Ordering::Relaxed))
-}
-
-fn opened(renderers: &mut Renderers, backend: Backend) -> Result<&mut Renderer> {
-    let place = match renderers.iter().position(|(known, _)| *known == backend) {
-        Some(place) => place,
-        None => {
-            renderers.push((backend, Renderer::new(backend)?));
-            renderers.len() - 1
-        }
-    };
-    Ok(&mut renderers[place].1)
 }
 
 /// Hands a job to the thread, which starts with the first job, and again if it has died.

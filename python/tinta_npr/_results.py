@@ -120,7 +120,7 @@ class Lines:
         Settings
         --------
         """
-        return self._found.svg(settings, title)
+        return self._found.file("svg", settings, title).decode()
 
     def pdf(self, *, title=None, **settings):
         """The drawing as PDF: bytes. Settings as in `svg`.
@@ -128,7 +128,7 @@ class Lines:
         Settings
         --------
         """
-        return self._found.pdf(settings, title)
+        return self._found.file("pdf", settings, title)
 
     def png(self, **settings):
         """The drawing as PNG, as large as `size`: bytes. Settings as in `svg`, without a page.
@@ -136,7 +136,7 @@ class Lines:
         Settings
         --------
         """
-        return self._found.png(settings)
+        return self._found.file("png", settings)
 
     def json(self):
         """All pieces and the camera as JSON: a str."""
@@ -339,7 +339,7 @@ class Regions:
         Settings
         --------
         """
-        return self._found.svg(settings, title, self._colors(colors))
+        return self._found.file("svg", settings, title, self._colors(colors)).decode()
 
     def pdf(self, *, colors=None, title=None, **settings):
         """The areas below their lines as PDF: bytes. Arguments as in `svg`.
@@ -347,7 +347,7 @@ class Regions:
         Settings
         --------
         """
-        return self._found.pdf(settings, title, self._colors(colors))
+        return self._found.file("pdf", settings, title, self._colors(colors))
 
     def json(self):
         """The areas and the camera as JSON: a str."""

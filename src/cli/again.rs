@@ -1,13 +1,14 @@
 //! `tinta again`: redraws a picture from its recipe and compares the two.
 
-use super::render::{self, is_of_lines, is_of_one_run};
+use super::render;
+use super::run_settings::{RunSettings, is_of_one_run};
 use super::standard_input;
 use super::{Command, given};
 use super::{Verdict, say};
 use crate::files::shown;
 use std::path::{Path, PathBuf};
 use tinta::limits::PICTURE_BYTES;
-use tinta::request::{Layer, Request};
+use tinta::request::{Format, Layer, Request};
 use tinta::settings::HasSettings;
 use tinta::{Backend, Error, Picture, Recipe, Result, Size, StyleName};
 
@@ -189,7 +190,7 @@ impl Redrawing<'_> {
             }
         }
         let output = self.output.display().to_string();
-        let style = is_of_lines(&output).then_some(Layer::Style(StyleName::Lines));
+        let style = Format::of_name(&output).map(|_| Layer::Style(StyleName::Lines));
         // The recipe has all options of the picture's look; a style not named is the published one.
         let layers: Vec<Layer> = style.into_iter().chain([Layer::Given(recipe.options.clone())]).collect();
         let (request, _) = Request::from_layers(&layers).map_err(|error| match error {
@@ -203,8 +204,7 @@ impl Redrawing<'_> {
         request.backend = backend;
         check_size(&arguments.picture, request.scene.size)?;
         let draw = |request: &Request| {
-            render::render(request, &render::RunSettings::default(), &output, &[], &mut super::models::session())
-                .map(drop)
+            render::render(request, &RunSettings::default(), &output, &[], &mut super::models::session()).map(drop)
         };
         match draw(&request) {
             // Another backend is better than none; a message names it.

@@ -1,6 +1,7 @@
 //! `tinta looks`: draws a model in each look.
 
-use super::render::{self, RunSettings};
+use super::render;
+use super::run_settings::RunSettings;
 use super::{Command, Verdict, given};
 use std::fmt::Write;
 use std::path::PathBuf;

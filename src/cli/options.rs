@@ -249,7 +249,7 @@ pub fn refuse_of_other_commands(preset: &Preset, command: &str, has: impl Fn(&st
                 format!("{key}: tinta {command} does not have this option, only tinta render does; leave it out");
             Err(preset.refuse(key, problem))
         }
-        Some(key) if OF_ONE_RUN.contains(&key.as_str()) || super::render::is_of_one_run(key) => {
+        Some(key) if OF_ONE_RUN.contains(&key.as_str()) || super::run_settings::is_of_one_run(key) => {
             let problem = "this applies to one run and cannot be in a preset; give it on the command line";
             Err(preset.refuse(key, format!("{key}: {problem}")))
         }

@@ -2,31 +2,27 @@
 
 mod animate;
 mod explain;
-mod format;
 mod keep;
 mod lines;
 mod prune;
 mod rendering;
 #[cfg(test)]
 mod round_trip;
-mod settings;
 
 pub use animate::scenes;
-pub(super) use format::is_of_lines;
-pub(super) use settings::{OfRun, RunSettings, is_of_one_run};
 
 use super::Verdict;
 use super::batch::JobOptions;
 use super::inputs::Inputs;
 use super::options::{Below, CameraFile, Chosen, NamedLook, OfRequest, PresetFile};
+use super::run_settings::{OfRun, RunSettings};
 use super::{Command, given};
-use format::Format;
 use rendering::{Rendering, pictures_of};
 use std::path::Path;
 use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
 use tinta::record::{Made, PictureMade, Summary};
-use tinta::request::{Drawn, DrawnPicture, Request, Session, Times};
+use tinta::request::{Drawn, DrawnPicture, Format, Request, Session, Times, Wanted};
 use tinta::settings::refuse_exclusive;
 use tinta::{Error, Result, Target};
 
@@ -99,7 +95,7 @@ impl Arguments {
             look: self.look.look,
             preset: self.preset.preset.as_deref(),
             camera: self.camera.camera.as_deref(),
-            draws_lines: is_of_lines(&self.output),
+            draws_lines: Format::of_name(&self.output).is_some(),
             has_looks: true,
             command: "render",
         };
@@ -183,7 +179,9 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
     }
     make_dump_folder(run.dump.as_deref(), output)?;
     session.submission = run.submission;
-    let Drawn::Picture(drawn) = request.draw(session, &Default::default())? else { return Ok(Verdict::Good) };
+    let Drawn::Picture(drawn) = request.draw(session, Wanted::default(), &Default::default())? else {
+        return Ok(Verdict::Good);
+    };
     let DrawnPicture { scene, files, published, plan, omissions, kept, remarks, picture, times } = *drawn;
     let Times { load_ms, stages, arrays_ms, plan_ms, context_ms, warm_up_ms, first_frame_ms } = times;
     remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));

@@ -1,20 +1,19 @@
 //! From a request to a picture or lines.
 
-use super::emptiness::{empty_remark, reason};
-use super::{ModelCache, Request, Session, ignored_remark};
+use super::drawing::DrawnLines;
+use super::emptiness::empty_remark;
+use super::{ModelCache, Request, Session, Wanted, ignored_remark};
 use crate::clock::Instant;
-use crate::edges::SilhouetteRule;
 use crate::error::{Error, Result};
 use crate::glsl;
-use crate::lines::{DrawingSettings, LineSettings, Progress, VisibleLines};
+use crate::lines::Progress;
 use crate::mesh::{LoadStage, Mesh};
 use crate::picture::Picture;
 use crate::plan::Plan;
 use crate::plan::prune::{Kept, Omission, Pruned, prune};
 use crate::renderer::{Renderer, milliseconds_since};
-use crate::scene::{Scene, Unseen};
-use crate::settings::HasSettings;
-use crate::styles::{LineStyle, Vectors, ViewAreas, is_of_vectors};
+use crate::scene::Scene;
+use crate::styles::is_of_vectors;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -70,34 +69,6 @@ pub struct Times {
     pub first_frame_ms: f64,
 }
 
-/// Lines, and how they were found.
-#[derive(Debug)]
-pub struct DrawnLines {
-    /// The scene.
-    pub scene: Scene,
-    /// The files read besides the models' own files.
-    pub files: Vec<PathBuf>,
-    /// The style that they are drawn in.
-    pub style: LineStyle,
-    /// The lines.
-    pub lines: VisibleLines,
-    /// The areas below them; `None` in a drawing of lines alone.
-    pub areas: Option<ViewAreas>,
-    /// Remarks for the user, a sentence each.
-    pub remarks: Vec<String>,
-    /// How long reading took, milliseconds.
-    pub load_ms: f64,
-}
-
-/// The remark on a drawing without any visible line.
-fn no_line(scene: &Scene) -> String {
-    let why = match scene.unseen(scene.size, false) {
-        unseen @ Some(Unseen::Behind | Unseen::Beside | Unseen::CutOff) => format!(": {}", reason(scene, unseen)),
-        _ => "; see --classes, --eye and --target".to_owned(),
-    };
-    format!("no line of these classes is visible in this picture{why}")
-}
-
 /// The models of a request.
 #[derive(Debug)]
 pub struct ReadModels {
@@ -120,63 +91,20 @@ struct Planned {
 }
 
 impl Request {
-    /// Reads the models and draws them.
+    /// Reads the models and draws them: pixels, or lines and areas where the style draws these or `wanted` asks for them.
     ///
     /// # Errors
     ///
     /// Those of reading, of the settings with this scene, of the way to OpenGL; [`Error::Cancelled`] where `progress` was.
-    pub fn draw(&self, session: &mut Session, progress: &Progress) -> Result<Drawn> {
-        let vectors = self.vectors()?;
-        if self.style.lines().is_none() && vectors.is_none() {
+    pub fn draw(&self, session: &mut Session, wanted: Wanted, progress: &Progress) -> Result<Drawn> {
+        let has_vectors = self.style.lines().is_some() || wanted.areas && self.vectors()?.is_some();
+        if !has_vectors {
             self.refuse_vectors_options()?;
             return self.picture(session).map(|picture| Drawn::Picture(Box::new(picture)));
         }
         let ReadModels { meshes, files, ms: load_ms, .. } = self.models(&session.models)?;
-        let scene = Scene::new(meshes, &self.scene)?;
-        let style = self.line_style().unwrap_or_default();
-        style.check()?;
-        let mut remarks = scene.crack_remarks();
-        remarks.extend(scene.far_remark());
-        remarks.extend(vectors.into_iter().flat_map(|vectors| vectors.remarks(&scene)));
-        let lines = self.lines(&scene, progress)?;
-        let areas = self.areas(&scene, &lines, progress)?;
-        let has_areas = areas.as_ref().is_some_and(|areas| areas.drawn.corners_px.is_some());
-        if !has_areas && !lines.segments.iter().any(|segment| segment.is_visible) {
-            remarks.push(no_line(&scene));
-        }
-        Ok(Drawn::Lines(Box::new(DrawnLines { scene, files, style, lines, areas, remarks, load_ms })))
-    }
-
-    /// The areas, and the lines above them, of a style that has areas, with the options of lines and of drawings; `None` where it
-    /// draws pixels.
-    ///
-    /// # Errors
-    ///
-    /// Those of the options of lines and of drawings.
-    pub fn vectors(&self) -> Result<Option<Vectors>> {
-        let is_of_lines = self.style.lines().is_some();
-        let mut vectors = (self.as_vectors || is_of_lines).then(|| self.style.vectors(self.scene.size)).flatten();
-        if let (Some(vectors), false) = (&mut vectors, is_of_lines) {
-            DrawingSettings::table().apply(&mut vectors.drawing, &self.options)?;
-            if let Some(lines) = &mut vectors.lines {
-                LineSettings::table().apply(lines, &self.options)?;
-            }
-        }
-        Ok(vectors)
-    }
-
-    /// Whether the drawing has areas and no lines.
-    fn is_of_areas_alone(&self) -> bool {
-        self.vectors().ok().flatten().is_some_and(|vectors| vectors.lines.is_none())
-    }
-
-    /// Finds the areas of a scene below these lines; `None` in a drawing of lines alone.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Vectors::areas`].
-    pub fn areas(&self, scene: &Scene, lines: &VisibleLines, progress: &Progress) -> Result<Option<ViewAreas>> {
-        self.vectors()?.map(|vectors| vectors.areas(scene, lines, progress)).transpose()
+        let drawn = self.drawn_lines(Scene::new(meshes, &self.scene)?, wanted, progress)?;
+        Ok(Drawn::Lines(Box::new(DrawnLines { files, load_ms, ..drawn })))
     }
 
     /// Reads the models.
@@ -200,71 +128,6 @@ impl Request {
         }
         models.ms = milliseconds_since(start);
         Ok(models)
-    }
-
-    /// How lines are drawn: the style's way, on the scene's background, titled after the models. `None` for a style that draws
-    /// pixels.
-    pub fn line_style(&self) -> Option<LineStyle> {
-        let of_vectors = || {
-            let vectors = self.vectors().ok().flatten()?;
-            let lines = vectors.lines.unwrap_or_default();
-            Some(LineStyle { lines, drawing: vectors.drawing, ..LineStyle::default() })
-        };
-        let style = self.style.lines().or_else(of_vectors)?;
-        let drawing = DrawingSettings { title: self.title(), background: self.scene.background, ..style.drawing };
-        Some(LineStyle { drawing, ..style })
-    }
-
-    /// The lines to find for this style.
-    fn wanted(&self, style: &LineStyle) -> LineSettings {
-        let mut wanted = style.wanted();
-        wanted.finds_hidden |= self.tells_all || self.tells_hidden;
-        wanted.finds_outline |= self.tells_all;
-        wanted.counts_changes = self.tells_hidden && wanted.silhouette == SilhouetteRule::Smooth;
-        wanted
-    }
-
-    /// Whether the result of this request also serves another request for the same lines, whichever parts that one shows.
-    pub fn finds_all_for(&self, other: &Self) -> bool {
-        let wanted = [self, other].map(|request| request.line_style().map(|style| request.wanted(&style)));
-        let [Some(of_own), Some(of_other)] = wanted else { return false };
-        self.is_of_areas_alone() == other.is_of_areas_alone()
-            && of_own.finds_hidden >= of_other.finds_hidden
-            && of_own.finds_outline >= of_other.finds_outline
-    }
-
-    /// Finds the lines of a scene that the drawing shows, short ones too.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Setting`] for a style that draws in passes and for nonsense; those of [`VisibleLines::with_progress`].
-    pub fn all_lines(&self, scene: &Scene, progress: &Progress) -> Result<VisibleLines> {
-        let Some(style) = self.line_style() else {
-            let problem = "this style draws a picture in passes; choose a style of lines";
-            return Err(Error::value("style", self.style.name(), problem));
-        };
-        style.check()?;
-        if self.is_of_areas_alone() {
-            return Ok(VisibleLines::none(scene.size));
-        }
-        match style.sheet {
-            Some(angle) => VisibleLines::on_sheet(scene, &self.wanted(&style), angle, progress),
-            None => VisibleLines::with_progress(scene, &self.wanted(&style), progress),
-        }
-    }
-
-    /// Finds the lines of a scene that the drawing shows, without those too short to see.
-    ///
-    /// # Errors
-    ///
-    /// As [`Request::all_lines`].
-    pub fn lines(&self, scene: &Scene, progress: &Progress) -> Result<VisibleLines> {
-        let lines = self.all_lines(scene, progress)?;
-        let style = self.line_style().unwrap_or_default();
-        match self.tells_all && style.drawing.min_length.is_none() {
-            true => Ok(lines),
-            false => lines.without_specks_with_progress(&style.drawing, progress),
-        }
     }
 
     /// Returns the style's plan for a scene, as published and pruned of everything that cannot change the picture.
@@ -347,9 +210,23 @@ impl Request {
         let (mut times, loaded) = self.ready(session);
         let Planned { scene, files, published, times: of_loading } = loaded?;
         let renderer = self.renderer(session)?;
+        let drawn = self.drawn_picture(scene, published, renderer)?;
+        let Times { load_ms, stages, arrays_ms, .. } = of_loading;
+        times.plan_ms = of_loading.plan_ms + drawn.times.plan_ms;
+        let times = Times { load_ms, stages, arrays_ms, first_frame_ms: drawn.times.first_frame_ms, ..times };
+        Ok(DrawnPicture { files, times, ..drawn })
+    }
+
+    /// Draws a scene's plan, pruned of everything that cannot change the picture.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Request::plans`] and [`Renderer::draw`].
+    pub fn drawn_picture(&self, scene: Scene, published: Plan, renderer: &mut Renderer) -> Result<DrawnPicture> {
+        let mut times = Times::default();
         let start = Instant::now();
         let Pruned { plan, omissions, kept } = self.pruned(&published, &scene, renderer)?;
-        times.plan_ms = of_loading.plan_ms + milliseconds_since(start);
+        times.plan_ms = milliseconds_since(start);
         let of_vectors = self.options.keys().filter(|option| is_of_vectors(option, self.style.style_name()));
         let ignored = ignored_remark(of_vectors.map(String::as_str), &[self.style.name()]);
         let mut remarks = [self.style.remarks(&scene), renderer.remarks(&plan), ignored.into_iter().collect()].concat();
@@ -357,9 +234,7 @@ impl Request {
         let picture = renderer.draw(&scene, &plan)?;
         times.first_frame_ms = milliseconds_since(start);
         remarks.extend(empty_remark(&scene, &published, &picture, renderer)?);
-        let Times { load_ms, stages, arrays_ms, .. } = of_loading;
-        let times = Times { load_ms, stages, arrays_ms, ..times };
-        Ok(DrawnPicture { scene, files, published, plan, omissions, kept, remarks, picture, times })
+        Ok(DrawnPicture { scene, files: Vec::new(), published, plan, omissions, kept, remarks, picture, times })
     }
 
     /// Reads the models and gets a renderer ready meanwhile, unless the session has one.

@@ -106,7 +106,13 @@ impl Modules {
         let mut used = Vec::new();
         let mut add = |path: &[String]| {
             if let Some((other, name)) = self.resolve(own, path, &mut Vec::new()) {
-                used.push((other, name.unwrap_or_else(|| "itself".to_owned())));
+                let name = name.unwrap_or_else(|| "itself".to_owned());
+                // A file with code of its own that hands the name on is used, too.
+                let through = self.named_by(own, path);
+                if through != other && !self.is_above(through, own) && !self.0[through].definitions.is_empty() {
+                    used.push((through, name.clone()));
+                }
+                used.push((other, name));
             }
         };
         let mut of_modules = BTreeMap::new();
@@ -133,6 +139,28 @@ impl Modules {
             }
         }
         used
+    }
+
+    /// The last module that a path names.
+    fn named_by(&self, own: usize, path: &[String]) -> usize {
+        let mut module = own;
+        for part in path {
+            module = match part.as_str() {
+                "crate" => 0,
+                "self" => module,
+                "super" => self.0[module].parent.unwrap_or_default(),
+                name => match self.0[module].children.get(name) {
+                    Some(child) => *child,
+                    None => break,
+                },
+            };
+        }
+        module
+    }
+
+    /// Whether a module is another, or declares it or a module above it.
+    fn is_above(&self, module: usize, other: usize) -> bool {
+        std::iter::successors(Some(other), |below| self.0[*below].parent).any(|above| above == module)
     }
 
     /// The module at the end of a path, and the name that it defines; no name if the path is the module itself.

@@ -2,13 +2,14 @@
 
 use crate::errors::{said, unreadable};
 use serde_json::json;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tinta::lines::{self, Progress};
+use tinta::lines::Progress;
 use tinta::mesh::{Loaded, load, read_bytes};
 use tinta::recipe::{Driver, FileRecord};
-use tinta::request::{Layer, Request};
+use tinta::request::{Format, Layer, Request, Written};
 use tinta::settings::Options;
-use tinta::{DrawingSettings, LineSettings, Mesh, Recipe, Scene, SceneSettings, Size, StyleName};
+use tinta::{LineSettings, Mesh, Recipe, Scene, SceneSettings, StyleName};
 use tinta_lab::measure::{Ink, Reference};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -90,16 +91,10 @@ impl Model {
     pub fn svg(&self, options: &str, has_recipe: bool) -> Result<String, JsError> {
         let request = self.request(StyleName::Lines, options)?;
         let scene = self.scene(&request.scene)?;
-        let recipe = has_recipe.then(|| self.recipe(&request, scene.size, None));
-        let drawing = DrawingSettings {
-            command: recipe.as_ref().map(|recipe| recipe.command_line("drawing.svg")).unwrap_or_default(),
-            recipe: recipe.as_ref().and_then(Recipe::json).unwrap_or_default(),
-            ..request.line_style().unwrap_or_default().drawing
-        };
-        let visible = request.all_lines(&scene, &Progress::default()).map_err(said)?;
-        let areas = request.areas(&scene, &visible, &Progress::default()).map_err(said)?.map(|areas| areas.drawn);
-        let visible = visible.without_specks(&drawing).map_err(said)?;
-        lines::svg_of_paths(&visible, lines::chain(&visible.segments), areas.as_ref(), &drawing).map_err(said)
+        let recipe = has_recipe.then(|| self.recipe(&request, &scene, None));
+        let drawn = request.drawn_lines(scene, Format::Svg.wanted(false), &Progress::default()).map_err(said)?;
+        let bytes = drawn.written(Format::Svg, None, recipe.as_ref()).and_then(Written::bytes).map_err(said)?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
     /// How well ink agrees with the exact lines of a view, F1 from 0 to 1, as the command line measures it; `ink` is how dark each
@@ -122,18 +117,11 @@ impl Model {
         Ok(asked(style, options)?.with_models(vec![self.name.clone()]))
     }
 
-    /// The recipe of a picture of it.
-    pub(crate) fn recipe(&self, request: &Request, size: Size, gl: Option<Driver>) -> Recipe {
-        Recipe {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            command: "render".to_owned(),
-            style: request.style.name().to_owned(),
-            size: [size.width, size.height],
-            models: request.models.clone(),
-            options: request.options.clone(),
-            files: self.files.clone(),
-            gl,
-        }
+    /// The recipe of a drawing of it.
+    pub(crate) fn recipe(&self, request: &Request, scene: &Scene, gl: Option<Driver>) -> Recipe {
+        let beside: Vec<PathBuf> = self.files.iter().map(|file| PathBuf::from(&file.path)).collect();
+        let record = |path: &Path| self.files.iter().find(|file| Path::new(&file.path) == path).cloned();
+        request.recipe(scene, &beside, gl, record)
     }
 
     /// A scene of it.

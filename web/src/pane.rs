@@ -88,7 +88,8 @@ impl Pane {
     pub fn png(&self, options: &str, model: &Model) -> Result<Vec<u8>, JsError> {
         let picture = self.drawn.as_ref().ok_or_else(|| JsError::new("nothing was drawn yet"))?;
         let driver = Driver::new(self.renderer.context());
-        let recipe = model.recipe(&model.request(StyleName::ThreePass, options)?, picture.size, Some(driver));
+        let request = model.request(StyleName::ThreePass, options)?;
+        let recipe = model.recipe(&request, &model.scene(&request.scene)?, Some(driver));
         picture.png_bytes(recipe.note().as_ref()).map_err(said)
     }
 

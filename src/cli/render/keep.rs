@@ -6,7 +6,7 @@ use super::rendering::Rendering;
 use std::path::{Path, PathBuf};
 use tinta::gl::ContextInfo;
 use tinta::preset::{Options, to_toml};
-use tinta::recipe::{self, Driver, FileRecord};
+use tinta::recipe::{Driver, FileRecord};
 use tinta::{Error, Recipe, Result, Scene, TextTarget};
 
 /// Where the preset goes, checked before the work.
@@ -41,22 +41,8 @@ pub(super) fn recipe(
     beside: &[PathBuf],
     context: Option<&ContextInfo>,
 ) -> Option<Recipe> {
-    let request = rendering.request;
-    if rendering.run.no_recipe {
-        return None;
-    }
-    let paths = recipe::files_read(&request.models, beside, scene, context.map(|_| &request.style));
-    Some(Recipe {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        command: "render".to_owned(),
-        style: request.style.name().to_owned(),
-        size: [scene.size.width, scene.size.height],
-        models: request.models.clone(),
-        options: request.options.clone(),
-        // A file removed after reading is left out: drawing the recipe reports the difference.
-        files: paths.iter().filter_map(|path| record(path)).collect(),
-        gl: context.map(Driver::new),
-    })
+    let recipe = || rendering.request.recipe(scene, beside, context.map(Driver::new), record);
+    (!rendering.run.no_recipe).then(recipe)
 }
 
 /// A file's record. Standard input is recorded too, by length and hash, to recognise the same data later.

@@ -6,20 +6,19 @@ mod writing;
 use super::super::messages::is_captured;
 use super::super::signals::Stop;
 use super::super::{Verdict, say};
-use super::format::Format;
 use super::rendering::Rendering;
 use super::{explain, keep};
 use std::path::Path;
 use std::time::Instant;
-use tinta::lines::{Hidden, chain, strokes_of_paths};
+use tinta::lines::{chain, strokes_of_paths};
 use tinta::picture::PictureFormat;
 use tinta::record::{LineCounts, LinesMade, Made};
 use tinta::renderer::milliseconds_since;
-use tinta::request::{Drawn, DrawnLines, OF_PAPER, Session, pixels_on_paper};
+use tinta::request::{Drawn, DrawnLines, Format, OF_PAPER, Session, pixels_on_paper};
 use tinta::settings::HasSettings;
 use tinta::styles::is_of_lines_alone;
-use tinta::{DrawingSettings, Error, Recipe, Result, Show, Target, TextTarget};
-use writing::{comment, is_stopped, progress, watched, write};
+use tinta::{DrawingSettings, Error, Result, Show, Target, TextTarget};
+use writing::{is_stopped, progress, watched};
 
 /// Finds the lines and writes them.
 pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Session) -> Result<Verdict> {
@@ -45,67 +44,59 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
         }
         return turn::run(rendering, format, views, session, stop.as_ref());
     }
-    let mut asked = request.clone();
-    (asked.tells_all, asked.tells_hidden) = (format == Format::Json, run.is_told());
-    asked.as_vectors = true;
-    let drawn = match watched(&progress, stop.as_ref(), || asked.draw(session, &progress)) {
+    let wanted = format.wanted(run.is_told());
+    let drawn = match watched(&progress, stop.as_ref(), || request.draw(session, wanted, &progress)) {
         Err(Error::Cancelled) => return Ok(stopped(stop.as_ref())),
         drawn => drawn?,
     };
     let Drawn::Lines(drawn) = drawn else { return Ok(Verdict::Good) };
-    let DrawnLines { scene, files, style, lines, areas, remarks, load_ms } = *drawn;
-    remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
+    drawn.remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
 
     let start = Instant::now();
+    let DrawnLines { scene, lines, areas, load_ms, .. } = &*drawn;
     if format == Format::Dxf && areas.as_ref().is_some_and(|areas| !areas.drawn.fills.is_empty()) {
         say(&format!(
             "tinta: {output}: a .dxf file has no fills, so only lines are written; --hatch draws tones as lines"
         ));
     }
-    let note = lines.partial_note();
-    if let Some(note) = &note {
+    if let Some(note) = lines.partial_note() {
         say(&format!("tinta: {output}: {note}"));
     }
-    let recipe = match format {
-        // Partial lines depend on the machine and cannot be reproduced.
-        _ if note.is_some() => None,
-        Format::Svg | Format::Pdf | Format::Picture => keep::recipe(rendering, &scene, &files, None),
-        Format::Dxf | Format::Json => None,
+    let has_recipe = matches!(format, Format::Svg | Format::Pdf | Format::Picture);
+    let recipe = if has_recipe { keep::recipe(rendering, scene, &drawn.files, None) } else { None };
+    let paths = match format {
+        Format::Json if run.is_told() => chain(&lines.segments),
+        Format::Json => Vec::new(),
+        _ => drawn.paths(),
     };
-    let drawn = with_recipe(style.drawing, output, recipe.as_ref());
-    let is_chained = format != Format::Json || run.is_told();
-    let mut paths = if is_chained { chain(&lines.segments) } else { Vec::new() };
-    if format != Format::Json {
-        paths.retain(|path| path.is_visible || lines.drawing(path.look, &drawn).hidden != Hidden::None);
-    }
-    let counts = LineCounts::new(&lines, &paths);
+    let counts = LineCounts::new(lines, &paths);
     if is_stopped(stop.as_ref()) {
         return Ok(stopped(stop.as_ref()));
     }
-    let pens = match run.explain && drawn.is_for_pen {
+    let pens = match run.explain && drawn.style.drawing.is_for_pen {
         true => {
-            explain::pens(&strokes_of_paths(&lines, paths.clone(), areas.as_ref().map(|areas| &areas.drawn), &drawn)?)
+            let areas = areas.as_ref().map(|areas| &areas.drawn);
+            explain::pens(&strokes_of_paths(lines, paths.clone(), areas, &drawn.style.drawing)?)
         }
         false => String::new(),
     };
-    let said = note.map(comment).or_else(|| recipe.as_ref().and_then(Recipe::note));
-    write(format, output, &scene, (&lines, paths), areas.as_ref(), &drawn, said.as_ref())?;
+    drawn.written(format, Some(paths), recipe.as_ref())?.write(output, is_transparent)?;
     let lines_ms = milliseconds_since(start);
     if run.explain {
-        super::super::print(&(explain::lines(&lines, &counts, load_ms, lines_ms) + &pens))?;
+        super::super::print(&(explain::lines(lines, &counts, *load_ms, lines_ms) + &pens))?;
     }
     if !run.json {
         return Ok(Verdict::Good);
     }
     let made = Made::Lines(Box::new(LinesMade {
         edges: lines.edges,
-        changes: lines.changes,
+        changes: lines.changes.clone(),
         undecided: lines.undecided,
         counts,
         times: lines.times,
         lines_ms,
     }));
-    let mut record = rendering.record(&scene, load_ms, remarks, made);
+    let mut record = rendering.record(scene, *load_ms, drawn.remarks.clone(), made);
     record.model.defects.covered_triangles = lines.covered_triangles;
     super::super::print_json(&record).map(|()| Verdict::Good)
 }
@@ -121,17 +112,6 @@ fn check_output(output: &str, format: Format, is_transparent: bool) -> Result<()
     match format {
         Format::Picture => Target::check(output, is_transparent).map(drop),
         Format::Svg | Format::Pdf | Format::Dxf | Format::Json => TextTarget::check(output).map(drop),
-    }
-}
-
-/// How the drawing is written, with its recipe. The recipe's command uses a fixed name for the output: the same drawing has the
-/// same bytes wherever it is written.
-fn with_recipe(drawing: DrawingSettings, output: &str, recipe: Option<&Recipe>) -> DrawingSettings {
-    let name = if output.to_ascii_lowercase().ends_with(".pdf") { "drawing.pdf" } else { "drawing.svg" };
-    DrawingSettings {
-        command: recipe.map(|recipe| recipe.command_line(name)).unwrap_or_default(),
-        recipe: recipe.and_then(Recipe::json).unwrap_or_default(),
-        ..drawing
     }
 }
 

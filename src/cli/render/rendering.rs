@@ -1,7 +1,7 @@
 //! A rendering in progress: the request and its output.
 
 use super::super::inputs::Inputs;
-use super::settings::RunSettings;
+use super::super::run_settings::RunSettings;
 use tinta::Scene;
 use tinta::record::{CameraRecord, Made, ModelRecord, Record};
 use tinta::request::Request;

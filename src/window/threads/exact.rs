@@ -6,11 +6,12 @@
 //! how many stayed.
 
 use crate::error::Result;
-use crate::lines::{LineSettings, Progress, StrokeIds, VisibleLines, chain, strokes, strokes_of_paths};
+use crate::lines::{LineSettings, Progress, StrokeIds, VisibleLines, chain, strokes_of_paths};
 use crate::picture::Picture;
 use crate::renderer::milliseconds_since;
+use crate::request::{Request, Wanted};
 use crate::scene::Scene;
-use crate::styles::LineStyle;
+use crate::styles::{LineStyle, Show, Style};
 use crate::window::threads::line_job::{Found, LineJob, Stayed};
 use crate::window::threads::report::{Report, Reporter};
 use crate::window::values::paint::painted;
@@ -22,7 +23,7 @@ impl LineJob {
     /// The lines on a transparent ground, and how many of their strokes belong to the view before.
     fn find(&self, ids: &Mutex<Option<Kept>>, progress: &Progress) -> Result<(Picture, Stayed)> {
         let (scene, drawing) = (self.view.scene()?, &self.style.drawing);
-        let lines = VisibleLines::with_progress(&scene, &self.style.wanted(), progress)?.without_specks(drawing)?;
+        let lines = found(&scene, &self.style, progress)?;
         let mut kept = ids.lock().unwrap_or_else(PoisonError::into_inner);
         let is_same = |kept: &Kept| Arc::ptr_eq(&kept.scene, &self.view.scene) && kept.settings == self.style.wanted();
         if !kept.as_ref().is_some_and(is_same) {
@@ -57,10 +58,16 @@ struct Kept {
 ///
 /// # Errors
 ///
-/// As [`VisibleLines::with_progress`] and [`strokes`].
+/// As [`Request::all_lines`] and [`strokes_of_paths`].
 pub(in crate::window) fn ink(scene: &Scene, style: &LineStyle, progress: &Progress) -> Result<Picture> {
-    let lines = VisibleLines::with_progress(scene, &style.wanted(), progress)?;
-    Ok(painted(&strokes(&lines, &style.drawing)?, scene.size))
+    let lines = found(scene, style, progress)?;
+    Ok(painted(&strokes_of_paths(&lines, chain(&lines.segments), None, &style.drawing)?, scene.size))
+}
+
+/// The lines that the command line's drawing of a scene has.
+fn found(scene: &Scene, style: &LineStyle, progress: &Progress) -> Result<VisibleLines> {
+    let request = Request::of_picture(&Style::Lines(style.clone()), Show::Final);
+    request.all_lines(scene, Wanted::default(), progress)?.without_specks(&style.drawing)
 }
 
 /// The lines of the view that is shown.

@@ -3,13 +3,14 @@
 use crate::animation::{AnimationTarget, AnimationWriter};
 use crate::error::Result;
 use crate::gl::{Backend, ContextInfo};
-use crate::lines::{DrawingSettings, Progress, VisibleLines, svg};
+use crate::lines::Progress;
 use crate::mesh::LoadOptions;
 use crate::output::TextTarget;
 use crate::picture::{Picture, Target};
 use crate::preset::{OptionValue, Options, to_toml};
-use crate::recipe::{Driver, FileRecord, Recipe, draws_with_textures, files_of};
-use crate::scene::{Scene, SceneSettings, Size};
+use crate::recipe::{Driver, FileRecord};
+use crate::request::{Format, Request, layers};
+use crate::scene::{Scene, SceneSettings};
 use crate::settings::HasSettings;
 use crate::shell;
 use crate::styles::Show;
@@ -59,50 +60,34 @@ pub(in crate::window) fn command(
     side: Side,
     output: &str,
 ) -> Result<String> {
-    Ok(recipe(state, job, surroundings, save, side)?.command_line(output))
+    let gl = context(surroundings).filter(|_| save != Save::Lines);
+    let recipe = request(state, job, surroundings, save, side)?.recipe(&job.scene, &[], gl, |_| None);
+    Ok(recipe.command_line(output))
 }
 
-/// The recipe of a side's picture, without the files' contents.
-fn recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save, side: Side) -> Result<Recipe> {
+/// The request that draws what is shown of a side, into a file of this kind.
+fn request(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save, side: Side) -> Result<Request> {
     let mut options = SceneSettings { camera: job.camera()?, ..job.settings.clone() }.to_options()?;
     options.extend(surroundings.load.to_options()?);
     match save {
-        // The file's name requests lines.
-        Save::Lines => {
-            options.extend(state.style_of_lines().to_options()?.into_iter().filter(|(name, _)| name != "style"))
-        }
+        Save::Lines => options.extend(state.style_of_drawing(side).to_options()?),
         _ => options.extend(style_options(state, job, side)?),
     }
     if save == Save::Turn {
         options.insert("turntable".to_owned(), OptionValue::text(TURN.0.to_string()));
     }
-    let Size { width, height } = job.settings.size;
-    Ok(Recipe {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        command: "render".to_owned(),
-        style: if save == Save::Lines { state.style_of_lines() } else { state.style(side) }.name().to_owned(),
-        size: [width, height],
-        models: state.models.clone(),
-        options,
-        files: Vec::new(),
-        gl: surroundings.context.as_deref().filter(|_| save != Save::Lines).map(Driver::new),
-    })
+    let draws_lines = save == Save::Lines && state.style_of_drawing(side).style_name().draws_lines();
+    if draws_lines {
+        // The file's name requests lines.
+        options.remove("style");
+    }
+    let (request, _) = Request::from_layers(&layers(None, Vec::new(), options, draws_lines))?;
+    Ok(request.with_models(state.models.clone()))
 }
 
-/// The same with the files' contents.
-fn whole_recipe(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save, side: Side) -> Result<Recipe> {
-    let mut paths = surroundings.files.clone();
-    if let Some((_, style, _)) = job.drawings.iter().find(|(drawn, ..)| *drawn == side && save != Save::Lines) {
-        if draws_with_textures(style, &job.scene) {
-            let materials = job.scene.objects.iter().flat_map(|object| &object.mesh.materials);
-            paths.extend(materials.filter_map(|material| material.texture.clone()));
-        }
-        paths.extend(files_of(style));
-    }
-    let mut seen = HashSet::new();
-    paths.retain(|path| seen.insert(path.clone()));
-    let files = paths.iter().filter_map(|path| FileRecord::of(path).ok()).collect();
-    Ok(Recipe { files, ..recipe(state, job, surroundings, save, side)? })
+/// Who draws.
+fn context(surroundings: &Surroundings) -> Option<Driver> {
+    surroundings.context.as_deref().map(Driver::new)
 }
 
 /// The options of a side's picture.
@@ -149,6 +134,7 @@ fn save_of(
     let path = free_name(surroundings, &stem(state, save, side), save);
     let name = path.to_string_lossy().into_owned();
     let command = command(state, job, surroundings, save, side, &name);
+    let (files, record) = (&surroundings.files, |path: &Path| FileRecord::of(path).ok());
     match save {
         Save::Picture => {
             let Some(shown) = shown else { return Ok("there is no picture yet".to_owned()) };
@@ -161,8 +147,9 @@ fn save_of(
                 return Ok(format!("{name}; its lines as vectors: {lines}"));
             }
             if state.sides().len() == 1 {
-                let recipe = whole_recipe(state, job, surroundings, save, side).ok();
-                target.write_with(shown, recipe.and_then(|recipe| recipe.note()).as_ref())?;
+                let recipe = request(state, job, surroundings, save, side);
+                let recipe = recipe.map(|request| request.recipe(&job.scene, files, context(surroundings), record));
+                target.write_with(shown, recipe.ok().and_then(|recipe| recipe.note()).as_ref())?;
             } else {
                 // A cut or a difference is put together here: no command makes it.
                 target.write(shown)?;
@@ -171,19 +158,11 @@ fn save_of(
             }
         }
         Save::Lines => {
-            let target = TextTarget::check(&name)?;
-            let style = state.line_style();
-            let lines = VisibleLines::of(&job.scene()?, &style.wanted())?;
-            let recipe = whole_recipe(state, job, surroundings, save, side)?;
-            // Byte for byte the command's file.
-            let settings = DrawingSettings {
-                title: state.model_names().join(", "),
-                command: recipe.command_line("drawing.svg"),
-                recipe: recipe.json().unwrap_or_default(),
-                background: job.settings.background,
-                ..style.drawing
-            };
-            target.write(&svg(&lines, &settings)?)?;
+            TextTarget::check(&name)?;
+            let request = request(state, job, surroundings, save, side)?;
+            let drawn = request.drawn_lines(job.scene()?, Format::Svg.wanted(false), &Progress::default())?;
+            let recipe = request.recipe(&drawn.scene, files, None, record);
+            drawn.written(Format::Svg, None, Some(&recipe))?.write(&name, request.is_transparent())?;
         }
         Save::Turn => {
             turn(state, job, side, surroundings.backend, &name)?;
@@ -236,7 +215,7 @@ fn stem(state: &ViewerState, save: Save, side: Side) -> String {
     let model = Path::new(model).file_stem().map_or("model".into(), |stem| stem.to_string_lossy());
     let styles: Vec<String> = match save {
         Save::Picture => state.sides().iter().map(|side| state.drawn_name(*side)).collect(),
-        Save::Lines => vec![state.style_of_lines().name().to_owned()],
+        Save::Lines => vec![state.style_of_drawing(side).name().to_owned()],
         Save::Turn => vec![state.drawn_name(side)],
         Save::Preset => vec![state.style(side).name().to_owned()],
     };

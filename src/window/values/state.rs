@@ -148,6 +148,14 @@ impl ViewerState {
         &self.styles[0][StyleName::Lines as usize]
     }
 
+    /// The style whose vectors a side's drawing has: its own if it has areas of tone and no exact lines over them, else that of
+    /// exact lines.
+    pub(in crate::window) fn style_of_drawing(&self, side: Side) -> &Style {
+        let style = self.style(side);
+        let has_vectors = self.lines_shown(side) == LinesShown::None && style.vectors(self.scene.size).is_some();
+        if has_vectors { style } else { self.style_of_lines() }
+    }
+
     /// The style of exact lines: of a side that shows them alone, or else of those over pictures.
     pub fn line_style(&self) -> LineStyle {
         let alone = self.sides().iter().find_map(|side| self.style(*side).lines());

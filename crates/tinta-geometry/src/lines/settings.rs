@@ -3,7 +3,7 @@
 use crate::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::lines::parts::rules::PartRules;
-use crate::lines::smooth::forms::FormSettings;
+use crate::lines::smooth::forms::settings::FormSettings;
 use crate::settings::{HasSettings, Setting, Table, Value as _, within};
 use std::sync::LazyLock;
 

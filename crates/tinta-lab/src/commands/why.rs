@@ -89,7 +89,7 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let style = Layer::Style(StyleName::Lines);
     let below = Below { camera, ..Below::default() };
     let (mut request, _) = arguments.drawing.request_over(style, std::slice::from_ref(&arguments.model), &below)?;
-    if request.line_style().is_some() {
+    if request.style.lines().is_some() {
         let needed = [("variable", arguments.variable.is_some()), ("output", arguments.output.is_some())];
         if let Some((option, _)) = needed.iter().find(|(_, is_given)| *is_given) {
             let problem = "it explains the shaders of a style; add one, such as --style three-pass";
@@ -99,7 +99,7 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let files: Vec<&str> = camera.and_then(Path::to_str).into_iter().collect();
     let inputs = Inputs::new(&request.models, &request.options, &files);
     let output = arguments.output.as_deref().map(|path| Output::check(path, arguments, &inputs)).transpose()?;
-    if request.line_style().is_some() {
+    if request.style.lines().is_some() {
         let scene = Scene::new(load_meshes(&request.models, &request.read)?, &request.scene)?;
         return line_out(&scene, &request, arguments.place.unwrap_or_default(), arguments.json);
     }
@@ -181,7 +181,7 @@ fn variable_out(variable: &Variable, output: Option<&Output>, is_json: bool) -> 
 
 /// Explains the line nearest to a place.
 fn line_out(scene: &Scene, request: &Request, place: DVec2, is_json: bool) -> Result<()> {
-    let lines = request.line_style().map_or_else(LineSettings::default, |style| style.lines);
+    let lines = request.style.lines().map_or_else(LineSettings::default, |style| style.lines);
     let why = VisibleLines::why(scene, &lines, place).map_err(|error| match error {
         // The place is no option.
         Error::Setting { name, value: Some(place), problem } if name == "place" => {

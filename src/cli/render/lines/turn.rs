@@ -3,9 +3,8 @@
 use super::super::super::signals::Stop;
 use super::super::super::{Verdict, print_json, say};
 use super::super::animate::delay_ms;
-use super::super::format::Format;
 use super::super::rendering::Rendering;
-use super::writing::{comment, is_stopped, progress, watched, write};
+use super::writing::{is_stopped, progress, watched};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
@@ -13,7 +12,7 @@ use tinta::animation::NumberedName;
 use tinta::lines::{StrokeIds, TurnSvg};
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
-use tinta::request::{ReadModels, Session};
+use tinta::request::{Format, ReadModels, Session};
 use tinta::{Error, Result, Scene, TextTarget};
 
 /// The names of the drawings; `None` for one animated SVG.
@@ -42,14 +41,13 @@ pub(super) fn run(
     let whole = Instant::now();
     let Rendering { request, run, output } = *rendering;
     let names = names(output, format)?;
-    let style = request.line_style().unwrap_or_default();
+    let style = request.line_style()?.unwrap_or_default();
     if request.options.contains_key("page") {
         let problem = "each view would be scaled to fill the paper, and the model change its size; leave it out, or say --width-mm";
         return Err(Error::setting("page", problem));
     }
     let ReadModels { meshes, ms: load_ms, .. } = request.models(&session.models)?;
     let scene = Scene::new(meshes, &request.scene)?;
-    let drawn = style.drawing.clone();
     let mut animated = names.is_none().then(TurnSvg::default);
     let mut ids = StrokeIds::new(&scene, &style.wanted());
     let (mut bytes, mut frame_ms) = (0, Vec::new());
@@ -58,25 +56,23 @@ pub(super) fn run(
         let scene = Scene { camera, ..scene.clone() };
         let name = names.as_ref().map_or_else(|| output.to_owned(), |names| names.with(number));
         let progress = progress(rendering);
-        let lines = match watched(&progress, stop, || request.lines(&scene, &progress)) {
+        let drawn = match watched(&progress, stop, || request.drawn_lines(scene, format.wanted(false), &progress)) {
             Err(Error::Cancelled) => return Ok(stopped(stop, names.as_ref().map_or(0, |_| number - 1), views)),
             found => found?,
         };
-        let note = lines.partial_note();
-        if let Some(note) = &note {
+        if let Some(note) = drawn.lines.partial_note() {
             say(&format!("tinta: {name}: {note}"));
         }
-        let paths = ids.next(&scene, &lines);
+        let paths = ids.next(&drawn.scene, &drawn.lines);
         if is_stopped(stop) {
             return Ok(stopped(stop, names.as_ref().map_or(0, |_| number - 1), views));
         }
         if let Some(animated) = &mut animated {
-            animated.add(&lines, paths, &drawn)?;
+            animated.add(&drawn.lines, paths, &style.drawing)?;
             frame_ms.push(milliseconds_since(frame));
             continue;
         }
-        let said = note.map(comment);
-        write(format, &name, &scene, (&lines, paths), None, &drawn, said.as_ref())?;
+        drawn.written(format, Some(paths), None)?.write(&name, request.is_transparent())?;
         bytes += Path::new(&name).metadata().map_or(0, |metadata| metadata.len());
         frame_ms.push(milliseconds_since(frame));
     }

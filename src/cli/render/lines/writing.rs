@@ -1,48 +1,11 @@
-//! Work on lines with its time limit, its progress bar and its signals, and the file that it ends in.
+//! Work on lines with its time limit, its progress bar and its signals.
 
 use super::super::super::progress::Progress;
 use super::super::super::signals::Stop;
-use super::super::format::Format;
 use super::super::rendering::Rendering;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
-use tinta::lines::{
-    LinePath, Phase, Progress as LineProgress, Raster, dxf_of_paths, pdf_of_paths, raster_of_paths, svg_of_paths,
-};
-use tinta::picture::Note;
-use tinta::record::drawing_json;
-use tinta::styles::ViewAreas;
-use tinta::{DrawingSettings, Picture, Result, Scene, Target, TextTarget, VisibleLines};
-
-/// Writes a drawing, a picture with its notes.
-pub(super) fn write(
-    format: Format,
-    output: &str,
-    scene: &Scene,
-    (lines, paths): (&VisibleLines, Vec<LinePath>),
-    areas: Option<&ViewAreas>,
-    drawn: &DrawingSettings,
-    said: Option<&Note>,
-) -> Result<()> {
-    let write = |bytes: Vec<u8>| TextTarget::check(output)?.write_bytes(&bytes);
-    let below = areas.map(|areas| &areas.drawn);
-    match format {
-        Format::Svg => write(svg_of_paths(lines, paths, below, drawn)?.into_bytes()),
-        Format::Pdf => write(pdf_of_paths(lines, paths, below, drawn)?),
-        Format::Dxf => write(dxf_of_paths(lines, paths, below, drawn)?.into_bytes()),
-        Format::Json => write(drawing_json(lines, areas.map(|areas| &areas.regions), scene)?.into_bytes()),
-        Format::Picture => {
-            let Raster { size, pixels } = raster_of_paths(lines, paths, drawn)?;
-            let is_transparent = scene.background == tinta::Background::Transparent;
-            Target::check(output, is_transparent)?.write_with(&Picture { size, pixels }, said)
-        }
-    }
-}
-
-/// The note in a picture of partial lines.
-pub(super) fn comment(text: String) -> Note {
-    Note { keyword: "Comment", text }
-}
+use tinta::lines::{Phase, Progress as LineProgress};
 
 pub(super) fn is_stopped(stop: Option<&Stop>) -> bool {
     stop.is_some_and(Stop::is_asked)

@@ -15,7 +15,7 @@
 //! are weaker than their threshold.
 
 mod apparent;
-mod settings;
+pub(in crate::lines) mod settings;
 #[cfg(test)]
 mod stiff_tests;
 #[cfg(test)]

@@ -1,15 +1,15 @@
 //! Draws lines as pixels: the same picture as the SVG, at any size, without an external rasteriser.
 //!
-//! Input: [`VisibleLines`] and [`DrawingSettings`]. Output: [`Raster`]. All lines have round ends and corners, so the
+//! Input: [`VisibleLines`] and [`DrawingSettings`], or [`Strokes`]. Output: [`Raster`]. All lines have round ends and corners, so the
 //! distance of a pixel's centre from the nearest line gives its coverage. Within a layer the nearest line counts,
 //! because crossing lines of one colour do not add up in the SVG. Layers are composited over one another.
 
 use crate::error::{Error, Result};
 use crate::lines::VisibleLines;
 use crate::lines::drawing::chain::{LinePath, chain};
-use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
-use crate::lines::drawing::pen::dashes;
+use crate::lines::drawing::drawn_layers::Drawing;
 use crate::lines::drawing::settings::DrawingSettings;
+use crate::lines::write::strokes::{Polyline, Strokes, strokes_of};
 use crate::scene::{Background, Color, Size};
 use glam::DVec2;
 
@@ -39,28 +39,33 @@ pub fn raster(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Raster
 /// Those of [`raster`].
 pub fn raster_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &DrawingSettings) -> Result<Raster> {
     let drawing = Drawing::new(lines, paths, None, settings)?;
-    let size = lines.size;
-    let [width, height] = [size.width, size.height].map(f64::from);
+    let [width, height] = [lines.size.width, lines.size.height].map(f64::from);
     if drawing.page.extent_px != DVec2::new(width, height) || drawing.page.origin_px != DVec2::ZERO {
         return Err(Error::setting("page", "a picture is as large as --size; leave it out, or write a .svg or .pdf"));
     }
-    let ground = match settings.background {
-        Background::Color(Color(color)) => color.map(byte),
-        Background::Transparent => [0; 3],
-    };
-    let alpha = if settings.background == Background::Transparent { 0 } else { u8::MAX };
-    let pixel = [ground[0], ground[1], ground[2], alpha];
-    let mut pixels = pixel.repeat(size.pixel_count());
-    let mut cover = vec![0.0f32; size.pixel_count()];
-    for layer in &drawing.layers {
-        cover.fill(0.0);
-        cover_layer(layer, settings, size, &mut cover);
-        let opacity = if layer.is_ghost { GHOST_OPACITY } else { 1.0 };
-        for (pixel, cover) in pixels.chunks_exact_mut(4).zip(&cover).filter(|(_, cover)| **cover > 0.0) {
-            lay_over(pixel, layer.color, cover * opacity);
+    Ok(raster_of_strokes(&strokes_of(&drawing), lines.size, settings.background))
+}
+
+/// Returns strokes as pixels on a background, from the lowest layer to the highest.
+pub fn raster_of_strokes(strokes: &[Strokes], size: Size, background: Background) -> Raster {
+    let pixel = match background {
+        Background::Color(Color(color)) => {
+            let [red, green, blue] = color.map(byte);
+            [red, green, blue, u8::MAX]
         }
+        Background::Transparent => [0; 4],
+    };
+    let mut pixels = pixel.repeat(size.pixel_count());
+    let mut cover = Cover::new(size);
+    for layer in strokes {
+        for Polyline { points_px, is_closed } in &layer.polylines {
+            let closing = is_closed.then(|| points_px.last().zip(points_px.first())).flatten();
+            let pairs = points_px.windows(2).map(|pair| (&pair[0], &pair[1])).chain(closing);
+            pairs.for_each(|(a, b)| cover.line([*a, *b], layer.width_px));
+        }
+        cover.blend_into(&mut pixels, layer.color, layer.opacity);
     }
-    Ok(Raster { size, pixels })
+    Raster { size, pixels }
 }
 
 fn byte(channel: f32) -> u8 {
@@ -77,62 +82,77 @@ fn lay_over(pixel: &mut [u8], Color(color): Color, opacity: f32) {
     pixel[3] = byte(alpha);
 }
 
-/// Computes the layer's coverage of each pixel.
-fn cover_layer(layer: &DrawnLayer, settings: &DrawingSettings, size: Size, cover: &mut [f32]) {
-    let mut polyline = |points: &[DVec2], is_closed: bool| {
-        let closing = is_closed.then(|| [points[points.len() - 1], points[0]]);
-        let pairs = points.windows(2).map(|pair| [pair[0], pair[1]]);
-        pairs.chain(closing).for_each(|ends| cover_line(ends, layer.width_px, size, cover));
-    };
-    for path in &layer.paths {
-        match layer.dash_px {
-            None => polyline(&settings.points_of(path), path.is_closed),
-            Some([dash, gap]) => {
-                dashes(path, dash, gap).iter().for_each(|dash| polyline(&dash.points_px, dash.is_closed));
-            }
-        }
-    }
+/// How much of each pixel a layer covers.
+struct Cover {
+    size: Size,
+    shares: Vec<f32>,
+    /// Rows with lines in them.
+    is_used: Vec<bool>,
 }
 
-/// Raises each pixel's coverage to that of a line with round ends, where that is more.
-fn cover_line([a, b]: [DVec2; 2], width_px: f64, size: Size, cover: &mut [f32]) {
-    // Coverage ends half a pixel beyond the line's border.
-    let (radius, reach) = (width_px * 0.5, width_px * 0.5 + 0.5);
-    let along = b - a;
-    let squared = along.length_squared();
-    let pixels = |low: f64, high: f64, side: u32| {
-        let first = (low - 0.5).ceil().max(0.0) as usize;
-        first..((high - 0.5).floor() + 1.0).clamp(0.0, f64::from(side)) as usize
-    };
-    for row in pixels(a.y.min(b.y) - reach, a.y.max(b.y) + reach, size.height) {
-        let y = row as f64 + 0.5;
-        // The stretch of the line that is close enough to this row.
-        let at = |y: f64| if along.y == 0.0 { 0.0 } else { ((y - a.y) / along.y).clamp(0.0, 1.0) };
-        let ends = match along.y == 0.0 {
-            true => [a.x, b.x],
-            false => [at(y - reach), at(y + reach)].map(|share| a.x + along.x * share),
+impl Cover {
+    fn new(size: Size) -> Self {
+        Self { size, shares: vec![0.0; size.pixel_count()], is_used: vec![false; size.height as usize] }
+    }
+
+    /// Raises each pixel's coverage to that of a line with round ends, where that is more.
+    fn line(&mut self, [a, b]: [DVec2; 2], width_px: f64) {
+        // Coverage ends half a pixel beyond the line's border.
+        let (radius, reach) = (width_px * 0.5, width_px * 0.5 + 0.5);
+        let along = b - a;
+        let squared = along.length_squared();
+        let pixels = |low: f64, high: f64, side: u32| {
+            let first = (low - 0.5).ceil().max(0.0) as usize;
+            first..((high - 0.5).floor() + 1.0).clamp(0.0, f64::from(side)) as usize
         };
-        for column in pixels(ends[0].min(ends[1]) - reach, ends[0].max(ends[1]) + reach, size.width) {
-            let from_a = DVec2::new(column as f64 + 0.5, y) - a;
-            let share = if squared > 0.0 { (from_a.dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-            let distance = (from_a - along * share).length();
-            let covered = (reach - distance).min(2.0 * radius).clamp(0.0, 1.0) as f32;
-            let before = &mut cover[row * size.width as usize + column];
-            *before = before.max(covered);
+        for row in pixels(a.y.min(b.y) - reach, a.y.max(b.y) + reach, self.size.height) {
+            let y = row as f64 + 0.5;
+            // The stretch of the line that is close enough to this row.
+            let at = |y: f64| if along.y == 0.0 { 0.0 } else { ((y - a.y) / along.y).clamp(0.0, 1.0) };
+            let ends = match along.y == 0.0 {
+                true => [a.x, b.x],
+                false => [at(y - reach), at(y + reach)].map(|share| a.x + along.x * share),
+            };
+            for column in pixels(ends[0].min(ends[1]) - reach, ends[0].max(ends[1]) + reach, self.size.width) {
+                let from_a = DVec2::new(column as f64 + 0.5, y) - a;
+                let share = if squared > 0.0 { (from_a.dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
+                let distance = (from_a - along * share).length();
+                let covered = (reach - distance).min(2.0 * radius).clamp(0.0, 1.0) as f32;
+                let before = &mut self.shares[row * self.size.width as usize + column];
+                *before = before.max(covered);
+            }
+            self.is_used[row] = true;
         }
+    }
+
+    /// Lays the layer over the pixels, and empties it.
+    fn blend_into(&mut self, pixels: &mut [u8], color: Color, opacity: f32) {
+        let width = self.size.width as usize;
+        let rows = pixels.chunks_exact_mut(width * 4).zip(self.shares.chunks_exact_mut(width));
+        for ((row, shares), _) in rows.zip(&mut self.is_used).filter(|(_, is_used)| **is_used) {
+            for (pixel, share) in row.chunks_exact_mut(4).zip(shares) {
+                let share = std::mem::take(share);
+                if share > 0.0 {
+                    lay_over(pixel, color, share * opacity);
+                }
+            }
+        }
+        self.is_used.fill(false);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::edges::Class;
+    use crate::lines::Layer;
 
     const SIZE: Size = Size { width: 40, height: 30 };
 
     fn covered(ends: [[f64; 2]; 2], width_px: f64) -> Vec<f32> {
-        let mut cover = vec![0.0; SIZE.pixel_count()];
-        cover_line(ends.map(DVec2::from_array), width_px, SIZE, &mut cover);
-        cover
+        let mut cover = Cover::new(SIZE);
+        cover.line(ends.map(DVec2::from_array), width_px);
+        cover.shares
     }
 
     #[test]
@@ -156,6 +176,34 @@ mod tests {
         // Lines outside the picture have no effect.
         assert!(covered([[-50.0, -60.0], [-5.0, -9.0]], 3.0).iter().all(|cover| *cover == 0.0));
         assert_eq!(covered([[5.5, 5.5], [5.5, 5.5]], 1.0)[5 * 40 + 5], 1.0, "a point is a dot");
+    }
+
+    fn square(is_closed: bool) -> Strokes {
+        let corners = [[10.0, 5.0], [30.0, 5.0], [30.0, 25.0], [10.0, 25.0]];
+        Strokes {
+            layer: Layer::Visible(Class::Crease),
+            color: Color([0.0; 3]),
+            width_px: 2.0,
+            width_mm: None,
+            opacity: 1.0,
+            polylines: vec![Polyline { points_px: corners.map(DVec2::from_array).to_vec(), is_closed }],
+        }
+    }
+
+    #[test]
+    fn strokes_that_cross_or_close_do_not_add_up_and_opacity_is_the_layers() {
+        let ink = |strokes: Strokes| raster_of_strokes(&[strokes], SIZE, Background::Transparent);
+        let alphas = |raster: &Raster| raster.pixels.chunks_exact(4).map(|pixel| pixel[3]).collect::<Vec<_>>();
+        let area = |raster: &Raster| alphas(raster).into_iter().map(|alpha| f64::from(alpha) / 255.0).sum::<f64>();
+        let closed = ink(square(true));
+        // 20 pixels of two, without the quarter discs and squares of the ends.
+        let added = area(&closed) - area(&ink(square(false)));
+        assert!((added - (40.0 - 2.0 * (1.0 + std::f64::consts::PI / 4.0))).abs() < 0.5, "{added}");
+        let mut twice = square(true);
+        twice.polylines.extend(square(true).polylines);
+        assert_eq!(ink(twice.clone()), closed);
+        let faint = ink(Strokes { opacity: 0.3, ..twice });
+        assert_eq!(alphas(&faint).into_iter().max(), Some(77));
     }
 
     #[test]

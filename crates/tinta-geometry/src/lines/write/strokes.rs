@@ -73,8 +73,12 @@ pub fn strokes_of_paths(
     areas: Option<&Areas>,
     settings: &DrawingSettings,
 ) -> Result<Vec<Strokes>> {
-    let drawing = Drawing::new(lines, paths, areas, settings)?;
-    Ok(drawing.layers.iter().map(|layer| of_layer(layer, settings, drawing.page.units)).collect())
+    Ok(strokes_of(&Drawing::new(lines, paths, areas, settings)?))
+}
+
+/// The strokes of a drawing.
+pub(in crate::lines) fn strokes_of(drawing: &Drawing<'_>) -> Vec<Strokes> {
+    drawing.layers.iter().map(|layer| of_layer(layer, drawing.settings, drawing.page.units)).collect()
 }
 
 /// The polylines of a layer, each dash one.

@@ -1,24 +1,34 @@
-//! The format of an output by its name: lines or pixels.
+//! The format of a drawing of lines, and what is to be found for it.
 
+use super::Request;
+use crate::error::{Error, Result};
+use crate::picture::PictureFormat;
 use std::path::Path;
-use tinta::picture::PictureFormat;
-use tinta::request::Request;
-use tinta::{Error, Result};
 
 /// The files lines are written to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Format {
+pub enum Format {
+    /// Paths and areas.
     Svg,
+    /// The same on paper.
     Pdf,
+    /// Polylines.
     Dxf,
+    /// Every piece of line with its data.
     Json,
     /// Pixels, in the format of the file's name.
     Picture,
 }
 
-/// Whether a file of this name holds lines.
-pub(in crate::cli) fn is_of_lines(output: &str) -> bool {
-    Format::of_name(output).is_some()
+/// What is to be found for a drawing besides what it shows.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Wanted {
+    /// Every piece of line: hidden ones, short ones, those of the outline marked.
+    pub all: bool,
+    /// Hidden lines, and the number of places where smooth silhouettes break.
+    pub hidden: bool,
+    /// What a style of passes has as vectors: areas of tone, and exact lines above them.
+    pub areas: bool,
 }
 
 fn extension(output: &str) -> Option<&str> {
@@ -26,8 +36,13 @@ fn extension(output: &str) -> Option<&str> {
 }
 
 impl Format {
+    /// What is found for a file of this format; `is_told`: its numbers are reported.
+    pub fn wanted(self, is_told: bool) -> Wanted {
+        Wanted { all: self == Self::Json, hidden: is_told, areas: true }
+    }
+
     /// The format of a file of this name, if it holds lines.
-    fn of_name(output: &str) -> Option<Self> {
+    pub fn of_name(output: &str) -> Option<Self> {
         match extension(output).map(str::to_ascii_lowercase).as_deref() {
             Some("svg") => Some(Self::Svg),
             Some("pdf") => Some(Self::Pdf),
@@ -42,7 +57,7 @@ impl Format {
     /// # Errors
     ///
     /// Where style and file's name do not go together.
-    pub(super) fn of(request: &Request, output: &str) -> Result<Option<Self>> {
+    pub fn of(request: &Request, output: &str) -> Result<Option<Self>> {
         let style = request.style.name();
         let has_vectors = request.style.vectors(request.scene.size).is_some();
         let refuse = |problem: String| Err(Error::output(output, problem));

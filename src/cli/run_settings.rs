@@ -1,6 +1,6 @@
 //! The options of `tinta render` that control the use of a drawing, not its contents: presets and recipes never contain them.
 
-use super::super::selection::Selection;
+use super::selection::Selection;
 use std::path::PathBuf;
 use std::sync::LazyLock;
 use tinta::plan::Submission;

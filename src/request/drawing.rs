@@ -1,0 +1,258 @@
+//! Drawings of lines and areas: what is found for a request, and the one place where it becomes a file.
+//!
+//! Every door ends here: it chooses a [`Format`] and a target, and may give a recipe or paths whose strokes keep their numbers.
+
+use super::emptiness::reason;
+use super::{Format, Request, Wanted};
+use crate::edges::SilhouetteRule;
+use crate::error::{Error, Result};
+use crate::lines::{
+    DrawingSettings, Hidden, LinePath, LineSettings, Progress, Raster, VisibleLines, chain, dxf_of_paths,
+    raster_of_paths, svg_of_paths,
+};
+use crate::output::TextTarget;
+use crate::picture::{Note, Picture, Target};
+use crate::recipe::Recipe;
+use crate::record::drawing_json;
+use crate::scene::{Scene, Unseen};
+use crate::settings::HasSettings;
+use crate::styles::{LineStyle, Vectors, ViewAreas};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Lines and areas, and how they were found.
+#[derive(Debug, Clone)]
+pub struct DrawnLines {
+    /// The scene.
+    pub scene: Scene,
+    /// The files read besides the models' own files.
+    pub files: Vec<PathBuf>,
+    /// The style that they are drawn in.
+    pub style: LineStyle,
+    /// The lines.
+    pub lines: Arc<VisibleLines>,
+    /// The areas below them; `None` in a drawing of lines alone.
+    pub areas: Option<ViewAreas>,
+    /// Remarks for the user, a sentence each.
+    pub remarks: Vec<String>,
+    /// How long reading took, milliseconds.
+    pub load_ms: f64,
+}
+
+/// A drawing as its file holds it.
+#[derive(Debug)]
+pub enum Written {
+    /// The bytes of a file of vectors or data.
+    Bytes(Vec<u8>),
+    /// Pixels, and the note that the file has if its format can.
+    Picture(Picture, Option<Note>),
+}
+
+impl Written {
+    /// The file's bytes, those of a PNG for a picture.
+    ///
+    /// # Errors
+    ///
+    /// As [`Picture::png_bytes`].
+    pub fn bytes(self) -> Result<Vec<u8>> {
+        match self {
+            Self::Bytes(bytes) => Ok(bytes),
+            Self::Picture(picture, note) => picture.png_bytes(note.as_ref()),
+        }
+    }
+
+    /// Writes the file, or to standard output for `-`; a picture in the format of its name.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`TextTarget`] and [`Target`].
+    pub fn write(self, output: &str, is_transparent: bool) -> Result<()> {
+        match self {
+            Self::Bytes(bytes) => TextTarget::check(output)?.write_bytes(&bytes),
+            Self::Picture(picture, note) => Target::check(output, is_transparent)?.write_with(&picture, note.as_ref()),
+        }
+    }
+}
+
+impl DrawnLines {
+    /// The paths that the drawing shows, with hidden ones if it shows them.
+    pub fn paths(&self) -> Vec<LinePath> {
+        let mut paths = chain(&self.lines.segments);
+        let shows_hidden = |look: u32| self.lines.drawing(look, &self.style.drawing).hidden != Hidden::None;
+        paths.retain(|path| path.is_visible || shows_hidden(path.look));
+        paths
+    }
+
+    /// Writes these paths of the drawing, or its own, into a file of this format. The recipe's command has a fixed name for the
+    /// output: the same drawing is the same bytes wherever it is written. Lines that are not complete depend on the machine: their
+    /// file says so and has no recipe.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for settings that this format does not have, and those of the writers.
+    pub fn written(&self, format: Format, paths: Option<Vec<LinePath>>, recipe: Option<&Recipe>) -> Result<Written> {
+        let partial = self.lines.partial_note().map(|text| Note { keyword: "Comment", text });
+        let recipe = recipe.filter(|_| partial.is_none());
+        let output = if format == Format::Pdf { "drawing.pdf" } else { "drawing.svg" };
+        let settings = DrawingSettings {
+            command: recipe.map(|recipe| recipe.command_line(output)).unwrap_or_default(),
+            recipe: recipe.and_then(Recipe::json).unwrap_or_default(),
+            ..self.style.drawing.clone()
+        };
+        let (lines, areas) = (&*self.lines, self.areas.as_ref());
+        let below = areas.map(|areas| &areas.drawn);
+        let paths = || paths.unwrap_or_else(|| self.paths());
+        Ok(match format {
+            Format::Svg => Written::Bytes(svg_of_paths(lines, paths(), below, &settings)?.into_bytes()),
+            #[cfg(feature = "pdf")]
+            Format::Pdf => Written::Bytes(crate::lines::pdf_of_paths(lines, paths(), below, &settings)?),
+            #[cfg(not(feature = "pdf"))]
+            Format::Pdf => return Err(Error::setting("o", "this build writes no .pdf file; write a .svg")),
+            Format::Dxf => Written::Bytes(dxf_of_paths(lines, paths(), below, &settings)?.into_bytes()),
+            Format::Json => {
+                let regions = areas.map(|areas| &areas.regions);
+                Written::Bytes(drawing_json(lines, regions, &self.scene)?.into_bytes())
+            }
+            Format::Picture => {
+                let Raster { size, pixels } = raster_of_paths(lines, paths(), &settings)?;
+                Written::Picture(Picture { size, pixels }, partial.or_else(|| recipe.and_then(Recipe::note)))
+            }
+        })
+    }
+}
+
+/// The remark on a drawing without any visible line.
+fn no_line(scene: &Scene) -> String {
+    let why = match scene.unseen(scene.size, false) {
+        unseen @ Some(Unseen::Behind | Unseen::Beside | Unseen::CutOff) => format!(": {}", reason(scene, unseen)),
+        _ => "; see --classes, --eye and --target".to_owned(),
+    };
+    format!("no line of these classes is visible in this picture{why}")
+}
+
+impl Request {
+    /// The areas, and the lines above them, of a style that has areas, with the options of lines and of drawings; `None` for a
+    /// style without areas.
+    ///
+    /// # Errors
+    ///
+    /// Those of the options of lines and of drawings.
+    pub fn vectors(&self) -> Result<Option<Vectors>> {
+        let mut vectors = self.style.vectors(self.scene.size);
+        if let (Some(vectors), None) = (&mut vectors, self.style.lines()) {
+            DrawingSettings::table().apply(&mut vectors.drawing, &self.options)?;
+            if let Some(lines) = &mut vectors.lines {
+                LineSettings::table().apply(lines, &self.options)?;
+            }
+        }
+        Ok(vectors)
+    }
+
+    /// How lines are drawn: the style's way, on the scene's background, with the request's title. `None` for a style without
+    /// vectors.
+    ///
+    /// # Errors
+    ///
+    /// As [`Request::vectors`].
+    pub fn line_style(&self) -> Result<Option<LineStyle>> {
+        let of_vectors = |Vectors { lines, drawing, .. }| LineStyle {
+            lines: lines.unwrap_or_default(),
+            drawing,
+            ..LineStyle::default()
+        };
+        let style = match self.style.lines() {
+            Some(style) => Some(style),
+            None => self.vectors()?.map(of_vectors),
+        };
+        Ok(style.map(|mut style| {
+            (style.drawing.title, style.drawing.background) = (self.title(), self.scene.background);
+            style
+        }))
+    }
+
+    /// The lines to find, and the style that they are drawn in.
+    fn asked(&self, wanted: Wanted) -> Result<(LineSettings, LineStyle)> {
+        let Some(style) = self.line_style()? else {
+            let problem = "this style draws a picture in passes; choose a style of lines";
+            return Err(Error::value("style", self.style.name(), problem));
+        };
+        style.check()?;
+        let mut lines = style.wanted();
+        lines.finds_hidden |= wanted.all || wanted.hidden;
+        lines.finds_outline |= wanted.all;
+        lines.counts_changes = wanted.hidden && lines.silhouette == SilhouetteRule::Smooth;
+        Ok((lines, style))
+    }
+
+    /// Whether the lines of this request serve another one that wants more of the same lines.
+    ///
+    /// # Errors
+    ///
+    /// As [`Request::all_lines`].
+    pub fn finds_all_for(&self, other: &Self, wanted: Wanted) -> Result<bool> {
+        let ((own, _), (others, _)) = (self.asked(Wanted::default())?, other.asked(wanted)?);
+        Ok(self.is_of_areas_alone()? == other.is_of_areas_alone()?
+            && own.finds_hidden >= others.finds_hidden
+            && own.finds_outline >= others.finds_outline)
+    }
+
+    /// Whether the drawing has areas and no lines.
+    fn is_of_areas_alone(&self) -> Result<bool> {
+        Ok(self.vectors()?.is_some_and(|vectors| vectors.lines.is_none()))
+    }
+
+    /// Finds the lines of a scene that the drawing shows, short ones too.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for a style without vectors and for nonsense; those of [`VisibleLines::with_progress`].
+    pub fn all_lines(&self, scene: &Scene, wanted: Wanted, progress: &Progress) -> Result<VisibleLines> {
+        let (lines, style) = self.asked(wanted)?;
+        if self.is_of_areas_alone()? {
+            return Ok(VisibleLines::none(scene.size));
+        }
+        match style.sheet {
+            Some(angle) => VisibleLines::on_sheet(scene, &lines, angle, progress),
+            None => VisibleLines::with_progress(scene, &lines, progress),
+        }
+    }
+
+    /// Makes the drawing of lines that [`Request::all_lines`] found: without those too short to see, with the areas below.
+    ///
+    /// # Errors
+    ///
+    /// As [`Request::all_lines`], and those of [`Vectors::areas`].
+    pub fn drawing(
+        &self,
+        scene: Scene,
+        lines: Arc<VisibleLines>,
+        wanted: Wanted,
+        progress: &Progress,
+    ) -> Result<DrawnLines> {
+        let (_, style) = self.asked(wanted)?;
+        let lines = match wanted.all && style.drawing.min_length.is_none() {
+            true => lines,
+            false => Arc::new(lines.without_specks_with_progress(&style.drawing, progress)?),
+        };
+        let mut remarks = scene.crack_remarks();
+        remarks.extend(scene.far_remark());
+        let vectors = self.vectors()?;
+        let areas = vectors.as_ref().map(|vectors| vectors.areas(&scene, &lines, progress)).transpose()?;
+        remarks.extend(vectors.into_iter().flat_map(|vectors| vectors.remarks(&scene)));
+        let has_areas = areas.as_ref().is_some_and(|areas| areas.drawn.corners_px.is_some());
+        if !has_areas && !lines.segments.iter().any(|segment| segment.is_visible) {
+            remarks.push(no_line(&scene));
+        }
+        Ok(DrawnLines { scene, files: Vec::new(), style, lines, areas, remarks, load_ms: 0.0 })
+    }
+
+    /// Draws the lines and areas of a scene.
+    ///
+    /// # Errors
+    ///
+    /// As [`Request::drawing`].
+    pub fn drawn_lines(&self, scene: Scene, wanted: Wanted, progress: &Progress) -> Result<DrawnLines> {
+        let lines = self.all_lines(&scene, wanted, progress)?;
+        self.drawing(scene, Arc::new(lines), wanted, progress)
+    }
+}
