@@ -72,7 +72,7 @@ pub struct Found {
     /// The context's own description.
     pub context: ContextInfo,
     /// Its picture of each style, beside the reference.
-    pub styles: Vec<Drawn>,
+    pub styles: Vec<StyleCheck>,
     /// The driver's answers.
     pub probes: Vec<Probe>,
     /// The reason why the probe failed, if it failed.
@@ -83,7 +83,7 @@ pub struct Found {
 
 /// A style's picture beside the reference.
 #[derive(Debug, Clone, Serialize)]
-pub struct Drawn {
+pub struct StyleCheck {
     /// The style's name.
     pub style: &'static str,
     /// Pixels that are not the reference's, byte for byte; `None` where the style could not be drawn.
@@ -111,7 +111,7 @@ impl Found {
 pub fn check(backend: Backend) -> Vec<Checked> {
     let found = |mut renderer: Renderer| {
         let context = renderer.context().clone();
-        let styles = REFERENCES.map(|(style, reference)| Drawn::of(&mut renderer, style, reference)).to_vec();
+        let styles = REFERENCES.map(|(style, reference)| StyleCheck::of(&mut renderer, style, reference)).to_vec();
         let known_faults = KNOWN.iter().filter(|fault| (fault.is_of)(&context)).cloned().collect();
         let (probes, not_probed) = match renderer.probe() {
             Ok(probes) => (probes, None),
@@ -133,7 +133,7 @@ fn scene(style: StyleName) -> Result<Scene> {
     Scene::new(vec![Arc::new(load(model, &LoadOptions::default())?.mesh)], &settings)
 }
 
-impl Drawn {
+impl StyleCheck {
     fn of(renderer: &mut Renderer, name: StyleName, reference: &[u8]) -> Self {
         let style = StyleName::of_passes().find(|(_, known)| *known == name).map_or("", |(style, _)| style);
         let pictures = Picture::from_bytes(reference, style)
@@ -207,7 +207,7 @@ mod tests {
         let of = |change: &dyn Fn(usize, &mut [u8])| {
             let mut picture = reference.clone();
             picture.pixels.chunks_exact_mut(4).enumerate().for_each(|(place, pixel)| change(place, pixel));
-            let drawn = Drawn::compared("three-pass", &reference, &picture);
+            let drawn = StyleCheck::compared("three-pass", &reference, &picture);
             (drawn.differing.unwrap(), drawn.of_other_shades, drawn.largest, drawn.passed)
         };
         let all = (SIDE * SIDE) as usize;

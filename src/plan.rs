@@ -36,7 +36,7 @@ pub use facts::{Facts, Shorter, WhereEven};
 pub use program::{PlanPicture, Program, Sampling, Texture, Uniform, Value};
 pub use submission::Submission;
 pub(crate) use target::DEPTH_COPIES;
-pub use target::{Attachment, Attachments, Drawn, Format, SettingValue, Target};
+pub use target::{Attachment, Attachments, Format, SettingValue, Target, TextureName};
 pub use tiles::{Tile, TileLimits};
 
 use crate::mesh::{Part, VertexArrays};

@@ -33,7 +33,7 @@ use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use crate::values::Rectangle;
 pub use drawer::StepValues;
-use drawer::{Canvas, Drawer, Frame};
+use drawer::{Assembly, Drawer, Frame};
 use serde::Serialize;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -405,12 +405,12 @@ impl Renderer {
                     let times = if is_final { plan.supersample } else { 1 };
                     if number == 0 {
                         let whole = if is_final { scene.size } else { tile.whole };
-                        canvases.push((pass.name, step.name(), Canvas::new(whole)?));
+                        canvases.push((pass.name, step.name(), Assembly::new(whole)?));
                     }
                     frame.step(pass, step, tile, times, &mut canvases[place].2)?;
                 }
             }
-            let picture = |(pass, step, canvas): (_, _, Canvas)| StepPicture { pass, step, picture: canvas.picture };
+            let picture = |(pass, step, canvas): (_, _, Assembly)| StepPicture { pass, step, picture: canvas.picture };
             Ok(canvases.into_iter().map(picture).collect())
         })
     }

@@ -4,13 +4,13 @@
 //! line, a batch, a recipe, the window, Python and the browser differ in where the options come from and where the drawing goes.
 //!
 //! ```
-//! use tinta::request::{Layer, Request};
+//! use tinta::request::{OptionLayer, Request};
 //! use tinta::settings::{OptionValue, Options};
 //! use tinta::preset::LOOKS;
 //!
 //! # fn main() -> tinta::Result<()> {
 //! let given: Options = [("tones".to_owned(), OptionValue::text("2"))].into();
-//! let (request, remarks) = Request::from_layers(&[Layer::Look(LOOKS[0]), Layer::Given(given)])?;
+//! let (request, remarks) = Request::from_layers(&[OptionLayer::Look(LOOKS[0]), OptionLayer::Given(given)])?;
 //! assert_eq!(request.style.name(), "ink");
 //! assert_eq!(request.options["tones"], OptionValue::text("2"));
 //! assert!(remarks.is_empty());
@@ -27,10 +27,10 @@ mod model_cache;
 mod session;
 
 pub use draw::{Drawn, DrawnPicture, ReadModels, Times};
-pub use drawing::{DrawnLines, Written};
+pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
-pub use format::{Format, Wanted};
-pub use layers::{Layer, OF_PAPER, ignored_remark, layers, pixels_on_paper};
+pub use format::{DrawingFormat, Wanted};
+pub use layers::{OF_PAPER, OptionLayer, ignored_remark, layers, pixels_on_paper};
 pub use model_cache::{Model, ModelCache};
 pub use session::Session;
 

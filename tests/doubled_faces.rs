@@ -9,7 +9,7 @@ use std::sync::Arc;
 use tinta::picture::Difference;
 use tinta::preset::LOOKS;
 use tinta::random::Random;
-use tinta::request::{Layer, Request};
+use tinta::request::{OptionLayer, Request};
 use tinta::settings::{OptionValue, Options};
 use tinta::{Mesh, Picture, Renderer, Scene};
 
@@ -29,7 +29,7 @@ fn look(name: &str, view: &str) -> Request {
     if name == "charcoal" {
         given.insert("texture-size".to_owned(), OptionValue::text("64"));
     }
-    Request::from_layers(&[Layer::Look(look), Layer::Given(given)]).unwrap().0
+    Request::from_layers(&[OptionLayer::Look(look), OptionLayer::Given(given)]).unwrap().0
 }
 
 fn mesh_of((positions, faces): &Shape, request: &Request) -> Mesh {

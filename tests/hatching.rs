@@ -2,7 +2,7 @@
 
 use crate::cli::{Folder, refused_in_one_line, tinta};
 use tinta::Error;
-use tinta::request::{Layer, Request, Session};
+use tinta::request::{OptionLayer, Request, Session};
 use tinta::settings::{OptionValue, Options};
 
 fn made(arguments: &[&str]) -> String {
@@ -145,16 +145,16 @@ fn a_picture_of_pixels_names_options_that_only_vectors_have() {
     let given: Options = [("style", "ink"), ("class-colors", "hatch=red"), ("size", "64")]
         .map(|(name, value)| (name.to_owned(), OptionValue::text(value)))
         .into();
-    let (request, remarks) = Request::from_layers(&[Layer::Given(given)]).unwrap();
+    let (request, remarks) = Request::from_layers(&[OptionLayer::Given(given)]).unwrap();
     assert!(remarks.is_empty(), "an .svg has it: {remarks:?}");
     let request = request.with_models(vec!["builtin:gear".to_owned()]);
-    let drawn = request.draw(&mut Session::default(), &Default::default()).unwrap();
+    let drawn = request.draw(&mut Session::default(), Default::default(), &Default::default()).unwrap();
     let tinta::request::Drawn::Picture(picture) = drawn else { panic!("a picture") };
     assert!(picture.remarks.iter().any(|remark| remark.starts_with("--class-colors has no effect on style ink")));
     let hatched: Options = [("style", OptionValue::text("ink")), ("hatch", OptionValue::text("auto"))]
         .map(|(name, value)| (name.to_owned(), value))
         .into();
-    let (request, _) = Request::from_layers(&[Layer::Given(hatched)]).unwrap();
-    let refused = request.draw(&mut Session::default(), &Default::default()).unwrap_err();
+    let (request, _) = Request::from_layers(&[OptionLayer::Given(hatched)]).unwrap();
+    let refused = request.draw(&mut Session::default(), Default::default(), &Default::default()).unwrap_err();
     assert!(matches!(refused, Error::Setting { .. }), "{refused}");
 }

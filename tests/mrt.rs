@@ -7,7 +7,7 @@
 use crate::support::{BACKENDS, failure_folder, public_models, renderer, scene, scene_with, side_by_side};
 use std::sync::Arc;
 use tinta::picture::write_rgba_png;
-use tinta::plan::{Attachment, Attachments, Drawn, Format, Plan, SettingValue, Target};
+use tinta::plan::{Attachment, Attachments, Format, Plan, SettingValue, Target, TextureName};
 use tinta::styles::{
     Border, Cartoon, Filter, Ink, LineWidth, MapEncoding, MapTarget, Mrt, Supersample, ToneLookup, Tones,
 };
@@ -28,7 +28,7 @@ const FILTERED_STEP: u8 = 4;
 const MOVED_SHARE: f64 = 0.0005;
 
 const TONES: Attachments = Attachments {
-    colors: &[Attachment { name: Drawn("Tones"), format: Format::Unorm8 }],
+    colors: &[Attachment { name: TextureName("Tones"), format: Format::Unorm8 }],
     has_depth: false,
     asked_by: SettingValue { setting: "size", value: "8" },
     instead: SettingValue { setting: "size", value: "4" },

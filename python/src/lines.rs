@@ -13,7 +13,7 @@ use pyo3::types::{PyBytes, PyDict};
 use std::sync::{Arc, OnceLock};
 use tinta::glam::DVec3;
 use tinta::lines::{GHOST_OPACITY, LineSegment, Progress, drawn_layers};
-use tinta::request::{DrawnLines, Format, Wanted};
+use tinta::request::{DrawingFormat, DrawnLines, Wanted};
 use tinta::{Error, Request, Result, Scene, VisibleLines};
 
 /// The lines found in a scene.
@@ -85,7 +85,7 @@ impl Lines {
         if let Some(all) = self.all.get() {
             return Ok(all.clone());
         }
-        let wanted = Format::Json.wanted(false);
+        let wanted = DrawingFormat::Json.wanted(false);
         let all = self.with_lines(py, self.asked.clone(), wanted, move |Found { asked, scene, lines, progress }| {
             asked.request.drawing((*scene).clone(), lines, wanted, progress).map(|drawn| drawn.lines)
         })?;
@@ -123,7 +123,7 @@ impl Lines {
         &self,
         py: Python<'py>,
         (given, title): (&Bound<'py, PyDict>, Option<String>),
-        format: Format,
+        format: DrawingFormat,
         put: impl FnOnce(&mut DrawnLines) -> Result<()> + Send + 'static,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let asked = self.asked_with(given, title)?;
@@ -138,11 +138,11 @@ impl Lines {
 }
 
 /// The format of this name.
-pub(crate) fn format_named(name: &str) -> Format {
+pub(crate) fn format_named(name: &str) -> DrawingFormat {
     match name {
-        "pdf" => Format::Pdf,
-        "png" => Format::Picture,
-        _ => Format::Svg,
+        "pdf" => DrawingFormat::Pdf,
+        "png" => DrawingFormat::Picture,
+        _ => DrawingFormat::Svg,
     }
 }
 
@@ -200,7 +200,7 @@ impl Lines {
         title: Option<String>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let format = format_named(format);
-        if format == Format::Picture && self.asked.request.vectors().map_err(raised)?.is_some() {
+        if format == DrawingFormat::Picture && self.asked.request.vectors().map_err(raised)?.is_some() {
             let problem = "pixels and layers are of lines alone; leave it out, or write a .svg";
             return Err(raised(Error::setting("areas", problem)));
         }
@@ -214,8 +214,8 @@ impl Lines {
         let progress = Arc::new(Progress::default());
         let watched = progress.clone();
         let written = move || {
-            let drawn = request.drawing((*scene).clone(), all, Format::Json.wanted(false), &watched)?;
-            drawn.written(Format::Json, None, None)?.bytes()
+            let drawn = request.drawing((*scene).clone(), all, DrawingFormat::Json.wanted(false), &watched)?;
+            drawn.written(DrawingFormat::Json, None, None)?.bytes()
         };
         let bytes = done(py, || progress.cancel(), written)?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())

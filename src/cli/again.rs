@@ -8,7 +8,7 @@ use super::{Verdict, say};
 use crate::files::shown;
 use std::path::{Path, PathBuf};
 use tinta::limits::PICTURE_BYTES;
-use tinta::request::{Format, Layer, Request};
+use tinta::request::{DrawingFormat, OptionLayer, Request};
 use tinta::settings::HasSettings;
 use tinta::{Backend, Error, Picture, Recipe, Result, Size, StyleName};
 
@@ -190,9 +190,9 @@ impl Redrawing<'_> {
             }
         }
         let output = self.output.display().to_string();
-        let style = Format::of_name(&output).map(|_| Layer::Style(StyleName::Lines));
+        let style = DrawingFormat::of_name(&output).map(|_| OptionLayer::Style(StyleName::Lines));
         // The recipe has all options of the picture's look; a style not named is the published one.
-        let layers: Vec<Layer> = style.into_iter().chain([Layer::Given(recipe.options.clone())]).collect();
+        let layers: Vec<OptionLayer> = style.into_iter().chain([OptionLayer::Given(recipe.options.clone())]).collect();
         let (request, _) = Request::from_layers(&layers).map_err(|error| match error {
             Error::Setting { .. } | Error::Settings { .. } => {
                 refuse(format!("its recipe has an option that is not understood ({error}); this may be an older tinta"))

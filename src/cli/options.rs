@@ -14,7 +14,7 @@ use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 use tinta::camera;
 use tinta::preset::{LOOKS, Look, Preset};
-use tinta::request::{Layer, Request, layers};
+use tinta::request::{OptionLayer, Request, layers};
 use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table};
 use tinta::{LoadOptions, Result};
 
@@ -210,26 +210,33 @@ impl<S: Selection<Of = Request>> Chosen<S> {
         let files: Vec<Preset> = preset.into_iter().collect();
         let layers = match below.has_looks {
             true => layers(below.look, files, self.options.clone(), below.draws_lines),
-            false => files.into_iter().map(Layer::File).chain([Layer::Given(self.options.clone())]).collect(),
+            false => {
+                files.into_iter().map(OptionLayer::File).chain([OptionLayer::Given(self.options.clone())]).collect()
+            }
         };
         self.request_of(layers, models, below)
     }
 
     /// The request that these options make over a layer.
-    pub fn request_over(&self, layer: Layer, models: &[String], below: &Below<'_>) -> Result<(Request, Vec<String>)> {
-        self.request_of(vec![layer, Layer::Given(self.options.clone())], models, below)
+    pub fn request_over(
+        &self,
+        layer: OptionLayer,
+        models: &[String],
+        below: &Below<'_>,
+    ) -> Result<(Request, Vec<String>)> {
+        self.request_of(vec![layer, OptionLayer::Given(self.options.clone())], models, below)
     }
 
     fn request_of(
         &self,
-        mut layers: Vec<Layer>,
+        mut layers: Vec<OptionLayer>,
         models: &[String],
         below: &Below<'_>,
     ) -> Result<(Request, Vec<String>)> {
         let mut aspect = None;
         if let Some(path) = below.camera {
             let (camera, of_file) = camera_file::read(path)?;
-            layers.insert(layers.len() - 1, Layer::Camera(camera));
+            layers.insert(layers.len() - 1, OptionLayer::Camera(camera));
             aspect = of_file.map(|aspect| (path, aspect));
         }
         let (mut request, mut remarks) = Request::from_layers(&layers)?;

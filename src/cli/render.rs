@@ -22,9 +22,9 @@ use std::path::Path;
 use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
 use tinta::record::{Made, PictureMade, Summary};
-use tinta::request::{Drawn, DrawnPicture, Format, Request, Session, Times, Wanted};
+use tinta::request::{DrawingFormat, Drawn, DrawnPicture, Request, Session, Times, Wanted};
 use tinta::settings::refuse_exclusive;
-use tinta::{Error, Result, Target};
+use tinta::{Error, Renderer, Result, Target};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -95,7 +95,7 @@ impl Arguments {
             look: self.look.look,
             preset: self.preset.preset.as_deref(),
             camera: self.camera.camera.as_deref(),
-            draws_lines: Format::of_name(&self.output).is_some(),
+            draws_lines: DrawingFormat::of_name(&self.output).is_some(),
             has_looks: true,
             command: "render",
         };
@@ -153,7 +153,7 @@ pub(super) fn render(
     inputs.keep(output)?;
     let preset = keep::preset_target(run.save_preset.as_deref(), output, &inputs)?;
     let rendering = Rendering { request, run, output };
-    let format = Format::of(request, output)?;
+    let format = DrawingFormat::of(request, output)?;
     animate::check_name(&request.animation, output)?;
     let verdict = match format {
         Some(format) => lines::run(&rendering, format, session)?,
@@ -182,27 +182,34 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
     let Drawn::Picture(drawn) = request.draw(session, Wanted::default(), &Default::default())? else {
         return Ok(Verdict::Good);
     };
-    let DrawnPicture { scene, files, published, plan, omissions, kept, remarks, picture, times } = *drawn;
-    let Times { load_ms, stages, arrays_ms, plan_ms, context_ms, warm_up_ms, first_frame_ms } = times;
-    remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
+    let DrawnPicture { scene, files, published, picture, .. } = &*drawn;
+    drawn.remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
     // Known only now.
-    pictures_of(&scene).keep(output)?;
+    pictures_of(scene).keep(output)?;
     let renderer = request.renderer(session)?;
-    let recipe = keep::recipe(rendering, &scene, &files, Some(renderer.context()));
-    target.write_with(&picture, recipe.and_then(|recipe| recipe.note()).as_ref())?;
+    let recipe = keep::recipe(rendering, scene, files, Some(renderer.context()));
+    target.write_with(picture, recipe.and_then(|recipe| recipe.note()).as_ref())?;
     if let Some(folder) = &run.dump {
-        for (number, step) in renderer.step_pictures(&scene, &published)?.iter().enumerate() {
+        for (number, step) in renderer.step_pictures(scene, published)?.iter().enumerate() {
             let name = format!("{:02}-{}-{}.png", number + 1, step.pass, step.step);
             write_rgba_png(&step.picture, &folder.join(name))?;
         }
     }
     let verdict = match run.verify {
-        true => prune::verify(output, renderer, &scene, &published, &picture)?,
+        true => prune::verify(output, renderer, scene, published, picture)?,
         false => Verdict::Good,
     };
-    if !run.is_told() {
-        return Ok(verdict);
+    if run.is_told() {
+        tell(rendering, *drawn, renderer)?;
     }
+    Ok(verdict)
+}
+
+/// Draws again, timed, and says how the picture was made: as text, or as JSON.
+fn tell(rendering: &Rendering<'_>, drawn: DrawnPicture, renderer: &mut Renderer) -> Result<()> {
+    let Rendering { request, run, .. } = *rendering;
+    let DrawnPicture { scene, published, plan, omissions, kept, remarks, times: first, .. } = drawn;
+    let Times { load_ms, stages, arrays_ms, plan_ms, context_ms, warm_up_ms, first_frame_ms } = first;
     let frames = run.frames as usize;
     let times = Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, frames)?);
     let passes = renderer.time_passes(&scene, &plan, frames.min(PASS_FRAMES))?;
@@ -222,7 +229,7 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
             ],
         ];
         text.push_str(&explain::start(&start.concat()));
-        return super::print(&text).map(|()| verdict);
+        return super::print(&text);
     }
     let made = Made::Picture(Box::new(PictureMade {
         show: request.show,
@@ -239,7 +246,7 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
         first_frame_ms,
         frame_ms: times,
     }));
-    super::print_json(&rendering.record(&scene, load_ms, remarks, made)).map(|()| verdict)
+    super::print_json(&rendering.record(&scene, load_ms, remarks, made))
 }
 
 fn make_dump_folder(folder: Option<&Path>, output: &str) -> Result<()> {

@@ -7,7 +7,7 @@ use super::context::ContextInfo;
 use super::objects::Texture;
 use super::{Gl, legacy};
 use crate::error::{Error, Result};
-use crate::plan::{Attachment, Attachments, DEPTH_COPIES, Drawn, Format, Plan, Sampling, Step, Target};
+use crate::plan::{Attachment, Attachments, DEPTH_COPIES, Format, Plan, Sampling, Step, Target, TextureName};
 use crate::scene::{Rectangle, Size};
 pub(super) use framebuffer::clear_each;
 use framebuffer::{DepthBuffer, Framebuffer, Renderbuffer};
@@ -51,7 +51,7 @@ impl Targets {
 
 /// A framebuffer as a framebuffer object.
 const SURFACE: Attachments = Attachments {
-    colors: &[Attachment { name: Drawn("Framebuffer"), format: Format::Unorm8 }],
+    colors: &[Attachment { name: TextureName("Framebuffer"), format: Format::Unorm8 }],
     has_depth: true,
     asked_by: DEPTH_COPIES[0][0],
     instead: DEPTH_COPIES[0][1],
@@ -131,7 +131,7 @@ impl Targets {
     }
 
     /// Returns the texture of this name that a framebuffer object drew into.
-    pub(super) fn drawn(&self, name: Drawn) -> Option<&Texture> {
+    pub(super) fn drawn(&self, name: TextureName) -> Option<&Texture> {
         self.drawn.as_ref()?.textures.iter().find(|(other, ..)| *other == name).map(|(.., texture)| texture)
     }
 }
@@ -216,13 +216,13 @@ struct TextureTargets {
     reads_depth: bool,
     /// One for each of `attachments`; dropped before the textures they draw into.
     framebuffers: Vec<Framebuffer>,
-    textures: Vec<(Drawn, Format, Texture)>,
+    textures: Vec<(TextureName, Format, Texture)>,
     depth: Option<DepthBuffer>,
 }
 
 impl TextureTargets {
     fn new(gl: &Rc<Gl>, size: Size, attachments: Vec<&'static Attachments>, reads_depth: bool) -> Result<Self> {
-        let mut textures: Vec<(Drawn, Format, Texture)> = Vec::new();
+        let mut textures: Vec<(TextureName, Format, Texture)> = Vec::new();
         for color in attachments.iter().flat_map(|attachments| attachments.colors) {
             match textures.iter().find(|(name, ..)| *name == color.name) {
                 None => textures.push((color.name, color.format, empty_texture(gl, size, color.format)?)),

@@ -3,7 +3,7 @@
 //! In: a plan and the scene it will draw. Out: the first [`Flaw`], a sentence, if any. The renderer checks before it draws, which
 //! keeps the contents that an earlier plan left in a texture or a buffer out of the picture.
 
-use super::{Blend, Depth, Draw, Drawn, Faces, Format, Geometry, Paint, Plan, Step, Target, Texture};
+use super::{Blend, Depth, Draw, Faces, Format, Geometry, Paint, Plan, Step, Target, Texture, TextureName};
 use crate::scene::{Rectangle, Scene, Size};
 
 /// A mistake that makes a plan unfit for drawing.
@@ -35,13 +35,13 @@ pub enum Flaw {
         /// The pass.
         pass: &'static str,
         /// The texture.
-        name: Drawn,
+        name: TextureName,
     },
     /// A texture has two formats.
     #[error("the texture {name} is drawn into in two formats; keep to one")]
     TwoFormats {
         /// The texture.
-        name: Drawn,
+        name: TextureName,
     },
     /// A size or a length is wrong.
     #[error("{what} is {found}, not {expected}; make it fit")]
@@ -102,7 +102,7 @@ impl Plan {
 
     /// Checks passes, targets, tables, pictures and supersampling.
     fn check_as_a_whole(&self) -> Result<(), Flaw> {
-        let mut formats: Vec<(Drawn, Format)> = Vec::new();
+        let mut formats: Vec<(TextureName, Format)> = Vec::new();
         for pass in &self.passes {
             let Target::Textures(attachments) = pass.target else { continue };
             if attachments.colors.is_empty() {

@@ -1,6 +1,6 @@
 //! The shaders that a draw runs, and the uniforms they read.
 
-use super::target::Drawn;
+use super::target::TextureName;
 use crate::picture::Picture;
 use crate::scene::Size;
 use std::sync::Arc;
@@ -54,7 +54,7 @@ pub enum Texture {
     /// The framebuffer at the last [`Step::CopyFramebuffer`](super::Step::CopyFramebuffer); NEAREST, CLAMP_TO_EDGE (errata E12).
     BorderMap,
     /// The texture that passes into [`Target::Textures`](super::Target::Textures) drew; NEAREST, CLAMP_TO_EDGE.
-    Drawn(Drawn),
+    Drawn(TextureName),
     /// The depth buffer at the last [`Step::CopyDepth`](super::Step::CopyDepth), window z in red; NEAREST, CLAMP_TO_EDGE.
     DepthMap,
     /// The plan's table of this number, one-dimensional; NEAREST, CLAMP_TO_EDGE.

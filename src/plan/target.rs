@@ -31,14 +31,14 @@ pub struct Attachments {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Attachment {
     /// The name that steps read it by.
-    pub name: Drawn,
+    pub name: TextureName,
     /// The format of its channels.
     pub format: Format,
 }
 
 /// The name of a texture that is drawn into, chosen by the style.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Drawn(pub &'static str);
+pub struct TextureName(pub &'static str);
 
 /// A value of a setting, in the user's notation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,7 +78,7 @@ impl Format {
 
 impl Target {
     /// Returns the texture that holds a pass's picture, the first of the target's textures; `None` for the framebuffer.
-    pub fn picture(self) -> Option<Drawn> {
+    pub fn picture(self) -> Option<TextureName> {
         match self {
             Self::Framebuffer => None,
             Self::Textures(attachments) => attachments.colors.first().map(|color| color.name),
@@ -96,7 +96,7 @@ impl Target {
     }
 }
 
-impl fmt::Display for Drawn {
+impl fmt::Display for TextureName {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.write_str(self.0)
     }

@@ -176,7 +176,14 @@ impl Frame<'_> {
     }
 
     /// Carries out one step of a tile and puts its result, or for a copy the copy, into its place.
-    pub(super) fn step(&mut self, pass: &Pass, step: &Step, tile: Tile, times: u32, canvas: &mut Canvas) -> Result<()> {
+    pub(super) fn step(
+        &mut self,
+        pass: &Pass,
+        step: &Step,
+        tile: Tile,
+        times: u32,
+        canvas: &mut Assembly,
+    ) -> Result<()> {
         self.resources.begin(pass.target, pass.scissor)?;
         self.resources.step(self.scene, step)?;
         // Before reading: a failed copy leaves a texture of another size.
@@ -222,7 +229,7 @@ impl Frame<'_> {
 
     /// Draws all tiles.
     pub(super) fn picture(&mut self, output: Output) -> Result<Picture> {
-        let mut canvas = Canvas::new(self.scene.size)?;
+        let mut canvas = Assembly::new(self.scene.size)?;
         for tile in self.tiles.clone() {
             self.all_steps(tile)?;
             let place = self.read_back(tile)?;
@@ -266,11 +273,11 @@ pub struct StepValues {
 }
 
 /// A picture assembled from parts.
-pub(super) struct Canvas {
+pub(super) struct Assembly {
     pub(super) picture: Picture,
 }
 
-impl Canvas {
+impl Assembly {
     pub(super) fn new(size: Size) -> Result<Self> {
         Ok(Self { picture: Picture { size, pixels: memory(size.pixel_count() * 4)? } })
     }

@@ -1,9 +1,9 @@
 //! Drawings of lines and areas: what is found for a request, and the one place where it becomes a file.
 //!
-//! Every door ends here: it chooses a [`Format`] and a target, and may give a recipe or paths whose strokes keep their numbers.
+//! Every door ends here: it chooses a [`DrawingFormat`] and a target, and may give a recipe or paths whose strokes keep their numbers.
 
 use super::emptiness::reason;
-use super::{Format, Request, Wanted};
+use super::{DrawingFormat, Request, Wanted};
 use crate::edges::SilhouetteRule;
 use crate::error::{Error, Result};
 use crate::lines::{
@@ -41,14 +41,14 @@ pub struct DrawnLines {
 
 /// A drawing as its file holds it.
 #[derive(Debug)]
-pub enum Written {
+pub enum DrawingFile {
     /// The bytes of a file of vectors or data.
     Bytes(Vec<u8>),
     /// Pixels, and the note that the file has if its format can.
     Picture(Picture, Option<Note>),
 }
 
-impl Written {
+impl DrawingFile {
     /// The file's bytes, those of a PNG for a picture.
     ///
     /// # Errors
@@ -90,10 +90,15 @@ impl DrawnLines {
     /// # Errors
     ///
     /// [`Error::Setting`] for settings that this format does not have, and those of the writers.
-    pub fn written(&self, format: Format, paths: Option<Vec<LinePath>>, recipe: Option<&Recipe>) -> Result<Written> {
+    pub fn written(
+        &self,
+        format: DrawingFormat,
+        paths: Option<Vec<LinePath>>,
+        recipe: Option<&Recipe>,
+    ) -> Result<DrawingFile> {
         let partial = self.lines.partial_note().map(|text| Note { keyword: "Comment", text });
         let recipe = recipe.filter(|_| partial.is_none());
-        let output = if format == Format::Pdf { "drawing.pdf" } else { "drawing.svg" };
+        let output = if format == DrawingFormat::Pdf { "drawing.pdf" } else { "drawing.svg" };
         let settings = DrawingSettings {
             command: recipe.map(|recipe| recipe.command_line(output)).unwrap_or_default(),
             recipe: recipe.and_then(Recipe::json).unwrap_or_default(),
@@ -103,19 +108,19 @@ impl DrawnLines {
         let below = areas.map(|areas| &areas.drawn);
         let paths = || paths.unwrap_or_else(|| self.paths());
         Ok(match format {
-            Format::Svg => Written::Bytes(svg_of_paths(lines, paths(), below, &settings)?.into_bytes()),
+            DrawingFormat::Svg => DrawingFile::Bytes(svg_of_paths(lines, paths(), below, &settings)?.into_bytes()),
             #[cfg(feature = "pdf")]
-            Format::Pdf => Written::Bytes(crate::lines::pdf_of_paths(lines, paths(), below, &settings)?),
+            DrawingFormat::Pdf => DrawingFile::Bytes(crate::lines::pdf_of_paths(lines, paths(), below, &settings)?),
             #[cfg(not(feature = "pdf"))]
-            Format::Pdf => return Err(Error::setting("o", "this build writes no .pdf file; write a .svg")),
-            Format::Dxf => Written::Bytes(dxf_of_paths(lines, paths(), below, &settings)?.into_bytes()),
-            Format::Json => {
+            DrawingFormat::Pdf => return Err(Error::setting("o", "this build writes no .pdf file; write a .svg")),
+            DrawingFormat::Dxf => DrawingFile::Bytes(dxf_of_paths(lines, paths(), below, &settings)?.into_bytes()),
+            DrawingFormat::Json => {
                 let regions = areas.map(|areas| &areas.regions);
-                Written::Bytes(drawing_json(lines, regions, &self.scene)?.into_bytes())
+                DrawingFile::Bytes(drawing_json(lines, regions, &self.scene)?.into_bytes())
             }
-            Format::Picture => {
+            DrawingFormat::Picture => {
                 let Raster { size, pixels } = raster_of_paths(lines, paths(), &settings)?;
-                Written::Picture(Picture { size, pixels }, partial.or_else(|| recipe.and_then(Recipe::note)))
+                DrawingFile::Picture(Picture { size, pixels }, partial.or_else(|| recipe.and_then(Recipe::note)))
             }
         })
     }

@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// The files lines are written to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
+pub enum DrawingFormat {
     /// Paths and areas.
     Svg,
     /// The same on paper.
@@ -35,7 +35,7 @@ fn extension(output: &str) -> Option<&str> {
     Path::new(output).extension().and_then(|extension| extension.to_str())
 }
 
-impl Format {
+impl DrawingFormat {
     /// What is found for a file of this format; `is_told`: its numbers are reported.
     pub fn wanted(self, is_told: bool) -> Wanted {
         Wanted { all: self == Self::Json, hidden: is_told, areas: true }

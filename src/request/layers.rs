@@ -12,7 +12,7 @@ use crate::styles::{StyleName, is_ignored, is_of_lines_alone, is_of_vectors};
 
 /// Where options come from.
 #[derive(Debug, Clone)]
-pub enum Layer {
+pub enum OptionLayer {
     /// The style that is drawn where no layer names one; no recipe keeps it.
     Style(StyleName),
     /// A look. Its options for styles other than the drawn one do not count.
@@ -31,13 +31,13 @@ pub enum Layer {
 /// # Errors
 ///
 /// As [`Look::preset`].
-pub fn layers(look: Option<Look>, files: Vec<Preset>, given: Options, draws_lines: bool) -> Vec<Layer> {
+pub fn layers(look: Option<Look>, files: Vec<Preset>, given: Options, draws_lines: bool) -> Vec<OptionLayer> {
     let is_said = !files.is_empty() || given.contains_key("style") || draws_lines;
     let look = look.or(if is_said { None } else { Some(LOOKS[0]) });
     // A look draws its own style into vectors, too.
-    let style = (draws_lines && look.is_none()).then_some(Layer::Style(StyleName::Lines));
-    let below = style.into_iter().chain(look.map(Layer::Look));
-    below.chain(files.into_iter().map(Layer::File)).chain([Layer::Given(given)]).collect()
+    let style = (draws_lines && look.is_none()).then_some(OptionLayer::Style(StyleName::Lines));
+    let below = style.into_iter().chain(look.map(OptionLayer::Look));
+    below.chain(files.into_iter().map(OptionLayer::File)).chain([OptionLayer::Given(given)]).collect()
 }
 
 /// A layer's options in this version's names, with the name of the file they come from, if any.
@@ -48,14 +48,14 @@ struct Read {
 }
 
 impl Read {
-    fn of(layer: &Layer) -> Result<Self> {
+    fn of(layer: &OptionLayer) -> Result<Self> {
         let of_file =
             |file: &Preset, is_look| Self { options: file.options.clone(), file: Some(file.clone()), is_look };
         Ok(match layer {
-            Layer::Style(_) => Self { options: Options::new(), file: None, is_look: false },
-            Layer::Look(look) => of_file(&look.preset()?, true),
-            Layer::File(file) | Layer::Camera(file) => of_file(file, false),
-            Layer::Given(options) => Self { options: options.clone(), file: None, is_look: false },
+            OptionLayer::Style(_) => Self { options: Options::new(), file: None, is_look: false },
+            OptionLayer::Look(look) => of_file(&look.preset()?, true),
+            OptionLayer::File(file) | OptionLayer::Camera(file) => of_file(file, false),
+            OptionLayer::Given(options) => Self { options: options.clone(), file: None, is_look: false },
         })
     }
 
@@ -123,14 +123,14 @@ impl Request {
     ///
     /// [`Error::Setting`] for an unknown option or value, and for an option of exact lines where a picture is drawn;
     /// [`Error::File`] with the line where a file's option is refused; [`Error::Settings`] for options that exclude each other.
-    pub fn from_layers(layers: &[Layer]) -> Result<(Self, Vec<String>)> {
+    pub fn from_layers(layers: &[OptionLayer]) -> Result<(Self, Vec<String>)> {
         let read: Vec<Read> = layers.iter().map(|layer| Read::of(layer)?.check()).collect::<Result<_>>()?;
         let named = read.iter().rev().find_map(|read| match read.options.get("style") {
             Some(OptionValue::Text(style)) => style.parse().ok(),
             _ => None,
         });
         let otherwise =
-            layers.iter().find_map(|layer| if let Layer::Style(style) = layer { Some(*style) } else { None });
+            layers.iter().find_map(|layer| if let OptionLayer::Style(style) = layer { Some(*style) } else { None });
         let style: StyleName = named.or(otherwise).unwrap_or(StyleName::ThreePass);
         let mut request = Self::of_style(style);
         let mut has_camera = false;
@@ -149,14 +149,15 @@ impl Request {
                     request.sources.insert(name.clone(), source);
                 }
             }
-            has_camera |= matches!(layer, Layer::Camera(_));
+            has_camera |= matches!(layer, OptionLayer::Camera(_));
         }
         request.options.retain(|_, value| !is_off(value));
         request.refuse_of_lines(|option| !is_of_vectors(option, style)).map_err(|error| request.attributed(error))?;
         let options = request.options.clone();
         Self::table().apply(&mut request, &options).map_err(|error| request.attributed(error))?;
-        let given =
-            layers.iter().filter_map(|layer| if let Layer::Given(options) = layer { Some(options) } else { None });
+        let given = layers
+            .iter()
+            .filter_map(|layer| if let OptionLayer::Given(options) = layer { Some(options) } else { None });
         let given = given.flat_map(Options::keys).map(String::as_str);
         let remark = ignored_remark(given.filter(|option| !is_of_vectors(option, style)), &[style.name()]);
         Ok((request, remark.into_iter().collect()))
@@ -195,7 +196,7 @@ impl Request {
     ///
     /// Those of [`Request::from_layers`].
     pub fn from_given(options: &Options) -> Result<Self> {
-        Ok(Self::from_layers(&[Layer::Given(options.clone())])?.0)
+        Ok(Self::from_layers(&[OptionLayer::Given(options.clone())])?.0)
     }
 }
 
@@ -243,12 +244,14 @@ mod tests {
     use super::*;
     use crate::styles::Style;
 
-    fn given(options: &[(&str, &str)]) -> Layer {
-        Layer::Given(options.iter().map(|(name, value)| ((*name).to_owned(), OptionValue::text(*value))).collect())
+    fn given(options: &[(&str, &str)]) -> OptionLayer {
+        OptionLayer::Given(
+            options.iter().map(|(name, value)| ((*name).to_owned(), OptionValue::text(*value))).collect(),
+        )
     }
 
-    fn file(text: &str) -> Layer {
-        Layer::File(Preset::parse("a.toml", text).unwrap())
+    fn file(text: &str) -> OptionLayer {
+        OptionLayer::File(Preset::parse("a.toml", text).unwrap())
     }
 
     fn remark(options: &[&str], styles: &[&str]) -> Option<String> {
@@ -288,7 +291,7 @@ mod tests {
 
     #[test]
     fn a_look_says_nothing_of_other_styles() {
-        let (request, _) = Request::from_layers(&[Layer::Look(LOOKS[0]), given(&[("style", "inking")])]).unwrap();
+        let (request, _) = Request::from_layers(&[OptionLayer::Look(LOOKS[0]), given(&[("style", "inking")])]).unwrap();
         assert!(
             !request.options.contains_key("tones") && request.options.contains_key("size"),
             "{:?}",
@@ -298,7 +301,7 @@ mod tests {
 
     #[test]
     fn errors_name_the_file_and_line_of_the_option() {
-        let refused = |layers: &[Layer]| Request::from_layers(layers).unwrap_err().to_string();
+        let refused = |layers: &[OptionLayer]| Request::from_layers(layers).unwrap_err().to_string();
         assert_eq!(
             refused(&[file("\ntones = \"many\"")]),
             "a.toml: line 2: tones many: give a whole number from 0 to 255"

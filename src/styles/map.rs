@@ -1,6 +1,6 @@
 //! The map of the cartoon styles: how normals and depth are stored between the passes (errata E6 to E8).
 
-use crate::plan::{Attachment, Attachments, Drawn, Format, Program, SettingValue, Target, Texture};
+use crate::plan::{Attachment, Attachments, Format, Program, SettingValue, Target, Texture, TextureName};
 use crate::settings::Setting;
 
 tinta_geometry::choices! {
@@ -129,7 +129,7 @@ pub(super) fn map_texture(target: Target) -> Texture {
 }
 
 /// Normals and depth.
-pub(super) const MAP_TEXTURE: Drawn = Drawn("Map");
+pub(super) const MAP_TEXTURE: TextureName = TextureName("Map");
 
 const MAP: Attachments = Attachments {
     colors: &[Attachment { name: MAP_TEXTURE, format: Format::Unorm8 }],

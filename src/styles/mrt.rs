@@ -9,8 +9,8 @@ use super::map::MAP_TEXTURE;
 use super::{ALL_STYLES, Border, CARTOON, Cartoon, MapEncoding, MapTarget, Show, Supersample, Tones, cull, no_borders};
 use crate::error::{Error, Result};
 use crate::plan::{
-    Attachment, Attachments, Draw, Drawn, Facts, Format, Geometry, Paint, Pass, Plan, Program, SettingValue, Step,
-    Target, Texture,
+    Attachment, Attachments, Draw, Facts, Format, Geometry, Paint, Pass, Plan, Program, SettingValue, Step, Target,
+    Texture, TextureName,
 };
 use crate::scene::Scene;
 use crate::settings::{Kind, Setting, Value as _, under, within};
@@ -83,7 +83,7 @@ impl Mrt {
 }
 
 /// The picture before and after its borders.
-const TONES: Attachment = Attachment { name: Drawn("Tones"), format: Format::Unorm8 };
+const TONES: Attachment = Attachment { name: TextureName("Tones"), format: Format::Unorm8 };
 const MAP: Attachment = Attachment { name: MAP_TEXTURE, format: Format::Unorm8 };
 
 const TONES_AND_MAP: Attachments = Attachments {

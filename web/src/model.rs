@@ -7,7 +7,7 @@ use std::sync::Arc;
 use tinta::lines::Progress;
 use tinta::mesh::{Loaded, load, read_bytes};
 use tinta::recipe::{Driver, FileRecord};
-use tinta::request::{Format, Layer, Request, Written};
+use tinta::request::{DrawingFile, DrawingFormat, OptionLayer, Request};
 use tinta::settings::Options;
 use tinta::{LineSettings, Mesh, Recipe, Scene, SceneSettings, StyleName};
 use tinta_lab::measure::{Ink, Reference};
@@ -92,8 +92,9 @@ impl Model {
         let request = self.request(StyleName::Lines, options)?;
         let scene = self.scene(&request.scene)?;
         let recipe = has_recipe.then(|| self.recipe(&request, &scene, None));
-        let drawn = request.drawn_lines(scene, Format::Svg.wanted(false), &Progress::default()).map_err(said)?;
-        let bytes = drawn.written(Format::Svg, None, recipe.as_ref()).and_then(Written::bytes).map_err(said)?;
+        let drawn = request.drawn_lines(scene, DrawingFormat::Svg.wanted(false), &Progress::default()).map_err(said)?;
+        let bytes =
+            drawn.written(DrawingFormat::Svg, None, recipe.as_ref()).and_then(DrawingFile::bytes).map_err(said)?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
@@ -133,5 +134,5 @@ impl Model {
 /// The request of the page's options, in this style if they name none.
 pub(crate) fn asked(style: StyleName, options: &str) -> Result<Request, JsError> {
     let options: Options = serde_json::from_str(options).map_err(unreadable)?;
-    Ok(Request::from_layers(&[Layer::Style(style), Layer::Given(options)]).map_err(said)?.0)
+    Ok(Request::from_layers(&[OptionLayer::Style(style), OptionLayer::Given(options)]).map_err(said)?.0)
 }

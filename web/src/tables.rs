@@ -7,7 +7,7 @@ use tinta::keys::{action, sheet};
 use tinta::mesh::BUILTINS;
 use tinta::page::NOT_OF_BROWSERS;
 use tinta::preset::{LOOKS, Look, PREFIX, Preset, SHIPPED};
-use tinta::request::{Layer, Request};
+use tinta::request::{OptionLayer, Request};
 use tinta::settings::{HasSettings, Kind, OptionValue, Setting, on_off};
 use tinta::{LoadOptions, SceneSettings, Style, StyleName};
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -63,8 +63,8 @@ fn controls<T: HasSettings + Clone + 'static>(of: &T) -> Vec<Value> {
 #[wasm_bindgen]
 pub fn look(name: &str) -> Result<String, JsError> {
     let layer = match name.strip_prefix(PREFIX) {
-        Some(_) => Layer::File(Preset::read(name).map_err(said)?),
-        None => Layer::Look(Look::of_name(name).map_err(|error| JsError::new(&format!("{error}")))?),
+        Some(_) => OptionLayer::File(Preset::read(name).map_err(said)?),
+        None => OptionLayer::Look(Look::of_name(name).map_err(|error| JsError::new(&format!("{error}")))?),
     };
     let (request, _) = Request::from_layers(&[layer]).map_err(said)?;
     let of = |has: &dyn Fn(&str) -> bool| -> serde_json::Map<String, Value> {

@@ -12,41 +12,41 @@ use std::path::Path;
 use std::time::Instant;
 use tinta::lines::{chain, strokes_of_paths};
 use tinta::picture::PictureFormat;
-use tinta::record::{LineCounts, LinesMade, Made};
+use tinta::record::{LineCounts, LinesMade, Made, Record};
 use tinta::renderer::milliseconds_since;
-use tinta::request::{Drawn, DrawnLines, Format, OF_PAPER, Session, pixels_on_paper};
+use tinta::request::{DrawingFormat, Drawn, DrawnLines, OF_PAPER, Session, pixels_on_paper};
 use tinta::settings::HasSettings;
 use tinta::styles::is_of_lines_alone;
 use tinta::{DrawingSettings, Error, Result, Show, Target, TextTarget};
 use writing::{is_stopped, progress, watched};
 
 /// Finds the lines and writes them.
-pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Session) -> Result<Verdict> {
-    let Rendering { request, run, output } = *rendering;
-    let is_transparent = request.is_transparent();
+pub(super) fn run(rendering: &Rendering<'_>, format: DrawingFormat, session: &mut Session) -> Result<Verdict> {
+    let Rendering { request, output, .. } = *rendering;
     let views = request.animation.turntable;
-    match views {
-        Some(_) => {
-            let names = turn::names(output, format)?;
-            let first = names.map_or_else(|| output.to_owned(), |names| names.with(1));
-            check_output(&first, format, is_transparent)?;
-        }
-        None => check_output(output, format, is_transparent)?,
-    }
+    let names = if views.is_some() { turn::names(output, format)? } else { None };
+    let first = names.as_ref().map_or_else(|| output.to_owned(), |names| names.with(1));
+    check_output(&first, format, request.is_transparent())?;
     refuse_what_lines_have_not(rendering, format)?;
-    let progress = progress(rendering);
     // A job of a batch leaves signals to its run.
     let stop = (!is_captured()).then(Stop::on_signals);
-    if let Some(views) = views {
-        if request.style.lines().is_none_or(|style| style.areas.is_some()) {
-            let problem = "areas are drawn from one view; leave it out, or draw lines alone";
-            return Err(Error::setting("turntable", problem));
-        }
-        return turn::run(rendering, format, views, session, stop.as_ref());
+    match views {
+        Some(views) => turn::run(rendering, format, (views, names.as_ref()), session, stop.as_ref()),
+        None => one_view(rendering, format, session, stop.as_ref()),
     }
-    let wanted = format.wanted(run.is_told());
-    let drawn = match watched(&progress, stop.as_ref(), || request.draw(session, wanted, &progress)) {
-        Err(Error::Cancelled) => return Ok(stopped(stop.as_ref())),
+}
+
+/// Draws the camera's view.
+fn one_view(
+    rendering: &Rendering<'_>,
+    format: DrawingFormat,
+    session: &mut Session,
+    stop: Option<&Stop>,
+) -> Result<Verdict> {
+    let Rendering { request, run, output } = *rendering;
+    let (progress, wanted) = (progress(rendering), format.wanted(run.is_told()));
+    let drawn = match watched(&progress, stop, || request.draw(session, wanted, &progress)) {
+        Err(Error::Cancelled) => return Ok(stopped(stop)),
         drawn => drawn?,
     };
     let Drawn::Lines(drawn) = drawn else { return Ok(Verdict::Good) };
@@ -54,7 +54,7 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
 
     let start = Instant::now();
     let DrawnLines { scene, lines, areas, load_ms, .. } = &*drawn;
-    if format == Format::Dxf && areas.as_ref().is_some_and(|areas| !areas.drawn.fills.is_empty()) {
+    if format == DrawingFormat::Dxf && areas.as_ref().is_some_and(|areas| !areas.drawn.fills.is_empty()) {
         say(&format!(
             "tinta: {output}: a .dxf file has no fills, so only lines are written; --hatch draws tones as lines"
         ));
@@ -62,16 +62,16 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     if let Some(note) = lines.partial_note() {
         say(&format!("tinta: {output}: {note}"));
     }
-    let has_recipe = matches!(format, Format::Svg | Format::Pdf | Format::Picture);
+    let has_recipe = matches!(format, DrawingFormat::Svg | DrawingFormat::Pdf | DrawingFormat::Picture);
     let recipe = if has_recipe { keep::recipe(rendering, scene, &drawn.files, None) } else { None };
     let paths = match format {
-        Format::Json if run.is_told() => chain(&lines.segments),
-        Format::Json => Vec::new(),
+        DrawingFormat::Json if run.is_told() => chain(&lines.segments),
+        DrawingFormat::Json => Vec::new(),
         _ => drawn.paths(),
     };
     let counts = LineCounts::new(lines, &paths);
-    if is_stopped(stop.as_ref()) {
-        return Ok(stopped(stop.as_ref()));
+    if is_stopped(stop) {
+        return Ok(stopped(stop));
     }
     let pens = match run.explain && drawn.style.drawing.is_for_pen {
         true => {
@@ -80,7 +80,7 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
         }
         false => String::new(),
     };
-    drawn.written(format, Some(paths), recipe.as_ref())?.write(output, is_transparent)?;
+    drawn.written(format, Some(paths), recipe.as_ref())?.write(output, request.is_transparent())?;
     let lines_ms = milliseconds_since(start);
     if run.explain {
         super::super::print(&(explain::lines(lines, &counts, *load_ms, lines_ms) + &pens))?;
@@ -88,6 +88,12 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
     if !run.json {
         return Ok(Verdict::Good);
     }
+    super::super::print_json(&record(rendering, *drawn, counts, lines_ms)).map(|()| Verdict::Good)
+}
+
+/// The record of the drawing.
+fn record(rendering: &Rendering<'_>, drawn: DrawnLines, counts: LineCounts, lines_ms: f64) -> Record {
+    let DrawnLines { scene, lines, remarks, load_ms, .. } = drawn;
     let made = Made::Lines(Box::new(LinesMade {
         edges: lines.edges,
         changes: lines.changes.clone(),
@@ -96,9 +102,9 @@ pub(super) fn run(rendering: &Rendering<'_>, format: Format, session: &mut Sessi
         times: lines.times,
         lines_ms,
     }));
-    let mut record = rendering.record(scene, *load_ms, drawn.remarks.clone(), made);
+    let mut record = rendering.record(&scene, load_ms, remarks, made);
     record.model.defects.covered_triangles = lines.covered_triangles;
-    super::super::print_json(&record).map(|()| Verdict::Good)
+    record
 }
 
 /// The verdict after a signal.
@@ -108,14 +114,16 @@ fn stopped(stop: Option<&Stop>) -> Verdict {
 }
 
 /// Checks that the file can be written, without writing.
-fn check_output(output: &str, format: Format, is_transparent: bool) -> Result<()> {
+fn check_output(output: &str, format: DrawingFormat, is_transparent: bool) -> Result<()> {
     match format {
-        Format::Picture => Target::check(output, is_transparent).map(drop),
-        Format::Svg | Format::Pdf | Format::Dxf | Format::Json => TextTarget::check(output).map(drop),
+        DrawingFormat::Picture => Target::check(output, is_transparent).map(drop),
+        DrawingFormat::Svg | DrawingFormat::Pdf | DrawingFormat::Dxf | DrawingFormat::Json => {
+            TextTarget::check(output).map(drop)
+        }
     }
 }
 
-fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Result<()> {
+fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: DrawingFormat) -> Result<()> {
     let Rendering { request, run, output } = *rendering;
     // A format without appearance leaves out what a look says of it.
     let is_given = |option: &str| request.options.contains_key(option) && !request.is_of_look(option);
@@ -134,8 +142,9 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Resu
     if run.explain && request.animation.turntable.is_some() {
         return Err(Error::setting("explain", "a turn has many views and this describes one; leave out --turntable"));
     }
-    let holds_note =
-        format != Format::Picture || output == "-" || PictureFormat::of(Path::new(output)) == Some(PictureFormat::Png);
+    let holds_note = format != DrawingFormat::Picture
+        || output == "-"
+        || PictureFormat::of(Path::new(output)) == Some(PictureFormat::Png);
     if run.partial && !holds_note {
         let problem = "this format cannot mark the drawing as partial; write a .svg, .pdf, .dxf, .json or .png";
         return Err(Error::setting("partial", problem));
@@ -145,20 +154,20 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: Format) -> Resu
         return Err(Error::setting("-o -", problem));
     }
     match format {
-        Format::Svg => Ok(()),
-        Format::Pdf => refuse(&["provenance"], "a .pdf file has no place for it; leave it out, or write a .svg"),
-        Format::Dxf => {
+        DrawingFormat::Svg => Ok(()),
+        DrawingFormat::Pdf => refuse(&["provenance"], "a .pdf file has no place for it; leave it out, or write a .svg"),
+        DrawingFormat::Dxf => {
             let problem =
                 "a .dxf file holds polylines without curves, fills and their edges; leave it out, or write a .svg";
             refuse(&["provenance", "fit-curves", "areas"], problem)
         }
-        Format::Picture => {
+        DrawingFormat::Picture => {
             let problem = "a picture has pixels and no paths; leave it out, or write a .svg";
             refuse(&["provenance", "pen", "fit-curves"], problem)?;
             refuse(&["areas"], "a picture of exact lines has no areas; leave it out, or write a .svg")?;
             refuse(&OF_PAPER, &pixels_on_paper(&request.options))
         }
-        Format::Json => {
+        DrawingFormat::Json => {
             refuse(&["sheet"], "a .json file holds one view; leave it out, or write a .svg")?;
             let drawing = DrawingSettings::table().of(None).into_iter().map(|setting| setting.name);
             let options: Vec<&str> = drawing.filter(|name| *name != "min-length" && is_of_lines_alone(name)).collect();

@@ -1,8 +1,9 @@
 //! Settings to options and back: every option of the command line that makes a picture, for every style. An option's table gives
 //! its values: the test covers new settings too.
 
-use super::{Arguments, is_of_one_run};
-use crate::request::{Layer, Request};
+use super::super::run_settings::is_of_one_run;
+use super::Arguments;
+use crate::request::{OptionLayer, Request};
 use crate::styles::{is_ignored, is_of_lines_alone};
 use clap::{CommandFactory, Parser};
 use std::collections::BTreeSet;
@@ -210,7 +211,7 @@ fn all_options_together_survive_too() {
 fn the_papers_presets_are_the_styles_defaults() {
     for (name, _) in SHIPPED {
         let preset = Preset::read(name).unwrap();
-        let style = Request::from_layers(&[Layer::File(preset.clone())]).unwrap().0.style;
+        let style = Request::from_layers(&[OptionLayer::File(preset.clone())]).unwrap().0.style;
         assert_eq!(style, Style::named(style.style_name()), "{name}");
         assert!(preset.options.len() > 12, "{name} spells its constants out");
         // All the style's options are written out, except files, which have none.

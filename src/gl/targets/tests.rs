@@ -50,7 +50,7 @@ fn what_a_driver_lacks_is_refused_by_the_option_that_asks_for_it() {
 #[test]
 fn one_texture_in_two_formats_is_an_error_and_leaves_nothing_behind() {
     const HALF: Attachments = Attachments {
-        colors: &[Attachment { name: Drawn("Map"), format: Format::Float16 }],
+        colors: &[Attachment { name: TextureName("Map"), format: Format::Float16 }],
         has_depth: false,
         asked_by: SettingValue { setting: "size", value: "8" },
         instead: SettingValue { setting: "size", value: "4" },

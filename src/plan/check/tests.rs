@@ -112,8 +112,11 @@ fn targets_and_textures_that_are_not_there_are_found() {
     let mut plan = three_pass();
     draw_of(&mut plan, 1).textures.push(("paper", Texture::Picture(0)));
     says(&plan, "the pass tones needs picture 0");
-    const FLAT: Attachments =
-        Attachments { colors: &[Attachment { name: Drawn("Map"), format: Format::Unorm8 }], has_depth: false, ..NONE };
+    const FLAT: Attachments = Attachments {
+        colors: &[Attachment { name: TextureName("Map"), format: Format::Unorm8 }],
+        has_depth: false,
+        ..NONE
+    };
     const NONE: Attachments =
         Attachments { colors: &[], has_depth: true, asked_by: ASKED, instead: ASKED, instead_draws: None };
     let mut plan = in_textures();
@@ -129,7 +132,7 @@ fn targets_and_textures_that_are_not_there_are_found() {
 #[test]
 fn a_texture_is_not_read_while_it_is_drawn_and_has_one_format() {
     const HALF: Attachments = Attachments {
-        colors: &[Attachment { name: Drawn("Map"), format: Format::Float16 }],
+        colors: &[Attachment { name: TextureName("Map"), format: Format::Float16 }],
         has_depth: true,
         asked_by: ASKED,
         instead: ASKED,
@@ -137,10 +140,10 @@ fn a_texture_is_not_read_while_it_is_drawn_and_has_one_format() {
     };
     let mut plan = in_textures();
     plan.passes[2].target = plan.passes[0].target;
-    assert_eq!(flaw(&plan), Flaw::ReadWhileWritten { pass: "border", name: Drawn("Map") });
+    assert_eq!(flaw(&plan), Flaw::ReadWhileWritten { pass: "border", name: TextureName("Map") });
     let mut plan = in_textures();
     plan.passes[1].target = Target::Textures(&HALF);
-    assert_eq!(flaw(&plan), Flaw::TwoFormats { name: Drawn("Map") });
+    assert_eq!(flaw(&plan), Flaw::TwoFormats { name: TextureName("Map") });
 }
 
 #[test]

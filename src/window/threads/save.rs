@@ -9,7 +9,7 @@ use crate::output::TextTarget;
 use crate::picture::{Picture, Target};
 use crate::preset::{OptionValue, Options, to_toml};
 use crate::recipe::{Driver, FileRecord};
-use crate::request::{Format, Request, layers};
+use crate::request::{DrawingFormat, Request, layers};
 use crate::scene::{Scene, SceneSettings};
 use crate::settings::HasSettings;
 use crate::shell;
@@ -160,9 +160,9 @@ fn save_of(
         Save::Lines => {
             TextTarget::check(&name)?;
             let request = request(state, job, surroundings, save, side)?;
-            let drawn = request.drawn_lines(job.scene()?, Format::Svg.wanted(false), &Progress::default())?;
+            let drawn = request.drawn_lines(job.scene()?, DrawingFormat::Svg.wanted(false), &Progress::default())?;
             let recipe = request.recipe(&drawn.scene, files, None, record);
-            drawn.written(Format::Svg, None, Some(&recipe))?.write(&name, request.is_transparent())?;
+            drawn.written(DrawingFormat::Svg, None, Some(&recipe))?.write(&name, request.is_transparent())?;
         }
         Save::Turn => {
             turn(state, job, side, surroundings.backend, &name)?;

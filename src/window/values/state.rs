@@ -5,7 +5,7 @@ use crate::camera::View;
 use crate::mesh::LoadOptions;
 use crate::orbit::Orbit;
 use crate::preset::{LOOKS, Look, Preset};
-use crate::request::{Layer, Request};
+use crate::request::{OptionLayer, Request};
 use crate::scene::{SceneSettings, Size};
 use crate::styles::{LineStyle, Style, StyleName};
 use crate::window::values::buffer::{Buffer, buffers};
@@ -442,7 +442,7 @@ impl ViewerState {
     fn open_preset(&mut self, name: &str) -> Result<(), String> {
         let said = |error: crate::Error| error.to_string();
         let preset = Preset::read(name).map_err(said)?;
-        let layers = [Layer::Style(self.chosen[self.active as usize]), Layer::File(preset)];
+        let layers = [OptionLayer::Style(self.chosen[self.active as usize]), OptionLayer::File(preset)];
         let (request, _) = Request::from_layers(&layers).map_err(said)?;
         let mut scene = self.scene_settings();
         controls::apply_to_scene(&mut scene, &request.options).map_err(|error| said(request.attributed(error)))?;

@@ -21,7 +21,7 @@ use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, PresetFile, refu
 use tinta::cli::progress::{Steps, TimedProgress};
 use tinta::cli::{Command, Verdict, given};
 use tinta::preset::Preset;
-use tinta::request::{Layer, Request, Session};
+use tinta::request::{OptionLayer, Request, Session};
 use tinta::settings::{HasSettings, OptionValue, Options};
 use tinta::{Error, Result, Style};
 use words::{counted, in_words};
@@ -141,7 +141,7 @@ pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -
     let below = Below { camera, ..Below::default() };
     let of_preset = preset.map(Preset::read).transpose()?;
     let (with_preset, own_setting) = match &of_preset {
-        None => (Layer::Given(Options::new()), None),
+        None => (OptionLayer::Given(Options::new()), None),
         Some(preset) => of_preset_file(preset)?,
     };
     let (request, _) = arguments.subject.request_over(with_preset, &arguments.models, &below)?;
@@ -155,16 +155,16 @@ pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -
 }
 
 /// A preset's layer for the model and the camera, and its style, which is measured with the others.
-fn of_preset_file(preset: &Preset) -> Result<(Layer, Option<Setting>)> {
+fn of_preset_file(preset: &Preset) -> Result<(OptionLayer, Option<Setting>)> {
     let is_of_subject = Chosen::<OfSubject>::has;
     let is_of_style = |name: &str| name == "style" || Style::table().has(name);
     refuse_of_other_commands(preset, "measure", |name| is_of_subject(name) || is_of_both(name) || is_of_style(name))?;
     let of_style = preset.clone().of(|name| !is_of_subject(name) && !is_of_both(name));
     let setting = match of_style.options.is_empty() {
         true => None,
-        false => Some(setting_of(&Request::from_layers(&[Layer::File(of_style)])?.0)?),
+        false => Some(setting_of(&Request::from_layers(&[OptionLayer::File(of_style)])?.0)?),
     };
-    Ok((Layer::File(preset.clone().of(is_of_subject)), setting))
+    Ok((OptionLayer::File(preset.clone().of(is_of_subject)), setting))
 }
 
 /// Whether an option is of a drawing and of measuring.

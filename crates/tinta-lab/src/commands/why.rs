@@ -11,7 +11,7 @@ use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, Selection};
 use tinta::cli::{Command, Verdict, given, print, print_json, say};
 use tinta::glam::DVec2;
 use tinta::pixel::{Explanation, Variable};
-use tinta::request::{Layer, Request, Session};
+use tinta::request::{OptionLayer, Request, Session};
 use tinta::settings::{HasSettings, Setting};
 use tinta::styles::is_of_lines_alone;
 use tinta::{Error, LineSettings, Result, Scene, Style, StyleName, Target, TextTarget, VisibleLines};
@@ -86,7 +86,7 @@ fn place(text: &str) -> std::result::Result<DVec2, String> {
 /// Explains a pixel, a variable or a line.
 pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let camera = arguments.camera.camera.as_deref();
-    let style = Layer::Style(StyleName::Lines);
+    let style = OptionLayer::Style(StyleName::Lines);
     let below = Below { camera, ..Below::default() };
     let (mut request, _) = arguments.drawing.request_over(style, std::slice::from_ref(&arguments.model), &below)?;
     if request.style.lines().is_some() {

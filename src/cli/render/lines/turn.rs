@@ -12,7 +12,7 @@ use tinta::animation::NumberedName;
 use tinta::lines::{StrokeIds, TurnSvg};
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
-use tinta::request::{Format, ReadModels, Session};
+use tinta::request::{DrawingFormat, ReadModels, Session};
 use tinta::{Error, Result, Scene, TextTarget};
 
 /// The names of the drawings; `None` for one animated SVG.
@@ -20,9 +20,9 @@ use tinta::{Error, Result, Scene, TextTarget};
 /// # Errors
 ///
 /// [`Error::File`] for a name without a place for a number, or without a format of lines.
-pub(super) fn names(output: &str, format: Format) -> Result<Option<NumberedName>> {
-    match NumberedName::parse(output).filter(|_| format != Format::Json) {
-        None if format != Format::Svg => {
+pub(super) fn names(output: &str, format: DrawingFormat) -> Result<Option<NumberedName>> {
+    match NumberedName::parse(output).filter(|_| format != DrawingFormat::Json) {
+        None if format != DrawingFormat::Svg => {
             let problem = "this names one drawing; a turn has numbered ones such as frame-%04d.svg, .pdf or .png, or one animated .svg";
             Err(Error::output(output, problem))
         }
@@ -33,14 +33,17 @@ pub(super) fn names(output: &str, format: Format) -> Result<Option<NumberedName>
 /// Draws the views of a turn one after the other.
 pub(super) fn run(
     rendering: &Rendering<'_>,
-    format: Format,
-    views: u32,
+    format: DrawingFormat,
+    (views, names): (u32, Option<&NumberedName>),
     session: &Session,
     stop: Option<&Stop>,
 ) -> Result<Verdict> {
     let whole = Instant::now();
     let Rendering { request, run, output } = *rendering;
-    let names = names(output, format)?;
+    if request.style.lines().is_none_or(|style| style.areas.is_some()) {
+        let problem = "areas are drawn from one view; leave it out, or draw lines alone";
+        return Err(Error::setting("turntable", problem));
+    }
     let style = request.line_style()?.unwrap_or_default();
     if request.options.contains_key("page") {
         let problem = "each view would be scaled to fill the paper, and the model change its size; leave it out, or say --width-mm";
@@ -54,10 +57,10 @@ pub(super) fn run(
     for (number, camera) in (1..).zip(scene.turntable(&request.scene.camera, views)?) {
         let frame = Instant::now();
         let scene = Scene { camera, ..scene.clone() };
-        let name = names.as_ref().map_or_else(|| output.to_owned(), |names| names.with(number));
+        let name = names.map_or_else(|| output.to_owned(), |names| names.with(number));
         let progress = progress(rendering);
         let drawn = match watched(&progress, stop, || request.drawn_lines(scene, format.wanted(false), &progress)) {
-            Err(Error::Cancelled) => return Ok(stopped(stop, names.as_ref().map_or(0, |_| number - 1), views)),
+            Err(Error::Cancelled) => return Ok(stopped(stop, names.map_or(0, |_| number - 1), views)),
             found => found?,
         };
         if let Some(note) = drawn.lines.partial_note() {
@@ -65,7 +68,7 @@ pub(super) fn run(
         }
         let paths = ids.next(&drawn.scene, &drawn.lines);
         if is_stopped(stop) {
-            return Ok(stopped(stop, names.as_ref().map_or(0, |_| number - 1), views));
+            return Ok(stopped(stop, names.map_or(0, |_| number - 1), views));
         }
         if let Some(animated) = &mut animated {
             animated.add(&drawn.lines, paths, &style.drawing)?;

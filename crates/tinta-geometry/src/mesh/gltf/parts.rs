@@ -24,7 +24,7 @@ struct Vertices {
 }
 
 /// The contents of a piece, as indices into the vertices of its set.
-enum Drawn {
+enum Primitives {
     Points(Vec<u32>),
     Segments(Vec<[u32; 2]>),
     Faces {
@@ -34,7 +34,7 @@ enum Drawn {
     },
 }
 
-impl Drawn {
+impl Primitives {
     fn read(piece: &PrimitivePart<'_>, accessors: &Accessors<'_>) -> Result<Self, String> {
         let indices = match piece.primitive.indices {
             Some(indices) => accessors.indices(indices, piece.corners)?,
@@ -65,8 +65,8 @@ pub(super) fn put(
     nodes: &Nodes,
     part_of_node: &[u32],
 ) -> Result<(), String> {
-    let drawn: Vec<Drawn> =
-        outline.pieces.iter().map(|piece| Drawn::read(piece, accessors)).collect::<Result<_, String>>()?;
+    let drawn: Vec<Primitives> =
+        outline.pieces.iter().map(|piece| Primitives::read(piece, accessors)).collect::<Result<_, String>>()?;
     let mut skins: HashMap<usize, Vec<DMat4>> = HashMap::new();
     // Most places have the mesh's own weights: its vertices are read once for all of them.
     let mut vertices: Vec<Vertices> = Vec::new();
@@ -113,13 +113,13 @@ pub(super) fn put(
 }
 
 /// Adds a mesh's points, lines and faces between vertices that are placed.
-fn put_pieces(soup: &mut Soup, outline: &Outline<'_>, drawn: &[Drawn], sets: &[Placed]) {
+fn put_pieces(soup: &mut Soup, outline: &Outline<'_>, drawn: &[Primitives], sets: &[Placed]) {
     for (piece, drawn) in outline.pieces.iter().zip(drawn) {
         let placed = &sets[piece.set];
         match drawn {
-            Drawn::Points(points) => placed.put_points(soup, points),
-            Drawn::Segments(segments) => placed.put_segments(soup, segments),
-            Drawn::Faces { triangles, marks } => {
+            Primitives::Points(points) => placed.put_points(soup, points),
+            Primitives::Segments(segments) => placed.put_segments(soup, segments),
+            Primitives::Faces { triangles, marks } => {
                 placed.put_faces(soup, triangles, piece.material);
                 placed.put_marks(soup, marks);
             }
