@@ -4,7 +4,7 @@
 //! Prints for each family and size the time of the lines alone and of the SVG after them, and draws a plot of the sum. Reports a
 //! size beyond the time limit, and skips larger ones of that family.
 
-#[path = "../tests/support/growth.rs"]
+#[path = "../crates/tinta-geometry/tests/support/growth.rs"]
 mod families;
 #[expect(dead_code, reason = "other benchmarks fit lines to their curves")]
 #[path = "report/growth.rs"]

@@ -105,7 +105,7 @@
 
 #![deny(unreachable_pub)]
 
-// Floors, from the ground up: a module uses only those above it in this list (`tests/floors.rs`).
+// Floors, from the ground up: a module uses only those above it in this list (`tests/documents/floors.rs`).
 
 // Geometry without GL: from a file to visible lines. A separate crate with its own list of floors.
 #[cfg(feature = "window")]

@@ -1,7 +1,7 @@
 //! The duty of every reader for any bytes: read them or refuse them in one sentence, without a panic, without infinite numbers or
 //! NaN, in bounded memory.
 //!
-//! One function per reader, for the fuzz targets beside this file and for `tests/corpus.rs`, which runs every file of the corpus
+//! One function per reader, for the fuzz targets beside this file and for `tests/documents/corpus.rs`, which runs every file of the corpus
 //! through the same function with an ordinary compiler.
 
 use tinta::batch::{Entries, Job, List, Slice, Summary, place_in};

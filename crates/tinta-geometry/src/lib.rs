@@ -22,7 +22,7 @@
 
 #![deny(unreachable_pub)]
 
-// Floors, from the ground up: a module uses those above it in this list and none below (`tests/floors.rs`). Items hidden from
+// Floors, from the ground up: a module uses those above it in this list and none below (`tests/documents/floors.rs`). Items hidden from
 // the documentation are shared with tinta and may change without notice.
 
 // The foundation.

@@ -17,7 +17,7 @@
 
 #![deny(unreachable_pub)]
 
-// Floors, from the ground up: a module uses only those above it in this list (`tests/floors.rs`).
+// Floors, from the ground up: a module uses only those above it in this list (`tests/documents/floors.rs`).
 pub mod compare;
 pub mod provenance;
 #[cfg(feature = "cli")]

@@ -1,0 +1,342 @@
+//! Hatching: strokes lie in their tones as rays find these, cover them evenly, and keep their places from view to view.
+
+use super::{NEAR_BORDER_PX, distance, rules, tone};
+use crate::support::families::{KINDS, scene_of_kind};
+use crate::support::lines::view;
+use crate::support::public_meshes;
+use crate::support::shapes::{self, Random};
+use glam::{DVec2, DVec3};
+use tinta::camera::Projection;
+use tinta::lines::{
+    Areas, Hatch, Hatching, Hit, Length, PageSize, Progress, Region, Regions, ToneRule, TonedSurface, chain, hatches,
+    svg_of_paths,
+};
+use tinta::{CameraSettings, DrawingSettings, Scene, SceneSettings, Size, VisibleLines};
+
+/// The brightest tone of a rule.
+fn brightest(rule: &ToneRule) -> u8 {
+    rule.thresholds.iter().filter(|threshold| **threshold <= 1.0).count() as u8
+}
+
+fn settings(spacing: Length, angle_degrees: f64) -> DrawingSettings {
+    let hatching = Hatching { spacing: Some(spacing), angle_degrees };
+    DrawingSettings { hatching, min_length: Some(Length::Px(0.0)), ..DrawingSettings::default() }
+}
+
+fn hatched(
+    scene: &Scene,
+    regions: &Regions<Option<TonedSurface>>,
+    rule: &ToneRule,
+    settings: &DrawingSettings,
+) -> tinta::Result<Vec<Hatch>> {
+    hatches(scene, regions, brightest(rule), &VisibleLines::none(scene.size), settings)
+}
+
+/// A scene whose meshes have smooth normals, or those of their faces.
+fn with_normals(scene: Scene, is_smooth: bool) -> Scene {
+    let mut scene = scene;
+    for object in &mut scene.objects {
+        let mut mesh = (*object.mesh).clone();
+        let of_face = |face: &[u32; 3]| {
+            let [a, b, c] = face.map(|corner| mesh.positions[corner as usize]);
+            (b - a).cross(c - a)
+        };
+        let across: Vec<DVec3> = mesh.triangles.iter().map(of_face).collect();
+        if is_smooth {
+            let mut normals = vec![DVec3::ZERO; mesh.positions.len()];
+            for (face, across) in mesh.triangles.iter().zip(&across) {
+                face.iter().for_each(|corner| normals[*corner as usize] += *across);
+            }
+            mesh.normals = normals.iter().map(|normal| normal.normalize_or(DVec3::Z).as_vec3()).collect();
+            mesh.triangle_normals = mesh.triangles.clone();
+        } else {
+            mesh.normals = across.iter().map(|across| across.normalize_or(DVec3::Z).as_vec3()).collect();
+            mesh.triangle_normals = (0..across.len() as u32).map(|face| [face; 3]).collect();
+        }
+        object.mesh = mesh.into();
+    }
+    scene
+}
+
+/// The image of a point of the eye's space.
+fn image(scene: &Scene, view: DVec3) -> DVec2 {
+    let half = DVec2::new(f64::from(scene.size.width), f64::from(scene.size.height)) * 0.5;
+    let scale = match scene.camera.projection {
+        Projection::Perspective { fov_y_degrees } => half.y / (fov_y_degrees.to_radians() * 0.5).tan() / -view.z,
+        Projection::Parallel { height } => 2.0 * half.y / height,
+    };
+    half + DVec2::new(view.x, -view.y) * scale
+}
+
+/// The depths and tones of all faces that the ray through a place hits, the nearest first.
+fn tones_at(scene: &Scene, rule: &ToneRule, px: DVec2) -> Vec<(f64, u8)> {
+    let half = DVec2::new(f64::from(scene.size.width), f64::from(scene.size.height)) * 0.5;
+    let flat = DVec2::new(px.x - half.x, half.y - px.y);
+    let (origin, along) = match scene.camera.projection {
+        Projection::Perspective { fov_y_degrees } => {
+            let focal = half.y / (fov_y_degrees.to_radians() * 0.5).tan();
+            (DVec3::ZERO, (flat / focal).extend(-1.0))
+        }
+        Projection::Parallel { height } => ((flat * (height / (2.0 * half.y))).extend(0.0), DVec3::NEG_Z),
+    };
+    let to_view = scene.camera.view_from_world();
+    let mut hits = Vec::new();
+    for (number, object) in scene.objects.iter().enumerate() {
+        let places: Vec<DVec3> =
+            object.mesh.positions.iter().map(|position| to_view.transform_point3(*position + object.offset)).collect();
+        for (face, corners) in object.mesh.triangles.iter().enumerate() {
+            let [a, b, c] = corners.map(|corner| places[corner as usize]);
+            // Möller and Trumbore 1997.
+            let (right, up) = (b - a, c - a);
+            let across = along.cross(up);
+            let volume = right.dot(across);
+            let from = origin - a;
+            let v = from.dot(across) / volume;
+            let w = along.dot(from.cross(right)) / volume;
+            let depth = up.dot(from.cross(right)) / volume;
+            let is_drawn = (scene.camera.near..=scene.camera.far).contains(&depth);
+            if v >= 0.0 && w >= 0.0 && v + w <= 1.0 && is_drawn {
+                let hit = Hit { object: number as u32, face: face as u32, weights: [1.0 - v - w, v, w], depth };
+                hits.push((depth, tone(scene, rule, &hit)));
+            }
+        }
+    }
+    hits.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    hits
+}
+
+/// Whether a place has a tone up to this one: what a ray hits first, or what touches it there.
+fn has_tone(scene: &Scene, rule: &ToneRule, px: DVec2, most: u8) -> bool {
+    let hits = tones_at(scene, rule, px);
+    let Some((nearest, _)) = hits.first() else { return false };
+    hits.iter().take_while(|(depth, _)| depth - nearest <= 1e-6 * scene.radius).any(|(_, tone)| *tone <= most)
+}
+
+fn is_inside(region: &Region<()>, px: DVec2) -> bool {
+    let sides = region.loops.iter().flat_map(|corners| corners.iter().zip(corners.iter().cycle().skip(1)));
+    let is_right = |(a, b): &(&DVec2, &DVec2)| {
+        (a.y > px.y) != (b.y > px.y) && a.x + (b.x - a.x) * ((px.y - a.y) / (b.y - a.y)) > px.x
+    };
+    sides.filter(is_right).count() % 2 == 1
+}
+
+#[derive(Debug, Default)]
+struct Checked {
+    strokes: usize,
+    samples: usize,
+    wrong: usize,
+    regions: usize,
+    length_times_spacing: f64,
+    area: f64,
+}
+
+/// Checks the strokes of a scene, with rays along at most so many of each direction.
+fn check(name: &str, scene: &Scene, random: &mut Random, most_strokes: usize, all: &mut Checked) {
+    for rule in rules() {
+        let regions = Regions::toned(scene, &rule, &Progress::default()).unwrap();
+        let (spacing, angle) = (2.0 + 14.0 * random.number(), -90.0 + 180.0 * random.number());
+        let found = hatched(scene, &regions, &rule, &settings(Length::Px(spacing), angle)).unwrap();
+        assert_eq!(
+            found.iter().map(|hatch| hatch.tone).collect::<Vec<_>>(),
+            (0..brightest(&rule)).rev().collect::<Vec<_>>()
+        );
+        for Hatch { tone, strokes } in &found {
+            let turned = if (brightest(&rule), *tone) == (2, 0) { angle + 90.0 } else { angle };
+            let along = DVec2::from_angle(-turned.to_radians());
+            let area = regions.joined(|seen| seen.filter(|it| it.tone <= *tone).map(|_| ()));
+            // A sum over equidistant lines misses an integral by at most the spacing times the variation of what is summed:
+            // how much of a line is inside changes by the sides along it.
+            let total: f64 = strokes.iter().map(|[from, to]| from.distance(*to)).sum();
+            let whole: f64 = area.regions.iter().map(|region| region.area_px).sum();
+            let sides = |corners: &Vec<DVec2>| -> f64 {
+                corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| (*b - *a).dot(along).abs()).sum()
+            };
+            let variation: f64 = area.regions.iter().flat_map(|region| &region.loops).map(sides).sum();
+            assert!(
+                (total * spacing - whole).abs() <= spacing * variation + 1e-6,
+                "{name}: {total} x {spacing}, {whole}"
+            );
+            all.length_times_spacing += total * spacing;
+            all.area += whole;
+            let view = scene.camera.view_from_world().transform_point3(scene.centre);
+            // What lies before the near plane has no image: then lines run through the picture's middle.
+            let middle = DVec2::new(f64::from(scene.size.width), f64::from(scene.size.height)) * 0.5;
+            let centre = if -view.z > scene.camera.near { image(scene, view) } else { middle };
+            for [from, to] in strokes {
+                assert!(
+                    (*to - *from).normalize().dot(along) > 1.0 - 1e-6 || from.distance(*to) < 1e-3,
+                    "{name}: {from} {to}"
+                );
+                let line = along.perp_dot(*from - centre) / spacing;
+                assert!((line - line.round()).abs() < 1e-5, "{name}: line {line}");
+            }
+            for region in &area.regions {
+                let across = |px: &DVec2| along.perp_dot(*px);
+                let places = || region.loops[0].iter().map(across);
+                let width = places().fold(f64::NEG_INFINITY, f64::max) - places().fold(f64::INFINITY, f64::min);
+                if width > spacing * (1.0 + 1e-9) {
+                    all.regions += 1;
+                    let middle = |[from, to]: &[DVec2; 2]| from.lerp(*to, 0.5);
+                    assert!(
+                        strokes.iter().any(|stroke| is_inside(region, middle(stroke))),
+                        "{name}: {:?}",
+                        region.loops
+                    );
+                }
+            }
+            all.strokes += strokes.len();
+            for stroke in strokes.iter().step_by(strokes.len() / most_strokes + 1) {
+                let [from, to] = *stroke;
+                for share in [0.0, random.number(), random.number(), 1.0] {
+                    let px = from.lerp(to, share);
+                    let is_near = || {
+                        let mut loops = area.regions.iter().flat_map(|region| &region.loops);
+                        loops.any(|corners| distance(corners, px) < NEAR_BORDER_PX)
+                    };
+                    all.samples += 1;
+                    if !has_tone(scene, &rule, px, *tone) && !is_near() {
+                        all.wrong += 1;
+                        println!("{name}: {px} of {from} to {to} is not of tone {tone}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn judge(all: &Checked) {
+    println!("{all:?}");
+    assert!(all.strokes > 0 && all.regions > 0 && all.wrong as f64 <= 1e-5 * all.samples as f64, "{all:?}");
+    assert!((all.length_times_spacing / all.area - 1.0).abs() < 0.01, "{all:?}");
+}
+
+fn check_families(count: u64) {
+    let mut all = Checked::default();
+    for seed in 1..=count {
+        let mut random = Random::seeded(seed);
+        let (name, scene) = scene_of_kind(seed as usize, &mut random);
+        let scene = with_normals(scene, seed % 3 == 0);
+        check(&format!("{name}, seed {seed}"), &scene, &mut random, 60, &mut all);
+    }
+    judge(&all);
+}
+
+#[test]
+fn strokes_lie_in_their_tones_and_cover_them_in_every_family() {
+    check_families(KINDS as u64);
+}
+
+#[test]
+#[ignore = "exhaustive: 10 scenes of each family"]
+fn strokes_lie_in_their_tones_and_cover_them_in_many_scenes() {
+    check_families(10 * KINDS as u64);
+}
+
+#[test]
+fn strokes_of_public_models_lie_in_their_tones() {
+    let models = public_meshes(&["cow.obj", "teapot.obj", "suzanne.obj"]);
+    let mut all = Checked::default();
+    for (name, mesh) in &models {
+        let settings = SceneSettings { camera: view("30,23", false), ..SceneSettings::default() };
+        let scene = Scene::new([mesh.clone()], &settings).unwrap();
+        check(name, &scene, &mut Random::seeded(1), 40, &mut all);
+    }
+    if !models.is_empty() {
+        judge(&all);
+    }
+}
+
+fn ball(camera: CameraSettings, size: Size) -> Scene {
+    let scene =
+        Scene::new([shapes::icosphere(3)], &SceneSettings { camera, size, ..SceneSettings::default() }).unwrap();
+    with_normals(scene, true)
+}
+
+const SIZE: Size = Size { width: 512, height: 512 };
+
+/// A view that does not look at the middle, turned by so many degrees.
+fn looking_past(degrees: f64) -> CameraSettings {
+    let eye = DVec3::new(4.0 * degrees.to_radians().sin(), 1.0, 4.0 * degrees.to_radians().cos());
+    CameraSettings { eye: Some(eye), target: Some(DVec3::new(0.3, 0.1, -0.2)), ..CameraSettings::default() }
+}
+
+#[test]
+fn strokes_move_with_the_scene_from_view_to_view() {
+    let [_, rule, _] = rules();
+    let lines_of = |degrees: f64| {
+        let scene = ball(looking_past(degrees), SIZE);
+        let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+        let found = hatched(&scene, &regions, &rule, &settings(Length::Px(9.0), 30.0)).unwrap();
+        let centre = image(&scene, scene.camera.view_from_world().transform_point3(scene.centre));
+        let along = DVec2::from_angle(-30f64.to_radians());
+        let lines = found[0].strokes.iter().map(|[from, _]| along.perp_dot(*from - centre) / 9.0);
+        (centre, lines.map(|line| line.round() as i64).collect::<std::collections::BTreeSet<_>>())
+    };
+    let [(centre, lines), (moved, others)] = [20.0, 20.5].map(lines_of);
+    assert!(centre.distance(moved) > 0.1 && centre.distance(DVec2::splat(256.0)) > 20.0, "{centre} {moved}");
+    // The ball is as large in both: the same lines cross it, except at its ends.
+    assert!(lines.len() > 20 && lines.symmetric_difference(&others).count() <= 2, "{lines:?} {others:?}");
+}
+
+#[test]
+fn spacing_is_in_millimetres_on_paper_or_in_widths_of_a_stroke() {
+    let [rule, ..] = rules();
+    let scene = ball(view("30,23", false), SIZE);
+    let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+    let gap = |settings: &DrawingSettings| {
+        let found = hatched(&scene, &regions, &rule, settings).unwrap();
+        let mut places: Vec<f64> = found[0].strokes.iter().map(|[from, _]| from.y).collect();
+        places.sort_unstable_by(f64::total_cmp);
+        places.windows(2).map(|pair| pair[1] - pair[0]).find(|gap| *gap > 1e-6).unwrap()
+    };
+    let on_paper = DrawingSettings { page_size: PageSize::WidthMm(256.0), ..settings(Length::Mm(3.0), 0.0) };
+    assert!((gap(&on_paper) - 6.0).abs() < 1e-9);
+    let sheet = PageSize::Paper("A4".parse().unwrap());
+    let [low, high] = Areas::around(&regions).corners_px.unwrap();
+    let px_per_mm = ((high - low) / DVec2::new(180.0, 267.0)).max_element();
+    let on_sheet = DrawingSettings { page_size: sheet, ..settings(Length::Mm(3.0), 0.0) };
+    assert!((gap(&on_sheet) - 3.0 * px_per_mm).abs() < 1e-9, "{px_per_mm}");
+    let mut wide = settings(Length::Times(4.0), 0.0);
+    assert!((gap(&wide) - 4.0).abs() < 1e-9, "half of 2 pixels");
+    wide.class_widths = "hatch=2.5".parse().unwrap();
+    assert!((gap(&wide) - 10.0).abs() < 1e-9);
+}
+
+#[test]
+fn one_tone_has_no_strokes_and_too_many_are_refused_before_they_are_made() {
+    let [rule, ..] = rules();
+    let size = Size { width: 4096, height: 4096 };
+    let scene = ball(view("front", true), size);
+    let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+    let lines = VisibleLines::none(size);
+    assert!(hatches(&scene, &regions, 0, &lines, &settings(Length::Px(5.0), 45.0)).unwrap().is_empty());
+    let refused = hatched(&scene, &regions, &rule, &settings(Length::Px(0.001), 45.0)).unwrap_err().to_string();
+    assert!(refused.starts_with("hatch 0.001: this makes ") && refused.contains("at most 1000000;"), "{refused}");
+}
+
+#[test]
+fn a_drawing_has_a_layer_of_strokes_for_each_tone_and_lines_alone_have_none() {
+    let [rule, ..] = rules();
+    let scene = ball(view("30,23", false), SIZE);
+    let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+    let lines = VisibleLines::of(&scene, &tinta::LineSettings::default()).unwrap();
+    let mut settings = settings(Length::Px(8.0), 45.0);
+    settings.class_colors = "hatch=#010203".parse().unwrap();
+    let strokes = hatched(&scene, &regions, &rule, &settings).unwrap();
+    let counts: Vec<usize> = strokes.iter().map(|hatch| hatch.strokes.len()).collect();
+    let areas = Areas { hatches: strokes, ..Areas::around(&regions) };
+    for is_for_pen in [false, true] {
+        let settings = DrawingSettings { is_for_pen, has_provenance: true, ..settings.clone() };
+        let text = svg_of_paths(&lines, chain(&lines.segments), Some(&areas), &settings).unwrap();
+        let layers: Vec<&str> = text.split("<g ").skip(1).collect();
+        for (layer, (tone, count)) in layers.iter().zip([1, 0].into_iter().zip(&counts)) {
+            let head = format!(r#"id="hatch-{tone}" inkscape:groupmode="layer" inkscape:label="hatch {tone}""#);
+            assert!(layer.starts_with(&head) && layer.contains(&format!(r#"data-tone="{tone}""#)), "{layer}");
+            assert!(layer.contains(r##"stroke="#010203""##));
+            assert_eq!(layer.matches("<path d=").count(), *count, "no provenance");
+        }
+        assert!(layers[2].starts_with(r#"id="visible-"#), "{}", layers[2]);
+    }
+    let refused = svg_of_paths(&lines, chain(&lines.segments), None, &settings).unwrap_err().to_string();
+    assert!(refused.starts_with("hatch: lines alone have no tones"), "{refused}");
+}

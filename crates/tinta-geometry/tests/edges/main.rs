@@ -1,0 +1,13 @@
+//! Edges of meshes, silhouettes and sections. One binary, to link once.
+
+extern crate tinta_geometry as tinta;
+
+mod edges;
+#[cfg(feature = "gltf")]
+mod gltf_edges;
+mod random;
+mod section;
+mod silhouettes;
+#[expect(dead_code, reason = "shared with the other tests")]
+#[path = "../support/mod.rs"]
+mod support;

@@ -1,0 +1,284 @@
+//! Meshes cut by planes: areas and volumes by formula, closed caps, planes through vertices, edges and faces.
+
+mod windings;
+
+use glam::{DVec2, DVec3};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use tinta::edges::{EdgeList, Incidence};
+use tinta::mesh::{Curves, Cut, SECTION, SectionPlane};
+use tinta::settings::Value;
+use tinta::{CameraSettings, LineSettings, LoadOptions, Mesh, Scene, SceneSettings, VisibleLines};
+
+fn plane(text: &str) -> SectionPlane {
+    SectionPlane::parse(text).unwrap_or_else(|_| panic!("{text}"))
+}
+
+fn made(positions: Vec<DVec3>, corners: &[u32], sizes: Vec<u32>) -> Mesh {
+    Mesh::of_polygons("made", positions, corners, sizes, &LoadOptions::default()).unwrap()
+}
+
+/// A prism over a polygon in x and z, from y = 0 to `height`, its sides facing outside; inside for a clockwise polygon.
+fn prism(base: &[DVec2], height: f64) -> Mesh {
+    let count = base.len() as u32;
+    let at = |y: f64| base.iter().map(move |point| DVec3::new(point.x, y, -point.y));
+    let mut corners: Vec<u32> = (0..count).rev().chain(count..2 * count).collect();
+    let mut sizes = vec![count; 2];
+    for side in 0..count {
+        let next = (side + 1) % count;
+        corners.extend([side, next, count + next, count + side]);
+        sizes.push(4);
+    }
+    made(at(0.0).chain(at(height)).collect(), &corners, sizes)
+}
+
+fn regular(count: u32, radius: f64) -> Vec<DVec2> {
+    (0..count).map(|at| DVec2::from_angle(f64::from(at) / f64::from(count) * TAU) * radius).collect()
+}
+
+fn square(half: f64) -> Vec<DVec2> {
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|it| DVec2::from_array(it) * half).to_vec()
+}
+
+/// A sphere of rings of quadrilaterals with triangles at its poles.
+fn sphere(rings: u32, count: u32) -> Mesh {
+    let mut positions = vec![DVec3::Y, -DVec3::Y];
+    for ring in 1..rings {
+        let (sine, cosine) = (f64::from(ring) / f64::from(rings) * TAU / 2.0).sin_cos();
+        positions.extend(regular(count, sine).into_iter().map(|it| DVec3::new(it.x, cosine, -it.y)));
+    }
+    let at = |ring: u32, place: u32| 2 + (ring - 1) * count + place % count;
+    let (mut corners, mut sizes) = (Vec::new(), Vec::new());
+    for place in 0..count {
+        corners.extend([0, at(1, place), at(1, place + 1), 1, at(rings - 1, place + 1), at(rings - 1, place)]);
+        sizes.extend([3, 3]);
+        for ring in 1..rings - 1 {
+            corners.extend([at(ring, place), at(ring + 1, place), at(ring + 1, place + 1), at(ring, place + 1)]);
+            sizes.push(4);
+        }
+    }
+    made(positions, &corners, sizes)
+}
+
+/// Two meshes as one.
+fn both(first: &Mesh, second: &Mesh) -> Mesh {
+    let offset = first.positions.len() as u32;
+    let corners = first.triangles.iter().copied().chain(second.triangles.iter().map(|it| it.map(|at| at + offset)));
+    let positions = first.positions.iter().chain(&second.positions).copied().collect();
+    made(positions, corners.collect::<Vec<_>>().as_flattened(), Vec::new())
+}
+
+fn volume(mesh: &Mesh) -> f64 {
+    let of = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|corner| mesh.positions[corner as usize]);
+        a.dot(b.cross(c)) / 6.0
+    };
+    mesh.triangles.iter().map(of).sum()
+}
+
+/// The area of the faces of the part `section`.
+fn cap_area(mesh: &Mesh) -> f64 {
+    let Some(part) = mesh.parts.iter().position(|part| part.name == SECTION) else { return 0.0 };
+    let of = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|corner| mesh.positions[corner as usize]);
+        (b - a).cross(c - a).length() / 2.0
+    };
+    let faces = mesh.triangles.iter().zip(&mesh.triangle_parts).filter(|(_, of)| **of == part as u32);
+    faces.map(|(triangle, _)| of(triangle)).sum()
+}
+
+#[track_caller]
+fn assert_closed(mesh: &Mesh, what: &str) {
+    let edges = EdgeList::new(mesh);
+    let open = edges.incidence().iter().filter(|it| **it != Incidence::Inner).count();
+    assert_eq!(open, 0, "{what}: {open} edges of {} are open", edges.len());
+}
+
+#[track_caller]
+fn assert_near(found: f64, expected: f64, what: &str) {
+    assert!((found - expected).abs() <= 1e-9 * expected.abs().max(1.0), "{what}: {found} for {expected}");
+}
+
+#[track_caller]
+fn closed_cut(mesh: &Mesh, plane: &SectionPlane) -> Mesh {
+    let (cut, how) = mesh.clone().section(plane).unwrap();
+    assert_eq!(how, Cut::Closed, "{}", plane.text());
+    assert_closed(&cut, &plane.text());
+    let lengths = [&cut.triangle_normals, &cut.triangles].map(Vec::len);
+    assert_eq!(lengths, [cut.triangles.len(); 2]);
+    assert_eq!((cut.triangle_parts.len(), cut.file_faces.len()), (lengths[0], lengths[0]));
+    cut
+}
+
+#[test]
+fn a_cut_boxs_volume_and_area_are_those_of_the_formula() {
+    let cube = prism(&square(1.0), 2.0);
+    for tenths in 1..20 {
+        let at = f64::from(tenths) / 10.0;
+        let cut = closed_cut(&cube, &plane(&format!("y={at}")));
+        assert_near(volume(&cut), 4.0 * at, "volume");
+        assert_near(cap_area(&cut), 4.0, "area");
+        let other = closed_cut(&cube, &plane(&format!("-y={}", -at)));
+        assert_near(volume(&other), 8.0 - 4.0 * at, "volume of the other side");
+        // A corner cut off along its diagonal plane: x + y + z = t above the corner (-1, 0, -1).
+        let corner = closed_cut(&cube, &plane(&format!("1,1,1={}", at - 2.0)));
+        assert_near(volume(&corner), at.powi(3) / 6.0, "corner");
+        assert_near(cap_area(&corner), 3f64.sqrt() / 2.0 * at * at, "its triangle");
+    }
+}
+
+#[test]
+fn a_cylinders_and_a_tubes_section_have_the_areas_of_their_polygons() {
+    let area = |count: u32, radius: f64| f64::from(count) * 0.5 * radius * radius * (TAU / f64::from(count)).sin();
+    for count in [3, 7, 24, 100] {
+        let cylinder = prism(&regular(count, 1.0), 3.0);
+        let cut = closed_cut(&cylinder, &plane("y=1.25"));
+        assert_near(cap_area(&cut), area(count, 1.0), "cylinder");
+        assert_near(volume(&cut), area(count, 1.0) * 1.25, "its volume");
+        // A hollow inside, whose faces look into it.
+        let mut hole = regular(count, 0.5);
+        hole.reverse();
+        let hollow = both(&cylinder, &{
+            let mut inside = prism(&hole, 2.0);
+            inside.positions.iter_mut().for_each(|it| it.y += 0.5);
+            inside
+        });
+        let cut = closed_cut(&hollow, &plane("y=1.25"));
+        assert_near(cap_area(&cut), area(count, 1.0) - area(count, 0.5), "tube");
+        // A core in the hollow is a face of its own.
+        let core = prism(&regular(count, 0.25), 3.0);
+        let cut = closed_cut(&both(&hollow, &core), &plane("y=1.25"));
+        assert_near(cap_area(&cut), area(count, 1.0) - area(count, 0.5) + area(count, 0.25), "core");
+    }
+}
+
+#[test]
+fn the_two_sides_of_many_planes_make_up_a_sphere() {
+    let mut state = 1u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 33) as f64 / f64::from(1u32 << 30) - 1.0
+    };
+    let sphere = sphere(12, 17);
+    let whole = volume(&sphere);
+    assert_closed(&sphere, "whole");
+    assert!(whole > 4.0);
+    for _ in 0..300 {
+        let normal = DVec3::new(random(), random(), random());
+        let offset = random() * 0.9 * normal.length();
+        let front = SectionPlane { normal, offset };
+        let back = SectionPlane { normal: -normal, offset: -offset };
+        let sides = [&front, &back].map(|plane| closed_cut(&sphere, plane));
+        assert_near(volume(&sides[0]) + volume(&sides[1]), whole, "sides");
+        assert_near(cap_area(&sides[0]), cap_area(&sides[1]), "caps");
+        let height = offset / normal.length();
+        // Between the circles of the spheres around it and within it.
+        let within = (TAU / 34.0).cos() * (TAU / 48.0).cos();
+        let [most, least] = [1.0, within].map(|radius| TAU / 2.0 * (radius * radius - height * height));
+        let area = cap_area(&sides[0]);
+        assert!((least..most).contains(&area), "{least} {area} {most}");
+    }
+}
+
+#[test]
+fn planes_through_vertices_edges_and_faces_cut_too() {
+    let cube = prism(&square(1.0), 2.0);
+    // Through four vertices: half the cube.
+    let half = closed_cut(&cube, &plane("1,1,0=1"));
+    assert_near(volume(&half), 4.0, "half");
+    assert_near(cap_area(&half), 4.0 * 2f64.sqrt(), "diagonal");
+    // A step of which one face lies in the plane and looks to its front, the other away from it.
+    let step = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]].map(DVec2::from_array);
+    let step = prism(&step, 1.0);
+    let lower = closed_cut(&step, &plane("-z=1"));
+    assert_near(volume(&lower), 2.0, "below the step");
+    assert_near(cap_area(&lower), 1.0, "beside the step's own face");
+    let upper = closed_cut(&step, &plane("z=-1"));
+    assert_near(volume(&upper), 1.0, "above the step");
+    assert_near(cap_area(&upper), 1.0, "its base");
+    // Rings of a sphere's vertices.
+    let sphere = sphere(12, 16);
+    let half = closed_cut(&sphere, &plane("y=0"));
+    assert_near(volume(&half) * 2.0, volume(&sphere), "hemisphere");
+    let half = closed_cut(&sphere, &plane("x=0"));
+    assert_near(volume(&half) * 2.0, volume(&sphere), "hemisphere through the poles");
+}
+
+#[test]
+fn a_plane_that_meets_nothing_changes_nothing_and_one_that_leaves_nothing_is_refused() {
+    let cube = prism(&square(1.0), 2.0);
+    for text in ["y=2", "y=3", "-x=1", "1,1,1=9"] {
+        assert_eq!(cube.clone().section(&plane(text)).unwrap(), (cube.clone(), Cut::Missed), "{text}");
+    }
+    for text in ["y=-1", "-y=-2.5"] {
+        let (nothing, cut) = cube.clone().section(&plane(text)).unwrap();
+        assert_eq!((nothing.triangles.len(), cut), (0, Cut::Gone), "{text}");
+        let settings = SceneSettings::default();
+        let error = Scene::new([nothing.clone()], &settings).unwrap_err().to_string();
+        assert!(error.contains("lies wholly in front of the plane") && !error.contains('\n'), "{error}");
+        // Beside another model it takes no part.
+        let scene = Scene::new([nothing, cube.clone()], &settings).unwrap();
+        assert_eq!((scene.objects.len(), scene.radius), (1, Scene::new([cube.clone()], &settings).unwrap().radius));
+    }
+}
+
+#[test]
+fn an_open_surface_is_cut_and_has_no_cap() {
+    let mut cube = prism(&square(1.0), 2.0);
+    cube.triangles.remove(8);
+    cube.triangle_normals.remove(8);
+    cube.file_faces.remove(8);
+    let (cut, how) = cube.section(&plane("y=1")).unwrap();
+    assert_eq!((how, cap_area(&cut)), (Cut::Open, 0.0));
+    assert!(cut.positions.iter().all(|position| position.y <= 1.0));
+}
+
+#[test]
+fn curves_end_at_the_plane_and_points_beyond_it_go_with_their_labels() {
+    let curves = [vec![-DVec3::X, DVec3::X * 3.0, DVec3::Y]];
+    let points = [DVec3::X * 2.0, DVec3::ZERO];
+    let mesh = Mesh::of_curves("c", &curves, &points, &["far", "near"], &LoadOptions::default()).unwrap();
+    let (cut, _) = mesh.section(&plane("x=1")).unwrap();
+    let Curves { positions, segments, points, labels, .. } = &cut.curves;
+    assert_eq!(segments.len(), 2);
+    let highest = positions.iter().map(|it| it.x).fold(f64::MIN, f64::max);
+    assert_near(highest, 1.0, "the end");
+    assert_eq!((points.len(), labels.as_slice()), (1, &[(0, "near".to_owned())][..]));
+    assert_eq!(positions[points[0] as usize], DVec3::ZERO);
+}
+
+#[test]
+fn planes_are_written_as_they_are_read_and_others_are_refused() {
+    for text in ["x=12", "-z=-0.5", "1,1,0.5=3"] {
+        assert_eq!(plane(text).text(), text);
+    }
+    for text in ["", "x", "x=", "w=1", "x=nan", "x=inf", "0,0,0=1", "nan,0,1=2", "1,2=3"] {
+        assert!(SectionPlane::parse(text).is_err(), "{text}");
+    }
+    let nan = SectionPlane { normal: DVec3::NAN, offset: 0.0 };
+    assert!(prism(&square(1.0), 2.0).section(&nan).unwrap_err().to_string().starts_with("section"));
+}
+
+#[test]
+fn the_lines_of_the_cut_are_the_sections() {
+    let mut parts_seen = 0;
+    for text in ["y=0.5", "x=0.25", "1,1,0=0.75", "z=-0.5"] {
+        let plane = plane(text);
+        let (mesh, cut) = prism(&square(1.0), 1.0).section(&plane).unwrap();
+        assert_eq!(cut, Cut::Closed, "{text}");
+        for view in ["30,20", "-60,-15", "200,40"] {
+            let camera = CameraSettings { view: view.parse().unwrap(), ..CameraSettings::default() };
+            let settings = SceneSettings { camera, ..SceneSettings::default() };
+            let scene = Scene::new(vec![Arc::new(mesh.clone())], &settings).unwrap();
+            let lines = VisibleLines::of(&scene, &LineSettings::default()).unwrap();
+            for segment in &lines.segments {
+                let is_on_cut =
+                    segment.ends_world.iter().all(|end| (plane.normal.dot(*end) - plane.offset).abs() < 1e-6);
+                let name = &lines.parts[segment.part as usize].name;
+                assert_eq!(name == SECTION, is_on_cut, "{text} {view}: {segment:?}");
+                parts_seen += usize::from(is_on_cut);
+            }
+        }
+    }
+    assert!(parts_seen > 40, "{parts_seen}");
+}

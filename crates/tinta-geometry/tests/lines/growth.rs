@@ -1,0 +1,360 @@
+//! How the exact lines' time grows, counted in boxes looked at, never by a clock; the families that it is counted on against brute
+//! force; and lines that end before they are done.
+
+use crate::brute::assert_as_rays_see;
+use crate::sides::Sides;
+use crate::support::drawn::{self, segment};
+use crate::support::growth::{FAMILIES, Family, Seen};
+use crate::support::lines::{lines, lines_with, published_lines, scene_of, view};
+use crate::support::shapes::{Random, mesh};
+use glam::DVec3;
+use std::collections::HashSet;
+use std::time::Duration;
+use tinta::edges::Class;
+use tinta::lines::{DrawingSettings, LineSegment, LineSettings, Phase, Progress, VisibleLines};
+use tinta::{Error, Scene, Size};
+
+/// A family's scene of about so many triangles, as the benchmark sees it.
+fn scene(family: &Family, triangles: usize) -> Scene {
+    let shape = (family.make)(triangles);
+    let camera = match family.seen {
+        Seen::Aslant => view("30,20", false),
+        Seen::Along => view("0,0", true),
+    };
+    scene_of(vec![mesh(shape.positions, shape.triangles)], camera)
+}
+
+fn family(name: &str) -> &'static Family {
+    FAMILIES.iter().find(|family| family.name == name).unwrap()
+}
+
+/// Only the visible lines, the usual request of a drawing.
+fn seen(scene: &Scene) -> VisibleLines {
+    lines_with(scene, &LineSettings { finds_hidden: false, ..LineSettings::default() })
+}
+
+#[test]
+fn every_family_has_about_as_many_triangles_as_asked_and_corners_that_there_are() {
+    for family in &FAMILIES {
+        for wanted in [1_000, 5_000] {
+            let shape = (family.make)(wanted);
+            let count = shape.triangles.len();
+            assert!(
+                count * 4 > wanted * 3 && count * 3 < wanted * 4,
+                "{} ({}): {count} of {wanted}",
+                family.name,
+                family.what
+            );
+            let corners = shape.triangles.as_flattened();
+            assert!(corners.iter().all(|corner| (*corner as usize) < shape.positions.len()), "{}", family.name);
+        }
+    }
+}
+
+#[test]
+fn what_any_side_of_a_line_shows_is_drawn_of_every_family() {
+    let mut random = Random::seeded(26);
+    let mut failures = Vec::new();
+    // In `twins`, a part of an edge lies so close to another's face for so long that it touches it, and is hidden with the parts
+    // behind.
+    for family in FAMILIES.iter().filter(|family| family.name != "twins") {
+        let scene = scene(family, 200);
+        for found in [published_lines(&scene), seen_as_published(&scene)] {
+            let checked = Sides::new(&scene).check(&found, 400, &mut random);
+            if !checked.is_right() {
+                failures.push(format!("{}: {}", family.name, checked.summary()));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+fn seen_as_published(scene: &Scene) -> VisibleLines {
+    lines_with(scene, &LineSettings { finds_hidden: false, ..LineSettings::as_published() })
+}
+
+#[test]
+fn what_is_seen_of_families_without_flush_faces_is_what_rays_see() {
+    for name in ["soup", "confetti", "fan", "waffle", "hair"] {
+        assert_as_rays_see(&scene(family(name), 40), name);
+    }
+}
+
+#[test]
+fn without_hidden_lines_the_same_is_seen_of_every_family() {
+    for family in &FAMILIES {
+        let scene = scene(family, 300);
+        let visible = |lines: VisibleLines| -> f64 {
+            lines.segments.iter().filter(|segment| segment.is_visible).map(crate::support::lines::length).sum()
+        };
+        let (all, alone) = (visible(lines(&scene)), visible(seen(&scene)));
+        assert!((all - alone).abs() <= 1e-4 * all, "{}: {all} px and {alone} px", family.name);
+    }
+}
+
+/// Boxes looked at for each triangle and each piece that is seen.
+const MOST_BOXES: f64 = 1_500.0;
+
+#[test]
+fn time_grows_with_what_is_there_and_what_is_seen() {
+    let mut failures = Vec::new();
+    for family in &FAMILIES {
+        for triangles in [250, 1_000] {
+            let scene = scene(family, triangles);
+            let found = seen(&scene);
+            let each = found.times.compared as f64 / (scene.triangle_count() + found.segments.len()) as f64;
+            println!("{} of {triangles}: {each:.0} boxes each, {} pieces", family.name, found.segments.len());
+            // Around one corner or axis, in a heap and where cubes coincide everything lies in the same place.
+            let most = match family.name {
+                "fan" | "spokes" | "sticks" => 10.0 * MOST_BOXES,
+                "twins" => 50.0 * MOST_BOXES,
+                _ => MOST_BOXES,
+            };
+            if each > most {
+                failures.push(format!("{} of {triangles}: {each:.0} boxes for each triangle and piece", family.name));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+#[test]
+fn the_same_boxes_are_looked_at_every_time() {
+    let scene = scene(family("hair"), 200);
+    let compared = || seen(&scene).times.compared;
+    assert_eq!(compared(), compared());
+}
+
+/// A scene's lines, interrupted after a part of them.
+fn part(scene: &Scene, settings: &LineSettings) -> VisibleLines {
+    // However fast the machine is, one of these times is over in the midst of it.
+    let mut milliseconds = 1.0;
+    loop {
+        let progress = Progress::within_or_part(Duration::from_secs_f64(milliseconds / 1e3));
+        match VisibleLines::with_progress(scene, settings, &progress) {
+            Ok(part) if part.undecided > 0 => return part,
+            Ok(_) => panic!("all was done within {milliseconds} ms, and nothing of it in less"),
+            Err(Error::OutOfTime { .. }) => milliseconds *= 1.2,
+            Err(error) => panic!("{error}"),
+        }
+    }
+}
+
+/// The source of a piece: a mesh edge, or an intersection by the place of its line.
+fn line_of(segment: &LineSegment) -> Option<(u32, [u32; 2])> {
+    segment.edge.map(|edge| (segment.object, edge))
+}
+
+/// Hidden pieces before parts of them were replaced by other lines.
+fn uncut(segments: Vec<LineSegment>) -> Vec<LineSegment> {
+    let mut uncut: Vec<LineSegment> = Vec::new();
+    let mut was_covered = false;
+    for segment in segments {
+        let is_covered = segment.is_covered;
+        match uncut.last_mut() {
+            Some(last)
+                if [last.is_visible, segment.is_visible] == [false; 2]
+                    && was_covered != is_covered
+                    && (last.object, last.edge) == (segment.object, segment.edge)
+                    && last.ends_px[1] == segment.ends_px[0] =>
+            {
+                (last.ends_px[1], last.ends_world[1]) = (segment.ends_px[1], segment.ends_world[1]);
+            }
+            _ => uncut.push(LineSegment { is_covered: false, ..segment }),
+        }
+        was_covered = is_covered;
+    }
+    uncut
+}
+
+#[test]
+fn a_part_has_some_lines_of_the_whole_and_each_of_them_whole() {
+    let scene = scene(family("hair"), 400);
+    for finds_hidden in [false, true] {
+        let settings = LineSettings { finds_hidden, ..LineSettings::default() };
+        let mut whole = VisibleLines::of(&scene, &settings).unwrap();
+        whole.segments = uncut(whole.segments);
+        let part = part(&scene, &settings);
+        assert!(!part.segments.is_empty() && part.segments.len() < whole.segments.len());
+        let mut rest = whole.segments.iter();
+        for segment in &part.segments {
+            assert!(rest.any(|other| other == segment), "not in the whole, or not in its place: {segment:?}");
+        }
+        let there: HashSet<_> = part.segments.iter().filter_map(line_of).collect();
+        let of_them = |segment: &&LineSegment| line_of(segment).is_some_and(|line| there.contains(&line));
+        let count = |lines: &VisibleLines| lines.segments.iter().filter(of_them).count();
+        assert_eq!(count(&part), count(&whole), "a line of the part is not whole");
+    }
+}
+
+#[test]
+fn no_time_at_all_ends_with_a_sentence_even_where_a_part_would_do() {
+    let scene = scene(family("soup"), 20);
+    for progress in [Progress::within(Duration::ZERO), Progress::within_or_part(Duration::ZERO)] {
+        let ended = VisibleLines::with_progress(&scene, &LineSettings::default(), &progress);
+        assert!(matches!(ended, Err(Error::OutOfTime { .. })));
+    }
+    let enough = Progress::within_or_part(Duration::from_secs(3600));
+    let found = VisibleLines::with_progress(&scene, &LineSettings::default(), &enough).unwrap();
+    assert_eq!((found.undecided, &found.segments), (0, &lines(&scene).segments));
+}
+
+#[test]
+fn work_is_given_up_while_it_looks_for_intersections() {
+    let scene = scene(family("soup"), 1_500);
+    let progress = Progress::default();
+    let ended = std::thread::scope(|scope| {
+        let work = scope.spawn(|| VisibleLines::with_progress(&scene, &LineSettings::default(), &progress));
+        while progress.phase() == Phase::Preparing && !work.is_finished() {
+            std::thread::yield_now();
+        }
+        assert_eq!(progress.phase(), Phase::Intersections);
+        progress.cancel();
+        work.join().unwrap()
+    });
+    assert!(matches!(ended, Err(Error::Cancelled)));
+    assert_eq!(progress.phase(), Phase::Intersections, "it went on to the lines");
+}
+
+#[test]
+fn planes_through_one_axis_have_one_line_there() {
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for plane in 0..5 {
+        let (sin, cos) = (0.1 + std::f64::consts::PI * f64::from(plane) / 5.0).sin_cos();
+        let first = positions.len() as u32;
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        positions.extend(corners.map(|(along, up)| DVec3::new(cos * along, up, sin * along)));
+        triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+    let found = lines(&scene_of(vec![mesh(positions, triangles)], view("30,20", false)));
+    // Each square's diagonal cuts it in the middle; without counting once there would be ten times as many.
+    assert_eq!(found.edges.intersection, 2);
+    let drawn = found.segments.iter().filter(|segment| segment.class == Class::Intersection);
+    assert_eq!(drawn.count(), 2);
+}
+
+#[test]
+fn leaving_out_specks_ends_when_asked_and_goes_on_a_little_where_a_part_is_wanted() {
+    let found = seen(&scene(family("hair"), 200));
+    let settings = DrawingSettings::default();
+    let ended = |progress: &Progress| found.without_specks_with_progress(&settings, progress);
+    let cancelled = Progress::default();
+    cancelled.cancel();
+    assert!(matches!(ended(&cancelled), Err(Error::Cancelled)));
+    assert!(matches!(ended(&Progress::within(Duration::ZERO)), Err(Error::OutOfTime { .. })));
+    let whole = found.without_specks(&settings).unwrap();
+    assert!(whole.segments.len() < found.segments.len(), "nothing to leave out");
+    // Whether a tenth more time suffices depends on the machine; the number of lines found by then does not.
+    let part = ended(&Progress::within_or_part(Duration::from_secs(3_600))).unwrap();
+    assert_eq!((part.segments, part.has_specks), (whole.segments, false));
+    let partly = Progress::within_or_part(Duration::ZERO);
+    partly.cancel();
+    assert!(matches!(ended(&partly), Err(Error::Cancelled)));
+}
+
+/// A square lattice of so many lines each way through the whole picture, cut at the crossings, and as many long lines across it.
+fn lattice_with_long_lines(count: usize) -> VisibleLines {
+    let at = |number: usize| 10.0 + 480.0 * number as f64 / count as f64;
+    let mut segments = Vec::new();
+    for line in 0..=count {
+        for piece in 0..count {
+            let (from, to, across) = (at(piece), at(piece + 1), at(line));
+            segments.push(segment(Class::Crease, true, [from, across], [to, across]));
+            segments.push(segment(Class::Crease, true, [across, from], [across, to]));
+        }
+        segments.push(segment(Class::Crease, true, [10.0, at(line) + 0.1], [490.0, at(line) + 0.7]));
+    }
+    VisibleLines { size: Size { width: 500, height: 500 }, ..drawn::lines(segments) }
+}
+
+#[test]
+fn specks_are_looked_for_in_time_that_follows_the_lines() {
+    let compared = |count: usize| {
+        let lines = lattice_with_long_lines(count);
+        let progress = Progress::default();
+        lines.without_specks_with_progress(&DrawingSettings::default(), &progress).unwrap();
+        assert_eq!(progress.phase(), Phase::TooShort);
+        let (done, total) = progress.state();
+        assert_eq!(done, total, "all that counts is done");
+        let each = progress.compared() as f64 / lines.segments.len() as f64;
+        println!("{} lines: {each:.1} boxes each", lines.segments.len());
+        each
+    };
+    let (few, many) = (compared(20), compared(80));
+    assert!(many <= 4.0 * few.max(50.0), "{few} boxes for each line, then {many}");
+}
+
+/// During a phase of a scene's lines: the share of its steps done, and the share of the phase's boxes tested. Empty if the phase
+/// ends before a sample.
+fn shares_on_the_way(scene: &Scene, phase: Phase) -> Vec<[f64; 2]> {
+    let progress = Progress::default();
+    let mut seen: Vec<(usize, usize, u64)> = Vec::new();
+    std::thread::scope(|scope| {
+        let work = scope.spawn(|| VisibleLines::with_progress(scene, &LineSettings::default(), &progress));
+        while !work.is_finished() {
+            if progress.phase() == phase {
+                let ((done, total), compared) = (progress.state(), progress.compared());
+                let is_new = seen.last().is_none_or(|last| done > last.0);
+                if progress.phase() == phase && total > 0 && is_new {
+                    seen.push((done, total, compared));
+                }
+            }
+            std::thread::yield_now();
+        }
+    });
+    // A phase without comparisons takes no time.
+    let is_whole = |(done, total, all): &&(usize, usize, u64)| done == total && *all > 0;
+    let Some(&(_, _, all)) = seen.last().filter(is_whole) else { return Vec::new() };
+    let share =
+        |(done, total, compared): (usize, usize, u64)| [done as f64 / total as f64, compared as f64 / all as f64];
+    seen.into_iter().map(share).collect()
+}
+
+#[test]
+fn the_time_left_follows_from_what_is_done() {
+    let mut places = 0;
+    for (name, triangles) in [("soup", 1_000), ("book", 1_000), ("confetti", 3_000), ("waffle", 200), ("rail", 2_000)] {
+        let scene = scene(family(name), triangles);
+        for phase in [Phase::Intersections, Phase::Lines] {
+            for [done, compared] in shares_on_the_way(&scene, phase) {
+                if (0.25..=0.9).contains(&done) {
+                    // The remaining work as estimated there, against the actual one: boxes stand for time.
+                    let ratio = compared * (1.0 - done) / done / (1.0 - compared).max(1e-9);
+                    assert!((0.5..=2.0).contains(&ratio), "{name} {phase:?}: {ratio} times what remains at {done}");
+                    places += 1;
+                }
+            }
+        }
+    }
+    // The soup alone has some thousand lines, and sampling them takes no time compared with computing one.
+    assert!(places > 20, "{places}");
+}
+
+#[test]
+fn triangles_of_one_plane_seen_edge_on_are_one_line_whose_cuts_are_those_of_what_is_near() {
+    let mut random = Random::seeded(11);
+    let corners: Vec<DVec3> = (0..900).map(|_| DVec3::new(random.number(), random.number(), 0.0)).collect();
+    let triangles = (0..300).map(|face| [face * 3, face * 3 + 1, face * 3 + 2]).collect();
+    let scene = scene_of(vec![mesh(corners, triangles)], view("top", false));
+    let found = seen(&scene);
+    let mut ranges: Vec<[f64; 2]> = found
+        .segments
+        .iter()
+        .map(|segment| segment.ends_px.map(|end| end.x))
+        .map(|[a, b]| [a.min(b), a.max(b)])
+        .collect();
+    ranges.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let (mut drawn, mut end) = (0.0, ranges[0][0]);
+    for range in &ranges {
+        drawn += (range[1] - range[0].max(end)).max(0.0);
+        end = end.max(range[1]);
+    }
+    let extent = end - ranges[0][0];
+    assert!(extent > 400.0 && extent - drawn < 0.01, "{drawn} px of {extent}");
+    let twice = ranges.iter().map(|[from, to]| to - from).sum::<f64>() - drawn;
+    assert!(twice < 0.05, "{twice} px are drawn twice");
+    // All 900 edges overlap: each is tested once for all, not once for each of their ends.
+    let each = found.times.compared as f64 / 900.0;
+    println!("{each:.0} boxes for each edge, {} pieces", found.segments.len());
+    assert!(each < 600.0, "{each:.0} boxes for each edge");
+}

@@ -1,0 +1,122 @@
+//! The fast search for visible lines against the reference that tests each piece against all faces and lines.
+
+use crate::support::builtin;
+use crate::support::growth::{FAMILIES, Shape};
+use std::sync::Arc;
+use tinta::edges::SilhouetteRule;
+use tinta::lines::LineSegment;
+use tinta::tolerances::SHORTEST_LINE;
+use tinta::{CameraSettings, LineSettings, Mesh, Scene, SceneSettings, Size, VisibleLines};
+
+/// How far an end may be off, pixels: a piece below the shortest length joins its neighbour, and lines that are farther away cut one
+/// only in the reference.
+const SAME_PX: f64 = SHORTEST_LINE * 512.0;
+
+fn camera(view: &str, parallel: bool) -> CameraSettings {
+    CameraSettings { view: view.parse().unwrap(), parallel, ..CameraSettings::default() }
+}
+
+fn scene(meshes: Vec<Mesh>, camera: CameraSettings) -> Scene {
+    let settings = SceneSettings { camera, size: Size { width: 512, height: 512 }, ..SceneSettings::default() };
+    Scene::new(meshes.into_iter().map(Arc::new).collect::<Vec<_>>(), &settings).unwrap()
+}
+
+fn mesh(Shape { positions, triangles }: Shape) -> Mesh {
+    let file_vertices = (0..positions.len() as u32).collect();
+    Mesh { positions, file_vertices, triangles, normals: Vec::new(), triangle_normals: Vec::new(), ..Mesh::triangle() }
+}
+
+/// The pieces of one list that have no equal in another.
+fn without_equal<'a>(segments: &[&'a LineSegment], others: &[&LineSegment]) -> Vec<&'a LineSegment> {
+    let is_equal = |a: &LineSegment, b: &LineSegment| {
+        let are_near = |end: usize| a.ends_px[end].distance(b.ends_px[end]) <= SAME_PX;
+        (a.class, a.object, a.edge) == (b.class, b.object, b.edge) && are_near(0) && are_near(1)
+    };
+    segments.iter().filter(|segment| !others.iter().any(|other| is_equal(segment, other))).copied().collect()
+}
+
+/// What differs between the visible pieces of both.
+fn differences(name: &str, scene: &Scene, finds_hidden: bool) -> Vec<String> {
+    let of = |reference| {
+        let settings = LineSettings { finds_hidden, reference, ..LineSettings::default() };
+        VisibleLines::of(scene, &settings).unwrap().segments
+    };
+    let (fast, reference) = (of(false), of(true));
+    let visible = [&fast, &reference].map(|all| all.iter().filter(|segment| segment.is_visible).collect::<Vec<_>>());
+    let [fast, reference] = &visible;
+    assert!(!reference.is_empty(), "{name}");
+    let mut found = Vec::new();
+    for (whose, segments, others) in [("search", fast, reference), ("reference", reference, fast)] {
+        for LineSegment { class, edge, ends_px: [a, b], .. } in without_equal(segments, others) {
+            found.push(format!(
+                "{name}, hidden {finds_hidden}, only {whose}: {class:?} {edge:?} {a:?} {b:?} long {}",
+                a.distance(*b)
+            ));
+        }
+    }
+    // What is only the search's is shown too much, what is only the reference's is missing.
+    if !found.is_empty() {
+        found.sort_by_key(|line| !line.contains("only search"));
+        found.truncate(FEW);
+        let px = |lines: &[&LineSegment]| lines.iter().map(|it| it.ends_px[0].distance(it.ends_px[1])).sum::<f64>();
+        found.insert(
+            0,
+            format!("{name}, hidden {finds_hidden}: {:.1} px by search, {:.1} by reference", px(fast), px(reference)),
+        );
+    }
+    found
+}
+
+/// Differences that are printed of a scene.
+const FEW: usize = 6;
+
+/// Fails with the differences of the first scenes.
+fn assert_none(failures: &[String]) {
+    let few: Vec<&str> = failures.iter().take(5 * FEW).map(String::as_str).collect();
+    assert!(failures.is_empty(), "{} lines, the first:\n{}", failures.len(), few.join("\n"));
+}
+
+#[test]
+fn the_search_shows_of_every_family_what_the_reference_shows() {
+    let mut failures = Vec::new();
+    for family in &FAMILIES {
+        for camera in [camera("30,20", false), camera("0,0", true)] {
+            for count in [60, 100] {
+                let scene = scene(vec![mesh((family.make)(count))], camera.clone());
+                for finds_hidden in [true, false] {
+                    failures.extend(differences(&format!("{} of {count}", family.name), &scene, finds_hidden));
+                }
+            }
+        }
+    }
+    assert_none(&failures);
+}
+
+#[test]
+fn the_search_shows_of_models_what_the_reference_shows() {
+    let mut failures = Vec::new();
+    for name in ["open-box", "gear"] {
+        let mesh = builtin(name);
+        for (view, parallel) in [("30,20", false), ("30,20", true), ("0,0", true)] {
+            let scene = scene(vec![mesh.clone()], camera(view, parallel));
+            for finds_hidden in [true, false] {
+                failures.extend(differences(name, &scene, finds_hidden));
+            }
+        }
+    }
+    assert_none(&failures);
+}
+
+#[test]
+fn the_reference_refuses_smooth_silhouettes_and_finds_outlines() {
+    let mesh = builtin("open-box");
+    let scene = scene(vec![mesh], camera("30,20", false));
+    let settings = LineSettings { reference: true, finds_outline: true, ..LineSettings::default() };
+    let [found, fast] = [true, false].map(|reference| {
+        let lines = VisibleLines::of(&scene, &LineSettings { reference, ..settings.clone() }).unwrap();
+        lines.segments.into_iter().filter(|segment| segment.is_outline).count()
+    });
+    assert_eq!(found, fast);
+    let smooth = LineSettings { silhouette: SilhouetteRule::Smooth, ..settings };
+    assert!(VisibleLines::of(&scene, &smooth).unwrap_err().to_string().contains("ask for exact ones"));
+}

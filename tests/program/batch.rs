@@ -1,0 +1,238 @@
+//! Batches end to end: the same pictures as the command line's, failures written down, slices that merge.
+
+use crate::program::{refused_in_one_line, tinta};
+use crate::support::Folder;
+use crate::support::backend_names;
+use serde_json::Value;
+use std::path::Path;
+use std::process::Output;
+
+/// Writes a list and gives its path.
+pub fn list(folder: &Folder, jobs: &[String]) -> String {
+    folder.file("jobs.jsonl", (jobs.join("\n") + "\n").as_bytes())
+}
+
+/// A small render of a built-in model into `ID.png`, with further keys.
+pub fn render(id: &str, more: &str) -> String {
+    format!(r#"{{"id":"{id}","command":"render","model":"builtin:open-box","output":"{id}.png","size":32{more}}}"#)
+}
+
+/// The lines of a file of JSON.
+pub fn rows(path: &str) -> Vec<Value> {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+pub fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// The names in a folder, hidden ones too, sorted.
+fn names(folder: &str) -> Vec<String> {
+    let mut names: Vec<String> =
+        std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_jobs_options_are_those_of_the_command_line_and_its_pictures_too() {
+    let folder = Folder::new();
+    let preset = folder.file("mine.toml", b"tones = 2\n");
+    let [_, second] = backend_names();
+    let by_second = format!(r#","backend":"{second}","style":"ink""#);
+    let pairs: [(&str, &str, &[&str]); 6] = [
+        ("plain", "", &[]),
+        (
+            "numbers",
+            r#","fov":25.5,"tone-levels":[0.4,0.6,0.8],"view":"-20,30""#,
+            &["--fov", "25.5", "--tone-levels", "0.4,0.6,0.8", "--view=-20,30"],
+        ),
+        ("switches", r#","parallel":true,"transparent":true,"full":false"#, &["--parallel", "--transparent"]),
+        (
+            "styles",
+            r#","style":"inking","joints":false,"silhouette":"exact""#,
+            &["--style", "inking", "--joints", "off", "--silhouette", "exact"],
+        ),
+        ("second", &by_second, &["--backend", second, "--style", "ink"]),
+        ("preset", &format!(r#","preset":"{preset}""#), &["--preset", &preset]),
+    ];
+    let jobs: Vec<String> = pairs.iter().map(|(id, more, _)| render(id, more)).collect();
+    let out = folder.path("out");
+    let output = tinta(&["batch", &list(&folder, &jobs), "-o", &out, "--jobs", "2"]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert!(output.stdout.is_empty());
+    for (id, _, options) in pairs {
+        let alone = folder.path("alone.png");
+        let mut words = vec!["render", "builtin:open-box", "-o", &alone, "--size", "32"];
+        words.extend(options);
+        let output = tinta(&words);
+        assert_eq!(output.status.code(), Some(0), "{id}: {}", said(&output));
+        let (alone, job) = (std::fs::read(&alone).unwrap(), std::fs::read(format!("{out}/{id}.png")).unwrap());
+        assert!(alone == job, "{id}: {} and {} bytes", alone.len(), job.len());
+    }
+    let entries = rows(&format!("{out}/batch-1-of-1.jsonl"));
+    assert_eq!(entries.len(), 6);
+    let backends: Vec<&str> = entries
+        .iter()
+        .filter(|entry| entry["id"] == "second")
+        .map(|entry| entry["run"]["gl"]["backend"].as_str().unwrap())
+        .collect();
+    assert_eq!(backends, [second]);
+}
+
+#[test]
+fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
+    let folder = Folder::new();
+    let jobs = [
+        render("first", r#","json":true,"dump":"steps","save-preset":"kept/a.toml""#),
+        render("no-option", r#","sice":3"#),
+        render("bad-value", r#","tones":9"#),
+        render("two-ways", r#","eye":"1,2,3","view":"front""#),
+        render("no-text", r#","json":"yes""#),
+        render("two-presets", r#","preset":["a.toml","b.toml"]"#),
+        render("help", r#","help":true"#),
+        r#"{"id":"no-model","command":"render","model":"no-such.obj","output":"no.png"}"#.to_owned(),
+        r#"{"id":"nul","command":"render","model":"a\u0000b.obj","output":"nul.png"}"#.to_owned(),
+        r#"{"id":"none","command":"render","output":"none.png"}"#.to_owned(),
+        r#"{"id":"out","command":"render","model":"builtin:ant","output":"../out.png"}"#.to_owned(),
+        r#"{"id":"root","command":"render","model":"builtin:ant","output":"/tmp/tinta-root.png"}"#.to_owned(),
+        r#"{"id":"own","command":"render","model":"builtin:ant","output":"batch-list.jsonl"}"#.to_owned(),
+        r#"{"id":"lines","command":"render","model":"builtin:ant","output":"deep/er/lines.svg","size":64}"#.to_owned(),
+        r#"{"id":"turn","command":"render","model":"builtin:open-box","output":"turn/%02d.png","size":24,"turntable":3}"#.to_owned(),
+        r#"{"id":"both","command":"compare","model":["builtin:open-box"],"output":"both/","size":32,"frames":1}"#.to_owned(),
+        r#"{"id":"row","command":"measure","model":"builtin:open-box","output":"row","size":["24x24"],"styles":["phong"],"frames":1}"#.to_owned(),
+    ];
+    let out = folder.path("out");
+    let output = tinta(&["batch", &list(&folder, &jobs), "-o", &out, "--jobs", "1"]);
+    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+    assert!(said(&output).contains("tinta: 5 of 17 jobs done, 12 failed"), "{}", said(&output));
+    let entries = rows(&format!("{out}/batch-1-of-1.jsonl"));
+    let of = |id: &str| entries.iter().find(|entry| entry["id"] == id).unwrap_or_else(|| panic!("{id}"));
+    for (id, kind, words) in [
+        ("no-option", "setting", "sice: there is no such option"),
+        ("bad-value", "setting", "tones 9: there are 1, 2 or 3 tones"),
+        ("two-ways", "setting", "eye and view: they exclude each other"),
+        ("no-text", "setting", "json: write true or false"),
+        ("two-presets", "setting", "preset: write one name, as a text"),
+        ("help", "setting", "help: there is no such option"),
+        ("no-model", "model", "no-such.obj: there is no such file"),
+        ("nul", "model", "a\\u{0}b.obj"),
+        ("none", "setting", "model: it is missing"),
+        ("out", "setting", "output: ../out.png: a job writes in the batch's folder"),
+        ("root", "setting", "output: /tmp/tinta-root.png: a job writes"),
+        ("own", "setting", "output: batch-list.jsonl: the batch's own files"),
+    ] {
+        let error = &of(id)["error"];
+        assert_eq!((of(id)["status"].as_str(), error["kind"].as_str()), (Some("failed"), Some(kind)), "{id}: {error}");
+        assert!(error["problem"].as_str().unwrap().contains(words), "{id}: {error}");
+    }
+    let paths = |id: &str| -> Vec<String> {
+        assert_eq!(of(id)["status"], "done", "{id}: {}", of(id)["error"]);
+        of(id)["outputs"].as_array().unwrap().iter().map(|file| file["path"].as_str().unwrap().to_owned()).collect()
+    };
+    let first = paths("first");
+    assert!(
+        first.contains(&"kept/a.toml".to_owned()) && first.iter().any(|path| path.starts_with("steps/01-")),
+        "{first:?}"
+    );
+    assert!(of("first")["run"]["printed"].as_str().unwrap().contains("\"first_frame_ms\""));
+    assert_eq!(paths("lines"), ["deep/er/lines.svg"]);
+    assert!(of("lines")["run"]["gl"].is_null());
+    assert_eq!(paths("turn"), ["turn/01.png", "turn/02.png", "turn/03.png"]);
+    assert_eq!(paths("both"), ["both/left.png", "both/lines.png", "both/right.png", "both/sheet.png"]);
+    let row = paths("row");
+    assert!(
+        ["row/report.html", "row/results.csv", "row/results.jsonl"]
+            .iter()
+            .all(|file| row.contains(&(*file).to_owned())),
+        "{row:?}"
+    );
+    let page = std::fs::read_to_string(format!("{out}/row/report.html")).unwrap();
+    assert!(
+        page.contains("measure --frames=1 --output=") && !page.contains(".tinta-"),
+        "the command that measures it again"
+    );
+    let left = names(&out);
+    assert!(left.iter().all(|name| !name.starts_with('.')), "nothing is left in the making: {left:?}");
+    assert!(!Path::new("/tmp/tinta-root.png").exists() && !Path::new(&folder.path("out.png")).exists());
+}
+
+#[test]
+fn slices_of_eight_merge_into_what_one_run_gives_byte_for_byte() {
+    let folder = Folder::new();
+    let mut jobs: Vec<String> =
+        (0..11).map(|view| render(&format!("v{view}"), &format!(r#","view":"{view},10""#))).collect();
+    jobs.push(render("wrong", r#","tones":9"#));
+    jobs.push(
+        r#"{"id":"both","command":"compare","model":"builtin:open-box","output":"both/","size":32,"frames":1}"#
+            .to_owned(),
+    );
+    let list = list(&folder, &jobs);
+    let (one, eight) = (folder.path("one"), folder.path("eight"));
+    assert_eq!(tinta(&["batch", &list, "-o", &one]).status.code(), Some(1));
+    for number in 1..=8 {
+        let output = tinta(&["batch", &list, "-o", &eight, "--slice", &format!("{number}/8"), "--jobs", "1"]);
+        assert_eq!(output.status.code(), Some(if number == 4 { 1 } else { 0 }), "{number}: {}", said(&output));
+        let summary = tinta(&["batch", "--summary", &eight]);
+        assert_eq!(summary.status.code(), Some(1), "something is missing or failed");
+        let text = String::from_utf8(summary.stdout).unwrap();
+        let ended = (0..13).filter(|place| place % 8 < number).count();
+        assert!(text.starts_with(&format!("13 jobs: {} done", ended - usize::from(number >= 4))), "{number}: {text}");
+    }
+    assert_eq!(tinta(&["batch", "--summary", &one]).status.code(), Some(1));
+    let summary = |folder: &str| std::fs::read_to_string(format!("{folder}/batch-summary.jsonl")).unwrap();
+    assert_eq!(summary(&one), summary(&eight));
+    let rows = rows(&format!("{one}/batch-summary.jsonl"));
+    let ids: Vec<&str> = rows.iter().map(|row| row["id"].as_str().unwrap()).collect();
+    assert_eq!((ids.len(), ids[0], ids[12]), (13, "v0", "both"));
+    assert!(rows[0]["outputs"][0]["sha256"].as_str().is_some_and(|hash| hash.len() == 64));
+    assert_eq!(rows.iter().filter(|row| row["status"] == "done").count(), 12);
+    let times = self::rows(&format!("{eight}/batch-times.jsonl"));
+    assert!(times.iter().all(|row| row["milliseconds"].as_f64().unwrap() >= 0.0) && times.len() == 13);
+    assert_eq!(times[12]["outputs"][0]["path"], "both/sheet.png", "its caption tells times");
+}
+
+#[test]
+fn lists_and_folders_that_are_wrong_are_refused_before_any_work() {
+    let folder = Folder::new();
+    let out = folder.path("out");
+    let refuse = |text: &[u8], words: &[&str]| {
+        let list = folder.file("wrong.jsonl", text);
+        refused_in_one_line(&["batch", &list, "-o", &out], words);
+        assert!(!Path::new(&out).exists());
+    };
+    let (a, b) = (render("a", ""), render("b", ""));
+    refuse(b"", &["wrong.jsonl: it holds no job"]);
+    refuse(format!("{a}\n{b}\nnonsense").as_bytes(), &["wrong.jsonl: line 3: this is not a job"]);
+    refuse(format!("{a}\n\n{a}").as_bytes(), &["line 3: the id a is already used by line 1"]);
+    refuse(
+        format!("{a}\n{}", a.replace("\"id\":\"a\"", "\"id\":\"c\"")).as_bytes(),
+        &["line 2: output: a.png is also written by line 1"],
+    );
+    refuse(br#"{"id":"a","command":"view"}"#, &["line 1: command: view is not render, compare or measure"]);
+    refuse(
+        format!("{{\"id\":\"{}\",\"command\":\"render\"}}", "x".repeat(10_000)).as_bytes(),
+        &["id: it has 10000 bytes"],
+    );
+    refuse(b"{\"id\":\"\\u001b[2J\",\"command\":\"render\"}", &["contains a control character"]);
+    refuse(&[b"{\"id\":\"a\",\"x\":".as_slice(), &[b'['; 60_000]].concat(), &["line 1: this is not a job"]);
+    refuse(&[0, 255, 10, 7], &["line 1: "]);
+    refused_in_one_line(&["batch", "no-such.jsonl", "-o", &out], &["no-such.jsonl: there is no such file"]);
+    refused_in_one_line(&["batch", "--summary", &folder.path("nothing")], &["batch-list.jsonl: there is no such file"]);
+    for slice in ["0/8", "9/8", "x"] {
+        refused_in_one_line(&["batch", "jobs.jsonl", "-o", &out, "--slice", slice], &["--slice"]);
+    }
+    let list = list(&folder, &[a, b.clone()]);
+    assert_eq!(tinta(&["batch", &list, "-o", &out, "--slice", "1/2"]).status.code(), Some(0));
+    refused_in_one_line(&["batch", &list, "-o", &out], &["this folder holds a batch;", "--resume"]);
+    refused_in_one_line(&["batch", &list, "-o", &out, "--slice", "1/2"], &["this folder holds a batch;"]);
+    refused_in_one_line(&["batch", &list, "-o", &out, "--slice", "2/3"], &["this folder holds a batch;"]);
+    let other = folder.file("other.jsonl", b.as_bytes());
+    refused_in_one_line(
+        &["batch", &other, "-o", &out, "--slice", "2/2"],
+        &["this folder holds a batch of another list"],
+    );
+    refused_in_one_line(&["batch", &other, "-o", &out, "--slice", "2/2", "--resume"], &["a batch of another list"]);
+    assert_eq!(tinta(&["batch", &list, "-o", &out, "--slice", "2/2"]).status.code(), Some(0));
+}

@@ -1,0 +1,108 @@
+//! Batches whose jobs would write the same file by a number or in a folder, and batches that fill the disk.
+
+use crate::batch::{list, render, said};
+use crate::program::{refused_in_one_line, tinta};
+use crate::support::Folder;
+use std::path::Path;
+
+fn job(id: &str, command: &str, output: &str, more: &str) -> String {
+    format!(r#"{{"id":"{id}","command":"{command}","model":"builtin:ant","output":"{output}"{more}}}"#)
+}
+
+#[test]
+fn lists_whose_jobs_write_the_same_by_a_number_or_in_a_folder_are_refused_before_any_work() {
+    let folder = Folder::new();
+    let out = folder.path("out");
+    let refuse = |jobs: &[String], words: &str| {
+        let list = list(&folder, jobs);
+        refused_in_one_line(&["batch", &list, "-o", &out], &[words]);
+        assert!(!Path::new(&out).exists());
+    };
+    let turn = |id: &str, output: &str, count: u32| job(id, "render", output, &format!(r#","turntable":{count}"#));
+    let one = |id: &str, output: &str| job(id, "render", output, "");
+    refuse(
+        &[turn("a", "a-%d.png", 3), one("b", "./a-1.png")],
+        "line 2: output: ./a-1.png is also written by line 1, as one of a-%d.png; name another",
+    );
+    refuse(
+        &[one("b", "a-3.png"), one("c", "c.png"), turn("a", "a-%d.png", 3)],
+        "line 3: output: a-%d.png writes a-3.png, as does line 1 by a-3.png; name another",
+    );
+    refuse(
+        &[turn("a", "x/%02d.png", 12), turn("b", "x/1%d.png", 2)],
+        "line 2: output: x/1%d.png writes x/11.png, as does",
+    );
+    refuse(
+        &[turn("a", "%d0.png", 12), one("b", "110.png")],
+        "line 2: output: 110.png is also written by line 1, as one",
+    );
+    // How many there will be only the model knows.
+    refuse(&[job("a", "render", "a-%d.png", r#","animate":true"#), one("b", "a-99.png")], "line 2: output: a-99.png");
+    refuse(
+        &[job("a", "compare", "x/", ""), one("b", "x/left.png")],
+        "line 2: output: x/left.png lies in x/, the folder that line 1 writes; name another",
+    );
+    refuse(
+        &[one("b", "m/deep/a.png"), job("a", "measure", "m", "")],
+        "line 2: output: m is a folder in which line 1 writes m/deep/a.png; name another",
+    );
+    refuse(
+        &[job("a", "render", "a.png", r#","dump":"s""#), turn("b", "s/%d.png", 2)],
+        "line 2: output: s/%d.png lies in s,",
+    );
+    refuse(
+        &[job("a", "measure", "m", ""), job("b", "measure", "m/n", "")],
+        "line 2: output: m/n lies in m, the folder",
+    );
+}
+
+#[test]
+fn names_that_only_look_alike_are_no_reason_to_refuse() {
+    let folder = Folder::new();
+    let small = r#","size":16"#;
+    let jobs = [
+        job("turn", "render", "a-%d.png", r#","size":16,"turntable":3"#),
+        job("next", "render", "a-4.png", small),
+        job("padded", "render", "a-01.png", small),
+        job("beside", "compare", "x/", r#","size":32,"frames":1"#),
+        job("left", "render", "xleft.png", small),
+        job("own", "render", "steps/a.png", r#","size":16,"dump":"steps""#),
+    ];
+    let out = folder.path("out");
+    let output = tinta(&["batch", &list(&folder, &jobs), "-o", &out, "--jobs", "1"]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    tinta(&["batch", "--summary", &out]);
+    let rows = crate::batch::rows(&format!("{out}/batch-summary.jsonl"));
+    let mut paths: Vec<String> = rows
+        .iter()
+        .flat_map(|row| row["outputs"].as_array().unwrap())
+        .map(|file| file["path"].as_str().unwrap().to_owned())
+        .collect();
+    let count = paths.len();
+    paths.sort();
+    paths.dedup();
+    assert!(paths.len() == count && paths.contains(&"a-4.png".to_owned()), "each file is one job's: {paths:?}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_job_that_finds_the_disk_full_stops_the_batch_and_is_done_when_there_is_room() {
+    let folder = Folder::new();
+    // A picture takes four pages. Two pictures fit, besides the list and the record, which still has room for all jobs.
+    let ppm = |id: usize| render(&format!("p{id}"), "").replace(".png", ".ppm").replace("\"size\":32", "\"size\":64");
+    let jobs: Vec<String> = (0..12).map(ppm).collect();
+    let list = list(&folder, &jobs);
+    std::fs::create_dir(folder.path("out")).unwrap();
+    let script = format!(
+        "mount -t tmpfs -o size=52k none \"$D/out\"; code=0; \"$T\" batch {list} -o \"$D/out\" --jobs 1 2>\"$D/said\" || code=$?; \
+         echo \"exit $code\"; ls \"$D/out\"; echo lines; cat \"$D/out/batch-1-of-1.jsonl\"; mount -o remount,size=1m \"$D/out\"; \
+         \"$T\" batch {list} -o \"$D/out\" --jobs 1 --resume"
+    );
+    let Some(text) = crate::output::where_mounts_are_ours(&script, &folder.path("")) else { return };
+    let said = std::fs::read_to_string(folder.path("said")).unwrap();
+    let (listed, lines) = text.split_once("lines\n").unwrap();
+    assert!(listed.starts_with("exit 2\n"), "{text}{said}");
+    assert!(said.contains("line 3, p2: p2.ppm: the disk is full; free some space; continue with --resume"), "{said}");
+    assert!(listed.contains("p1.ppm\n") && !listed.contains("p2.ppm"), "{listed}");
+    assert!(lines.lines().count() == 2 && !lines.contains("failed"), "{lines}");
+}

@@ -1,0 +1,549 @@
+//! `tinta render` into .svg and .json as a user meets it.
+
+use crate::program::{refused_in_one_line, tinta};
+use crate::support::Folder;
+use crate::support::growth::FAMILIES;
+use std::path::Path;
+
+fn made(arguments: &[&str]) -> Vec<u8> {
+    let output = tinta(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    output.stdout
+}
+
+#[test]
+fn a_drawing_is_written_as_svg_with_the_command_that_made_it() {
+    let folder = Folder::new();
+    let out = folder.path("gear <&>.svg");
+    assert!(made(&["render", "builtin:gear", "-o", &out, "--size", "96x64", "--hidden", "dashed"]).is_empty());
+    let text = std::fs::read_to_string(&out).unwrap();
+    let document = roxmltree::Document::parse(&text).unwrap();
+    assert_eq!(document.root_element().attribute("viewBox"), Some("0 0 96 64"));
+    let said = document.descendants().find(|node| node.tag_name().name() == "description").unwrap();
+    assert_eq!(said.text(), Some("tinta render builtin:gear -o drawing.svg --hidden dashed --size 96x64"));
+    let again = folder.path("again.svg");
+    made(&["render", "builtin:gear", "-o", &again, "--size", "96x64", "--hidden", "dashed"]);
+    assert_eq!(std::fs::read_to_string(&again).unwrap(), text);
+    let piped = made(&["render", "builtin:gear", "-o", "-", "--style", "lines", "--size", "96x64"]);
+    assert!(piped.starts_with(b"<?xml") && piped.ends_with(b"</svg>\n"));
+}
+
+#[test]
+fn lines_are_written_as_json_and_their_record_is_printed() {
+    let folder = Folder::new();
+    let out = folder.path("lines.json");
+    let record = made(&["render", "builtin:open-box", "-o", &out, "--json", "--classes", "all"]);
+    let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
+    assert_eq!(record["style"]["name"], "lines");
+    assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(18));
+    assert_eq!(record["model"]["path"], "builtin:open-box");
+    for time in ["load_ms", "topology_ms", "silhouette_ms", "visibility_ms", "lines_ms"] {
+        assert!(record[time].is_f64(), "{time}");
+    }
+    let counts = &record["counts"];
+    for count in ["visible_segments", "hidden_segments", "visible_paths", "hidden_paths"] {
+        assert!(counts[count].is_u64(), "{count}");
+    }
+    let lines: serde_json::Value = serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap();
+    assert_eq!(lines["size"]["width"], 512);
+    assert_eq!(lines["camera"], record["camera"]);
+    let segments = lines["segments"].as_array().unwrap().len() as u64;
+    let counted = |name: &str| counts[name].as_u64().unwrap();
+    assert_eq!(segments, counted("visible_segments") + counted("hidden_segments"));
+    let record = made(&["render", "builtin:open-box", "-o", &folder.path("a.svg"), "--json", "--hidden", "ghost"]);
+    let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
+    assert_eq!(
+        (&record["style"]["hidden"], &record["style"]["line-width"]),
+        (&"ghost".into(), &serde_json::Value::Null)
+    );
+    assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(9));
+}
+
+/// The JSON file of a drawing with these options.
+fn json(folder: &Folder, options: &[&str]) -> serde_json::Value {
+    let out = folder.path("areas.json");
+    // The look print tells that it leaves out the soldier's texture.
+    let output =
+        tinta(&[&["render", "builtin:soldier", "builtin:open-box", "-o", &out, "--size", "96x64"], options].concat());
+    assert_eq!(output.status.code(), Some(0), "{options:?}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap()
+}
+
+#[test]
+fn a_look_of_lines_is_written_into_every_format_of_lines() {
+    let folder = Folder::new();
+    for name in ["a.svg", "a.pdf", "a.dxf", "a.json", "a.png"] {
+        let out = folder.path(name);
+        made(&["render", "builtin:gear", "-o", &out, "--look", "technical"]);
+    }
+    let drawing = json(&folder, &["--look", "technical"]);
+    assert_eq!(drawing["camera"]["fov_y_degrees"], serde_json::Value::Null, "the look's parallel projection");
+}
+
+#[test]
+fn areas_are_written_as_json_and_fill_the_picture() {
+    let folder = Folder::new();
+    let alone = json(&folder, &["--style", "lines"]);
+    assert!(alone.get("regions").is_none() && alone.get("objects").is_none());
+    let cases: [(&[&str], &[&str]); 5] = [
+        (&["--areas", "face"], &["object", "material", "face", "area_px", "loops"]),
+        (&["--areas", "material"], &["object", "material", "area_px", "loops"]),
+        (&["--areas", "object"], &["object", "area_px", "loops"]),
+        (&["--areas", "object", "--no-borders"], &["object", "area_px", "loops"]),
+        (&["--look", "print"], &["object", "material", "tone", "area_px", "loops"]),
+    ];
+    for (options, keys) in cases {
+        let drawing = json(&folder, options);
+        let regions = drawing["regions"].as_array().unwrap();
+        let area: f64 = regions.iter().map(|region| region["area_px"].as_f64().unwrap()).sum();
+        assert!((area - 96.0 * 64.0).abs() < 1e-9 * area, "{options:?}: {area}");
+        let names: Vec<_> = drawing["objects"].as_array().unwrap().iter().map(|object| &object["name"]).collect();
+        assert_eq!(names, ["builtin:soldier", "builtin:open-box"]);
+        // The background has no more than its place, and the box no materials.
+        let all: std::collections::BTreeSet<_> =
+            regions.iter().flat_map(|region| region.as_object().unwrap().keys().map(String::as_str)).collect();
+        assert_eq!(all, keys.iter().copied().collect(), "{options:?}");
+        assert_eq!(drawing["segments"].as_array().unwrap().is_empty(), options.contains(&"--no-borders"));
+        for region in regions {
+            let object = region["object"].as_u64();
+            assert!(object.is_none_or(|object| object < 2) && !region["loops"].as_array().unwrap().is_empty());
+        }
+        assert_eq!(drawing["size"], alone["size"]);
+        // A look has a camera of its own.
+        assert_eq!(drawing["camera"] == alone["camera"], !options.contains(&"--look"), "{options:?}");
+    }
+}
+
+#[test]
+fn areas_are_written_as_paths_of_their_objects() {
+    let folder = Folder::new();
+    let out = folder.path("areas.svg");
+    let drawn = |options: &[&str]| {
+        made(&[&["render", "builtin:open-box", "builtin:gear", "-o", &out], options].concat());
+        std::fs::read_to_string(&out).unwrap()
+    };
+    let text = drawn(&["--areas", "object", "--no-borders"]);
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let groups: Vec<_> = document.root_element().children().filter(|node| node.has_tag_name("g")).collect();
+    let ids: Vec<_> = groups.iter().filter_map(|group| group.attribute("id")).collect();
+    assert_eq!(ids, ["fill-0", "fill-1"]);
+    for group in groups {
+        assert_eq!(group.attribute("shape-rendering"), Some("crispEdges"));
+        assert!(group.children().filter(|node| node.is_element()).all(|path| path.attribute("fill") != Some("none")));
+    }
+    let text = drawn(&["--areas", "face"]);
+    assert!(text.contains(r#"data-face="0""#) && text.contains("visible-crease") && !text.contains("crispEdges"));
+    assert!(text.contains(r#"<g id="fill-seams""#) && text.find("fill-seams") < text.find("fill-0"));
+    let pdf = folder.path("areas.pdf");
+    made(&["render", "builtin:gear", "-o", &pdf, "--areas", "material", "--page", "A4"]);
+    assert!(std::fs::read(&pdf).unwrap().starts_with(b"%PDF"));
+}
+
+#[test]
+fn the_hidden_lines_that_are_drawn_are_counted_and_the_others_marked() {
+    let folder = Folder::new();
+    let cube = folder.path("cube.obj");
+    let corners = (0..8).map(|k| format!("v {} {} {}\n", k & 1, k >> 1 & 1, k >> 2)).collect::<String>();
+    let faces = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    std::fs::write(&cube, corners + faces).unwrap();
+    let svg = folder.path("a.svg");
+    let hidden_paths = |options: &[&str]| {
+        let all = [&["render", &cube, "-o", &svg, "--parallel", "--json"], options].concat();
+        let record: serde_json::Value = serde_json::from_slice(&made(&all)).unwrap();
+        record["counts"]["hidden_paths"].as_u64().unwrap()
+    };
+    assert_eq!(hidden_paths(&["--hidden", "dashed", "--view", "front"]), 0, "under the visible ones");
+    assert_eq!(hidden_paths(&["--view", "30,15"]), 0, "not drawn");
+    assert_eq!(hidden_paths(&["--hidden", "dashed", "--view", "30,15"]), 2, "three edges at one corner");
+    let out = folder.path("a.json");
+    made(&["render", &cube, "-o", &out, "--style", "lines", "--parallel", "--view", "front"]);
+    let lines: serde_json::Value = serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap();
+    let pieces = lines["segments"].as_array().unwrap();
+    assert_eq!(pieces.len(), 8);
+    assert!(pieces.iter().all(|piece| piece["covered"].as_bool().unwrap() != piece["visible"].as_bool().unwrap()));
+}
+
+#[test]
+fn styles_and_files_that_do_not_fit_are_refused() {
+    let folder = Folder::new();
+    let [svg, png, json] = ["a.svg", "a.png", "a.json"].map(|name| folder.path(name));
+    let refuse = |output: &str, options: &[&str], words: &[&str]| {
+        refused_in_one_line(&[&["render", "builtin:ant", "-o", output], options].concat(), words);
+    };
+    refuse("turn.gif", &["--style", "lines"], &["style lines writes .svg, .pdf, .dxf, .json or a still picture"]);
+    refuse(&png, &["--style", "lines", "--page", "A4"], &["--page", "no paper"]);
+    refuse("a.jpg", &["--style", "lines", "--transparent"], &["a.jpg", "no transparency"]);
+    refuse(&svg, &["--style", "phong"], &["a.svg: style phong draws pixels", ".png"]);
+    refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "suggestive, lines"]);
+    refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
+    refuse("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);
+    for options in [&["--dump", "steps"][..], &["--frames", "3"], &["--animate"], &["--show", "borders"]] {
+        refuse(&svg, options, &[options[0], "style lines"]);
+    }
+    refuse(&folder.path("a-%d.svg"), &["--explain", "--turntable", "2"], &["--explain", "--turntable"]);
+    refuse(&svg, &["--no-borders"], &["--no-borders", "leave it out"]);
+    refuse(&svg, &["--silhouette", "paper"], &["--silhouette paper", "exactly"]);
+    for options in [&["--hidden", "ghost"][..], &["--class-widths", "crease=1"], &["--pen"]] {
+        refuse(&png, options, &[options[0], "a picture of pixels cannot have it"]);
+        refuse(&json, options, &[options[0], ".json", ".svg"]);
+    }
+    assert!(!std::path::Path::new(&svg).exists());
+}
+
+#[test]
+fn nonsense_for_lines_is_refused_by_the_options_name() {
+    let folder = Folder::new();
+    let svg = folder.path("a.svg");
+    let refuse = |options: &[&str], words: &[&str]| {
+        refused_in_one_line(&[&["render", "builtin:ant", "-o", &svg], options].concat(), words);
+    };
+    refuse(&["--width-mm", "100", "--dpi", "96"], &["--width-mm", "--dpi"]);
+    refuse(&["--width-mm", "-3"], &["--width-mm -3", "millimetres"]);
+    refuse(&["--dpi", "NaN"], &["--dpi NaN", "96"]);
+    refuse(&["--line-width", "0"], &["--line-width 0"]);
+    refuse(&["--class-widths", "crease=-1"], &["--class-widths crease=-1"]);
+    refuse(&["--class-widths", "crease"], &["--class-widths", "CLASS=PIXELS"]);
+    refuse(&["--hidden", "dotted"], &["--hidden", "none, dashed, ghost"]);
+    refuse(&["--classes", "outline"], &["--classes", "curve, point, or all"]);
+    refuse(&["--crease-angle", "200"], &["--crease-angle 200"]);
+    refuse(&["--line-width", "2x"], &["--line-width 2x", "--class-widths"]);
+    refuse(&["--min-length", "2x"], &["--min-length 2x", "--class-widths"]);
+    refuse(&["--class-widths", "outlines=3"], &["--class-widths", "did you mean outline?"]);
+    refuse(&["--class-widths", "sketch=3"], &["--class-widths", "outline, hatch, hidden, or hidden-"]);
+    refuse(&["--line-width", "0.5mm"], &["--line-width 0.5mm", "no size on paper", "--page A4"]);
+    refuse(&["--min-length", "1mm"], &["--min-length 1mm", "--page A4"]);
+    refuse(&["--min-length", "-1"], &["--min-length -1", "0 or more"]);
+    refuse(&["--page", "A9"], &["--page", "A3, A4, A5 or letter"]);
+    refuse(&["--page", "A4", "--width-mm", "90"], &["--page", "--width-mm"]);
+    refuse(&["--page", "A4", "--margin", "105"], &["--margin 105mm", "105 millimetres"]);
+    refuse(&["--margin", "10mm"], &["--margin", "--page A4"]);
+    refuse(&["--fit-curves", "0"], &["--fit-curves 0", "0.01 to 100"]);
+    refuse(&["--fit-curves", "0.5", "--provenance"], &["--fit-curves", "--provenance"]);
+    refuse(&["--silhouette", "round"], &["--silhouette", "exact, smooth"]);
+}
+
+/// Each layer's name and stroke width in pixels, and how many pixels a millimetre has.
+fn layer_widths(file: &str) -> (Vec<(String, f64)>, f64) {
+    let text = std::fs::read_to_string(file).unwrap();
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let root = document.root_element();
+    let number = |text: &str| text.trim_end_matches("mm").parse::<f64>().unwrap();
+    let box_px: Vec<f64> = root.attribute("viewBox").unwrap().split(' ').map(number).collect();
+    let layers = root.children().filter(|node| node.has_tag_name("g"));
+    let widths = layers.map(|layer| {
+        let width = number(layer.attribute("stroke-width").unwrap());
+        (layer.attribute("id").unwrap().to_owned(), width)
+    });
+    (widths.collect(), box_px[2] / number(root.attribute("width").unwrap()))
+}
+
+#[test]
+fn the_look_technical_has_one_ratio_of_widths_for_paper_pictures_and_pens() {
+    let folder = Folder::new();
+    let out = folder.path("gear.svg");
+    let draw = |options: &[&str]| {
+        let look = ["render", "builtin:gear", "-o", &out, "--look", "technical", "--hidden", "dashed"];
+        made(&[&look, options].concat());
+        layer_widths(&out)
+    };
+    for (options, outline_mm) in [
+        (&["--page", "A4"][..], 0.7),
+        (&["--page", "A3", "--line-width", "0.25mm"], 0.5),
+        (&["--page", "A5", "--pen"], 0.7),
+        (&["--width-mm", "90", "--pen", "--line-width", "0.25mm"], 0.5),
+    ] {
+        let (layers, px_per_mm) = draw(options);
+        let names: Vec<&str> = layers.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names.last(), Some(&"visible-outline"), "{options:?}");
+        assert!(names.contains(&"visible-crease") && names.contains(&"hidden-crease"), "{options:?} {names:?}");
+        for (name, width) in &layers {
+            let expected = if name == "visible-outline" { outline_mm } else { outline_mm / 2.0 };
+            assert!((width / px_per_mm - expected).abs() < 1e-3, "{options:?} {name}: {width} of {px_per_mm}");
+        }
+    }
+    let (layers, _) = draw(&["--line-width", "3"]);
+    assert!(
+        layers.iter().all(|(name, width)| *width == if name == "visible-outline" { 6.0 } else { 3.0 }),
+        "{layers:?}"
+    );
+}
+
+#[test]
+fn what_pens_a_drawing_needs_is_explained() {
+    let folder = Folder::new();
+    let out = folder.path("gear.svg");
+    let explain = |options: &[&str]| {
+        let all = [&["render", "builtin:gear", "-o", &out, "--explain", "--pen"], options].concat();
+        String::from_utf8(made(&all)).unwrap()
+    };
+    let said = explain(&["--look", "technical", "--page", "A4"]);
+    let pens = said.split("pen, layer").nth(1).unwrap();
+    let words: Vec<Vec<&str>> = pens.lines().skip(1).map(|line| line.split_whitespace().collect()).collect();
+    assert_eq!((&words[0][..], words[1][0]), (&["pen", "1", "0.35", "mm"][..], "visible-crease"), "{pens}");
+    let last = &words[words.len() - 2..];
+    assert_eq!((&last[0][..], last[1][0]), (&["pen", "2", "0.70", "mm"][..], "visible-outline"), "{pens}");
+    assert!(explain(&["--class-colors", "crease=red"]).contains("pen 2"), "a colour is a pen");
+    assert!(!explain(&[]).contains("pen 2"));
+}
+
+#[test]
+fn inking_has_no_intersections() {
+    let folder = Folder::new();
+    let out = folder.path("a.png");
+    let ink = ["render", "builtin:ant", "-o", &out, "--style", "inking", "--size", "32", "--classes"];
+    refused_in_one_line(&[&ink[..], &["intersection"]].concat(), &["--classes intersection", "only style lines"]);
+    made(&[&ink[..], &["all"]].concat());
+}
+
+#[test]
+fn lines_need_no_driver() {
+    let folder = Folder::new();
+    let out = folder.path("a.svg");
+    let vendors = folder.path("vendors");
+    std::fs::create_dir(&vendors).unwrap();
+    // A vendor folder without vendors leaves libEGL without a driver.
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_tinta"))
+        .args(["render", "builtin:ant", "--backend", "egl", "-o", &out])
+        .env("__EGL_VENDOR_LIBRARY_DIRS", &vendors)
+        .env_remove("__EGL_VENDOR_LIBRARY_FILENAMES")
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(std::fs::read_to_string(&out).unwrap().ends_with("</svg>\n"));
+}
+
+#[test]
+fn a_model_is_not_written_over_and_an_empty_drawing_is_said() {
+    let folder = Folder::new();
+    let model = folder.file("model.svg", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    refused_in_one_line(&["render", &model, "-o", &model], &["model.svg", "this would overwrite the model;"]);
+    assert!(std::fs::read_to_string(&model).unwrap().starts_with("v 0 0 0"));
+    let output = tinta(&["render", &model, "-o", &folder.path("empty.svg"), "--classes", "crease"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no line of these classes is visible"));
+    refused_in_one_line(
+        &["render", &model, "-o", &folder.path("a.svgz")],
+        &[".svgz", ".svg, .pdf, .dxf or .json for lines"],
+    );
+}
+
+#[test]
+fn a_pdf_of_a_sheet_is_written_the_same_every_time() {
+    let folder = Folder::new();
+    let [first, second] = ["a.pdf", "b.pdf"].map(|name| folder.path(name));
+    for out in [&first, &second] {
+        let options = ["--page", "A5", "--hidden", "dashed", "--class-widths", "outline=1mm,hidden=0.2mm"];
+        assert!(made(&[&["render", "builtin:gear", "-o", out][..], &options].concat()).is_empty());
+    }
+    let bytes = std::fs::read(&first).unwrap();
+    assert_eq!(bytes, std::fs::read(&second).unwrap());
+    let text = String::from_utf8_lossy(&bytes);
+    assert!(text.starts_with("%PDF-1.") && text.contains("visible outline") && text.contains("drawing.pdf"));
+    assert!(text.contains("[0 0 419.52756 595.27559]") || text.contains("[0 0 419.52756 595.2756]"), "A5, upright");
+    refused_in_one_line(
+        &["render", "builtin:gear", "-o", &first, "--provenance"],
+        &["--provenance", "a .pdf file has no place for it"],
+    );
+}
+
+#[test]
+fn a_json_file_has_all_pieces_unless_a_length_is_given_and_says_which_are_outline() {
+    let folder = Folder::new();
+    let out = folder.path("a.json");
+    let segments = |options: &[&str]| -> Vec<serde_json::Value> {
+        made(&[&["render", "builtin:bust", "-o", &out][..], options].concat());
+        let read: serde_json::Value = serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap();
+        read["segments"].as_array().unwrap().clone()
+    };
+    let (all, long) = (segments(&[]), segments(&["--min-length", "20"]));
+    assert!(long.len() < all.len() && !long.is_empty(), "{} {}", long.len(), all.len());
+    assert_eq!(segments(&["--min-length", "0"]), all);
+    let outline = all.iter().filter(|segment| segment["outline"] == true).count();
+    assert!(outline > 10 && all.iter().all(|segment| segment["outline"] == false || segment["visible"] == true));
+}
+
+#[test]
+fn only_lines_have_outlines_and_millimetres() {
+    let folder = Folder::new();
+    let [png, svg] = ["a.png", "a.svg"].map(|name| folder.path(name));
+    let ink = ["render", "builtin:ant", "-o", &png, "--style", "inking", "--size", "32"];
+    refused_in_one_line(&[&ink[..], &["--class-colors", "outline=red"]].concat(), &["--class-colors outline", ".svg"]);
+    refused_in_one_line(&[&ink[..], &["--line-width", "0.5mm"]].concat(), &["--line-width 0.5mm", "give pixels"]);
+    made(&[
+        "render",
+        "builtin:ant",
+        "-o",
+        &svg,
+        "--class-colors",
+        "outline=red",
+        "--line-width",
+        "0.5mm",
+        "--dpi",
+        "96",
+    ]);
+    assert!(std::fs::read_to_string(&svg).unwrap().contains(r#"id="visible-outline""#));
+}
+
+#[test]
+fn smooth_silhouettes_say_where_they_break_and_lines_are_written_as_curves() {
+    let folder = Folder::new();
+    let [polylines, curves, pdf] = ["a.svg", "b.svg", "c.pdf"].map(|name| folder.path(name));
+    let drawn = |out: &str, options: &[&str]| {
+        made(&[&["render", "builtin:bust", "-o", out, "--silhouette", "smooth", "--size", "128"], options].concat())
+    };
+    let record: serde_json::Value = serde_json::from_slice(&drawn(&polylines, &["--json"])).unwrap();
+    assert_eq!(record["style"]["silhouette"], "smooth");
+    for count in ["crossings", "cusps", "inconsistencies"] {
+        assert!(record["changes"][count].is_u64(), "{count}");
+    }
+    let places = record["changes"]["places"].as_array().unwrap();
+    assert_eq!(places.len() as u64, record["changes"]["inconsistencies"]);
+    assert!(places.iter().all(|place| place["px"][1].is_f64() && place["kind"].is_string()), "{places:?}");
+    let exact = made(&["render", "builtin:bust", "-o", &folder.path("d.svg"), "--size", "128", "--json"]);
+    let exact: serde_json::Value = serde_json::from_slice(&exact).unwrap();
+    assert!(exact.get("changes").is_none());
+    drawn(&curves, &["--fit-curves", "0.5"]);
+    drawn(&pdf, &["--fit-curves", "0.5"]);
+    let [straight, curved] = [&polylines, &curves].map(|path| std::fs::read_to_string(path).unwrap());
+    let count = |text: &str, what: char| {
+        text.split(" d=\"").skip(1).map(|path| path.split('"').next().unwrap().matches(what).count()).sum::<usize>()
+    };
+    assert_eq!(count(&straight, 'C'), 0);
+    assert!(count(&curved, 'C') > 20, "{}", count(&curved, 'C'));
+    assert!(curved.len() < straight.len(), "{} {}", curved.len(), straight.len());
+    assert!(std::fs::read(&pdf).unwrap().windows(3).any(|word| word == b" c\n"));
+}
+
+#[test]
+fn explained_lines_are_a_text_of_what_there_is() {
+    let folder = Folder::new();
+    let out = folder.path("a.svg");
+    let base = ["render", "builtin:bust", "-o", &out, "--silhouette", "smooth", "--view", "0,35", "--size", "160"];
+    let said = String::from_utf8(made(&[&base[..], &["--explain"]].concat())).unwrap();
+    let record: serde_json::Value = serde_json::from_slice(&made(&[&base[..], &["--json"]].concat())).unwrap();
+    let breaks = record["changes"]["inconsistencies"].as_u64().unwrap();
+    assert!(said.contains(&format!("{breaks} times for no reason")), "{said}");
+    assert_eq!(said.lines().filter(|line| line.starts_with("  at ")).count() as u64, breaks);
+    let edges = record["edges"]["crease"].as_u64().unwrap().to_string();
+    let crease = said.lines().find(|line| line.starts_with("crease")).unwrap();
+    assert_eq!(crease.split_whitespace().nth(1), Some(edges.as_str()));
+    for part in ["seen px", "read", "edges, hierarchy", "silhouettes", "visibility", "join and write"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+}
+
+/// A model with slow lines, as an OBJ file's text.
+fn slow_model(triangles: usize) -> String {
+    let hair = FAMILIES.iter().find(|family| family.name == "hair").unwrap();
+    let shape = (hair.make)(triangles);
+    let vertices = shape.positions.iter().map(|point| format!("v {} {} {}\n", point.x, point.y, point.z));
+    let faces = shape.triangles.iter().map(|[a, b, c]| format!("f {} {} {}\n", a + 1, b + 1, c + 1));
+    vertices.chain(faces).collect()
+}
+
+#[test]
+fn lines_that_are_not_found_in_time_end_with_a_sentence_and_no_file() {
+    let folder = Folder::new();
+    for name in ["a.svg", "a.pdf", "a.json", "a.png"] {
+        let out = folder.path(name);
+        for more in [&[][..], &["--partial"]] {
+            let words = ["render", "builtin:gear", "-o", &out, "--style", "lines", "--within", "1e-6"];
+            refused_in_one_line(&[&words[..], more].concat(), &["not done within 0.000001 s", "more time"]);
+        }
+        assert!(!Path::new(&out).exists(), "{out}");
+    }
+    let of = |out: &str, more: &[&str], words: &[&str]| {
+        refused_in_one_line(&[&["render", "builtin:gear", "-o", &folder.path(out)][..], more].concat(), words);
+    };
+    of("a.svg", &["--within", "0"], &["--within", "above 0"]);
+    of("a.svg", &["--partial"], &["--within"]);
+    of("a.png", &["--style", "ink", "--within", "5"], &["--within", "exact lines"]);
+    of("a.jpg", &["--style", "lines", "--within", "5", "--partial"], &["--partial", ".svg"]);
+}
+
+#[test]
+fn what_is_done_in_time_is_the_same_as_without_a_limit() {
+    let folder = Folder::new();
+    for name in ["a.svg", "a.json", "a.png"] {
+        let drawn = |more: &[&str]| {
+            let out = folder.path(name);
+            made(&[&["render", "builtin:gear", "-o", &out, "--style", "lines", "--size", "96x64"][..], more].concat());
+            std::fs::read(out).unwrap()
+        };
+        assert_eq!(drawn(&["--within", "3600", "--partial"]), drawn(&[]), "{name}");
+    }
+}
+
+#[test]
+fn a_part_is_written_where_it_is_asked_for_and_says_so() {
+    let folder = Folder::new();
+    let model = folder.file("hair.obj", slow_model(300).as_bytes());
+    for name in ["a.svg", "a.json", "a.png"] {
+        let out = folder.path(name);
+        // However fast the machine is, one of these times is over in the midst of it.
+        let mut seconds = 0.01;
+        let said = loop {
+            let within = format!("{seconds:.4}");
+            let output = tinta(&["render", &model, "-o", &out, "--style", "lines", "--within", &within, "--partial"]);
+            let said = String::from_utf8_lossy(&output.stderr).into_owned();
+            match output.status.code() {
+                Some(0) => break said,
+                Some(2) => assert!(said.contains("not done within") && !Path::new(&out).exists(), "{said}"),
+                code => panic!("{code:?}: {said}"),
+            }
+            seconds *= 1.3;
+        };
+        assert!(said.contains("partial: the time was over before"), "{name}: {said}");
+        let bytes = std::fs::read(&out).unwrap();
+        let text = String::from_utf8_lossy(&bytes);
+        assert!(text.contains("partial: the time was over before") && !text.contains("tinta again"), "{name}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_the_search_for_lines_with_a_sentence_and_no_file() {
+    use std::io::Write;
+    use std::process::{Command, Stdio};
+    let folder = Folder::new();
+    let out = folder.path("a.svg");
+    // A scheduler's signal comes twice: to the program and to its group.
+    for (signal, times, code) in [("INT", 1, 130), ("TERM", 2, 143)] {
+        let mut process = Command::new(env!("CARGO_BIN_EXE_tinta"))
+            .args(["render", "-", "-o", &out, "--hidden", "dashed"])
+            .stdin(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // More than a pipe holds: when it is written the program reads, and takes signals.
+        let model = slow_model(3_000);
+        assert!(model.len() > 200_000);
+        process.stdin.take().unwrap().write_all(model.as_bytes()).unwrap();
+        for _ in 0..times {
+            let kill = Command::new("kill").args(["-s", signal, &process.id().to_string()]).status();
+            assert!(kill.unwrap().success());
+        }
+        let output = process.wait_with_output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(
+            (output.status.code(), said.trim_end()),
+            (Some(code), "tinta: stopped by a signal; nothing was written")
+        );
+        assert!(!Path::new(&out).exists());
+    }
+}
+
+#[test]
+fn a_look_with_tones_takes_the_options_of_lines_into_vectors() {
+    let folder = Folder::new();
+    let paths = |options: &[&str]| {
+        let svg = folder.path("a.svg");
+        made(&[&["render", "builtin:bust", "-o", &svg, "--look", "print", "--size", "400x300"], options].concat());
+        std::fs::read_to_string(svg).unwrap().matches("<path").count()
+    };
+    let all = paths(&[]);
+    let lasting = paths(&["--lasting-creases"]);
+    let silhouettes = paths(&["--classes", "silhouette"]);
+    assert!(silhouettes < lasting && lasting < all, "{silhouettes} {lasting} {all}");
+}
