@@ -19,11 +19,11 @@
 //! # }
 //! ```
 
-mod claims;
 mod entry;
 mod job;
 mod journal;
 mod list;
+mod named_outputs;
 mod output_path;
 mod slice;
 mod summary;

@@ -15,7 +15,7 @@ use tinta::plan::Submission;
 use tinta::settings::{OptionValue, Options};
 use tinta::{Backend, Error, ParseError, Result, Show, Style, StyleName};
 use tinta_lab::compare::{Agreement, InkMask};
-use tinta_lab::measure::{MeasureSettings, Setting, Subject};
+use tinta_lab::measure::{MeasureSettings, MeasuredStyle, Subject};
 
 /// Measures settings on meshes together: a row each. Every item of `asked` is a style with its settings.
 #[pyfunction]
@@ -32,7 +32,7 @@ pub(crate) fn measure<'py>(
     let backend: Backend = named("backend", backend)?;
     let how = MeasureSettings { tolerance_px: tolerance, frames, ..MeasureSettings::default() };
     how.check().map_err(raised)?;
-    let settings: Vec<Setting> = match asked.is_empty() {
+    let settings: Vec<MeasuredStyle> = match asked.is_empty() {
         true => {
             let of_passes = StyleName::lines_first().into_iter().filter(|style| !style.draws_lines());
             of_passes.map(|name| of_style(Style::named(name))).collect::<PyResult<_>>()?
@@ -53,7 +53,7 @@ pub(crate) fn measure<'py>(
 }
 
 /// A style with its settings, of a dictionary with its name under `style`.
-fn setting(asked: &Bound<'_, PyDict>) -> PyResult<Setting> {
+fn setting(asked: &Bound<'_, PyDict>) -> PyResult<MeasuredStyle> {
     let others = asked.copy()?;
     let name: Option<String> = others.get_item("style")?.map(|name| name.extract()).transpose()?;
     if name.is_some() {
@@ -64,12 +64,12 @@ fn setting(asked: &Bound<'_, PyDict>) -> PyResult<Setting> {
     of_style(Style::from_options(&options).map_err(raised)?)
 }
 
-fn of_style(style: Style) -> PyResult<Setting> {
+fn of_style(style: Style) -> PyResult<MeasuredStyle> {
     let is_faithful = style == Style::named(style.name().parse().unwrap_or(StyleName::ThreePass));
     let mut changed: Options = style.to_options().map_err(raised)?;
     changed.remove("style");
     let options = format!("style {} {}", style.name(), words(&changed)).trim_end().to_owned();
-    Ok(Setting { style, submission: Submission::default(), options, is_faithful })
+    Ok(MeasuredStyle { style, submission: Submission::default(), options, is_faithful })
 }
 
 fn dictionary<'py>(py: Python<'py>, row: impl IntoIterator<Item = (String, Value)>) -> PyResult<Bound<'py, PyDict>> {

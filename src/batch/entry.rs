@@ -1,7 +1,7 @@
 //! A journal entry: the result of one finished job.
 
-use super::claims::Claim;
 use super::job::{Asked, Job, JobCommand};
+use super::named_outputs::NamedOutput;
 use super::output_path::place_in;
 use crate::recipe::{Driver, FileRecord};
 use serde::{Deserialize, Serialize};
@@ -134,12 +134,12 @@ impl Entry {
 /// Returns the existing output of a job: its files, those in its folders, the pictures of a pattern such as `frame-%04d.png`.
 pub fn written(job: &Job, folder: &Path) -> Vec<Written> {
     let mut files = Vec::new();
-    for claim in Claim::all(&Asked::of_job(job)) {
-        let Ok(place) = place_in(folder, &claim.output) else { continue };
+    for named in NamedOutput::all(&Asked::of_job(job)) {
+        let Ok(place) = place_in(folder, &named.output) else { continue };
         if place.is_dir() {
             files_in(&place, &mut files);
-        } else if claim.output.contains('%') {
-            files.extend(numbered(&claim, &place, folder));
+        } else if named.output.contains('%') {
+            files.extend(numbered(&named, &place, folder));
             files.push(place);
         } else {
             files.push(place);
@@ -171,11 +171,11 @@ fn files_in(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 /// The files whose names match a pattern with a number.
-fn numbered(claim: &Claim, pattern: &Path, folder: &Path) -> Vec<PathBuf> {
+fn numbered(named: &NamedOutput, pattern: &Path, folder: &Path) -> Vec<PathBuf> {
     let names = std::fs::read_dir(pattern.parent().unwrap_or(folder)).into_iter().flatten().flatten();
     let is_one = |file: &PathBuf| {
         let name = file.strip_prefix(folder).ok().and_then(Path::to_str);
-        name.is_some_and(|name| claim.has_numbered(&name.replace(std::path::MAIN_SEPARATOR, "/")))
+        name.is_some_and(|name| named.has_numbered(&name.replace(std::path::MAIN_SEPARATOR, "/")))
     };
     names.map(|file| file.path()).filter(is_one).collect()
 }

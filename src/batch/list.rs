@@ -1,7 +1,7 @@
 //! The list of a batch's jobs, a line each; blank lines are passed over.
 
-use super::claims::{Claim, Key, Lines, Shared, key, problem};
 use super::job::{Asked, Job};
+use super::named_outputs::{Key, Lines, NamedOutput, Shared, key, problem};
 use super::slice::Slice;
 use crate::error::{Error, FileKind, Result};
 use crate::files::{self, shown};
@@ -48,9 +48,9 @@ impl List {
         for (line, text) in list.lines() {
             let asked = Asked::of_line(text).map_err(|problem| refused(name, Some(line), problem))?;
             ids.add(&asked.id, line);
-            for claim in Claim::all(&asked) {
-                outputs.add(claim.place(), line);
-                shared.note(&claim, in_32_bits(line));
+            for named in NamedOutput::all(&asked) {
+                outputs.add(named.place(), line);
+                shared.note(&named, in_32_bits(line));
             }
         }
         list.count = ids.0.len();
@@ -145,7 +145,7 @@ impl List {
         for (line, text) in self.lines() {
             // Every line has been checked.
             let Ok(asked) = Asked::of_line(text) else { continue };
-            Claim::all(&asked).for_each(|claim| shared.compare(&claim, in_32_bits(line)));
+            NamedOutput::all(&asked).for_each(|named| shared.compare(&named, in_32_bits(line)));
         }
         let mut suspects = shared.suspects();
         suspects.truncate(SUSPECTS);
@@ -249,7 +249,7 @@ mod tests {
     }
 
     /// A render, a turntable or a measurement, and all that it writes: files, or a folder with a slash at the end.
-    fn claimant(
+    fn job_with_outputs(
         number: usize,
         (kind, before, width, after, count): (u8, &str, &str, &str, u32),
     ) -> (String, Vec<String>) {
@@ -274,7 +274,7 @@ mod tests {
         #![proptest_config(proptest::test_runner::Config { cases: 5_000, failure_persistence: None, ..Default::default() })]
 
         #[test]
-        fn a_list_is_refused_just_where_the_names_of_two_jobs_meet(claims in proptest::collection::vec((
+        fn a_list_is_refused_just_where_the_names_of_two_jobs_meet(jobs in proptest::collection::vec((
             0u8..3,
             proptest::sample::select(&["", "1", "a", "a1", "y/", "y/y/2"][..]),
             proptest::sample::select(&["%d", "%02d"][..]),
@@ -282,7 +282,7 @@ mod tests {
             1u32..40,
         ), 1..5)) {
             let jobs: Vec<(String, Vec<String>)> =
-                claims.into_iter().enumerate().map(|(number, claim)| claimant(number, claim)).collect();
+                jobs.into_iter().enumerate().map(|(number, job)| job_with_outputs(number, job)).collect();
             let meet = |one: &String, other: &String| {
                 one == other || one.ends_with('/') && other.starts_with(one) || other.ends_with('/') && one.starts_with(other)
             };

@@ -5,12 +5,12 @@ use super::options::{Below, CameraFile, Chosen, OfSubject, Selection};
 use super::{Command, Verdict, given};
 use std::path::Path;
 use std::time::Instant;
-use tinta::edges::{self, Class, ClassSet, Classes, SilhouetteRule, Silhouettes};
+use tinta::edges::{self, Class, ClassSet, Classes, CreaseAngle, Eye, SilhouetteRule, Silhouettes};
 use tinta::record::{CameraRecord, EdgeRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
 use tinta::settings::Setting;
 use tinta::styles::Inking;
-use tinta::{EdgeList, Error, LineSettings, Result, Scene, Style, StyleName, TextTarget};
+use tinta::{EdgeList, Error, LineSettings, Mesh, Result, Scene, Style, StyleName, TextTarget};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -88,27 +88,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let scene = Scene::new(meshes.clone(), &request.scene)?;
     let Some(mesh) = meshes.pop() else { return Err(Error::CommandLine { problem: "no model was named".to_owned() }) };
     let eye = scene.eye(&scene.objects[0], rule);
-
     // Timed like frames: every round repeats all the work.
     let mut times: [Vec<f64>; 4] = Default::default();
     let mut last = None;
     for _ in 0..arguments.frames {
-        let mut clock = Instant::now();
-        let mut lap = || milliseconds_since(std::mem::replace(&mut clock, Instant::now()));
-        let edges = EdgeList::new(&mesh);
-        let build = lap();
-        let classes = Classes::new(&mesh, &edges, crease_angle, wanted);
-        let classify = lap();
-        let silhouettes = Silhouettes::new(&mesh, &edges);
-        let planes = lap();
-        let silhouette = silhouettes.find(&mesh, &edges, eye, rule);
-        let search = lap();
-        for (times, time) in times.iter_mut().zip([build, classify, planes, search]) {
-            times.push(time);
-        }
-        last = Some((edges, classes, silhouette));
+        let found = Found::of(&mesh, crease_angle, wanted, eye, rule);
+        times.iter_mut().zip(found.ms).for_each(|(times, time)| times.push(time));
+        last = Some(found);
     }
-    let Some((edges, classes, silhouette)) = last else { return Ok(()) };
+    let Some(Found { edges, classes, silhouette, .. }) = last else { return Ok(()) };
     scene.edges(&scene.objects[0]).remark().iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
     if let Some(target) = target {
         target.write_bytes(&edges::glb(&mesh, &edges, wanted, crease_angle)?)?;
@@ -137,6 +125,30 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
         silhouette_ms,
     };
     if arguments.json { super::print_json(&record) } else { super::print(&in_words(&record, wanted)) }
+}
+
+/// A mesh's edges, and the milliseconds that building, classifying, the faces' planes and the search took.
+struct Found {
+    edges: EdgeList,
+    classes: Classes,
+    silhouette: Vec<u32>,
+    ms: [f64; 4],
+}
+
+impl Found {
+    fn of(mesh: &Mesh, crease_angle: CreaseAngle, wanted: ClassSet, eye: Eye, rule: SilhouetteRule) -> Self {
+        let mut clock = Instant::now();
+        let mut lap = || milliseconds_since(std::mem::replace(&mut clock, Instant::now()));
+        let edges = EdgeList::new(mesh);
+        let build = lap();
+        let classes = Classes::new(mesh, &edges, crease_angle, wanted);
+        let classify = lap();
+        let silhouettes = Silhouettes::new(mesh, &edges);
+        let planes = lap();
+        let silhouette = silhouettes.find(mesh, &edges, eye, rule);
+        let search = lap();
+        Self { edges, classes, silhouette, ms: [build, classify, planes, search] }
+    }
 }
 
 /// Checks the file to write.

@@ -58,17 +58,9 @@ impl Resources {
         }
         let Some(edges) = self.edges.iter().find(|edges| is_it(edges)) else { return Ok(()) };
         let (mode, smooth) = smoothed(mark);
-        // SAFETY: the context is current; widths are finite and above 0, which the style has checked.
-        unsafe {
-            match is_smooth {
-                true => self.gl.glow.enable(smooth),
-                false if self.has_pipeline => self.gl.glow.disable(smooth),
-                false => {}
-            }
-            self.gl.glow.line_width(width_px);
-            self.gl.legacy.point_size(width_px);
-            self.gl.legacy.load_matrix(PROJECTION, &self.in_tile(scene.clip_from_view()));
-        }
+        self.set_width(width_px, smooth, is_smooth);
+        // SAFETY: the context is current.
+        unsafe { self.gl.legacy.load_matrix(PROJECTION, &self.in_tile(scene.clip_from_view())) };
         let mut first = 0;
         for (number, (run, indices)) in runs.iter().zip(&edges.indices).enumerate() {
             let object = scene.objects.get(run.object).ok_or_else(of_another_scene)?;
@@ -110,6 +102,20 @@ impl Resources {
             self.draw_unseen()?;
         }
         Ok(())
+    }
+
+    /// Sets how wide lines and points are drawn, and whether smoothed by this capability.
+    fn set_width(&self, width_px: f32, capability: u32, is_smooth: bool) {
+        // SAFETY: the context is current; widths are finite and above 0, which the style has checked.
+        unsafe {
+            match is_smooth {
+                true => self.gl.glow.enable(capability),
+                false if self.has_pipeline => self.gl.glow.disable(capability),
+                false => {}
+            }
+            self.gl.glow.line_width(width_px);
+            self.gl.legacy.point_size(width_px);
+        }
     }
 
     /// An invisible draw. Mesa 22's llvmpipe keeps the state of smoothed lines and points for the next draw, which then loses its

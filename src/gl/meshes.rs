@@ -106,34 +106,16 @@ impl Resources {
                     (Arc::as_ptr(&object.mesh), lists.coordinates.map(Arc::as_ptr), lists.colors.map(Arc::as_ptr));
                 if bound != Some(wanted) {
                     buffers.bind(&self.gl, material_unit);
-                    if let Some(list) = lists.coordinates {
-                        buffer_of(&self.coordinates, list)?.bind();
-                        // SAFETY: the context is current; the buffer just bound has coordinates for every vertex.
-                        unsafe { self.gl.legacy.texture_coordinate_array(0, 2) };
-                    }
-                    if let Some(list) = lists.colors {
-                        buffer_of(&self.colors, list)?.bind();
-                        // SAFETY: the context is current; the buffer just bound has a colour for every vertex.
-                        unsafe { self.gl.legacy.color_array() };
-                    }
-                    bound = Some(wanted);
+                    self.bind_paint(&lists)?;
                 }
                 if let Some(list) = listed {
                     let indices = self.faces.iter().find(|faces| Arc::ptr_eq(list, &faces.list));
                     indices.ok_or_else(of_another_scene)?.buffer.bind();
-                    // The next copy may be drawn whole.
-                    bound = None;
                 }
+                // After a list of faces the next copy may be drawn whole.
+                bound = listed.is_none().then_some(wanted);
             }
             for part in parts.iter() {
-                let color = match paint {
-                    Paint::Materials => {
-                        let Color([red, green, blue]) = scene.material_color(&object.mesh, part.material);
-                        [red, green, blue, 1.0]
-                    }
-                    Paint::Uniform(color) => *color,
-                    Paint::Coordinates(_) | Paint::Colors(_) => [1.0; 4],
-                };
                 if let Some(unit) = material_unit {
                     self.textures.bind_material(object, part.material, unit);
                 }
@@ -141,7 +123,7 @@ impl Resources {
                     self.gl.cull(draw.cull_back_faces || part.is_doubled);
                 }
                 // SAFETY: the context is current.
-                unsafe { self.gl.legacy.color(color) };
+                unsafe { self.gl.legacy.color(color_of(paint, scene, object, part)) };
                 if self.submission != Submission::Buffers {
                     let has_normals = draw.program.is_some();
                     let faces = RunOfFaces { object, listed, part, lists, material_unit, has_normals };
@@ -155,6 +137,21 @@ impl Resources {
                     self.gl.legacy.draw_elements(&self.gl.glow, glow::TRIANGLES, part.count as i32, first_byte);
                 }
             }
+        }
+        Ok(())
+    }
+
+    /// Binds lists of texture coordinates and of colours.
+    fn bind_paint(&self, lists: &PaintLists<'_>) -> Result<()> {
+        if let Some(list) = lists.coordinates {
+            buffer_of(&self.coordinates, list)?.bind();
+            // SAFETY: the context is current; the buffer just bound has coordinates for every vertex.
+            unsafe { self.gl.legacy.texture_coordinate_array(0, 2) };
+        }
+        if let Some(list) = lists.colors {
+            buffer_of(&self.colors, list)?.bind();
+            // SAFETY: the context is current; the buffer just bound has a colour for every vertex.
+            unsafe { self.gl.legacy.color_array() };
         }
         Ok(())
     }
@@ -213,6 +210,18 @@ fn upload<T: bytemuck::NoUninit>(gl: &Rc<Gl>, present: &mut Vec<OfVertices<T>>, 
 fn buffer_of<'a, T>(present: &'a [OfVertices<T>], list: &Arc<Vec<T>>) -> Result<&'a Buffer> {
     let found = present.iter().find(|present| Arc::ptr_eq(list, &present.list));
     found.map(|present| &present.buffer).ok_or_else(of_another_scene)
+}
+
+/// The colour of a part that its vertices do not colour.
+fn color_of(paint: &Paint, scene: &Scene, object: &Object, part: &Part) -> [f32; 4] {
+    match paint {
+        Paint::Materials => {
+            let Color([red, green, blue]) = scene.material_color(&object.mesh, part.material);
+            [red, green, blue, 1.0]
+        }
+        Paint::Uniform(color) => *color,
+        Paint::Coordinates(_) | Paint::Colors(_) => [1.0; 4],
+    }
 }
 
 /// A paint's data for each vertex of an object.

@@ -88,14 +88,7 @@ impl fmt::Display for Draw {
             Some(program) => write!(out, " with {program}")?,
         }
         for uniform in &self.uniforms {
-            match uniform.value {
-                Value::Float(x) => write!(out, ", {} = {x}", uniform.name)?,
-                Value::Int(x) => write!(out, ", {} = {x}", uniform.name)?,
-                Value::Vec2([x, y]) | Value::TexelSize([x, y]) | Value::PixelPlace([x, y]) => {
-                    write!(out, ", {} = ({x}, {y})", uniform.name)?
-                }
-                Value::Vec3([x, y, z]) => write!(out, ", {} = ({x}, {y}, {z})", uniform.name)?,
-            }
+            write!(out, ", {} = {}", uniform.name, uniform.value)?;
         }
         for (sampler, texture) in &self.textures {
             match texture {
@@ -127,6 +120,17 @@ impl fmt::Display for Draw {
             write_faces(out, faces)?;
         }
         Ok(())
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Float(x) => write!(out, "{x}"),
+            Self::Int(x) => write!(out, "{x}"),
+            Self::Vec2([x, y]) | Self::TexelSize([x, y]) | Self::PixelPlace([x, y]) => write!(out, "({x}, {y})"),
+            Self::Vec3([x, y, z]) => write!(out, "({x}, {y}, {z})"),
+        }
     }
 }
 

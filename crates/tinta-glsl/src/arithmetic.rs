@@ -17,10 +17,14 @@ impl Precision {
     /// Returns a value as it is kept.
     pub(crate) fn keep(self, value: Value) -> Value {
         if self == Self::Single && value.of.base == Base::Float {
-            value.map(|number| f64::from(number as f32))
+            value.map(|number| self.keep_number(number))
         } else {
             value
         }
+    }
+
+    fn keep_number(self, number: f64) -> f64 {
+        if self == Self::Single { f64::from(number as f32) } else { number }
     }
 }
 
@@ -143,8 +147,7 @@ fn product(left: Value, right: Value, precision: Precision) -> Option<Value> {
 
 /// Adds terms in order.
 fn sum(terms: impl Iterator<Item = f64>, precision: Precision) -> f64 {
-    let keep = |number: f64| if precision == Precision::Single { f64::from(number as f32) } else { number };
-    terms.fold(0.0, |sum, term| keep(sum + keep(term)))
+    terms.fold(0.0, |sum, term| precision.keep_number(sum + precision.keep_number(term)))
 }
 
 /// Calls a constructor: `vec4(…)`, `float(…)`, `mat3(…)`.
@@ -173,6 +176,48 @@ pub(crate) fn construct(of: Type, arguments: &[Value]) -> Computed {
     Ok(if of.base == Base::Float { value } else { value.as_base(of.base) })
 }
 
+/// A function of numbers, for each component of its arguments in turn.
+type OfNumbers = fn(&[f64], Precision) -> f64;
+
+/// The built-in functions that take each component by itself, with the number of their arguments.
+const OF_NUMBERS: [(&str, usize, OfNumbers); 29] = [
+    ("radians", 1, |n, _| n[0].to_radians()),
+    ("degrees", 1, |n, _| n[0].to_degrees()),
+    ("sin", 1, |n, _| n[0].sin()),
+    ("cos", 1, |n, _| n[0].cos()),
+    ("tan", 1, |n, _| n[0].tan()),
+    ("asin", 1, |n, _| n[0].asin()),
+    ("acos", 1, |n, _| n[0].acos()),
+    ("atan", 1, |n, _| n[0].atan()),
+    ("atan", 2, |n, _| n[0].atan2(n[1])),
+    ("pow", 2, |n, _| n[0].powf(n[1])),
+    ("exp", 1, |n, _| n[0].exp()),
+    ("log", 1, |n, _| n[0].ln()),
+    ("exp2", 1, |n, _| n[0].exp2()),
+    ("log2", 1, |n, _| n[0].log2()),
+    ("sqrt", 1, |n, _| n[0].sqrt()),
+    ("inversesqrt", 1, |n, precision| 1.0 / precision.keep_number(n[0].sqrt())),
+    ("abs", 1, |n, _| n[0].abs()),
+    ("sign", 1, |n, _| if n[0] == 0.0 { 0.0 } else { n[0].signum() }),
+    ("floor", 1, |n, _| n[0].floor()),
+    ("ceil", 1, |n, _| n[0].ceil()),
+    ("fract", 1, |n, _| n[0] - n[0].floor()),
+    ("mod", 2, |n, precision| n[0] - n[1] * precision.keep_number(n[0] / n[1]).floor()),
+    ("min", 2, |n, _| if n[1] < n[0] { n[1] } else { n[0] }),
+    ("max", 2, |n, _| if n[0] < n[1] { n[1] } else { n[0] }),
+    ("clamp", 3, |n, _| n[0].max(n[1]).min(n[2])),
+    ("mix", 3, |n, precision| {
+        let rest = precision.keep_number(1.0 - n[2]);
+        precision.keep_number(n[0] * rest) + precision.keep_number(n[1] * n[2])
+    }),
+    ("step", 2, |n, _| f64::from(u8::from(n[1] >= n[0]))),
+    ("smoothstep", 3, |n, _| {
+        let share = ((n[2] - n[0]) / (n[1] - n[0])).clamp(0.0, 1.0);
+        share * share * (3.0 - 2.0 * share)
+    }),
+    ("matrixCompMult", 2, |n, _| n[0] * n[1]),
+];
+
 /// Calls a built-in function; `None` if none has this name.
 pub(crate) fn call(name: &str, arguments: &[Value], precision: Precision) -> Option<Computed> {
     let floats: Vec<Value> = arguments.iter().map(|value| promoted(*value, Type::FLOAT)).collect();
@@ -180,89 +225,8 @@ pub(crate) fn call(name: &str, arguments: &[Value], precision: Precision) -> Opt
     let each = |count: usize, function: &dyn Fn(&[f64]) -> f64| {
         if floats.len() == count { combined(&floats, function).ok_or_else(wrong) } else { Err(wrong()) }
     };
-    let keep = |number: f64| precision.keep(Value::floats(&[number])).first();
-    let dot = |a: &Value, b: &Value| sum(a.numbers().iter().zip(b.numbers()).map(|(a, b)| a * b), precision);
-    let scaled = |value: &Value, by: f64| value.map(|number| number * by);
-    let minus = |a: &Value, b: &Value| combined(&[*a, *b], |n| keep(n[0] - n[1])).ok_or_else(wrong);
-    let vectors = |count: usize| match floats.as_slice() {
-        given if given.len() == count && given.iter().all(|value| value.of == given[0].of) => Ok(given),
-        _ => Err(wrong()),
-    };
+    let of_numbers = || OF_NUMBERS.iter().filter(|(known, ..)| *known == name);
     let result = match name {
-        "radians" => each(1, &|n| n[0].to_radians()),
-        "degrees" => each(1, &|n| n[0].to_degrees()),
-        "sin" => each(1, &|n| n[0].sin()),
-        "cos" => each(1, &|n| n[0].cos()),
-        "tan" => each(1, &|n| n[0].tan()),
-        "asin" => each(1, &|n| n[0].asin()),
-        "acos" => each(1, &|n| n[0].acos()),
-        "atan" if floats.len() == 2 => each(2, &|n| n[0].atan2(n[1])),
-        "atan" => each(1, &|n| n[0].atan()),
-        "pow" => each(2, &|n| n[0].powf(n[1])),
-        "exp" => each(1, &|n| n[0].exp()),
-        "log" => each(1, &|n| n[0].ln()),
-        "exp2" => each(1, &|n| n[0].exp2()),
-        "log2" => each(1, &|n| n[0].log2()),
-        "sqrt" => each(1, &|n| n[0].sqrt()),
-        "inversesqrt" => each(1, &|n| 1.0 / keep(n[0].sqrt())),
-        "abs" => each(1, &|n| n[0].abs()),
-        "sign" => each(1, &|n| if n[0] == 0.0 { 0.0 } else { n[0].signum() }),
-        "floor" => each(1, &|n| n[0].floor()),
-        "ceil" => each(1, &|n| n[0].ceil()),
-        "fract" => each(1, &|n| n[0] - n[0].floor()),
-        "mod" => each(2, &|n| n[0] - n[1] * keep(n[0] / n[1]).floor()),
-        "min" => each(2, &|n| if n[1] < n[0] { n[1] } else { n[0] }),
-        "max" => each(2, &|n| if n[0] < n[1] { n[1] } else { n[0] }),
-        "clamp" => each(3, &|n| n[0].max(n[1]).min(n[2])),
-        "mix" => each(3, &|n| keep(n[0] * keep(1.0 - n[2])) + keep(n[1] * n[2])),
-        "step" => each(2, &|n| f64::from(u8::from(n[1] >= n[0]))),
-        "smoothstep" => each(3, &|n| {
-            let share = ((n[2] - n[0]) / (n[1] - n[0])).clamp(0.0, 1.0);
-            share * share * (3.0 - 2.0 * share)
-        }),
-        "length" => vectors(1).map(|given| Value::floats(&[dot(&given[0], &given[0]).sqrt()])),
-        "distance" => vectors(2).and_then(|given| {
-            let between = minus(&given[0], &given[1])?;
-            Ok(Value::floats(&[dot(&between, &between).sqrt()]))
-        }),
-        "dot" => vectors(2).map(|given| Value::floats(&[dot(&given[0], &given[1])])),
-        "cross" => vectors(2).and_then(|given| match (given[0].numbers(), given[1].numbers()) {
-            ([a, b, c], [d, e, f]) => {
-                let minor = |p: &f64, q: &f64, r: &f64, s: &f64| keep(p * s) - keep(q * r);
-                Ok(Value::floats(&[minor(b, c, e, f), minor(c, a, f, d), minor(a, b, d, e)]))
-            }
-            _ => Err(wrong()),
-        }),
-        "normalize" => vectors(1).map(|given| {
-            let length = keep(dot(&given[0], &given[0]).sqrt());
-            scaled(&given[0], keep(1.0 / length))
-        }),
-        "faceforward" => vectors(3).map(|n| if dot(&n[2], &n[1]) < 0.0 { n[0] } else { scaled(&n[0], -1.0) }),
-        "reflect" => vectors(2).and_then(|given| {
-            let twice = keep(2.0 * dot(&given[1], &given[0]));
-            minus(&given[0], &precision.keep(scaled(&given[1], twice)))
-        }),
-        "refract" => match floats.as_slice() {
-            [ray, normal, ratio] if ray.of == normal.of => {
-                let (cosine, ratio) = (dot(normal, ray), ratio.first());
-                let rest = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
-                if rest < 0.0 {
-                    Ok(scaled(ray, 0.0))
-                } else {
-                    minus(&scaled(ray, ratio), &scaled(normal, ratio * cosine + rest.sqrt()))
-                }
-            }
-            _ => Err(wrong()),
-        },
-        "matrixCompMult" => each(2, &|n| n[0] * n[1]),
-        "transpose" => vectors(1).map(|given| {
-            let side = usize::from(given[0].of.columns);
-            let mut turned = given[0];
-            for (place, number) in turned.numbers_mut().iter_mut().enumerate() {
-                *number = given[0].numbers()[place % side * side + place / side];
-            }
-            turned
-        }),
         "lessThan" | "lessThanEqual" | "greaterThan" | "greaterThanEqual" | "equal" | "notEqual" => {
             each(2, &|n| f64::from(u8::from(compare(name, n[0], n[1])))).map(|value| value.as_base(Base::Bool))
         }
@@ -279,7 +243,59 @@ pub(crate) fn call(name: &str, arguments: &[Value], precision: Precision) -> Opt
         "noise2" => Ok(Value::floats(&[0.0; 2])),
         "noise3" => Ok(Value::floats(&[0.0; 3])),
         "noise4" => Ok(Value::floats(&[0.0; 4])),
-        _ => return None,
+        _ if of_numbers().next().is_some() => of_numbers()
+            .find(|(_, count, _)| *count == floats.len())
+            .map_or_else(|| Err(wrong()), |(_, count, function)| each(*count, &|n| function(n, precision))),
+        _ => geometric(name, &floats, precision)?.ok_or_else(wrong),
     };
     Some(result.map(|value| precision.keep(value)))
+}
+
+/// Calls a function of whole vectors or matrices: `None` if none has this name, `Some(None)` if the arguments do not fit.
+fn geometric(name: &str, given: &[Value], precision: Precision) -> Option<Option<Value>> {
+    let keep = |number: f64| precision.keep_number(number);
+    let dot = |a: &Value, b: &Value| sum(a.numbers().iter().zip(b.numbers()).map(|(a, b)| a * b), precision);
+    let scaled = |value: &Value, by: f64| value.map(|number| number * by);
+    let minus = |a: &Value, b: &Value| combined(&[*a, *b], |n| keep(n[0] - n[1]));
+    let are_alike = given.iter().all(|value| value.of == given[0].of);
+    Some(match (name, given) {
+        ("length", [a]) => Some(Value::floats(&[dot(a, a).sqrt()])),
+        ("distance", [a, b]) if are_alike => {
+            minus(a, b).map(|between| Value::floats(&[dot(&between, &between).sqrt()]))
+        }
+        ("dot", [a, b]) if are_alike => Some(Value::floats(&[dot(a, b)])),
+        ("cross", [left, right]) if are_alike => match (left.numbers(), right.numbers()) {
+            ([a, b, c], [d, e, f]) => {
+                let minor = |p: &f64, q: &f64, r: &f64, s: &f64| keep(p * s) - keep(q * r);
+                Some(Value::floats(&[minor(b, c, e, f), minor(c, a, f, d), minor(a, b, d, e)]))
+            }
+            _ => None,
+        },
+        ("normalize", [a]) => Some(scaled(a, keep(1.0 / keep(dot(a, a).sqrt())))),
+        ("faceforward", [n, i, r]) if are_alike => Some(if dot(r, i) < 0.0 { *n } else { scaled(n, -1.0) }),
+        ("reflect", [ray, normal]) if are_alike => {
+            minus(ray, &precision.keep(scaled(normal, keep(2.0 * dot(normal, ray)))))
+        }
+        ("refract", [ray, normal, ratio]) if ray.of == normal.of => {
+            let (cosine, ratio) = (dot(normal, ray), ratio.first());
+            let rest = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+            match rest < 0.0 {
+                true => Some(scaled(ray, 0.0)),
+                false => minus(&scaled(ray, ratio), &scaled(normal, ratio * cosine + rest.sqrt())),
+            }
+        }
+        ("transpose", [matrix]) => {
+            let side = usize::from(matrix.of.columns);
+            let mut turned = *matrix;
+            for (place, number) in turned.numbers_mut().iter_mut().enumerate() {
+                *number = matrix.numbers()[place % side * side + place / side];
+            }
+            Some(turned)
+        }
+        (
+            "length" | "distance" | "dot" | "cross" | "normalize" | "faceforward" | "reflect" | "refract" | "transpose",
+            _,
+        ) => None,
+        _ => return None,
+    })
 }

@@ -263,30 +263,13 @@ impl<'a> Machine<'a> {
                 let operand = self.evaluate(operand)?;
                 self.computed(line, unary(operator, operand))
             }
-            ExpressionKind::Binary(operator @ ("&&" | "||" | "^^"), left, right) => {
-                let left = self.condition(left)?;
-                match *operator {
-                    "&&" if !left => Ok(Value::bool(false)),
-                    "||" if left => Ok(Value::bool(true)),
-                    "^^" => Ok(Value::bool(left != self.condition(right)?)),
-                    _ => self.condition(right).map(Value::bool),
-                }
-            }
+            ExpressionKind::Binary(operator @ ("&&" | "||" | "^^"), left, right) => self.logical(operator, left, right),
             ExpressionKind::Binary(operator, left, right) => {
                 let (left, right) = (self.evaluate(left)?, self.evaluate(right)?);
                 self.compared = Some(Comparison { left: left.first(), operator, right: right.first() });
                 self.computed(line, binary(operator, left, right, precision))
             }
-            ExpressionKind::Assign(operator, target, value) => {
-                let mut value = self.evaluate(value)?;
-                let place = self.place(target)?;
-                if let Some(operator) = operator {
-                    let before = self.variables.value(&place);
-                    value = self.computed(line, binary(operator, before, value, precision))?;
-                }
-                self.set(&place, value, line)?;
-                Ok(value)
-            }
+            ExpressionKind::Assign(operator, target, value) => self.assign(*operator, target, value, line),
             ExpressionKind::Increment { by, target, is_before } => {
                 let place = self.place(target)?;
                 let before = self.variables.value(&place);
@@ -319,6 +302,35 @@ impl<'a> Machine<'a> {
             }
             ExpressionKind::Call(name, arguments) => self.call(name, arguments, line),
         }
+    }
+
+    /// An operator of bools, which may skip its second operand.
+    fn logical(&mut self, operator: &str, left: &'a Expression, right: &'a Expression) -> Stepped<Value> {
+        let left = self.condition(left)?;
+        match operator {
+            "&&" if !left => Ok(Value::bool(false)),
+            "||" if left => Ok(Value::bool(true)),
+            "^^" => Ok(Value::bool(left != self.condition(right)?)),
+            _ => self.condition(right).map(Value::bool),
+        }
+    }
+
+    /// `target = value`, or `target += value` and the like.
+    fn assign(
+        &mut self,
+        operator: Option<&'static str>,
+        target: &'a Expression,
+        value: &'a Expression,
+        line: u32,
+    ) -> Stepped<Value> {
+        let mut value = self.evaluate(value)?;
+        let place = self.place(target)?;
+        if let Some(operator) = operator {
+            let before = self.variables.value(&place);
+            value = self.computed(line, binary(operator, before, value, self.settings.precision))?;
+        }
+        self.set(&place, value, line)?;
+        Ok(value)
     }
 
     /// Returns some components of a value, as a vector.

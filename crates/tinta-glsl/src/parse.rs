@@ -196,48 +196,54 @@ impl Parser<'_> {
             self.expect(";")?;
             return Ok(Statement { line, kind });
         }
-        let kind = match word.as_str() {
-            "if" => {
-                self.place += 1;
-                let condition = self.in_brackets()?;
-                let then = Box::new(self.deeper(Self::statement)?);
-                let otherwise = if self.takes("else") { Some(Box::new(self.deeper(Self::statement)?)) } else { None };
-                StatementKind::If(condition, then, otherwise)
-            }
-            "for" => {
-                self.place += 1;
-                self.expect("(")?;
-                let before = if self.takes(";") { None } else { Some(Box::new(self.simple_statement()?)) };
-                let condition = if self.text() == ";" { None } else { Some(self.expression()?) };
-                self.expect(";")?;
-                let after = if self.text() == ")" { None } else { Some(self.expression()?) };
-                self.expect(")")?;
-                let body = Box::new(self.deeper(Self::statement)?);
-                StatementKind::Loop(Loop { before, condition, after, body, begins_with_body: false })
-            }
-            "while" => {
-                self.place += 1;
-                let condition = Some(self.in_brackets()?);
-                let body = Box::new(self.deeper(Self::statement)?);
-                StatementKind::Loop(Loop { before: None, condition, after: None, body, begins_with_body: false })
-            }
-            "do" => {
-                self.place += 1;
-                let body = Box::new(self.deeper(Self::statement)?);
-                self.expect("while")?;
-                let condition = Some(self.in_brackets()?);
-                self.expect(";")?;
-                StatementKind::Loop(Loop { before: None, condition, after: None, body, begins_with_body: true })
-            }
-            "return" => {
-                self.place += 1;
-                let value = if self.text() == ";" { None } else { Some(self.expression()?) };
-                self.expect(";")?;
-                StatementKind::Return(value)
-            }
+        let keyword: fn(&mut Self) -> Parsed<StatementKind> = match word.as_str() {
+            "if" => Self::branch,
+            "for" => Self::for_loop,
+            "while" => Self::while_loop,
+            "do" => Self::do_loop,
+            "return" => Self::return_statement,
             _ => return self.simple_statement(),
         };
-        Ok(Statement { line, kind })
+        self.place += 1;
+        Ok(Statement { line, kind: keyword(self)? })
+    }
+
+    fn branch(&mut self) -> Parsed<StatementKind> {
+        let condition = self.in_brackets()?;
+        let then = Box::new(self.deeper(Self::statement)?);
+        let otherwise = if self.takes("else") { Some(Box::new(self.deeper(Self::statement)?)) } else { None };
+        Ok(StatementKind::If(condition, then, otherwise))
+    }
+
+    fn for_loop(&mut self) -> Parsed<StatementKind> {
+        self.expect("(")?;
+        let before = if self.takes(";") { None } else { Some(Box::new(self.simple_statement()?)) };
+        let condition = if self.text() == ";" { None } else { Some(self.expression()?) };
+        self.expect(";")?;
+        let after = if self.text() == ")" { None } else { Some(self.expression()?) };
+        self.expect(")")?;
+        let body = Box::new(self.deeper(Self::statement)?);
+        Ok(StatementKind::Loop(Loop { before, condition, after, body, begins_with_body: false }))
+    }
+
+    fn while_loop(&mut self) -> Parsed<StatementKind> {
+        let condition = Some(self.in_brackets()?);
+        let body = Box::new(self.deeper(Self::statement)?);
+        Ok(StatementKind::Loop(Loop { before: None, condition, after: None, body, begins_with_body: false }))
+    }
+
+    fn do_loop(&mut self) -> Parsed<StatementKind> {
+        let body = Box::new(self.deeper(Self::statement)?);
+        self.expect("while")?;
+        let condition = Some(self.in_brackets()?);
+        self.expect(";")?;
+        Ok(StatementKind::Loop(Loop { before: None, condition, after: None, body, begins_with_body: true }))
+    }
+
+    fn return_statement(&mut self) -> Parsed<StatementKind> {
+        let value = if self.text() == ";" { None } else { Some(self.expression()?) };
+        self.expect(";")?;
+        Ok(StatementKind::Return(value))
     }
 
     fn in_brackets(&mut self) -> Parsed<Expression> {

@@ -124,7 +124,7 @@ impl InkMask {
 
 /// Who drew a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Drawn {
+pub enum DrawnBy {
     /// Neither of them.
     Neither,
     /// One has ink here, the other within the tolerance.
@@ -139,7 +139,7 @@ pub enum Drawn {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Agreement {
     /// Each pixel, row by row from the top.
-    pub pixels: Vec<Drawn>,
+    pub pixels: Vec<DrawnBy>,
     /// The counts.
     pub numbers: AgreementNumbers,
 }
@@ -171,17 +171,17 @@ impl Agreement {
         }
         let (near_left, near_right) = (left.grown(tolerance_px), right.grown(tolerance_px));
         let drawn = |index: usize| match (left.ink[index], right.ink[index]) {
-            (false, false) => Drawn::Neither,
-            (true, true) => Drawn::Both,
-            (true, false) if near_right[index] => Drawn::Both,
-            (false, true) if near_left[index] => Drawn::Both,
-            (true, false) => Drawn::Left,
-            (false, true) => Drawn::Right,
+            (false, false) => DrawnBy::Neither,
+            (true, true) => DrawnBy::Both,
+            (true, false) if near_right[index] => DrawnBy::Both,
+            (false, true) if near_left[index] => DrawnBy::Both,
+            (true, false) => DrawnBy::Left,
+            (false, true) => DrawnBy::Right,
         };
-        let pixels: Vec<Drawn> = (0..left.ink.len()).map(drawn).collect();
+        let pixels: Vec<DrawnBy> = (0..left.ink.len()).map(drawn).collect();
         let count = |wanted| pixels.iter().filter(|drawn| **drawn == wanted).count();
         let (left_px, right_px) = (left.count(), right.count());
-        let (only_left_px, only_right_px) = (count(Drawn::Left), count(Drawn::Right));
+        let (only_left_px, only_right_px) = (count(DrawnBy::Left), count(DrawnBy::Right));
         let shared = |all: usize, only: usize| (all > 0).then(|| 1.0 - only as f64 / all as f64);
         let numbers = AgreementNumbers {
             tolerance_px,
@@ -197,11 +197,11 @@ impl Agreement {
 
     /// The map in colours, on white.
     pub fn picture(&self, size: Size) -> Picture {
-        let color = |drawn: &Drawn| match drawn {
-            Drawn::Neither => [255; 3],
-            Drawn::Both => BOTH_COLOR,
-            Drawn::Left => LEFT_COLOR,
-            Drawn::Right => RIGHT_COLOR,
+        let color = |drawn: &DrawnBy| match drawn {
+            DrawnBy::Neither => [255; 3],
+            DrawnBy::Both => BOTH_COLOR,
+            DrawnBy::Left => LEFT_COLOR,
+            DrawnBy::Right => RIGHT_COLOR,
         };
         let pixels = self.pixels.iter().map(color).flat_map(|[red, green, blue]| [red, green, blue, u8::MAX]);
         Picture { size, pixels: pixels.collect() }

@@ -42,7 +42,7 @@ pub(crate) use reference::samples_of;
 pub use reference::{Reference, SOFT_CREASE_DEGREES, Sample};
 pub use row::{Against, LineError, PassRow, Row, RunTime, ToneBorderError, ToneError};
 #[cfg(feature = "measuring")]
-pub use run::{MeasureSettings, MeasureStep, Measured, Setting, Subject, frames_a_turn, measure, turns};
+pub use run::{MeasureSettings, MeasureStep, Measured, MeasuredStyle, Subject, frames_a_turn, measure, turns};
 #[cfg(feature = "measuring")]
 pub(crate) use run::{quartiles, shading_of};
 #[cfg(feature = "measuring")]

@@ -12,10 +12,10 @@
 //! ```
 
 mod answer;
-mod canvas;
 mod columns;
 mod convergence;
 mod html;
+mod frame;
 mod info;
 mod labels;
 mod log;
@@ -23,13 +23,15 @@ mod marks;
 mod plot;
 mod ratios;
 mod settings;
+mod svg_canvas;
 
 pub use columns::{Column, columns};
 pub use convergence::{Curve, curves};
+pub use frame::Shape;
 pub use html::html;
 pub use info::{ReportInfo, ReportPicture};
 pub use log::{RowLog, read_rows, rows_of_bytes};
-pub use plot::{Shape, plot};
+pub use plot::plot;
 pub use settings::{Machine, Measure, Point, Points, Time, machines, pareto, points};
 pub use tinta::record::ROWS_FILE;
 

@@ -51,54 +51,7 @@ pub(super) fn load_functions(
         // SAFETY: as above; the context has the extension.
         unsafe { legacy.load_robustness(load) };
     }
-    let text = |name: u32| {
-        // SAFETY: the context is current; `name` is one of the string names of GL 2.1.
-        unsafe { legacy.string(name) }.unwrap_or_default()
-    };
-    let integer = |name: u32| {
-        // SAFETY: the context is current; `name` is a parameter of one integer.
-        unsafe { glow.get_parameter_i32(name) }
-    };
-    let range = |name: u32| {
-        let mut range = [0.0; 2];
-        // SAFETY: the context is current; `name` is a parameter of two numbers.
-        unsafe { glow.get_parameter_f32_slice(name, &mut range) };
-        range
-    };
-    let mut viewport = [0; 2];
-    // SAFETY: the context is current; the parameter has two integers.
-    unsafe { glow.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut viewport) };
-    let texture = integer(glow::MAX_TEXTURE_SIZE);
-    let surface = platform.largest_surface();
-    let limit = |viewport: i32, surface: u32| (viewport.min(texture).max(0) as u32).min(surface);
-    let version = glow.version();
-    let version = (version.major, version.minor);
-    let timer_queries = version >= (3, 3) || has("GL_ARB_timer_query") || has("GL_EXT_timer_query");
-    let framebuffer_objects = version >= (3, 0) || has("GL_ARB_framebuffer_object");
-    let float_targets = framebuffer_objects && (version >= (3, 0) || has("GL_ARB_texture_float"));
-    let info = ContextInfo {
-        backend,
-        device,
-        vendor: text(glow::VENDOR),
-        renderer: text(glow::RENDERER),
-        version: text(glow::VERSION),
-        glsl_version: text(glow::SHADING_LANGUAGE_VERSION),
-        alpha_bits: integer(legacy::ALPHA_BITS),
-        depth_bits: integer(legacy::DEPTH_BITS),
-        aliased_line_width: range(legacy::ALIASED_LINE_WIDTH_RANGE),
-        smooth_line_width: range(legacy::SMOOTH_LINE_WIDTH_RANGE),
-        aliased_point_size: range(legacy::ALIASED_POINT_SIZE_RANGE),
-        smooth_point_size: range(legacy::SMOOTH_POINT_SIZE_RANGE),
-        largest_texture: texture.max(0) as u32,
-        texture_units: integer(glow::MAX_TEXTURE_IMAGE_UNITS).max(0) as u32,
-        largest_viewport: Size { width: viewport[0].max(0) as u32, height: viewport[1].max(0) as u32 },
-        largest_picture: Size { width: limit(viewport[0], surface.width), height: limit(viewport[1], surface.height) },
-        framebuffer_objects,
-        draw_buffers: integer(glow::MAX_DRAW_BUFFERS).max(0) as u32,
-        float_targets,
-        subpixel_bits: integer(glow::SUBPIXEL_BITS).max(LEAST_SUBPIXEL_BITS) as u32,
-        timer_queries,
-    };
+    let info = queried(&glow, &legacy, platform.largest_surface(), backend, device);
     // SAFETY: as above.
     let immediate = unsafe { Immediate::load(load) };
     let (live_objects, lost) = (Cell::new(0), Cell::new(None));
@@ -120,4 +73,56 @@ pub(super) fn load_functions(
     })?;
     gl.info.lacks_bits().map_or(Ok(()), Err)?;
     Ok(gl)
+}
+
+/// The properties of the current context.
+fn queried(glow: &glow::Context, legacy: &Legacy, surface: Size, backend: &'static str, device: String) -> ContextInfo {
+    let has = |name: &str| glow.supported_extensions().contains(name);
+    let text = |name: u32| {
+        // SAFETY: the context is current; `name` is one of the string names of GL 2.1.
+        unsafe { legacy.string(name) }.unwrap_or_default()
+    };
+    let integer = |name: u32| {
+        // SAFETY: the context is current; `name` is a parameter of one integer.
+        unsafe { glow.get_parameter_i32(name) }
+    };
+    let range = |name: u32| {
+        let mut range = [0.0; 2];
+        // SAFETY: the context is current; `name` is a parameter of two numbers.
+        unsafe { glow.get_parameter_f32_slice(name, &mut range) };
+        range
+    };
+    let mut viewport = [0; 2];
+    // SAFETY: the context is current; the parameter has two integers.
+    unsafe { glow.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut viewport) };
+    let texture = integer(glow::MAX_TEXTURE_SIZE);
+    let limit = |viewport: i32, surface: u32| (viewport.min(texture).max(0) as u32).min(surface);
+    let version = glow.version();
+    let version = (version.major, version.minor);
+    let timer_queries = version >= (3, 3) || has("GL_ARB_timer_query") || has("GL_EXT_timer_query");
+    let framebuffer_objects = version >= (3, 0) || has("GL_ARB_framebuffer_object");
+    let float_targets = framebuffer_objects && (version >= (3, 0) || has("GL_ARB_texture_float"));
+    ContextInfo {
+        backend,
+        device,
+        vendor: text(glow::VENDOR),
+        renderer: text(glow::RENDERER),
+        version: text(glow::VERSION),
+        glsl_version: text(glow::SHADING_LANGUAGE_VERSION),
+        alpha_bits: integer(legacy::ALPHA_BITS),
+        depth_bits: integer(legacy::DEPTH_BITS),
+        aliased_line_width: range(legacy::ALIASED_LINE_WIDTH_RANGE),
+        smooth_line_width: range(legacy::SMOOTH_LINE_WIDTH_RANGE),
+        aliased_point_size: range(legacy::ALIASED_POINT_SIZE_RANGE),
+        smooth_point_size: range(legacy::SMOOTH_POINT_SIZE_RANGE),
+        largest_texture: texture.max(0) as u32,
+        texture_units: integer(glow::MAX_TEXTURE_IMAGE_UNITS).max(0) as u32,
+        largest_viewport: Size { width: viewport[0].max(0) as u32, height: viewport[1].max(0) as u32 },
+        largest_picture: Size { width: limit(viewport[0], surface.width), height: limit(viewport[1], surface.height) },
+        framebuffer_objects,
+        draw_buffers: integer(glow::MAX_DRAW_BUFFERS).max(0) as u32,
+        float_targets,
+        subpixel_bits: integer(glow::SUBPIXEL_BITS).max(LEAST_SUBPIXEL_BITS) as u32,
+        timer_queries,
+    }
 }

@@ -30,10 +30,9 @@ impl Inking {
             };
             let is_drawn = |edge: &u32| self.back_edges || !edges.list().faces(*edge).iter().all(is_turned_away);
             let smooth = smooth.get(number);
+            let eye = scene.eye(object, self.silhouette);
             let chosen = match smooth {
-                None => {
-                    edges.chosen(self.classes, self.crease_angle, scene.eye(object, self.silhouette), self.silhouette)
-                }
+                None => edges.chosen(self.classes, self.crease_angle, eye, self.silhouette),
                 Some(smooth) => edges.chosen_with(self.classes, self.crease_angle, &smooth.edges),
             };
             let positions = edges.list().positions();
@@ -70,11 +69,8 @@ impl Inking {
                 let lines = &mut through_faces[Class::Curve as usize];
                 segments.iter().for_each(|ends| lines.push(ends.map(|end| to_vertex(positions[end as usize]))));
             }
-            for ((_, class), lines) in
-                Class::ALL.into_iter().zip(through_faces).filter(|(_, lines)| !lines.ends.is_empty())
-            {
-                of_classes.push((class, run(class, lines.ends, Some(lines.vertices))));
-            }
+            let of_own = Class::ALL.into_iter().zip(through_faces).filter(|(_, lines)| !lines.ends.is_empty());
+            of_classes.extend(of_own.map(|((_, class), lines)| (class, run(class, lines.ends, Some(lines.vertices)))));
             of_classes.sort_by_key(|(class, _)| *class);
             runs.extend(of_classes.into_iter().map(|(_, run)| run));
         }

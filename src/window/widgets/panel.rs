@@ -7,6 +7,7 @@ use crate::window::threads::viewer::Viewer;
 use crate::window::values::controls::{self, Control};
 use crate::window::values::event::{Layout, Side, ViewerEvent};
 use crate::window::values::line_style::LinesShown;
+use crate::window::values::state::ViewerState;
 use crate::window::widgets::keys;
 use crate::window::widgets::widget::{self, Change};
 use egui::{Color32, RichText, Ui};
@@ -29,7 +30,23 @@ const STAYED: &str = "strokes of the exact lines in this view, and how many came
 /// Shows the panel's content.
 pub(in crate::window) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     let state = &viewer.state;
-    let side = state.active;
+    panes(ui, state, events);
+    models(ui, state, events);
+    drawn(ui, viewer, events);
+    presets(ui, state, events);
+    let style = state.style(state.active);
+    let look = state.look().filter(|look| look.has_settings());
+    changes(ui, style.style_name().info().origin, look, &controls::of(style), state.active, events);
+    ui.separator();
+    egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        settings(ui, state, events);
+        ui.separator();
+        commands(ui, viewer);
+    });
+}
+
+/// How many styles are shown, and which of them the panel is about.
+fn panes(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
     ui.horizontal_wrapped(|ui| {
         for (layout, name) in
             [(Layout::Single, "one style"), (Layout::Split, "split"), (Layout::Difference, "difference")]
@@ -42,19 +59,28 @@ pub(in crate::window) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<Vie
     if state.sides().len() > 1 {
         ui.horizontal(|ui| {
             for (of, name) in [(Side::Left, "left"), (Side::Right, "right")] {
-                if ui.selectable_label(side == of, name).clicked() {
+                if ui.selectable_label(state.active == of, name).clicked() {
                     events.push(ViewerEvent::Choose(of));
                 }
             }
         });
     }
-    let model = state.model_names().join(", ");
-    match file(ui, "model", RichText::new(&model), &state.models.join(", ")) {
+}
+
+fn models(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
+    let names = state.model_names().join(", ");
+    match file(ui, "model", RichText::new(&names), &state.models.join(", ")) {
         Some(path) if !path.is_empty() => events.push(ViewerEvent::Open(vec![path])),
         #[cfg(feature = "file-dialogue")]
         Some(_) => events.push(ViewerEvent::Browse),
         _ => {}
     }
+}
+
+/// What is drawn: the style, lines over it, the look, the buffer.
+fn drawn(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
+    let state = &viewer.state;
+    let side = state.active;
     let style = state.style(side);
     let lines = state.lines_shown(side);
     choices(ui, "style", style.name(), StyleName::ALL.iter().map(|(name, _)| *name), |name| {
@@ -77,6 +103,10 @@ pub(in crate::window) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<Vie
             crate::window::values::buffer::buffers(style.style_name()).into_iter().map(|buffer| buffer.name());
         choices(ui, "shown", state.buffer.name(), buffers, |name| events.push(ViewerEvent::Buffer(name.to_owned())));
     }
+}
+
+/// Settings from files, coarser pictures, and what can be saved.
+fn presets(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
     choices(ui, "presets", "choose a paper's", SHIPPED.iter().map(|(name, _)| *name), |name| {
         events.push(ViewerEvent::OpenPreset(name.to_owned()));
     });
@@ -95,38 +125,42 @@ pub(in crate::window) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<Vie
             }
         }
     });
-    let look = state.look().filter(|look| look.has_settings());
-    changes(ui, style.style_name().info().origin, look, &controls::of(style), side, events);
-    ui.separator();
-    egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-        let mut list = Listed { words: search(ui), events };
-        if lines == LinesShown::Over {
-            let title = |_: &str| "Exact lines of both sides".to_owned();
-            let of_lines = controls::of(state.style_of_lines());
-            list.show(ui, "lines", of_lines, title, ViewerEvent::Lines, ViewerEvent::LinesDefault);
-        }
-        let title = |heading: &str| of_style_heading(heading, style.name());
-        let set = |option, value| ViewerEvent::Set(side, option, value);
-        list.show(ui, side, controls::of(style), title, set, |option| ViewerEvent::Default(side, option));
-        let of_scene = controls::of_scene(&state.scene_settings());
-        list.show(ui, "scene", of_scene, by_heading, ViewerEvent::Scene, ViewerEvent::SceneDefault);
-        let of_models = controls::of_load(&state.load);
-        list.show(ui, "models", of_models, by_heading, ViewerEvent::Model, ViewerEvent::ModelDefault);
-        ui.separator();
-        ui.label("the same by");
-        for command in viewer.commands() {
-            match command {
-                Ok(command) => {
-                    let text = RichText::new(&command).monospace().size(11.0);
-                    ui.add(egui::Label::new(text).wrap().selectable(true));
-                    if ui.small_button("copy").clicked() {
-                        ui.ctx().copy_text(command);
-                    }
+}
+
+/// The controls of the lines, the style, the scene and the models.
+fn settings(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
+    let side = state.active;
+    let style = state.style(side);
+    let mut list = Listed { words: search(ui), events };
+    if state.lines_shown(side) == LinesShown::Over {
+        let title = |_: &str| "Exact lines of both sides".to_owned();
+        let of_lines = controls::of(state.style_of_lines());
+        list.show(ui, "lines", of_lines, title, ViewerEvent::Lines, ViewerEvent::LinesDefault);
+    }
+    let title = |heading: &str| of_style_heading(heading, style.name());
+    let set = |option, value| ViewerEvent::Set(side, option, value);
+    list.show(ui, side, controls::of(style), title, set, |option| ViewerEvent::Default(side, option));
+    let of_scene = controls::of_scene(&state.scene_settings());
+    list.show(ui, "scene", of_scene, by_heading, ViewerEvent::Scene, ViewerEvent::SceneDefault);
+    let of_models = controls::of_load(&state.load);
+    list.show(ui, "models", of_models, by_heading, ViewerEvent::Model, ViewerEvent::ModelDefault);
+}
+
+/// The commands that draw the same.
+fn commands(ui: &mut Ui, viewer: &Viewer) {
+    ui.label("the same by");
+    for command in viewer.commands() {
+        match command {
+            Ok(command) => {
+                let text = RichText::new(&command).monospace().size(11.0);
+                ui.add(egui::Label::new(text).wrap().selectable(true));
+                if ui.small_button("copy").clicked() {
+                    ui.ctx().copy_text(command);
                 }
-                Err(problem) => drop(ui.label(problem)),
             }
+            Err(problem) => drop(ui.label(problem)),
         }
-    });
+    }
 }
 
 /// A field for words that a setting's name or help must have.

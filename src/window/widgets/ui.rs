@@ -294,7 +294,6 @@ fn hint(context: &Context) {
 /// The sheets over the panes: keys, costs, problems, progress of reading.
 fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     let state = &viewer.state;
-    let window = |title: &str| egui::Window::new(title.to_owned()).collapsible(false).resizable(false).movable(false);
     if state.has_price {
         window("times and errors").anchor(Align2::LEFT_TOP, [8.0, 8.0]).show(context, |ui| plot::show(ui, viewer));
     }
@@ -319,44 +318,54 @@ fn sheets(context: &Context, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
         }
     }
     if state.buffer == Buffer::EdgeClasses {
-        window("edges").anchor(Align2::LEFT_BOTTOM, [8.0, -8.0 - STATUS_HEIGHT]).show(context, |ui| {
-            for (class, [red, green, blue]) in CLASS_COLORS {
-                let byte = |channel: f32| (channel * 255.0) as u8;
-                ui.horizontal(|ui| {
-                    let (place, _) = ui.allocate_exact_size(Vec2::new(14.0, 8.0), Sense::hover());
-                    ui.painter().rect_filled(place, 1.0, Color32::from_rgb(byte(red), byte(green), byte(blue)));
-                    ui.painter().rect_stroke(place, 1.0, Stroke::new(1.0, Color32::GRAY), egui::StrokeKind::Outside);
-                    ui.label(class.name());
-                });
-            }
+        window("edges").anchor(Align2::LEFT_BOTTOM, [8.0, -8.0 - STATUS_HEIGHT]).show(context, class_colors);
+    }
+    if state.has_key_sheet && key_sheet(context) {
+        events.push(ViewerEvent::KeySheet);
+    }
+}
+
+fn window(title: &str) -> egui::Window<'static> {
+    egui::Window::new(title.to_owned()).collapsible(false).resizable(false).movable(false)
+}
+
+/// The colours of edges by class.
+fn class_colors(ui: &mut Ui) {
+    for (class, [red, green, blue]) in CLASS_COLORS {
+        let byte = |channel: f32| (channel * 255.0) as u8;
+        ui.horizontal(|ui| {
+            let (place, _) = ui.allocate_exact_size(Vec2::new(14.0, 8.0), Sense::hover());
+            ui.painter().rect_filled(place, 1.0, Color32::from_rgb(byte(red), byte(green), byte(blue)));
+            ui.painter().rect_stroke(place, 1.0, Stroke::new(1.0, Color32::GRAY), egui::StrokeKind::Outside);
+            ui.label(class.name());
         });
     }
-    if state.has_key_sheet {
-        let shown = window("keys").anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
-            // In a small window the rest scrolls.
-            let Vec2 { x: width, y: height } = context.content_rect().size();
-            egui::ScrollArea::vertical().max_height(height - KEY_SHEET_MARGIN).show(ui, |ui| {
-                let rows: Vec<_> = crate::keys::sheet(false).collect();
-                let columns = if width < WIDE { 1 } else { 2 };
-                let height = rows.len().div_ceil(columns);
-                egui::Grid::new("keys").num_columns(2 * columns + 1).spacing([24.0, 4.0]).show(ui, |ui| {
-                    for row in 0..height {
-                        for (keys, what) in rows.iter().skip(row).step_by(height) {
-                            ui.strong(*keys);
-                            ui.label(broken(what));
-                        }
-                        // Room for the bar beside the rows.
-                        ui.label("");
-                        ui.end_row();
+}
+
+/// The keys; whether the button that closes them was pressed.
+fn key_sheet(context: &Context) -> bool {
+    let shown = window("keys").anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
+        // In a small window the rest scrolls.
+        let Vec2 { x: width, y: height } = context.content_rect().size();
+        egui::ScrollArea::vertical().max_height(height - KEY_SHEET_MARGIN).show(ui, |ui| {
+            let rows: Vec<_> = crate::keys::sheet(false).collect();
+            let columns = if width < WIDE { 1 } else { 2 };
+            let height = rows.len().div_ceil(columns);
+            egui::Grid::new("keys").num_columns(2 * columns + 1).spacing([24.0, 4.0]).show(ui, |ui| {
+                for row in 0..height {
+                    for (keys, what) in rows.iter().skip(row).step_by(height) {
+                        ui.strong(*keys);
+                        ui.label(broken(what));
                     }
-                });
+                    // Room for the bar beside the rows.
+                    ui.label("");
+                    ui.end_row();
+                }
             });
-            ui.button("close").clicked()
         });
-        if shown.is_some_and(|shown| shown.inner == Some(true)) {
-            events.push(ViewerEvent::KeySheet);
-        }
-    }
+        ui.button("close").clicked()
+    });
+    shown.is_some_and(|shown| shown.inner == Some(true))
 }
 
 #[cfg(test)]

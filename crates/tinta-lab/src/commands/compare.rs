@@ -17,7 +17,7 @@ use tinta::renderer::milliseconds_since;
 use tinta::request::{Request, Session, ignored_remark};
 use tinta::settings::{HasSettings, Kind, Setting, Table};
 use tinta::styles::is_of_lines_alone;
-use tinta::{Error, Picture, Result, Scene, Show, StyleName, Target};
+use tinta::{Error, Picture, Renderer, Result, Scene, Show, StyleName, Target};
 use tinta::{SceneSettings, Size, Style};
 
 /// The command.
@@ -206,13 +206,7 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
 }
 
 fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &mut Session) -> Result<()> {
-    let mut how = arguments.how.settings()?;
-    // A preset's style is the one on the left.
-    let is_of_preset = request.options.contains_key("style") && !arguments.how.options.contains_key("left");
-    if is_of_preset {
-        how.left = request.style.style_name();
-    }
-    let left = if is_of_preset { "style" } else { "left" };
+    let (how, left) = how_compared(arguments, request)?;
     tinta::cli::messages::check_output(&arguments.output)?;
     let inputs = Inputs::new(&request.models, &request.options, files);
     inputs.keep(&arguments.output)?;
@@ -221,43 +215,13 @@ fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &m
     if how.json && matches!(output, Output::File(Target::Stdout)) {
         return Err(Error::value("o", "-", "the sheet and --json cannot share standard output; name a file"));
     }
-    if request.options.contains_key("no-borders") {
-        return Err(Error::setting("no-borders", "compare needs the lines; leave it out"));
-    }
-    for (option, name) in [(left, how.left), ("right", how.right)] {
-        if !name.has_lines() {
-            return Err(Error::value(
-                option,
-                name.name(),
-                format!("this style has no lines to compare; choose one of {}", StyleName::list_with_lines()),
-            ));
-        }
-    }
+    let names = named(request, [(left, how.left), ("right", how.right)])?;
     let styles = [request.in_style(how.left)?.style, request.in_style(how.right)?.style];
     let meshes = request.models(&session.models)?.meshes;
     let scene = Scene::new(meshes, &request.scene)?;
     let count = scene.objects.len() / request.scene.copies as usize;
     let renderer = request.renderer(session)?;
-    let mut draw = |style: &tinta::Style| -> Result<Drawing> {
-        let start = Instant::now();
-        let plan = style.plan(&scene, Show::Final)?;
-        let plan_ms = milliseconds_since(start);
-        let lines = style.plan(&scene, Show::Borders)?;
-        renderer.remarks(&plan).iter().for_each(|remark| tinta::cli::say(&format!("tinta: {remark}")));
-        let ink = InkMask::of(&renderer.draw(&scene, &lines)?);
-        let picture = renderer.draw(&scene, &plan)?;
-        renderer.time_frames(&scene, &plan, WARM_UP, 1)?;
-        // As in a moving view: silhouettes and light are computed in every frame.
-        let mut frame = || -> Result<f64> {
-            let start = Instant::now();
-            let plan = style.plan(&scene, Show::Final)?;
-            renderer.time_frames(&scene, &plan, 0, 1)?;
-            Ok(milliseconds_since(start))
-        };
-        let times: Result<Vec<f64>> = (0..how.frames).map(|_| frame()).collect();
-        let record = DrawingRecord { style: style.clone(), plan_ms, frame_ms: Summary::new(times?) };
-        Ok(Drawing { picture, ink, record })
-    };
+    let mut draw = |style: &Style| Drawing::of(&scene, style, renderer, how.frames);
     let [left, right] = [draw(&styles[0])?, draw(&styles[1])?];
     let agreement = Agreement::of(&left.ink, &right.ink, how.tolerance_px)
         .ok_or_else(|| Error::setting("size", "the two pictures came out in different sizes; choose another"))?;
@@ -273,7 +237,6 @@ fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &m
         right: right.record,
         agreement: agreement.numbers,
     };
-    let names = [how.left, how.right].map(StyleName::name);
     let panels = [
         panel(names[0], &record.left, left.picture),
         panel(names[1], &record.right, right.picture),
@@ -284,6 +247,58 @@ fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &m
     let given = arguments.options.options.keys().map(String::as_str);
     ignored_remark(given, &names).iter().for_each(|remark| tinta::cli::say(&format!("tinta: {remark}")));
     if how.json { tinta::cli::print_json(&record) } else { Ok(()) }
+}
+
+/// How is compared, and the option that chose the style on the left.
+fn how_compared(arguments: &Arguments, request: &Request) -> Result<(CompareSettings, &'static str)> {
+    let mut how = arguments.how.settings()?;
+    // A preset's style is the one on the left.
+    let is_of_preset = request.options.contains_key("style") && !arguments.how.options.contains_key("left");
+    if is_of_preset {
+        how.left = request.style.style_name();
+    }
+    Ok((how, if is_of_preset { "style" } else { "left" }))
+}
+
+/// The names of two styles with lines, each with the option that chose it.
+fn named(request: &Request, chosen: [(&str, StyleName); 2]) -> Result<[&'static str; 2]> {
+    if request.options.contains_key("no-borders") {
+        return Err(Error::setting("no-borders", "compare needs the lines; leave it out"));
+    }
+    for (option, name) in chosen {
+        if !name.has_lines() {
+            return Err(Error::value(
+                option,
+                name.name(),
+                format!("this style has no lines to compare; choose one of {}", StyleName::list_with_lines()),
+            ));
+        }
+    }
+    Ok(chosen.map(|(_, name)| name.name()))
+}
+
+impl Drawing {
+    /// Draws the scene in a style, and times so many frames.
+    fn of(scene: &Scene, style: &Style, renderer: &mut Renderer, frames: u32) -> Result<Self> {
+        let start = Instant::now();
+        let plan = style.plan(scene, Show::Final)?;
+        let plan_ms = milliseconds_since(start);
+        let lines = style.plan(scene, Show::Borders)?;
+        renderer.remarks(&plan).iter().for_each(|remark| tinta::cli::say(&format!("tinta: {remark}")));
+        let ink = InkMask::of(&renderer.draw(scene, &lines)?);
+        let picture = renderer.draw(scene, &plan)?;
+        renderer.time_frames(scene, &plan, WARM_UP, 1)?;
+        // As in a moving view: silhouettes and light are computed in every frame.
+        let mut frame = || -> Result<f64> {
+            let start = Instant::now();
+            let plan = style.plan(scene, Show::Final)?;
+            renderer.time_frames(scene, &plan, 0, 1)?;
+            Ok(milliseconds_since(start))
+        };
+        let times: Result<Vec<f64>> = (0..frames).map(|_| frame()).collect();
+        let record = DrawingRecord { style: style.clone(), plan_ms, frame_ms: Summary::new(times?) };
+        Ok(Self { picture, ink, record })
+    }
 }
 
 fn panel(name: &str, record: &DrawingRecord, picture: Picture) -> Panel {

@@ -2,8 +2,8 @@
 
 use super::measure::errors::{error_page, known_picture};
 use crate::judge::{Entry, InkColor, JudgeSettings, Judgement, OneToOne, drawing, judge};
-use crate::measure::{INK_FROM, MeasureSettings, Reference, error_picture};
-use crate::report::{ReportInfo, RowLog};
+use crate::measure::{INK_FROM, MeasureSettings, Reference, Row, error_picture};
+use crate::report::{ReportInfo, ReportPicture, RowLog};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use tinta::recipe::{Recipe, option_words};
 use tinta::request::Request;
 use tinta::settings::{HasSettings as _, Setting};
 use tinta::styles::Inking;
-use tinta::{Camera, Error, LineSettings, Mesh, Result, Scene, SceneSettings, Size, Style, StyleName};
+use tinta::{Camera, Error, LineSettings, Mesh, Picture, Result, Scene, SceneSettings, Size, Style, StyleName};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -122,22 +122,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<Verdict> {
     let below = Below { camera, ..Below::default() };
     let (request, _) = arguments.subject.request(std::slice::from_ref(&arguments.model), &below)?;
     let meshes = load_meshes(&request.models, &request.read)?;
-    let mut log = match &arguments.output {
-        None => None,
-        Some(folder) => {
-            let files: Vec<&str> = camera.and_then(Path::to_str).into_iter().collect();
-            Inputs::new(&request.models, &request.options, &files).keep_in(folder, WRITTEN)?;
-            tinta::cli::make_folder(folder)?;
-            Some(RowLog::resume(folder)?)
-        }
-    };
+    let mut folder = Folder::open(arguments, &request, &names)?;
     let mut subject: Option<Subject> = None;
-    let known = log.iter().flat_map(|(_, rows)| rows);
-    let known = known.filter(|row| !names.contains(&row.style) || row.model != arguments.model);
-    let mut pictures: Vec<_> = match &arguments.output {
-        Some(folder) => known.filter_map(|row| known_picture(folder, row)).collect(),
-        None => Vec::new(),
-    };
     for (index, (name, picture)) in names.iter().zip(&drawings).enumerate() {
         if subject.as_ref().is_none_or(|subject| subject.scene.size != picture.size) {
             subject = Some(Subject::new(arguments, &request, meshes.clone(), picture.size)?);
@@ -160,33 +146,65 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<Verdict> {
             }
             verdict = Verdict::Different;
         }
-        if let (Some((log, rows)), Some(folder)) = (&mut log, &arguments.output) {
+        if let Some(folder) = &mut folder {
             let entry = Entry {
                 name: name.clone(),
                 model: arguments.model.clone(),
                 machine: arguments.machine.clone().unwrap_or_else(|| MeasureSettings::default().machine),
                 seconds: arguments.seconds.get(index).copied().unwrap_or_default(),
             };
-            let row = entry.row(scene, &judgement);
-            log.append(&row)?;
             let errors = match &judgement.fit {
                 Some(fit) => error_picture(&ink, &reference.moved(|px| fit.apply(px)), settings.tolerance_px),
                 None => error_picture(&ink, reference, settings.tolerance_px),
             };
-            pictures.push(error_page(folder, &row, [picture, &errors])?);
-            rows.push(row);
+            folder.add(entry.row(scene, &judgement), [picture, &errors])?;
         }
     }
-    let (Some((_, rows)), Some(folder)) = (log, &arguments.output) else { return Ok(verdict) };
-    let info = ReportInfo {
-        command: command.to_owned(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        notes: Vec::new(),
-        pictures,
-    };
-    crate::report::write(folder, &rows, &info)?;
-    tinta::cli::say(&format!("tinta: {}", folder.join("report.html").display()));
+    if let Some(folder) = folder {
+        folder.report(command)?;
+    }
     Ok(verdict)
+}
+
+/// The folder of a report, which keeps what was judged before.
+struct Folder<'a> {
+    path: &'a Path,
+    log: RowLog,
+    rows: Vec<Row>,
+    pictures: Vec<ReportPicture>,
+}
+
+impl<'a> Folder<'a> {
+    /// Opens the folder that the arguments name, if they name one; drawings of these names replace those of before.
+    fn open(arguments: &'a Arguments, request: &Request, names: &[String]) -> Result<Option<Self>> {
+        let Some(path) = arguments.output.as_deref() else { return Ok(None) };
+        let files: Vec<&str> = arguments.camera.camera.as_deref().and_then(Path::to_str).into_iter().collect();
+        Inputs::new(&request.models, &request.options, &files).keep_in(path, WRITTEN)?;
+        tinta::cli::make_folder(path)?;
+        let (log, rows) = RowLog::resume(path)?;
+        let stays = |row: &&Row| !names.contains(&row.style) || row.model != arguments.model;
+        let pictures = rows.iter().filter(stays).filter_map(|row| known_picture(path, row)).collect();
+        Ok(Some(Self { path, log, rows, pictures }))
+    }
+
+    fn add(&mut self, row: Row, pictures: [&Picture; 2]) -> Result<()> {
+        self.log.append(&row)?;
+        self.pictures.push(error_page(self.path, &row, pictures)?);
+        self.rows.push(row);
+        Ok(())
+    }
+
+    fn report(self, command: &str) -> Result<()> {
+        let info = ReportInfo {
+            command: command.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            notes: Vec::new(),
+            pictures: self.pictures,
+        };
+        crate::report::write(self.path, &self.rows, &info)?;
+        tinta::cli::say(&format!("tinta: {}", self.path.join("report.html").display()));
+        Ok(())
+    }
 }
 
 /// A scene of a drawing's size and its lines.

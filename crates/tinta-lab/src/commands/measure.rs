@@ -7,7 +7,7 @@ mod results;
 mod settings;
 mod words;
 
-use crate::measure::{Against, Setting};
+use crate::measure::{Against, MeasuredStyle};
 use groups::{all_surfaces, expected, groups};
 use measuring::Measuring;
 use results::Results;
@@ -155,7 +155,7 @@ pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -
 }
 
 /// A preset's layer for the model and the camera, and its style, which is measured with the others.
-fn of_preset_file(preset: &Preset) -> Result<(OptionLayer, Option<Setting>)> {
+fn of_preset_file(preset: &Preset) -> Result<(OptionLayer, Option<MeasuredStyle>)> {
     let is_of_subject = Chosen::<OfSubject>::has;
     let is_of_style = |name: &str| name == "style" || Style::table().has(name);
     refuse_of_other_commands(preset, "measure", |name| is_of_subject(name) || is_of_both(name) || is_of_style(name))?;
@@ -176,7 +176,7 @@ fn measured(
     arguments: &Arguments,
     request: &Request,
     asked: &HowMeasured,
-    own_setting: Option<Setting>,
+    own_setting: Option<MeasuredStyle>,
     command: &str,
     session: &mut Session,
 ) -> Result<()> {

@@ -19,7 +19,7 @@ use tinta::styles::{Show, Style};
 
 /// A style with settings, and the user's options for it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Setting {
+pub struct MeasuredStyle {
     /// The style.
     pub style: Style,
     /// How its vertices are handed to GL.
@@ -159,7 +159,7 @@ pub enum MeasureStep {
 pub fn measure(
     renderer: &mut Renderer,
     subject: &Subject,
-    settings: &[Setting],
+    settings: &[MeasuredStyle],
     how: &MeasureSettings,
     mut step: impl FnMut(MeasureStep),
 ) -> Result<(Vec<Measured>, Vec<String>)> {
@@ -216,7 +216,7 @@ pub fn frames_a_turn(frames: usize) -> usize {
 fn contestant(
     renderer: &mut Renderer,
     subject: &Subject,
-    setting: &Setting,
+    setting: &MeasuredStyle,
     how: &MeasureSettings,
 ) -> Result<Contestant> {
     let scene = &subject.scene;

@@ -1,6 +1,6 @@
 //! The page's answer in a sentence: the recommended setting.
 
-use super::plot::short;
+use super::frame::short;
 use super::settings::{Point, Points};
 use std::collections::BTreeSet;
 

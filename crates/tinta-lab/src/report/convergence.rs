@@ -1,11 +1,11 @@
 //! Error against the number of triangles, for lines compared with the contour of a smooth surface: a plot for each surface, and
 //! the order of convergence of each setting.
 
-use super::canvas::{Anchor, Axes, Canvas, text_width, wrapped};
+use super::frame::{MARGIN, Scale, Shape, grid, short, spread};
 use super::labels::Rectangle;
 use super::marks;
-use super::plot::{MARGIN, Scale, Shape, grid, short, spread};
 use super::settings::short_names;
+use super::svg_canvas::{Anchor, SvgCanvas, text_width};
 use crate::measure::{Against, Row};
 use plotters::style::RGBColor;
 use tinta::error::Result;
@@ -33,6 +33,13 @@ impl Curve {
         // Edges are as long as the root of a triangle's area.
         let order = 2.0 * (first.1 / last.1).ln() / (last.0 / first.0).ln();
         order.is_finite().then_some(order)
+    }
+
+    /// Its entry in the key.
+    fn described(&self) -> String {
+        let errors: Vec<String> = self.points.iter().map(|point| short(point.1)).collect();
+        let order = self.order().map_or(String::new(), |order| format!(", order {order:.2}"));
+        format!("{}: {} px{order}", self.name, errors.join(", "))
     }
 }
 
@@ -99,41 +106,24 @@ pub(super) fn plot(curves: &[Curve], surface: &str, shape: Shape) -> Result<Stri
     let last = |curve: &Curve| curve.points.last().map_or(0.0, |point| point.1);
     shown.sort_by(|a, b| last(b).total_cmp(&last(a)));
     let layout = shape.layout();
-    let line_height = layout.text * 1.4;
-    let room = layout.width - 2.0 * MARGIN - 26.0;
-    let key: Vec<Vec<String>> = shown
-        .iter()
-        .map(|curve| {
-            let errors: Vec<String> = curve.points.iter().map(|point| short(point.1)).collect();
-            let order = curve.order().map_or(String::new(), |order| format!(", order {order:.2}"));
-            wrapped(&format!("{}: {} px{order}", curve.name, errors.join(", ")), layout.text, room)
-        })
-        .collect();
-    let top = MARGIN + layout.title * 1.4 + line_height * 1.5;
+    let key: Vec<Vec<String>> = shown.iter().map(|curve| layout.entry(&curve.described())).collect();
+    let top = MARGIN + layout.title * 1.4 + layout.line_height() * 1.5;
     // Room for the numbers of curves that end in one place.
     let right = layout.width - MARGIN - 16.0 * shown.len().min(6) as f64;
     let inner = Rectangle { left: layout.left, top, right, bottom: top + layout.height };
-    let key_top = inner.bottom + line_height * 3.2;
-    let bottom = key_top + line_height * (key.iter().map(Vec::len).sum::<usize>() as f64 + 0.3);
+    let key_top = inner.bottom + layout.line_height() * 3.2;
     let all = || shown.iter().flat_map(|curve| curve.points.iter());
     let scale = Scale {
         time_ms: spread(all().map(|point| point.0)),
         error: spread(all().map(|point| point.1).filter(|error| *error > 0.0)),
         zero: None,
     };
-    let axes = Axes::new(
-        scale.time_ms.clone(),
-        scale.error.clone(),
-        inner.left as i32..inner.right as i32,
-        inner.bottom as i32..inner.top as i32,
-    );
+    let axes = scale.axes(&inner);
     let title = format!("Convergence on the {surface}");
     let mut svg = String::new();
-    let canvas = Canvas::new(&mut svg, layout.width as u32, bottom.ceil() as u32)?;
-    let text = |at: (f64, f64), anchor: Anchor, text: &str| canvas.text(at, anchor, text, layout.text, false);
-    canvas.text((MARGIN, MARGIN + layout.title * 0.7), Anchor::Start, &title, layout.title, true)?;
-    text((MARGIN, inner.top - line_height * 0.7), Anchor::Start, "\u{2191} mean distance from the true contour, px")?;
-    text((inner.right, inner.bottom + line_height * 2.0), Anchor::End, "triangles \u{2192}")?;
+    let canvas = SvgCanvas::new(&mut svg, layout.width as u32, layout.below_key(key_top, &key).ceil() as u32)?;
+    let names = ["\u{2191} mean distance from the true contour, px", "triangles \u{2192}"].map(str::to_owned);
+    layout.name(&canvas, &inner, &title, &[], &names)?;
     grid(&canvas, &axes, &scale, &inner, &layout)?;
     let mut taken: Vec<Rectangle> = Vec::new();
     for (number, curve) in shown.iter().enumerate() {
@@ -156,17 +146,10 @@ pub(super) fn plot(curves: &[Curve], surface: &str, shape: Shape) -> Result<Stri
             place.left += 16.0;
             place.right += 16.0;
         }
-        text((place.left, y), Anchor::Start, &label)?;
+        canvas.text((place.left, y), Anchor::Start, &label, layout.text, false)?;
         taken.push(place);
     }
-    let mut y = key_top;
-    for (number, lines) in key.iter().enumerate() {
-        canvas.text((MARGIN + 18.0, y), Anchor::End, &(number + 1).to_string(), layout.text, true)?;
-        for line in lines {
-            text((MARGIN + 26.0, y), Anchor::Start, line)?;
-            y += line_height;
-        }
-    }
+    layout.draw_key(&canvas, key_top, &key)?;
     canvas.finish()?;
     let what = format!("<svg role=\"img\" aria-label=\"{title}\" ");
     Ok(svg.replacen("<svg ", &what, 1))

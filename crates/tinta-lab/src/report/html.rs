@@ -6,8 +6,9 @@
 use super::answer::answer;
 use super::columns::{Column, Value, columns};
 use super::convergence::{curves, plot as convergence_plot, surfaces};
+use super::frame::Shape;
 use super::info::ReportInfo;
-use super::plot::{Shape, plot, subtitle};
+use super::plot::{plot, subtitle};
 use super::ratios::ratios;
 use super::settings::{Machine, Measure, Time, machines, model_names, models, points};
 use crate::measure::{Against, Row};

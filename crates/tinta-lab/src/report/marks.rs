@@ -1,6 +1,6 @@
 //! A style's mark in the plots, taken from its row.
 
-use super::canvas::{BACKGROUND, Canvas};
+use super::svg_canvas::{BACKGROUND, SvgCanvas};
 use plotters::style::{Color, RGBColor};
 use std::f64::consts::{PI, TAU};
 use tinta::error::Result;
@@ -23,7 +23,7 @@ pub(super) fn rank(style: &str) -> usize {
 }
 
 /// Draws a style's mark, filled or hollow.
-pub(super) fn draw(canvas: &Canvas<'_>, style: &str, middle: (f64, f64), is_filled: bool) -> Result<()> {
+pub(super) fn draw(canvas: &SvgCanvas<'_>, style: &str, middle: (f64, f64), is_filled: bool) -> Result<()> {
     let Mark { rgb: [red, green, blue], outline } =
         marks().find(|(name, _)| *name == style).map_or(OTHER, |(_, mark)| mark);
     let color = RGBColor(red, green, blue);

@@ -3,34 +3,14 @@
 //!
 //! Drawn twice, for wide pages and for phones: text scaled down with a picture could not be read there.
 
-use super::canvas::{Anchor, Axes, Canvas, FAINT, MIDDLE, text_width, wrapped};
+use super::frame::{Layout, MARGIN, Scale, Shape, grid, short};
 use super::labels::{Rectangle, place};
 use super::marks;
 use super::settings::{Machine, Measure, Point, Points, Time, model_names, pareto, points};
+use super::svg_canvas::{Anchor, Axes, MIDDLE, SvgCanvas, text_width, wrapped};
 use plotters::style::RGBColor;
 use std::collections::BTreeMap;
-use std::ops::Range;
 use tinta::error::Result;
-
-/// The destination of a plot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shape {
-    /// A file, or a page on a screen: names stand beside their points.
-    Wide,
-    /// A phone: numbers stand beside the points, their names below.
-    Narrow,
-}
-
-/// Sizes in pixels.
-pub(super) struct Layout {
-    pub(super) width: f64,
-    pub(super) height: f64,
-    pub(super) left: f64,
-    pub(super) text: f64,
-    pub(super) title: f64,
-}
-
-pub(super) const MARGIN: f64 = 12.0;
 
 /// Quartiles, and curves over picture sizes.
 const BAR: RGBColor = RGBColor(205, 205, 205);
@@ -38,15 +18,6 @@ const CURVE: RGBColor = RGBColor(130, 130, 130);
 
 /// Names with more characters get a number instead.
 const LONGEST_LABEL: usize = 46;
-
-impl Shape {
-    pub(super) fn layout(self) -> Layout {
-        match self {
-            Self::Wide => Layout { width: 880.0, height: 420.0, left: 80.0, text: 14.0, title: 18.0 },
-            Self::Narrow => Layout { width: 360.0, height: 300.0, left: 64.0, text: 12.0, title: 15.0 },
-        }
-    }
-}
 
 /// The plot's subject: the models and the machine.
 pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
@@ -76,199 +47,89 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
         return Ok(None);
     }
     let layout = shape.layout();
-    let room = layout.width - 2.0 * MARGIN;
-    let subtitle_lines = wrapped(subtitle, layout.text, room);
-    let line_height = layout.text * 1.4;
+    let line_height = layout.line_height();
+    let subtitle_lines = wrapped(subtitle, layout.text, layout.room());
     let top = MARGIN + layout.title * 1.4 + line_height * (subtitle_lines.len() as f64 + 1.5);
     let inner = Rectangle { left: layout.left, top, right: layout.width - MARGIN, bottom: top + layout.height };
-
-    let scale = Scale::of(points);
-    let pixels = |range: Range<f64>| range.start as i32..range.end as i32;
-    let axes = Axes::new(
-        scale.time_ms.clone(),
-        scale.error.clone(),
-        pixels(inner.left..inner.right),
-        pixels(inner.bottom..inner.top),
-    );
-    let middles: Vec<(f64, f64)> =
-        points.iter().map(|point| axes.pixel(point.time_ms, scale.drawn_error(point.error))).collect();
-    let front = front(points);
-    let steps = steps(&front.iter().map(|index| middles[*index]).collect::<Vec<_>>(), &inner);
-    let labels = labels(points, &front, &middles, &steps, &inner, &layout, shape);
+    let marked = Marked::of(points, &inner);
+    let labels = labels(&marked, &inner, &layout, shape);
 
     let legend = legend(points, &layout);
-    let key: Vec<(usize, Vec<String>)> = labels
-        .iter()
-        .filter_map(|label| label.number.map(|number| (number, &points[label.index])))
-        .map(|(number, point)| (number, wrapped(&described(point), layout.text, room - 26.0)))
-        .collect();
+    let numbered = labels.iter().filter(|label| label.number.is_some());
+    let key: Vec<Vec<String>> = numbered.map(|label| layout.entry(&described(&points[label.index]))).collect();
     let legend_top = inner.bottom + line_height * 3.2;
     let key_top = legend_top + line_height * (legend.last().map_or(0, |item| item.line) as f64 + 1.4);
-    let key_lines = key.iter().map(|(_, lines)| lines.len()).sum::<usize>();
-    let bottom = key_top + line_height * if key_lines > 0 { key_lines as f64 + 0.3 } else { 0.0 };
+    let bottom = if key.is_empty() { key_top } else { layout.below_key(key_top, &key) };
 
     let mut svg = String::new();
-    let canvas = Canvas::new(&mut svg, layout.width as u32, bottom.ceil() as u32)?;
-    let text = |at: (f64, f64), anchor: Anchor, text: &str| canvas.text(at, anchor, text, layout.text, false);
-    canvas.text((MARGIN, MARGIN + layout.title * 0.7), Anchor::Start, measure.title(), layout.title, true)?;
-    for (line, words) in subtitle_lines.iter().enumerate() {
-        let y = MARGIN + layout.title * 1.4 + line_height * (line as f64 + 0.6);
-        text((MARGIN, y), Anchor::Start, words)?;
-    }
-    text((MARGIN, inner.top - line_height * 0.7), Anchor::Start, &format!("↑ {}", measure.axis()))?;
-    text((inner.right, inner.bottom + line_height * 2.0), Anchor::End, &format!("{} →", time.axis()))?;
-    grid(&canvas, &axes, &scale, &inner, &layout)?;
-    for (point, (x, y)) in points.iter().zip(&middles) {
-        let [fast, slow] =
-            point.times_ms.map(|ms| axes.pixel(ms.clamp(scale.time_ms.start, scale.time_ms.end), point.error).0);
-        let [least, most] = point.errors.map(|error| {
-            let drawn = scale.drawn_error(error).clamp(scale.error.start, scale.error.end);
-            axes.pixel(point.time_ms, drawn).1
-        });
-        canvas.line(&[(fast, *y), (slow, *y)], BAR, 1)?;
-        canvas.line(&[(*x, least), (*x, most)], BAR, 1)?;
-    }
-    for curve in curves(points) {
-        canvas.line(&curve.iter().map(|index| middles[*index]).collect::<Vec<_>>(), CURVE, 1)?;
-    }
-    canvas.line(&steps, MIDDLE, 2)?;
-    // Hollow marks first, to put the published settings above them.
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by_key(|index| (front.contains(index), points[*index].is_faithful));
-    for index in order {
-        marks::draw(&canvas, &points[index].style, middles[index], points[index].is_faithful)?;
-    }
+    let canvas = SvgCanvas::new(&mut svg, layout.width as u32, bottom.ceil() as u32)?;
+    let axes = [format!("↑ {}", measure.axis()), format!("{} →", time.axis())];
+    layout.name(&canvas, &inner, measure.title(), &subtitle_lines, &axes)?;
+    grid(&canvas, &marked.axes, &marked.scale, &inner, &layout)?;
+    marked.draw(&canvas)?;
     for label in &labels {
-        let middle = middles[label.index];
-        let near = label.place.nearest(middle);
-        if (near.0 - middle.0).hypot(near.1 - middle.1) > marks::RADIUS + 6.0 {
-            canvas.line(&[middle, near], MIDDLE, 1)?;
-        }
-        let name = label.number.map_or_else(|| points[label.index].name.clone(), |number| number.to_string());
-        let y = (label.place.top + label.place.bottom) / 2.0;
-        canvas.text((label.place.left + 2.0, y), Anchor::Start, &name, layout.text, label.number.is_some())?;
+        label.draw(&canvas, &marked, &layout)?;
     }
     for item in &legend {
-        let at = (item.left, legend_top + line_height * item.line as f64);
-        match &item.mark {
-            Mark::Style(style, is_filled) => marks::draw(&canvas, style, (at.0 + 7.0, at.1), *is_filled)?,
-            Mark::Line(color) => canvas.line(&[at, (at.0 + 14.0, at.1)], *color, 1)?,
-            Mark::Front => canvas.line(&[at, (at.0 + 14.0, at.1)], MIDDLE, 2)?,
-        }
-        text((at.0 + 20.0, at.1), Anchor::Start, &item.text)?;
+        item.draw(&canvas, legend_top, &layout)?;
     }
-    let mut y = key_top;
-    for (number, lines) in &key {
-        canvas.text((MARGIN + 18.0, y), Anchor::End, &number.to_string(), layout.text, true)?;
-        for line in lines {
-            text((MARGIN + 26.0, y), Anchor::Start, line)?;
-            y += line_height;
-        }
-    }
+    layout.draw_key(&canvas, key_top, &key)?;
     canvas.finish()?;
     let what =
         format!("<svg role=\"img\" aria-label=\"{}. {}\" ", measure.title(), tinta_geometry::markup::escaped(subtitle));
     Ok(Some(svg.replacen("<svg ", &what, 1)))
 }
 
+/// The marks of a plot and the lines between them, in pixels.
+struct Marked<'a> {
+    points: &'a [Point],
+    scale: Scale,
+    axes: Axes,
+    middles: Vec<(f64, f64)>,
+    front: Vec<usize>,
+    steps: Vec<(f64, f64)>,
+}
+
+impl<'a> Marked<'a> {
+    fn of(points: &'a [Point], inner: &Rectangle) -> Self {
+        let scale = Scale::of(points);
+        let axes = scale.axes(inner);
+        let middle = |point: &Point| axes.pixel(point.time_ms, scale.drawn_error(point.error));
+        let middles: Vec<(f64, f64)> = points.iter().map(middle).collect();
+        let front = front(points);
+        let steps = steps(&front.iter().map(|index| middles[*index]).collect::<Vec<_>>(), inner);
+        Self { points, scale, axes, middles, front, steps }
+    }
+
+    /// Draws quartiles, curves, the front and the marks.
+    fn draw(&self, canvas: &SvgCanvas<'_>) -> Result<()> {
+        let Self { points, scale, axes, middles, front, steps } = self;
+        for (point, (x, y)) in points.iter().zip(middles) {
+            let [fast, slow] =
+                point.times_ms.map(|ms| axes.pixel(ms.clamp(scale.time_ms.start, scale.time_ms.end), point.error).0);
+            let [least, most] = point.errors.map(|error| {
+                let drawn = scale.drawn_error(error).clamp(scale.error.start, scale.error.end);
+                axes.pixel(point.time_ms, drawn).1
+            });
+            canvas.line(&[(fast, *y), (slow, *y)], BAR, 1)?;
+            canvas.line(&[(*x, least), (*x, most)], BAR, 1)?;
+        }
+        for curve in curves(points) {
+            canvas.line(&curve.iter().map(|index| middles[*index]).collect::<Vec<_>>(), CURVE, 1)?;
+        }
+        canvas.line(steps, MIDDLE, 2)?;
+        // Hollow marks first, to put the published settings above them.
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        order.sort_by_key(|index| (front.contains(index), points[*index].is_faithful));
+        for index in order {
+            marks::draw(canvas, &points[index].style, middles[index], points[index].is_faithful)?;
+        }
+        Ok(())
+    }
+}
+
 fn described(point: &Point) -> String {
     format!("{} ({} ms, {})", point.name, short(point.time_ms), short(point.error))
-}
-
-/// Three digits.
-pub(super) fn short(number: f64) -> String {
-    if number == 0.0 {
-        return "0".to_owned();
-    }
-    let digits = 2 - number.abs().log10().floor() as i32;
-    format!("{number:.*}", digits.clamp(0, 9) as usize)
-}
-
-/// The range of the axes.
-pub(super) struct Scale {
-    pub(super) time_ms: Range<f64>,
-    pub(super) error: Range<f64>,
-    /// The place of zero error, which a logarithmic axis lacks.
-    pub(super) zero: Option<f64>,
-}
-
-impl Scale {
-    fn of(points: &[Point]) -> Self {
-        let time_ms = spread(points.iter().map(|point| point.time_ms));
-        let mut error = spread(points.iter().map(|point| point.error).filter(|error| *error > 0.0));
-        let mut zero = None;
-        if points.iter().any(|point| point.error <= 0.0) {
-            let decades = (error.end / error.start).log10();
-            let below = 10_f64.powf(decades * 0.1);
-            zero = Some(error.start / below);
-            error.start /= below * below.sqrt();
-        }
-        Self { time_ms, error, zero }
-    }
-
-    fn drawn_error(&self, error: f64) -> f64 {
-        self.zero.filter(|_| error <= 0.0).unwrap_or(error)
-    }
-}
-
-/// From the least to the largest with some room, at least two thirds of a decade.
-pub(super) fn spread(values: impl Iterator<Item = f64>) -> Range<f64> {
-    let (least, largest) = values
-        .map(f64::log10)
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, largest), value| (least.min(value), largest.max(value)));
-    if least > largest {
-        return 0.001..1.0;
-    }
-    let room = ((largest - least) * 0.06).max(0.33 - (largest - least) / 2.0);
-    10_f64.powf(least - room)..10_f64.powf(largest + room)
-}
-
-/// Round numbers in the range and their names; those between the named ones get a line only.
-fn ticks(range: &Range<f64>) -> Vec<(f64, Option<String>)> {
-    let decades = (range.end / range.start).log10();
-    let mut ticks = Vec::new();
-    for exponent in range.start.log10().floor() as i32..=range.end.log10().ceil() as i32 {
-        for digit in 1..10 {
-            let value = f64::from(digit) * 10_f64.powi(exponent);
-            if !(range.start..=range.end).contains(&value) {
-                continue;
-            }
-            let is_named = digit == 1 || decades < 0.9 || (decades < 2.5 && (digit == 2 || digit == 5));
-            let decimals = (-exponent).max(0) as usize;
-            ticks.push((value, is_named.then(|| format!("{value:.decimals$}"))));
-        }
-    }
-    ticks
-}
-
-pub(super) fn grid(canvas: &Canvas<'_>, axes: &Axes, scale: &Scale, inner: &Rectangle, layout: &Layout) -> Result<()> {
-    let text = |at: (f64, f64), anchor: Anchor, text: &str| canvas.text(at, anchor, text, layout.text, false);
-    let (time, error) = (scale.time_ms.start, scale.error.start);
-    let mut free_from = f64::NEG_INFINITY;
-    for (value, name) in ticks(&scale.time_ms) {
-        let (x, _) = axes.pixel(value, error);
-        canvas.line(&[(x, inner.top), (x, inner.bottom)], FAINT, 1)?;
-        let half = name.as_ref().map_or(0.0, |name| text_width(name, layout.text) / 2.0);
-        if let Some(name) = name.filter(|_| x - half > free_from && x + half < layout.width) {
-            canvas.line(&[(x, inner.bottom), (x, inner.bottom + 4.0)], MIDDLE, 1)?;
-            text((x, inner.bottom + layout.text), Anchor::Middle, &name)?;
-            free_from = x + half + 6.0;
-        }
-    }
-    let first_error = scale.zero.map_or(error, |zero| zero * (zero / error));
-    let errors = ticks(&(first_error..scale.error.end)).into_iter();
-    let zero = scale.zero.map(|zero| (zero, Some("0".to_owned())));
-    let mut free_below = f64::INFINITY;
-    for (value, name) in zero.into_iter().chain(errors) {
-        let (_, y) = axes.pixel(time, value);
-        canvas.line(&[(inner.left, y), (inner.right, y)], FAINT, 1)?;
-        if let Some(name) = name.filter(|_| y + layout.text / 2.0 < free_below) {
-            canvas.line(&[(inner.left - 4.0, y), (inner.left, y)], MIDDLE, 1)?;
-            text((inner.left - 8.0, y), Anchor::End, &name)?;
-            free_below = y - layout.text / 2.0 - 2.0;
-        }
-    }
-    canvas.line(&[(inner.left, inner.top), (inner.left, inner.bottom), (inner.right, inner.bottom)], MIDDLE, 1)
 }
 
 /// The points that differ only in the picture's size, and those that differ only in the numbers of their options: each a line of
@@ -313,15 +174,21 @@ struct Label {
     place: Rectangle,
 }
 
-fn labels(
-    points: &[Point],
-    front: &[usize],
-    middles: &[(f64, f64)],
-    steps: &[(f64, f64)],
-    inner: &Rectangle,
-    layout: &Layout,
-    shape: Shape,
-) -> Vec<Label> {
+impl Label {
+    fn draw(&self, canvas: &SvgCanvas<'_>, marked: &Marked<'_>, layout: &Layout) -> Result<()> {
+        let middle = marked.middles[self.index];
+        let near = self.place.nearest(middle);
+        if (near.0 - middle.0).hypot(near.1 - middle.1) > marks::RADIUS + 6.0 {
+            canvas.line(&[middle, near], MIDDLE, 1)?;
+        }
+        let name = self.number.map_or_else(|| marked.points[self.index].name.clone(), |number| number.to_string());
+        let y = (self.place.top + self.place.bottom) / 2.0;
+        canvas.text((self.place.left + 2.0, y), Anchor::Start, &name, layout.text, self.number.is_some())
+    }
+}
+
+fn labels(marked: &Marked<'_>, inner: &Rectangle, layout: &Layout, shape: Shape) -> Vec<Label> {
+    let Marked { points, front, middles, steps, .. } = marked;
     let lines: Vec<Rectangle> = steps
         .windows(2)
         .map(|pair| Rectangle {
@@ -367,6 +234,18 @@ struct Item {
     text: String,
     left: f64,
     line: usize,
+}
+
+impl Item {
+    fn draw(&self, canvas: &SvgCanvas<'_>, top: f64, layout: &Layout) -> Result<()> {
+        let (x, y) = (self.left, top + layout.line_height() * self.line as f64);
+        match &self.mark {
+            Mark::Style(style, is_filled) => marks::draw(canvas, style, (x + 7.0, y), *is_filled)?,
+            Mark::Line(color) => canvas.line(&[(x, y), (x + 14.0, y)], *color, 1)?,
+            Mark::Front => canvas.line(&[(x, y), (x + 14.0, y)], MIDDLE, 2)?,
+        }
+        canvas.text((x + 20.0, y), Anchor::Start, &self.text, layout.text, false)
+    }
 }
 
 fn legend(points: &[Point], layout: &Layout) -> Vec<Item> {

@@ -98,118 +98,62 @@ impl Shape {
     }
 
     fn triangles(self) -> Triangles {
+        let unit = || cube(DVec3::ZERO, DVec3::ONE);
         match self {
             Self::Builtin(_) | Self::Written(_) | Self::Nothing => Default::default(),
             Self::Ball(cuts) => ball(cuts),
             Self::InsideOut(cuts) => turned_round(ball(cuts)),
-            Self::Cube => cube(DVec3::ZERO, DVec3::ONE),
+            Self::Cube => unit(),
             Self::CubeAndSmaller(times) => {
                 let side = 1.0 / times;
                 let corner = DVec3::new(0.5 - side * 0.5, 0.5 - side * 0.5, 1.0 + side);
-                both(cube(DVec3::ZERO, DVec3::ONE), cube(corner, corner + side))
+                both(unit(), cube(corner, corner + side))
             }
             Self::Triangle => (vec![DVec3::ZERO, DVec3::X, DVec3::Y], vec![[0, 1, 2]]),
             Self::Point => (vec![DVec3::splat(0.25); 3], vec![[0, 1, 2]]),
             Self::Line => (vec![DVec3::ZERO, DVec3::X, DVec3::X * 2.0], vec![[0, 1, 2]]),
             Self::BadVertex(bad) => {
-                let (mut points, mut faces) = cube(DVec3::ZERO, DVec3::ONE);
+                let (mut points, mut faces) = unit();
                 points.push(DVec3::new(bad, 0.5, 0.5));
                 faces.push([0, 1, 8]);
                 (points, faces)
             }
-            Self::Needle(ratio) => {
-                let points = [DVec3::ZERO, DVec3::X / ratio, DVec3::Y, DVec3::X * 0.5, DVec3::new(0.25, 0.0, 0.3)];
-                (points.to_vec(), vec![[0, 1, 2], [0, 3, 4]])
-            }
-            Self::ZeroAreas => {
-                let (mut points, mut faces) = ball(2);
-                for [a, b, _] in faces.clone() {
-                    points.push(points[a as usize]);
-                    faces.extend([[a, b, points.len() as u32 - 1], [a, b, b], [a, a, a]]);
-                }
-                (points, faces)
-            }
-            Self::Slivers => {
-                let (mut points, mut faces) = ball(2);
-                for [a, b, _] in faces.clone() {
-                    points.push(points[a as usize].midpoint(points[b as usize]));
-                    faces.push([a, b, points.len() as u32 - 1]);
-                }
-                (points, faces)
-            }
+            Self::Needle(ratio) => needle(ratio),
+            Self::ZeroAreas => on_edges(ball(2), |a, _| a, |a, b, c| vec![[a, b, c], [a, b, b], [a, a, a]]),
+            Self::Slivers => on_edges(ball(2), DVec3::midpoint, |a, b, c| vec![[a, b, c]]),
             Self::Duplicates => {
-                let (points, faces) = cube(DVec3::ZERO, DVec3::ONE);
+                let (points, faces) = unit();
                 (points, faces.repeat(3))
             }
-            Self::OppositeDuplicates => {
-                let one = cube(DVec3::ZERO, DVec3::ONE);
-                both(one.clone(), turned_round(one))
-            }
+            Self::OppositeDuplicates => both(unit(), turned_round(unit())),
             Self::Fins(count) => fins(count),
             Self::Moebius => moebius(64),
-            Self::TJunction => {
-                let points =
-                    [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (2.0, 0.0), (2.0, 0.5), (1.0, 0.5), (2.0, 1.0)];
-                let points = points.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
-                (points, vec![[0, 1, 2], [0, 2, 3], [1, 4, 5], [1, 5, 6], [6, 5, 7], [6, 7, 2]])
-            }
-            Self::Contact => {
-                both(cube(DVec3::ZERO, DVec3::ONE), cube(DVec3::new(0.25, 1.0, 0.25), DVec3::new(1.25, 1.5, 0.75)))
-            }
+            Self::TJunction => t_junction(),
+            Self::Contact => both(unit(), cube(DVec3::new(0.25, 1.0, 0.25), DVec3::new(1.25, 1.5, 0.75))),
             Self::Piercing => {
                 let (points, faces) = cube(DVec3::new(0.35, -0.2, 0.3), DVec3::new(0.75, 1.3, 0.8));
                 let turn = glam::DQuat::from_rotation_z(0.4) * glam::DQuat::from_rotation_x(0.3);
-                both(cube(DVec3::ZERO, DVec3::ONE), (points.into_iter().map(|point| turn * point).collect(), faces))
+                both(unit(), (points.into_iter().map(|point| turn * point).collect(), faces))
             }
             Self::Isolated(count) => isolated(count),
-            Self::Fan(count) => {
-                let rim = (0..count).map(|step| {
-                    let angle = f64::from(step) / f64::from(count) * TAU;
-                    DVec3::new(angle.cos(), angle.sin(), 0.0)
-                });
-                let points = std::iter::once(DVec3::ZERO).chain(rim).collect();
-                (points, (0..count).map(|step| [0, 1 + step, 1 + (step + 1) % count]).collect())
-            }
-            Self::Hinge(degrees) => {
-                let (sin, cos) = degrees.to_radians().sin_cos();
-                // The hinge is the z axis; one leaf lies in y = 0, the other is bent down from it.
-                let leaf = DVec3::new(cos, -sin, 0.0);
-                let points = vec![DVec3::ZERO, DVec3::Z, DVec3::Z - DVec3::X, DVec3::NEG_X, leaf, leaf + DVec3::Z];
-                (points, vec![[0, 1, 2], [0, 2, 3], [0, 4, 5], [0, 5, 1]])
-            }
+            Self::Fan(count) => fan(count),
+            Self::Hinge(degrees) => hinge(degrees),
             Self::Terraces => {
-                let points = (0..4).flat_map(|step| {
-                    let (left, back) = (f64::from(step) * 0.5, f64::from(step) * -0.1);
-                    [(0.0, 0.0), (0.5, 0.0), (0.5, 1.0), (0.0, 1.0)].map(|(x, y)| DVec3::new(left + x, y, back))
-                });
-                (
-                    points.collect(),
-                    (0..4).flat_map(|step| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|i| i + step * 4))).collect(),
-                )
+                let corner = |step: u32| DVec3::new(f64::from(step) * 0.5, 0.0, f64::from(step) * -0.1);
+                strips(4, 0.5, corner)
             }
             Self::Flat(side) => sheet(side),
             Self::Comb(teeth) => {
                 let width = 0.5 / f64::from(teeth);
-                let tooth = |number: u32| {
-                    let left = f64::from(number) * 2.0 * width;
-                    [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| DVec3::new(left + x * width, y, 0.0))
-                };
-                let faces =
-                    (0..teeth).flat_map(|number| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|i| i + number * 4)));
-                ((0..teeth).flat_map(tooth).collect(), faces.collect())
+                strips(teeth, width, |number| DVec3::X * (f64::from(number) * 2.0 * width))
             }
             Self::Fence(bars) => (0..bars).fold(Triangles::default(), |fence, number| {
                 let low = DVec3::X * f64::from(number) * 0.04;
                 both(fence, cube(low, low + DVec3::new(0.02, 1.0, 0.02)))
             }),
             Self::ThroughTheLight => {
-                let points = vec![
-                    DVec3::ONE,
-                    DVec3::new(-0.6, -0.5, -3.0),
-                    DVec3::new(0.6, -0.5, -3.0),
-                    DVec3::Y * 0.5 - DVec3::Z * 3.0,
-                ];
-                (points, vec![[0, 1, 2], [0, 2, 3], [0, 3, 1]])
+                let far = [(-0.6, -0.5), (0.6, -0.5), (0.0, 0.5)].map(|(x, y)| DVec3::new(x, y, -3.0));
+                (vec![DVec3::ONE, far[0], far[1], far[2]], vec![[0, 1, 2], [0, 2, 3], [0, 3, 1]])
             }
         }
     }
@@ -255,6 +199,57 @@ fn ball(cuts: u32) -> Triangles {
         faces = cut;
     }
     (points, faces)
+}
+
+/// A shape with more faces: for the first edge of each of its faces a new vertex, made of the edge's ends, and faces of the three.
+fn on_edges(
+    (mut points, mut faces): Triangles,
+    vertex: impl Fn(DVec3, DVec3) -> DVec3,
+    more: impl Fn(u32, u32, u32) -> Vec<[u32; 3]>,
+) -> Triangles {
+    for [a, b, _] in faces.clone() {
+        points.push(vertex(points[a as usize], points[b as usize]));
+        faces.extend(more(a, b, points.len() as u32 - 1));
+    }
+    (points, faces)
+}
+
+fn needle(ratio: f64) -> Triangles {
+    let points = [DVec3::ZERO, DVec3::X / ratio, DVec3::Y, DVec3::X * 0.5, DVec3::new(0.25, 0.0, 0.3)];
+    (points.to_vec(), vec![[0, 1, 2], [0, 3, 4]])
+}
+
+fn t_junction() -> Triangles {
+    let points = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (2.0, 0.0), (2.0, 0.5), (1.0, 0.5), (2.0, 1.0)];
+    let points = points.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
+    (points, vec![[0, 1, 2], [0, 2, 3], [1, 4, 5], [1, 5, 6], [6, 5, 7], [6, 7, 2]])
+}
+
+fn fan(count: u32) -> Triangles {
+    let rim = (0..count).map(|step| {
+        let angle = f64::from(step) / f64::from(count) * TAU;
+        DVec3::new(angle.cos(), angle.sin(), 0.0)
+    });
+    let points = std::iter::once(DVec3::ZERO).chain(rim).collect();
+    (points, (0..count).map(|step| [0, 1 + step, 1 + (step + 1) % count]).collect())
+}
+
+/// The hinge is the z axis; one leaf lies in y = 0, the other is bent down from it.
+fn hinge(degrees: f64) -> Triangles {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let leaf = DVec3::new(cos, -sin, 0.0);
+    let points = vec![DVec3::ZERO, DVec3::Z, DVec3::Z - DVec3::X, DVec3::NEG_X, leaf, leaf + DVec3::Z];
+    (points, vec![[0, 1, 2], [0, 2, 3], [0, 4, 5], [0, 5, 1]])
+}
+
+/// Upright rectangles of this width and of height 1, each from its lower left corner.
+fn strips(count: u32, width: f64, corner: impl Fn(u32) -> DVec3) -> Triangles {
+    let strip = |number: u32| {
+        let low = corner(number);
+        [(0.0, 0.0), (width, 0.0), (width, 1.0), (0.0, 1.0)].map(|(x, y)| DVec3::new(low.x + x, y, low.z))
+    };
+    let faces = (0..count).flat_map(|number| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|i| i + number * 4)));
+    ((0..count).flat_map(strip).collect(), faces.collect())
 }
 
 fn fins(count: u32) -> Triangles {

@@ -4,7 +4,7 @@ use super::groups::{Group, KINDS};
 use super::results::Results;
 use super::settings::{HowMeasured, settings, smooth_inking, varied};
 use crate::measure::{
-    Against, MeasureSettings, MeasureStep, Setting, Subject, line_options, measure, measure_lines, turns,
+    Against, MeasureSettings, MeasureStep, MeasuredStyle, Subject, line_options, measure, measure_lines, turns,
 };
 use tinta::cli::progress::TimedProgress;
 use tinta::cli::say;
@@ -24,7 +24,7 @@ const SETTINGS_IN_TURN: usize = 8;
 
 /// The measurements of every group.
 pub(super) struct Measuring {
-    pub(super) settings: Vec<Setting>,
+    pub(super) settings: Vec<MeasuredStyle>,
     pub(super) how: MeasureSettings,
     pub(super) against: Against,
     /// The options that every row of the run has.
@@ -33,7 +33,7 @@ pub(super) struct Measuring {
 
 impl Measuring {
     /// The measurement as requested, with the options of the scene; `own_setting` is a preset's style.
-    pub(super) fn asked(asked: &HowMeasured, of_scene: &Options, own_setting: Option<Setting>) -> Result<Self> {
+    pub(super) fn asked(asked: &HowMeasured, of_scene: &Options, own_setting: Option<MeasuredStyle>) -> Result<Self> {
         let how = MeasureSettings {
             tolerance_px: asked.tolerance_px,
             frames: asked.frames.map_or(FRAMES[usize::from(asked.quick)], |frames| frames as usize),
@@ -78,7 +78,8 @@ impl Measuring {
         progress.step(reference);
         results.show_known(&subject, &self.how.machine);
         let is_known = |options: &str| results.of(&subject, &self.how.machine).any(|row| row.options == options);
-        let left: Vec<Setting> = self.settings.iter().filter(|setting| !is_known(&setting.options)).cloned().collect();
+        let left: Vec<MeasuredStyle> =
+            self.settings.iter().filter(|setting| !is_known(&setting.options)).cloned().collect();
         let rules = self.rules().into_iter().filter(|(_, options)| !is_known(options));
         let rules: Vec<(SilhouetteRule, String)> = rules.collect();
         progress.skip(errors, self.settings.len() - left.len());

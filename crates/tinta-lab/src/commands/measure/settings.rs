@@ -1,6 +1,6 @@
 //! The measured settings, each as the options of `tinta render`, which can draw a row again.
 
-use crate::measure::{Against, Setting};
+use crate::measure::{Against, MeasuredStyle};
 use std::sync::LazyLock;
 use tinta::cli::options::Selection;
 use tinta::pixel::LINE_TOLERANCE_PX;
@@ -95,9 +95,8 @@ fn values<T: std::str::FromStr<Err = tinta::ParseError>>(text: &str) -> std::res
     Ok(text.split(',').map(|value| value.trim().parse()).collect::<std::result::Result<_, _>>()?)
 }
 
-fn of_how() -> Vec<settings::Setting<HowMeasured>> {
-    type Of = settings::Setting<HowMeasured>;
-    let sizes = Of::of(
+fn sizes() -> settings::Setting<HowMeasured> {
+    settings::Setting::of(
         "size",
         "SIZES",
         Kind::Text { offered: &[], example: "64x64,128x128" },
@@ -107,8 +106,11 @@ fn of_how() -> Vec<settings::Setting<HowMeasured>> {
             how.sizes = values(text)?;
             Ok(())
         },
-    );
-    let styles = Of::of(
+    )
+}
+
+fn styles() -> settings::Setting<HowMeasured> {
+    settings::Setting::of(
         "styles",
         "STYLES",
         Kind::Several(StyleName::of_passes().map(|(name, _)| name).collect()),
@@ -119,7 +121,11 @@ fn of_how() -> Vec<settings::Setting<HowMeasured>> {
             how.styles = if text == "all" { Vec::new() } else { named().collect::<std::result::Result<_, _>>()? };
             Ok(())
         },
-    );
+    )
+}
+
+fn of_how() -> Vec<settings::Setting<HowMeasured>> {
+    type Of = settings::Setting<HowMeasured>;
     let vary = Of::open_field(
         "vary",
         "OPTION=VALUES",
@@ -137,8 +143,8 @@ fn of_how() -> Vec<settings::Setting<HowMeasured>> {
     vec![
         Of::open_field("against", "WHAT", "", against, |how| &mut how.against).said("lines").common(),
         Of::open_field("suite", "SUITE", "", suite, |how| &mut how.suite).said("none").common(),
-        sizes.common(),
-        styles.common(),
+        sizes().common(),
+        styles().common(),
         vary.like("detection-factor=0.5,1,2").said("nothing").common(),
         frames.whole(1..=100_000).range(1.0, 101.0, 0).said("21, with --quick 7").common(),
         Of::flag("quick", "Measure fewer settings and frames", |how| how.quick, |how, is_on| how.quick = is_on)
@@ -211,7 +217,7 @@ const FULL: [&str; 33] = [
 
 /// The settings of some styles, or of all if none is named: first the texts' styles by default, then the list above, and this
 /// project's styles that it lacks.
-pub(super) fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setting>> {
+pub(super) fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<MeasuredStyle>> {
     let of_defaults = |is_own: bool| {
         let styles = StyleName::lines_first().into_iter().filter(|style| !style.draws_lines());
         let wanted = styles.filter(move |style| (style.info().origin == Origin::Own) == is_own);
@@ -233,7 +239,7 @@ pub(super) fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Setti
 }
 
 /// The settings of `OPTION=VALUE,VALUE`: each style's default with each value, of those styles that have the option.
-pub(super) fn varied(styles: &[StyleName], vary: &str) -> Result<Vec<Setting>> {
+pub(super) fn varied(styles: &[StyleName], vary: &str) -> Result<Vec<MeasuredStyle>> {
     let Some((option, values)) =
         vary.split_once('=').filter(|(option, values)| !option.is_empty() && !values.is_empty())
     else {
@@ -257,7 +263,7 @@ pub(super) fn varied(styles: &[StyleName], vary: &str) -> Result<Vec<Setting>> {
     words.map(|text| Ok(setting(text, false)?.1)).collect()
 }
 
-fn setting(text: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
+fn setting(text: String, is_faithful: bool) -> Result<(StyleName, MeasuredStyle)> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let mut options: Options = words
         .chunks(2)
@@ -271,18 +277,18 @@ fn setting(text: String, is_faithful: bool) -> Result<(StyleName, Setting)> {
         _ => Submission::default(),
     };
     let style = Request::from_given(&options)?.style;
-    Ok((style.style_name(), Setting { style, submission, options: text, is_faithful }))
+    Ok((style.style_name(), MeasuredStyle { style, submission, options: text, is_faithful }))
 }
 
 /// Inking with the contours of smooth surfaces.
-pub(super) fn smooth_inking() -> Result<Setting> {
+pub(super) fn smooth_inking() -> Result<MeasuredStyle> {
     let options = [("style", "inking"), ("silhouette", "smooth")];
     let options = options.map(|(name, value)| (name.to_owned(), OptionValue::text(value))).into();
     setting_of(&Request::from_given(&options)?)
 }
 
 /// The setting that a request's style is.
-pub(super) fn setting_of(request: &Request) -> Result<Setting> {
+pub(super) fn setting_of(request: &Request) -> Result<MeasuredStyle> {
     let style = request.style.clone();
     let is_faithful = style == Style::named(style.style_name());
     // Default values are left out, as in the settings above.
@@ -290,7 +296,7 @@ pub(super) fn setting_of(request: &Request) -> Result<Setting> {
     changed.remove("style");
     let words = changed.iter().flat_map(|(name, value)| option_words(name, value));
     let options = words.fold(format!("--style {}", style.name()), |text, word| text + " " + &quoted(&word));
-    Ok(Setting { style, submission: Submission::default(), options, is_faithful })
+    Ok(MeasuredStyle { style, submission: Submission::default(), options, is_faithful })
 }
 
 #[cfg(test)]
@@ -304,7 +310,8 @@ mod tests {
             assert!(all.iter().any(|setting| setting.style == Style::named(style)), "{name} is not measured");
         }
         for (index, setting) in all.iter().enumerate() {
-            let is_same = |other: &Setting| other.style == setting.style && other.submission == setting.submission;
+            let is_same =
+                |other: &MeasuredStyle| other.style == setting.style && other.submission == setting.submission;
             assert!(!all[..index].iter().any(is_same), "{}", setting.options);
             assert!(all[..index].iter().all(|other| other.options != setting.options), "{}", setting.options);
         }

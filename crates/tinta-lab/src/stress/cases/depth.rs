@@ -7,38 +7,7 @@ use tinta::camera::CameraSettings;
 use tinta::styles::{Border, Cartoon, MapEncoding, Style, StyleName};
 
 pub(super) fn cases() -> Vec<Case> {
-    let mut all = Vec::new();
-    for ratio in [1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9] {
-        let camera = CameraSettings {
-            eye: Some(DVec3::new(1.4, 1.6, 2.6)),
-            target: Some(DVec3::splat(0.5)),
-            near: Some(8.0 / ratio),
-            far: Some(8.0),
-            ..CameraSettings::default()
-        };
-        let drawing = Drawing { shape: Shape::Contact, camera, variants: encodings(), ..Drawing::default() };
-        let name = format!("far {ratio:e} times as far as near");
-        all.push(match ratio <= 1e5 {
-            // Normals show these cubes' edges; the cubes behind must not show through.
-            true => rendered(name, drawing).with("precision", 0.95, 1.0),
-            false => Case::refused(Group::Depth, name, drawing, "setting", "--near"),
-        });
-    }
-    for ratio in [1.3, 3.0, 10.0, 1e2, 1e3, 1e4, 1e5] {
-        let camera = CameraSettings {
-            eye: Some(DVec3::new(1.0, 0.5, 4.0)),
-            target: Some(DVec3::new(1.0, 0.5, 0.0)),
-            near: Some(4.6 / ratio),
-            far: Some(4.6),
-            ..CameraSettings::default()
-        };
-        let drawing = Drawing { shape: Shape::Terraces, camera, variants: encodings(), ..Drawing::default() };
-        let name = format!("steps in depth, far {ratio:e} times as far as near");
-        all.push(match ratio <= 1e4 {
-            true => rendered(name, drawing),
-            false => Case::refused(Group::Depth, name, drawing, "setting", "--near"),
-        });
-    }
+    let mut all = far_and_near();
     let camera =
         |eye: DVec3, target: DVec3| CameraSettings { eye: Some(eye), target: Some(target), ..Default::default() };
     let middle = DVec3::splat(0.5);
@@ -78,6 +47,43 @@ pub(super) fn cases() -> Vec<Case> {
     all.push(Case::refused(Group::Depth, "near beyond far", cube(crossed), "setting", "--near"));
     let parallel = CameraSettings { parallel: true, ..camera(DVec3::new(1.0, 0.5, 5.0), DVec3::new(1.0, 0.5, 0.0)) };
     all.push(rendered("in parallel, two faces edge-on".to_owned(), cube(parallel)));
+    all
+}
+
+/// A far plane ever farther beyond the near one.
+fn far_and_near() -> Vec<Case> {
+    let mut all = Vec::new();
+    for ratio in [1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9] {
+        let camera = CameraSettings {
+            eye: Some(DVec3::new(1.4, 1.6, 2.6)),
+            target: Some(DVec3::splat(0.5)),
+            near: Some(8.0 / ratio),
+            far: Some(8.0),
+            ..CameraSettings::default()
+        };
+        let drawing = Drawing { shape: Shape::Contact, camera, variants: encodings(), ..Drawing::default() };
+        let name = format!("far {ratio:e} times as far as near");
+        all.push(match ratio <= 1e5 {
+            // Normals show these cubes' edges; the cubes behind must not show through.
+            true => rendered(name, drawing).with("precision", 0.95, 1.0),
+            false => Case::refused(Group::Depth, name, drawing, "setting", "--near"),
+        });
+    }
+    for ratio in [1.3, 3.0, 10.0, 1e2, 1e3, 1e4, 1e5] {
+        let camera = CameraSettings {
+            eye: Some(DVec3::new(1.0, 0.5, 4.0)),
+            target: Some(DVec3::new(1.0, 0.5, 0.0)),
+            near: Some(4.6 / ratio),
+            far: Some(4.6),
+            ..CameraSettings::default()
+        };
+        let drawing = Drawing { shape: Shape::Terraces, camera, variants: encodings(), ..Drawing::default() };
+        let name = format!("steps in depth, far {ratio:e} times as far as near");
+        all.push(match ratio <= 1e4 {
+            true => rendered(name, drawing),
+            false => Case::refused(Group::Depth, name, drawing, "setting", "--near"),
+        });
+    }
     all
 }
 

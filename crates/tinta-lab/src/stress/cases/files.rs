@@ -3,15 +3,6 @@
 use super::case::{Case, Content, Expected, Group, Work};
 
 pub(super) fn cases() -> Vec<Case> {
-    let case = |name: &str, file, content, expected| Case {
-        name: name.to_owned(),
-        group: Group::Files,
-        work: Work::Read(file, content),
-        expected,
-        checks: Vec::new(),
-        answer: "",
-        is_degraded: false,
-    };
     let refused = |words| Expected::Refused { kind: "model", words };
     let text = |text: &str| Content::Bytes(text.as_bytes().to_vec());
     const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -66,4 +57,16 @@ pub(super) fn cases() -> Vec<Case> {
         all.push(case(&name, file, content, Expected::Rendered).with("has_defects", 1.0, 1.0));
     }
     all
+}
+
+fn case(name: &str, file: &'static str, content: Content, expected: Expected) -> Case {
+    Case {
+        name: name.to_owned(),
+        group: Group::Files,
+        work: Work::Read(file, content),
+        expected,
+        checks: Vec::new(),
+        answer: "",
+        is_degraded: false,
+    }
 }

@@ -49,11 +49,11 @@ pub(super) fn wrapped(text: &str, size_px: f64, room_px: f64) -> Vec<String> {
 }
 
 /// The picture being drawn.
-pub(super) struct Canvas<'a> {
+pub(super) struct SvgCanvas<'a> {
     area: DrawingArea<SVGBackend<'a>, Shift>,
 }
 
-impl<'a> Canvas<'a> {
+impl<'a> SvgCanvas<'a> {
     /// An empty one that will be written into `svg`.
     pub(super) fn new(svg: &'a mut String, width_px: u32, height_px: u32) -> Result<Self> {
         let area = SVGBackend::with_string(svg, (width_px, height_px)).into_drawing_area();

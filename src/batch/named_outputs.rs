@@ -1,4 +1,4 @@
-//! The outputs that jobs claim, and conflicts between them: files, pictures with numbers in their names, folders.
+//! The outputs that jobs name, and conflicts between them: files, pictures with numbers in their names, folders.
 //!
 //! Names are kept as hashes and sorted: a list of a million jobs is checked in seconds. A match of hashes is verified by name
 //! before the list is refused.
@@ -19,7 +19,7 @@ const DIGITS: usize = 9;
 
 /// A file or folder that a job's option names for output.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Claim {
+pub(super) struct NamedOutput {
     /// The option.
     pub option: String,
     /// As written in the line.
@@ -38,7 +38,7 @@ enum Kind {
     Folder,
 }
 
-impl Claim {
+impl NamedOutput {
     /// All of a job that [`super::place_in`] does not refuse.
     pub(super) fn all(asked: &Asked) -> impl Iterator<Item = Self> {
         let turntable = asked.text("turntable").and_then(|count| count.parse().ok());
@@ -106,12 +106,12 @@ impl Claim {
 
 /// The beginning of a job's problem: the option's output, and the conflict.
 pub(super) fn problem(asked: &Asked, before: &Asked, line: u32) -> Option<String> {
-    let mut claims: Vec<Claim> = Claim::all(asked).collect();
+    let mut outputs: Vec<NamedOutput> = NamedOutput::all(asked).collect();
     // The last one, where both stand in one line.
-    claims.reverse();
-    claims.iter().find_map(|claim| {
-        let others = Claim::all(before).filter(|other| other.option != claim.option || asked.id != before.id);
-        others.into_iter().find_map(|other| Some(format!("{}: {}", claim.option, claim.clash(&other, line)?)))
+    outputs.reverse();
+    outputs.iter().find_map(|named| {
+        let others = NamedOutput::all(before).filter(|other| other.option != named.option || asked.id != before.id);
+        others.into_iter().find_map(|other| Some(format!("{}: {}", named.option, named.clash(&other, line)?)))
     })
 }
 
@@ -153,10 +153,10 @@ struct Numbers {
 
 impl Shared {
     /// Notes the folders and the numbered names of a line.
-    pub(super) fn note(&mut self, claim: &Claim, line: u32) {
-        match &claim.kind {
+    pub(super) fn note(&mut self, named: &NamedOutput, line: u32) {
+        match &named.kind {
             Kind::File => {}
-            Kind::Folder => self.folders.push((key(&claim.place), line)),
+            Kind::Folder => self.folders.push((key(&named.place), line)),
             Kind::Numbered(name, count) => self.numbered.extend(numbers(name, *count, line)),
         }
     }
@@ -173,10 +173,10 @@ impl Shared {
     }
 
     /// Searches for conflicts with a line's output.
-    pub(super) fn compare(&mut self, claim: &Claim, line: u32) {
+    pub(super) fn compare(&mut self, named: &NamedOutput, line: u32) {
         if !self.folders.is_empty() {
             let mut hash = Sha256::new();
-            let mut names = claim.place.split('/').peekable();
+            let mut names = named.place.split('/').peekable();
             while let (Some(name), Some(_)) = (names.next(), names.peek()) {
                 hash.update(name.as_bytes());
                 let folder = half(&hash.clone().finalize());
@@ -188,8 +188,8 @@ impl Shared {
                     .extend(same.take(1).filter(|(_, other)| *other != line).map(|(_, other)| ordered(*other, line)));
             }
         }
-        if !self.numbered.is_empty() && claim.kind == Kind::File {
-            for point in points(&claim.place, line) {
+        if !self.numbered.is_empty() && named.kind == Kind::File {
+            for point in points(&named.place, line) {
                 let found = self.numbered.partition_point(|numbers| numbers.key < point.key);
                 if self.numbered.get(found).is_some_and(|numbers| numbers.key == point.key) {
                     self.files.push(point);
