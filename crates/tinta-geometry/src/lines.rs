@@ -91,35 +91,15 @@ pub use write::svg::{svg, svg_of_paths};
 pub use write::turn_svg::TurnSvg;
 
 use crate::clock::{Instant, milliseconds_since};
-use crate::edges::{Class, ClassSet};
-use crate::error::{Error, Result};
-use crate::mesh::Mesh;
+use crate::error::Result;
 use crate::scene::Scene;
-use crate::threads::both;
-use input::object_edges::{Edges, IsGhost, ObjectEdges, ghost_faces, object_edges};
+use input::candidates::Candidates;
+use input::line_input::LineInput;
+use input::object_edges::ObjectEdges;
 use parts::scene_parts::SceneParts;
-use settings::{check_on_surface, not_published};
 use smooth::contour_visibility::ContourLines;
-use smooth::contours::Contours;
-use visible::faces::Faces;
 use visible::line_index::LineIndex;
-use visible::nearest_faces::NearestFaces;
-use visible::pyramid::{Pyramid, is_crowded};
-use visible::space::Space;
-
-/// Refuses settings without lines, and scenes that are too large.
-fn check(scene: &Scene, settings: &LineSettings) -> Result<()> {
-    if settings.classes.is_empty() {
-        return Err(Error::setting("classes", "name at least one class of lines"));
-    }
-    let all_positions: usize = scene.objects.iter().map(|object| object.mesh.positions.len()).sum();
-    if scene.triangle_count().max(all_positions) > u32::MAX as usize / 4 {
-        return Err(Error::setting("copies", "the scene has too many faces to find its lines; ask for fewer"));
-    }
-    not_published(settings.silhouette)?;
-    check_on_surface(settings.on_surface)?;
-    settings.forms.check()
-}
+use visible::search::Search;
 
 impl VisibleLines {
     /// Finds the visible and hidden lines of a scene.
@@ -136,136 +116,45 @@ impl VisibleLines {
     ///
     /// # Errors
     ///
-    /// Those of [`VisibleLines::of`], [`Error::Cancelled`] after [`Progress::cancel`], [`Error::OutOfTime`] after
-    /// [`Progress::within`], and the same after [`Progress::within_or_part`] while no line is decided.
+    /// Those of [`VisibleLines::of`], [`Error::Cancelled`](crate::Error::Cancelled) after [`Progress::cancel`],
+    /// [`Error::OutOfTime`](crate::Error::OutOfTime) after [`Progress::within`], and the same after
+    /// [`Progress::within_or_part`] while no line is decided.
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
-        check(scene, settings)?;
-        if settings.reference {
-            return visible::reference::visible_lines(scene, settings, progress);
-        }
-        let scene_parts = SceneParts::new(scene, settings)?;
-        let settings = &scene_parts.settings(settings);
-        let is_ghost = |object: usize, mesh: &Mesh, face| scene_parts.is_ghost(scene_parts.of_face(object, mesh, face));
-        let ghosts = scene_parts.has_ghosts().then_some(&is_ghost as IsGhost<'_>);
-        let has_forms = !settings.classes.and(ClassSet::FORMS).is_empty();
-        let with_hidden;
-        let settings = if settings.counts_changes && !settings.finds_hidden {
-            with_hidden = LineSettings { finds_hidden: true, ..settings.clone() };
-            &with_hidden
-        } else {
-            settings
-        };
         let clock = Instant::now();
-        let space = Space::of(scene);
-        let unrepaired: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
-        // One thread builds the hierarchy, another the edges.
-        let (parts, faces) = both(
-            || {
-                let parts = object_edges(scene, ghosts);
-                for part in &parts {
-                    part.edges.get().classes(settings.crease_angle, input::features::asked(settings));
-                    if has_forms && matches!(part.edges, Edges::OfScene(_)) {
-                        smooth::forms::curvatures(scene, part, settings);
-                    }
-                }
-                parts
-            },
-            || Faces::new(&space, &unrepaired),
-        );
-        let is_repaired = parts.iter().any(|part| matches!(part.edges, Edges::Repaired(_)));
-        let mut faces = if is_repaired {
-            let meshes: Vec<_> = parts.iter().map(|part| (part.object, part.shape().clone())).collect();
-            Faces::new(&space, &meshes)
-        } else {
-            faces
-        };
-        if let Some(is_ghost) = ghosts {
-            faces.set_ghosts(&ghost_faces(&parts, is_ghost));
-        }
-        let all_parts = (parts.as_slice(), &scene_parts);
+        let input = LineInput::of(scene, settings)?;
         let topology_ms = milliseconds_since(clock);
         progress.go_on()?;
-
-        let clock = Instant::now();
-        let contours = (settings.has_smooth_contours() || settings.counts_changes).then(|| {
-            let is_cut = !faces.cut_by_near.is_empty();
-            Contours::with_cusps(scene, &space, &faces.positions, is_cut, &parts, settings.crease_angle)
-        });
-        let drawn_contours = contours.as_ref().filter(|_| settings.has_smooth_contours());
-        let (mut lines, mut edges) =
-            input::features::edge_features(scene, &space, &faces, all_parts, drawn_contours, settings);
-        let silhouette_ms = milliseconds_since(clock);
+        let search = if settings.reference { Search::default() } else { Search::of(&input, progress) };
+        let candidates = Candidates::of(&input, &search, progress)?;
+        let lines = LineIndex::new(&input, &candidates, &search, progress)?;
         progress.go_on()?;
-
-        let clock = Instant::now();
-        let is_crowded = is_crowded(&space, &faces);
-        let pyramid = is_crowded.then(|| Pyramid::new(&space, &faces)).flatten();
-        let nearest_faces = is_crowded.then(|| NearestFaces::new(&space, &faces, progress));
-        let hides = pyramid.as_ref().filter(|_| !settings.finds_hidden);
-        let nearest = nearest_faces.as_ref().filter(|_| !settings.finds_hidden);
-        let intersections = visible::intersections::intersections(&space, &faces, &parts, (hides, nearest), progress);
-        progress.go_on()?;
-        let mut compared = intersections.compared;
-        if !settings.classes.and(ClassSet::of(&[Class::Intersection, Class::Part])).is_empty() {
-            let found = &intersections.lines;
-            lines.extend(input::features::intersection_features(&faces, all_parts, found, &mut edges));
-        }
-        if has_forms {
-            lines.extend(smooth::forms::form_features(scene, &space, &faces, all_parts, settings, &mut edges));
-        }
-        lines.extend(input::features::free_features(&space, all_parts, settings, &mut edges)?);
-        lines.extend(input::features::near_plane_features(&space, &faces));
-        let found = LineIndex::new(
-            &space,
-            &faces,
-            &lines,
-            &intersections.piercings,
-            (pyramid.as_ref(), is_crowded),
-            settings,
-            progress,
-        )?;
-        drop(intersections);
-        progress.go_on()?;
-        let (mut segments, steps) = found.segments(progress);
-        compared += steps;
+        let (mut segments, compared) = match settings.reference {
+            true => (lines.segments_by_rules(settings.finds_hidden, progress)?, 0),
+            false => lines.segments(progress),
+        };
         let undecided = progress.undecided()?;
-        let mut changes = None;
-        if let Some(contours) = &contours {
-            let contour_lines = ContourLines { lines: &found, contours, parts: &parts, scene_parts: &scene_parts };
-            if settings.has_smooth_contours() {
-                edges.silhouette += contours.pieces.len();
-                let decided = contour_lines.decided(progress);
-                // Smooth contours are all or nothing: a partial set is an error.
-                progress.go_on()?;
-                changes = settings.counts_changes.then(|| contour_lines.changes(&decided));
-                segments.extend(contour_lines.segments(&decided));
-            } else {
-                progress.go_on()?;
-                changes = Some(contour_lines.changes_of_edges(&segments));
-            }
-        }
+        let contours =
+            candidates.contours.as_ref().map(|contours| ContourLines { lines: &lines, contours, input: &input });
+        let changes = contours.map(|contours| contours.add(&mut segments, progress)).transpose()?.flatten();
         // Overlaps are marked only if all lines are decided.
         if undecided == 0 {
-            segments = visible::doubled::marked(segments, &scene_parts, &space, progress)?;
+            segments = visible::doubled::marked(segments, &input.scene_parts, &input.space, progress)?;
         }
-        let labels = labels::labels(scene, &segments);
-        scene_parts.put_looks(&mut segments);
-        let SceneParts { list, looks, .. } = scene_parts;
-        let visibility_ms = milliseconds_since(clock);
-        let times = LineTimes { topology_ms, silhouette_ms, visibility_ms, compared };
-        let covered_triangles = parts.iter().map(ObjectEdges::covered).sum();
+        input.scene_parts.put_looks(&mut segments);
+        let (silhouette_ms, compared) = (candidates.silhouette_ms, candidates.compared + compared);
+        let visibility_ms = milliseconds_since(clock) - topology_ms - silhouette_ms;
+        let LineInput { objects, scene_parts: SceneParts { list, looks, .. }, .. } = input;
         Ok(Self {
-            size: scene.size,
+            labels: labels::labels(scene, &segments),
             segments,
-            labels,
             parts: list,
             looks,
-            edges,
-            covered_triangles,
+            edges: candidates.counts,
+            covered_triangles: objects.iter().map(ObjectEdges::covered).sum(),
             changes,
             undecided,
-            has_specks: false,
-            times,
+            times: LineTimes { topology_ms, silhouette_ms, visibility_ms, compared },
+            ..Self::none(scene.size)
         })
     }
 }

@@ -19,7 +19,7 @@
 use super::{LineSegment, LineSettings, VisibleLines};
 use crate::edges::{Class, ClassSet};
 use crate::lines::drawing::chain::{LinePath, chain_curves};
-use crate::lines::input::features::asked;
+use crate::lines::input::line_input::asked;
 use crate::lines::input::object_edges::{ObjectEdges, object_edges};
 use crate::scene::Scene;
 use glam::{DVec3, IVec3};

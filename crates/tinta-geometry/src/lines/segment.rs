@@ -41,6 +41,24 @@ pub struct LineSegment {
 }
 
 impl LineSegment {
+    /// A visible line of the first object, with nothing else known of it.
+    pub(in crate::lines) fn new(class: Class, ends_px: [DVec2; 2], ends_world: [DVec3; 2]) -> Self {
+        Self {
+            class,
+            is_visible: true,
+            is_outline: false,
+            background: [false; 2],
+            is_covered: false,
+            ends_px,
+            ends_world,
+            edge: None,
+            angle_degrees: None,
+            object: 0,
+            part: 0,
+            look: 0,
+        }
+    }
+
     /// The layer that draws it.
     pub fn layer(&self) -> Layer {
         Layer::of(self.class, self.is_visible, self.is_outline)

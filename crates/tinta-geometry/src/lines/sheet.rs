@@ -132,20 +132,7 @@ impl VisibleLines {
         let tick = DVec2::Y * (TICK * side);
         let text = strokes(&length.to_string(), to + DVec2::new(0.5, -0.5) * (DIGIT * side), DIGIT * side);
         for ends_px in [[from - tick, from + tick], [from, to], [to - tick, to + tick]].into_iter().chain(text) {
-            self.segments.push(LineSegment {
-                class: Class::Curve,
-                is_visible: true,
-                is_outline: false,
-                background: [false; 2],
-                is_covered: false,
-                ends_px,
-                ends_world: [DVec3::ZERO; 2],
-                edge: None,
-                angle_degrees: None,
-                object: 0,
-                part: 0,
-                look: 0,
-            });
+            self.segments.push(LineSegment::new(Class::Curve, ends_px, [DVec3::ZERO; 2]));
         }
     }
 }

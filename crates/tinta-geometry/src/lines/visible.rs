@@ -22,6 +22,7 @@ pub(super) mod planes;
 pub(super) mod pyramid;
 pub(super) mod ranges;
 pub(super) mod reference;
+pub(super) mod search;
 pub(super) mod space;
 pub(super) mod thresholds;
 pub(super) mod visibility;

@@ -3,13 +3,14 @@
 use crate::edges::Class;
 use crate::error::{Error, Result};
 use crate::lines::LineSegment;
-use crate::lines::input::object_edges::ObjectEdges;
+use crate::lines::input::candidates::Candidates;
+use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
 use crate::lines::settings::LineSettings;
 use crate::lines::visible::image::Image;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
-use crate::lines::visible::reference::{Undecided, with_lines};
+use crate::lines::visible::search::Search;
 use crate::lines::visible_lines::VisibleLines;
 use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::Scene;
@@ -123,12 +124,12 @@ impl VisibleLines {
             );
             return Err(Error::value("place", format!("{},{}", px.x, px.y), problem));
         }
-        super::check(scene, settings)?;
-        let mut why = with_lines(scene, settings, &Progress::default(), |undecided| {
-            let why = Explained::new(scene, &undecided).nearest(px);
-            why.ok_or_else(|| {
-                Error::setting("classes", "the picture has no line of these classes; name others, or move the camera")
-            })
+        let by_rules = LineSettings { reference: true, ..settings.clone() };
+        let (input, search, progress) = (LineInput::of(scene, &by_rules)?, Search::default(), Progress::default());
+        let candidates = Candidates::of(&input, &search, &progress)?;
+        let lines = LineIndex::new(&input, &candidates, &search, &progress)?;
+        let mut why = Explained { lines: &lines, input: &input }.nearest(px).ok_or_else(|| {
+            Error::setting("classes", "the picture has no line of these classes; name others, or move the camera")
         })?;
         let settings = LineSettings { finds_hidden: true, reference: false, ..settings.clone() };
         let drawn = Self::with_progress(scene, &settings, &Progress::within(SEARCH))
@@ -162,10 +163,7 @@ impl WhyPiece {
 /// A scene's lines with the names of what they belong to.
 struct Explained<'a> {
     lines: &'a LineIndex<'a>,
-    parts: &'a [ObjectEdges<'a>],
-    names: Vec<&'a str>,
-    /// The number of each object's first face.
-    first_faces: Vec<u32>,
+    input: &'a LineInput<'a>,
 }
 
 /// A line that may be the nearest.
@@ -176,15 +174,7 @@ struct Candidate {
     pieces: Vec<Interval>,
 }
 
-impl<'a> Explained<'a> {
-    fn new(scene: &'a Scene, undecided: &Undecided<'a>) -> Self {
-        let count = |part: &ObjectEdges<'_>| part.shape().triangles.len() as u32;
-        let first = |next: &mut u32, part| Some(std::mem::replace(next, *next + count(part)));
-        let first_faces = undecided.parts.iter().scan(0, first).collect();
-        let names = scene.objects.iter().map(|object| object.mesh.name.as_str()).collect();
-        Self { lines: undecided.lines, parts: undecided.parts, names, first_faces }
-    }
-
+impl Explained<'_> {
     fn nearest(&self, px: DVec2) -> Option<Why> {
         let lines = self.lines;
         let near = |index: usize| {
@@ -250,10 +240,15 @@ impl<'a> Explained<'a> {
         WhyLine {
             class: feature.class.map_or("", Class::name),
             object: feature.object,
-            name: self.names[feature.object as usize].to_owned(),
+            name: self.name(feature.object as usize),
             edge: feature.edge,
             angle_degrees: feature.angle_degrees,
         }
+    }
+
+    /// The name of an object.
+    fn name(&self, object: usize) -> String {
+        self.input.scene.objects[object].mesh.name.clone()
     }
 
     /// The faces that hide a line at a place, on one side at least, and the nearer lines that lie on it; the nearest first.
@@ -263,14 +258,13 @@ impl<'a> Explained<'a> {
         let depth = -probe.view.z;
         let face = |face: u32| {
             let [left, right] = faces.hides(space, face, &probe);
-            let number = faces.numbers[face as usize];
-            let object = self.first_faces.partition_point(|first| *first <= number) - 1;
+            let (object, number) = faces.in_object(faces.numbers[face as usize]);
             let corners = faces.corners(face);
             let normal = triangle_normal(corners).filter(|_| left || right)?;
-            let (number, vertices) = self.in_file(object, (number - self.first_faces[object]) as usize);
+            let (number, vertices) = self.in_file(object, number as usize);
             Some(Hider::Face {
                 object: object as u32,
-                name: self.names[object].to_owned(),
+                name: self.name(object),
                 face: number,
                 vertices,
                 in_front: depth - faces.hit_depth(space, [corners[0], normal], &probe),
@@ -287,7 +281,7 @@ impl<'a> Explained<'a> {
 
     /// A face's number among the object's own triangles, which repeated ones belong to as well, and its vertices in the file.
     fn in_file(&self, object: usize, face: usize) -> (Option<u32>, [u32; 3]) {
-        let (shape, whole) = (self.parts[object].shape(), &self.parts[object].object.mesh);
+        let (shape, whole) = (self.input.objects[object].shape(), &self.input.objects[object].object.mesh);
         let corners = |mesh: &Mesh, face: usize| mesh.triangles[face].map(|corner| mesh.positions[corner as usize]);
         let wanted = corners(shape, face);
         let is_it = |face: &usize| corners(whole, *face) == wanted;

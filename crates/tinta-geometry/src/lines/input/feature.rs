@@ -1,5 +1,6 @@
 //! A line before its visibility is decided.
 
+use crate::bvh::NO_GROUP;
 use crate::edges::Class;
 use crate::lines::visible::faces::Own;
 use glam::DVec3;
@@ -30,6 +31,24 @@ pub(in crate::lines) struct Feature {
 }
 
 impl Feature {
+    /// A line of the first object that is not drawn and hides nothing, with nothing else known of it.
+    pub(in crate::lines) fn new(own: Own, ends: [DVec3; 2]) -> Self {
+        Self {
+            class: None,
+            occludes: false,
+            object: 0,
+            part: 0,
+            is_ghost: false,
+            own,
+            ends,
+            weld: 0.0,
+            planes: [NO_GROUP; 2],
+            plane: NO_GROUP,
+            edge: None,
+            angle_degrees: None,
+        }
+    }
+
     /// Whether it is drawn and takes part where lines lie on one another in the picture: free lines and ghosts do not, they hide
     /// nothing and nothing but faces hides them.
     pub(in crate::lines) fn overlaps(&self) -> bool {

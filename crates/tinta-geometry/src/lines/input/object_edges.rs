@@ -1,7 +1,9 @@
 //! The objects of a scene with their edges, from the original or the repaired mesh.
 
+use crate::curvature::Curvatures;
 use crate::edges::{Eye, Incidence, MeshEdges, Side, SilhouetteRule, side_of_face};
 use crate::lines::input::mesh_repair::{self, RepairedMesh};
+use crate::lines::smooth::forms::FormSettings;
 use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::{Object, Scene};
 use crate::tolerances::CONTACT;
@@ -11,6 +13,9 @@ use std::sync::Arc;
 pub(in crate::lines) struct ObjectEdges<'a> {
     pub object: &'a Object,
     pub edges: Edges<'a>,
+    /// Its first position and its first face among those of all objects.
+    pub first_position: u32,
+    pub first_face: u32,
 }
 
 /// The edges of the scene's mesh or of a repaired one.
@@ -68,12 +73,38 @@ impl Edges<'_> {
     }
 }
 
+impl<'a> ObjectEdges<'a> {
+    /// The objects of a scene, each with the edges that `edges` returns for it.
+    pub(in crate::lines) fn all(scene: &'a Scene, mut edges: impl FnMut(usize, &'a Object) -> Edges<'a>) -> Vec<Self> {
+        let (mut first_position, mut first_face) = (0, 0);
+        let of_object = |(number, object): (usize, &'a Object)| {
+            let found = Self { object, edges: edges(number, object), first_position, first_face };
+            first_position += found.shape().positions.len() as u32;
+            first_face += found.shape().triangles.len() as u32;
+            found
+        };
+        scene.objects.iter().enumerate().map(of_object).collect()
+    }
+}
+
 impl ObjectEdges<'_> {
     /// The faces that hide others.
     pub(in crate::lines) fn shape(&self) -> &Arc<Mesh> {
         match &self.edges {
             Edges::OfScene(edges) => edges.mesh(),
             Edges::Repaired(repaired) => &repaired.shape,
+        }
+    }
+
+    /// The curvature of the smooth surface, for form lines.
+    pub(in crate::lines) fn curvatures(&self, scene: &Scene, settings: &FormSettings) -> Arc<Curvatures> {
+        let &FormSettings { crease_angle, smoothing, .. } = settings;
+        match &self.edges {
+            Edges::OfScene(_) => scene.curvatures(self.object, crease_angle, smoothing),
+            Edges::Repaired(repaired) => {
+                let edges = &repaired.edges;
+                Arc::new(Curvatures::new(edges.mesh(), edges.list(), crease_angle, smoothing))
+            }
         }
     }
 
@@ -183,31 +214,28 @@ impl ObjectEdges<'_> {
 pub(in crate::lines) type IsGhost<'a> = &'a (dyn Fn(usize, &Mesh, u32) -> bool + Sync);
 
 /// For each face that may hide others, by its number in the scene, whether it hides nothing.
-pub(in crate::lines) fn ghost_faces(parts: &[ObjectEdges<'_>], is_ghost: IsGhost<'_>) -> Vec<bool> {
-    let of_part = |(object, part): (usize, &ObjectEdges<'_>)| {
-        let shape = part.shape().clone();
-        (0..shape.triangles.len() as u32).map(move |face| is_ghost(object, &shape, face))
+pub(in crate::lines) fn ghost_faces(objects: &[ObjectEdges<'_>], is_ghost: IsGhost<'_>) -> Vec<bool> {
+    let of_object = |(number, object): (usize, &ObjectEdges<'_>)| {
+        let shape = object.shape().clone();
+        (0..shape.triangles.len() as u32).map(move |face| is_ghost(number, &shape, face))
     };
-    parts.iter().enumerate().flat_map(of_part).collect()
+    objects.iter().enumerate().flat_map(of_object).collect()
 }
 
 /// The scene's objects with their edges, repaired if needed; objects with the same mesh share them. Ghosts are repaired apart:
 /// none of them stands for a face that hides others.
 pub(in crate::lines) fn object_edges<'a>(scene: &'a Scene, ghosts: Option<IsGhost<'_>>) -> Vec<ObjectEdges<'a>> {
     let mut known: HashMap<*const Mesh, Option<Arc<RepairedEdges>>> = HashMap::new();
-    let mut parts = Vec::with_capacity(scene.objects.len());
-    for (number, object) in scene.objects.iter().enumerate() {
+    ObjectEdges::all(scene, |number, object| {
         let of_mesh = |mesh: &Mesh, face: u32| ghosts.is_some_and(|is_ghost| is_ghost(number, mesh, face));
         let of_mesh = ghosts.is_some().then_some(&of_mesh as &dyn Fn(&Mesh, u32) -> bool);
         let (mesh, edges) = (&object.mesh, scene.edges(object));
         let repair = || {
             mesh_repair::repaired(mesh, edges.list(), of_mesh).map(|repaired| Arc::new(RepairedEdges::new(repaired)))
         };
-        let edges = match known.entry(Arc::as_ptr(mesh)).or_insert_with(repair) {
+        match known.entry(Arc::as_ptr(mesh)).or_insert_with(repair) {
             None => Edges::OfScene(edges),
             Some(edges) => Edges::Repaired(edges.clone()),
-        };
-        parts.push(ObjectEdges { object, edges });
-    }
-    parts
+        }
+    })
 }

@@ -25,8 +25,6 @@ pub(super) struct View<'a> {
     pub space: Space,
     pub faces: Faces,
     pub grid: Grid,
-    /// Each object's first face among all.
-    starts: Vec<u32>,
     /// Places of the faces that may be seen.
     pub seen: Vec<u32>,
     /// The sides of these faces, sorted: an edge's positions, the lower number first, and the place of a face at it.
@@ -43,8 +41,7 @@ impl<'a> View<'a> {
     /// Those of [`Progress::go_on`].
     pub(super) fn of(scene: &'a Scene, progress: &Progress) -> Result<Self> {
         let space = Space::of(scene);
-        let meshes: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
-        let faces = Faces::new(&space, &meshes);
+        let faces = Faces::of(&space, scene);
         progress.go_on()?;
         let pyramid = is_crowded(&space, &faces).then(|| Pyramid::new(&space, &faces)).flatten();
         let all = || vec![true; faces.triangles.len()];
@@ -58,12 +55,8 @@ impl<'a> View<'a> {
             sides.extend([[a, b], [b, c], [c, a]].map(|[a, b]| ([a.min(b), a.max(b)], *place)));
         }
         sort_by(&mut sides, cores(), |a, b| a.cmp(b));
-        let next = |next: &mut u32, object: &crate::scene::Object| {
-            Some(std::mem::replace(next, *next + object.mesh.triangles.len() as u32))
-        };
-        let starts = scene.objects.iter().scan(0, next).collect();
         let grid = Grid::over(space.size);
-        let mut view = Self { scene, space, faces, grid, starts, seen, sides, crossings };
+        let mut view = Self { scene, space, faces, grid, seen, sides, crossings };
         view.leave_out_hidden_sheets();
         progress.go_on()?;
         Ok(view)
@@ -194,9 +187,8 @@ impl<'a> View<'a> {
 
     /// The object and the face in it at a place of the hierarchy.
     pub(super) fn face(&self, place: u32) -> SeenFace {
-        let number = self.faces.numbers[place as usize];
-        let object = self.starts.partition_point(|start| *start <= number) - 1;
-        SeenFace { object: object as u32, face: number - self.starts[object] }
+        let (object, face) = self.faces.in_object(self.faces.numbers[place as usize]);
+        SeenFace { object: object as u32, face }
     }
 
     /// The labels of all cells, by several threads.

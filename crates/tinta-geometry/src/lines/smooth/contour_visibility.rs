@@ -23,8 +23,7 @@
 use crate::bvh::{NO_GROUP, steps};
 use crate::edges::Class;
 use crate::lines::LineSegment;
-use crate::lines::input::object_edges::ObjectEdges;
-use crate::lines::parts::scene_parts::SceneParts;
+use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::{Phase, Progress};
 use crate::lines::smooth::contours::{ContourPiece, Contours, between};
 use crate::lines::visible::faces::{Own, Probe, ProbedLine};
@@ -56,8 +55,7 @@ const CHUNK: usize = 32;
 pub(in crate::lines) struct ContourLines<'a> {
     pub lines: &'a LineIndex<'a>,
     pub contours: &'a Contours,
-    pub parts: &'a [ObjectEdges<'a>],
-    pub scene_parts: &'a SceneParts,
+    pub input: &'a LineInput<'a>,
 }
 
 impl ContourLines<'_> {
@@ -81,23 +79,18 @@ impl ContourLines<'_> {
         let mut segments = Vec::new();
         for ContourIntervals { piece, image, intervals } in decided {
             let part = self.part_of(&self.contours.pieces[*piece]);
-            if !self.scene_parts.classes(part).contains(Class::Silhouette) {
+            if !self.input.scene_parts.classes(part).contains(Class::Silhouette) {
                 continue;
             }
             let drawn = intervals.iter().filter(|interval| interval.is_visible || self.lines.finds_hidden);
-            segments.extend(drawn.map(|interval| LineSegment {
-                class: Class::Silhouette,
-                is_visible: interval.is_visible,
-                is_outline: interval.background != [false; 2],
-                background: interval.background,
-                is_covered: false,
-                ends_px: [image.at(interval.from), image.at(interval.to)],
-                ends_world: image.ends_world(self.lines.space, [interval.from, interval.to]),
-                edge: self.edge_in_file(&self.contours.pieces[*piece]),
-                angle_degrees: None,
-                object: self.contours.pieces[*piece].part,
-                part,
-                look: 0,
+            segments.extend(drawn.map(|interval| {
+                let ends_world = image.ends_world(self.lines.space, [interval.from, interval.to]);
+                LineSegment {
+                    edge: self.edge_in_file(&self.contours.pieces[*piece]),
+                    object: self.contours.pieces[*piece].part,
+                    part,
+                    ..interval.segment(Class::Silhouette, image, ends_world)
+                }
             }));
         }
         segments
@@ -106,12 +99,12 @@ impl ContourLines<'_> {
     /// The part in the scene that a segment belongs to.
     fn part_of(&self, piece: &ContourPiece) -> u32 {
         let object = piece.part as usize;
-        self.scene_parts.of_face(object, self.parts[object].edges.get().mesh(), piece.face)
+        self.input.scene_parts.of_face(object, self.input.objects[object].edges.get().mesh(), piece.face)
     }
 
     /// The edge that a segment lies on, by its vertices in the file.
     fn edge_in_file(&self, piece: &ContourPiece) -> Option<[u32; 2]> {
-        let edges = self.parts[piece.part as usize].edges.get();
+        let edges = self.input.objects[piece.part as usize].edges.get();
         let ends = edges.list().positions()[piece.on_edge? as usize];
         Some(ends.map(|position| edges.mesh().file_vertices[position as usize]))
     }
@@ -125,7 +118,7 @@ impl ContourLines<'_> {
         }
         let whole = |intervals| Some(ContourIntervals { piece: number, image, intervals });
         let [from, to] = inside;
-        let is_ghost = self.scene_parts.is_ghost(self.part_of(piece));
+        let is_ghost = self.input.scene_parts.is_ghost(self.part_of(piece));
         if self.contours.is_inside(piece) && !is_ghost {
             return whole(vec![Interval { from, to, is_visible: false, background: [false; 2] }]);
         }
@@ -202,7 +195,7 @@ impl ContourLines<'_> {
         let outwards = if piece.bends_away { outwards } else { -outwards };
         let part = &self.contours.parts[piece.part as usize];
         let (summit, edge) = self.summit(piece, start, normal, outwards);
-        let ends = self.parts[piece.part as usize].edges.get().list().positions()[edge as usize];
+        let ends = self.input.objects[piece.part as usize].edges.get().list().positions()[edge as usize];
         let own = ends.map(|position| position + part.first_position);
         let ends = own.map(|position| lines.faces.positions[position as usize]);
         let (px, key) = lines.space.project(summit);
@@ -223,7 +216,7 @@ impl ContourLines<'_> {
         let plane = space.to_eye(start).cross(normal);
         let start_px = space.project(start).0;
         let part = &self.contours.parts[piece.part as usize];
-        let list = self.parts[piece.part as usize].edges.get().list();
+        let list = self.input.objects[piece.part as usize].edges.get().list();
         let near = part.longest_side(&self.lines.faces.positions, piece.face);
         let to_eye = space.to_eye(start);
         // From inside a face in both directions, from an edge into both its faces.

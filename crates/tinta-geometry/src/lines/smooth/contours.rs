@@ -84,8 +84,8 @@ pub(in crate::lines) enum OnEdge {
     /// The faces decide, as in the exact rule.
     ByFaces,
     /// Silhouette between these shares of it, counted from its lower position.
-    Parts(Vec<[f64; 2]>),
-    /// Like `Parts`, but only the smooth normals turn away, not the faces: the parts belong to a contour.
+    Shares(Vec<[f64; 2]>),
+    /// Like `Shares`, but only the smooth normals turn away, not the faces: the parts belong to a contour.
     OfContour(Vec<[f64; 2]>),
 }
 
@@ -126,7 +126,7 @@ impl Contours {
             for edge in (0..list.len() as u32).filter(|edge| part.surface.is_sharp[*edge as usize]) {
                 match part.on_edge(space, positions, list, edge) {
                     OnEdge::ByFaces => {}
-                    OnEdge::Parts(shares) => part.edge_parts.extend(shares.into_iter().map(|share| (edge, share))),
+                    OnEdge::Shares(shares) => part.edge_parts.extend(shares.into_iter().map(|share| (edge, share))),
                     OnEdge::OfContour(shares) => {
                         let pieces = part.pieces_on_edge(space, positions, list, number as u32, edge, shares);
                         all.pieces.extend(pieces);
@@ -297,7 +297,7 @@ impl ObjectSurface {
             return OnEdge::ByFaces;
         }
         if !self.surface.is_sharp[edge as usize] {
-            return OnEdge::Parts(Vec::new());
+            return OnEdge::Shares(Vec::new());
         }
         let ends = list.positions()[edge as usize];
         let &[first, second] = list.faces(edge) else { return OnEdge::ByFaces };
@@ -316,8 +316,8 @@ impl ObjectSurface {
         let parts = parts.map(|part| [part[0], part[1]]).collect();
         // If the bend cannot be seen from outside, the edge keeps its other classes.
         match self.is_front_face(space, positions, first) == self.is_front_face(space, positions, second) {
-            false => OnEdge::Parts(parts),
-            true if self.encloses(first, self.is_convex(positions, [first, second])) => OnEdge::Parts(Vec::new()),
+            false => OnEdge::Shares(parts),
+            true if self.encloses(first, self.is_convex(positions, [first, second])) => OnEdge::Shares(Vec::new()),
             true => OnEdge::OfContour(parts),
         }
     }

@@ -26,91 +26,66 @@ mod visible_tests;
 
 pub use settings::FormSettings;
 
-use crate::bvh::NO_GROUP;
 use crate::curvature::{Curvature, Curvatures};
 use crate::edges::{Class, ClassCounts, ClassSet, Eye, SilhouetteRule};
 use crate::lines::LineSettings;
 use crate::lines::input::feature::Feature;
-use crate::lines::input::object_edges::{Edges, ObjectEdges};
-use crate::lines::parts::scene_parts::SceneParts;
-use crate::lines::visible::faces::{Faces, Own};
-use crate::lines::visible::space::Space;
+use crate::lines::input::line_input::LineInput;
+use crate::lines::visible::faces::Own;
 use crate::mesh::{Mesh, NONE};
-use crate::scene::Scene;
 use crate::threads::{cores, filled, in_chunks, threads_for};
 use glam::DVec3;
-use std::sync::Arc;
 use trace::{Corners, Crest, crests, zero_set};
 
-pub(in crate::lines) fn curvatures(scene: &Scene, part: &ObjectEdges<'_>, settings: &LineSettings) -> Arc<Curvatures> {
-    let &FormSettings { crease_angle, smoothing, .. } = &settings.forms;
-    match &part.edges {
-        Edges::OfScene(_) => scene.curvatures(part.object, crease_angle, smoothing),
-        Edges::Repaired(_) => {
-            let edges = part.edges.get();
-            Arc::new(Curvatures::new(edges.mesh(), edges.list(), crease_angle, smoothing))
+impl LineInput<'_> {
+    /// The selected form lines, by object and face; counts the segments of each class.
+    pub(in crate::lines) fn form_features(&self, counts: &mut ClassCounts) -> Vec<Feature> {
+        let Self { scene, settings, space, objects, scene_parts, faces } = self;
+        if settings.classes.and(ClassSet::FORMS).is_empty() {
+            return Vec::new();
         }
-    }
-}
-
-/// The selected form lines, by object and face; counts the segments of each class.
-pub(in crate::lines) fn form_features(
-    scene: &Scene,
-    space: &Space,
-    faces: &Faces,
-    (parts, scene_parts): (&[ObjectEdges<'_>], &SceneParts),
-    settings: &LineSettings,
-    counts: &mut ClassCounts,
-) -> Vec<Feature> {
-    let mut places = vec![NONE; parts.iter().map(|part| part.shape().triangles.len()).sum()];
-    faces.numbers.iter().enumerate().for_each(|(place, number)| places[*number as usize] = place as u32);
-    let mut features = Vec::new();
-    let (mut first_position, mut first_face) = (0, 0);
-    for (number, part) in parts.iter().enumerate() {
-        let (mesh, curvatures) = (part.edges.get().mesh(), curvatures(scene, part, settings));
-        let eye = scene.eye(part.object, SilhouetteRule::Exact);
-        let forms = Forms::new(mesh, &curvatures, eye, settings);
-        const FACES: usize = 2048;
-        let pieces = in_chunks(mesh.triangles.len(), FACES, cores(), |range| {
-            let mut pieces = Vec::new();
-            for face in range {
-                let place = places[(first_face + part.whole_face(face as u32)) as usize];
-                if place != NONE {
-                    let view = mesh.triangles[face].map(|corner| faces.positions[(corner + first_position) as usize]);
-                    let normal = (view[1] - view[0]).cross(view[2] - view[0]);
-                    let is_front = normal.dot(space.to_eye(view[0])) >= 0.0;
-                    let part = scene_parts.of_face(number, mesh, face as u32);
-                    let wanted = scene_parts.classes(part);
-                    forms.trace(face, view, is_front, |class, ends| {
-                        if wanted.contains(class) {
-                            pieces.push((class, part, place, ends));
-                        }
-                    });
+        let mut places = vec![NONE; objects.iter().map(|object| object.shape().triangles.len()).sum()];
+        faces.numbers.iter().enumerate().for_each(|(place, number)| places[*number as usize] = place as u32);
+        let mut features = Vec::new();
+        for (number, object) in objects.iter().enumerate() {
+            let (mesh, curvatures) = (object.edges.get().mesh(), object.curvatures(scene, &settings.forms));
+            let forms = Forms::new(mesh, &curvatures, scene.eye(object.object, SilhouetteRule::Exact), settings);
+            const FACES: usize = 2048;
+            let pieces = in_chunks(mesh.triangles.len(), FACES, cores(), |range| {
+                let mut pieces = Vec::new();
+                for face in range {
+                    let place = places[(object.first_face + object.whole_face(face as u32)) as usize];
+                    if place != NONE {
+                        let position = |corner: u32| faces.positions[(corner + object.first_position) as usize];
+                        let view = mesh.triangles[face].map(position);
+                        let normal = (view[1] - view[0]).cross(view[2] - view[0]);
+                        let is_front = normal.dot(space.to_eye(view[0])) >= 0.0;
+                        let part = scene_parts.of_face(number, mesh, face as u32);
+                        let wanted = scene_parts.classes(part);
+                        forms.trace(face, view, is_front, |class, ends| {
+                            if wanted.contains(class) {
+                                pieces.push((class, part, place, ends));
+                            }
+                        });
+                    }
                 }
-            }
-            pieces
-        });
-        for (class, part, place, ends) in pieces.concat() {
-            *counts.of(class) += 1;
-            features.push(Feature {
-                class: Some(class),
-                occludes: false,
-                object: number as u32,
-                part,
-                is_ghost: scene_parts.is_ghost(part),
-                own: Own::Faces([place; 2]),
-                ends,
-                weld: faces.weld(first_position),
-                planes: [faces.plane(faces.numbers[place as usize]); 2],
-                plane: NO_GROUP,
-                edge: None,
-                angle_degrees: None,
+                pieces
             });
+            for (class, part, place, ends) in pieces.concat() {
+                *counts.of(class) += 1;
+                features.push(Feature {
+                    class: Some(class),
+                    object: number as u32,
+                    part,
+                    is_ghost: scene_parts.is_ghost(part),
+                    weld: faces.weld(object.first_position),
+                    planes: [faces.plane(faces.numbers[place as usize]); 2],
+                    ..Feature::new(Own::Faces([place; 2]), ends)
+                });
+            }
         }
-        first_position += mesh.positions.len() as u32;
-        first_face += part.shape().triangles.len() as u32;
+        features
     }
-    features
 }
 
 /// The values at each vertex of an object's surface, for one eye. Lists of unused values are empty.

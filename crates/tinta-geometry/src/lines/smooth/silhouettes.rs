@@ -43,8 +43,7 @@ impl SmoothSilhouette {
 /// shell hides of itself are omitted.
 pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<SmoothSilhouette> {
     let space = Space::of(scene);
-    let parts: Vec<ObjectEdges<'_>> =
-        scene.objects.iter().map(|object| ObjectEdges { object, edges: Edges::OfScene(scene.edges(object)) }).collect();
+    let parts = ObjectEdges::all(scene, |_, object| Edges::OfScene(scene.edges(object)));
     let mut positions = Vec::with_capacity(scene.objects.iter().map(|object| object.mesh.positions.len()).sum());
     for object in &scene.objects {
         let own = &object.mesh.positions;
@@ -186,7 +185,7 @@ mod tests {
             let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
             let hidden = |end: &DVec3| {
                 let view = space.view(*end);
-                let hit = first_hit(&space, &faces, &[0], space.project(view).0);
+                let hit = first_hit(&space, &faces, space.project(view).0);
                 hit.is_some_and(|hit| hit.depth < -view.z - 1e-5)
             };
             let silhouette = &smooth_silhouettes(&scene, smooth().crease_angle)[0];

@@ -15,7 +15,9 @@
 //! border do not count.
 
 use crate::edges::Class;
+use crate::error::Result;
 use crate::lines::LineSegment;
+use crate::lines::progress::Progress;
 use crate::lines::smooth::contour_visibility::{ContourIntervals, ContourLines};
 use crate::lines::smooth::contours::Link;
 use crate::lines::smooth::cusps::REACH;
@@ -92,6 +94,27 @@ impl Cusps {
 }
 
 impl ContourLines<'_> {
+    /// Adds the contours' segments, if the settings want them; counts where visibility changes, if they ask.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Progress::go_on`]: smooth contours are all or nothing.
+    pub(in crate::lines) fn add(
+        &self,
+        segments: &mut Vec<LineSegment>,
+        progress: &Progress,
+    ) -> Result<Option<VisibilityChanges>> {
+        let settings = &self.input.settings;
+        if !settings.has_smooth_contours() {
+            progress.go_on()?;
+            return Ok(Some(self.changes_of_edges(segments)));
+        }
+        let decided = self.decided(progress);
+        progress.go_on()?;
+        segments.extend(self.segments(&decided));
+        Ok(settings.counts_changes.then(|| self.changes(&decided)))
+    }
+
     /// The changes along smooth contours.
     pub(in crate::lines) fn changes(&self, decided: &[ContourIntervals]) -> VisibilityChanges {
         let cusps = self.cusps();
@@ -206,7 +229,7 @@ impl ContourLines<'_> {
         let feature = &self.lines.features[feature];
         let Own::Edge(ends) = feature.own else { return None };
         let part = &self.contours.parts[feature.object as usize];
-        let list = self.parts[feature.object as usize].edges.get().list();
+        let list = self.input.objects[feature.object as usize].edges.get().list();
         let ends = ends.map(|end| end - part.first_position);
         let start = list.positions().partition_point(|[low, _]| *low < ends[0]);
         let edge = start + list.positions()[start..].iter().position(|positions| *positions == ends)?;

@@ -24,20 +24,14 @@ pub struct Hit {
 /// near and the far plane. Computes in f64. Of faces in the same place, the one with the lower number counts.
 pub fn first_hits(scene: &Scene) -> Vec<Option<Hit>> {
     let space = Space::of(scene);
-    let parts: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
-    let faces = Faces::new(&space, &parts);
-    let starts: Vec<u32> = scene
-        .objects
-        .iter()
-        .scan(0, |next, object| Some(std::mem::replace(next, *next + object.mesh.triangles.len() as u32)))
-        .collect();
+    let faces = Faces::of(&space, scene);
     let width = scene.size.width as usize;
     let rows = in_chunks(scene.size.height as usize, 8, cores(), |rows| {
         let mut hits = Vec::with_capacity(rows.len() * width);
         for y in rows {
             for x in 0..width {
                 let px = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-                hits.push(first_hit(&space, &faces, &starts, px));
+                hits.push(first_hit(&space, &faces, px));
             }
         }
         hits
@@ -45,8 +39,8 @@ pub fn first_hits(scene: &Scene) -> Vec<Option<Hit>> {
     rows.concat()
 }
 
-/// Returns the first hit of the ray through a place in the picture. `starts` are the objects' first faces among all.
-pub(in crate::lines) fn first_hit(space: &Space, faces: &Faces, starts: &[u32], px: DVec2) -> Option<Hit> {
+/// Returns the first hit of the ray through a place in the picture.
+pub(in crate::lines) fn first_hit(space: &Space, faces: &Faces, px: DVec2) -> Option<Hit> {
     let column = Box3::new(px.extend(f64::NEG_INFINITY), px.extend(f64::INFINITY));
     let ray = space.ray(px);
     let mut first: Option<(f64, u32, [f64; 3])> = None;
@@ -61,8 +55,8 @@ pub(in crate::lines) fn first_hit(space: &Space, faces: &Faces, starts: &[u32], 
         false
     });
     first.map(|(depth, number, weights)| {
-        let object = starts.partition_point(|start| *start <= number) - 1;
-        Hit { object: object as u32, face: number - starts[object], weights, depth }
+        let (object, face) = faces.in_object(number);
+        Hit { object: object as u32, face, weights, depth }
     })
 }
 

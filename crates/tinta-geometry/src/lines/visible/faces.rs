@@ -6,7 +6,7 @@ use crate::lines::visible::ranges::{above_zero, clipped};
 use crate::lines::visible::space::Space;
 use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::mesh::Mesh;
-use crate::scene::Object;
+use crate::scene::{Object, Scene};
 use crate::threads::{cores, filled, in_chunks, threads_for_items};
 use crate::tolerances::{ACROSS, CONTACT, WELD};
 use glam::{DVec2, DVec3};
@@ -38,8 +38,15 @@ pub(in crate::lines) struct Faces {
     pub planes: Vec<u32>,
     /// For each place whether the face hides nothing; empty without such faces.
     ghosts: Vec<bool>,
-    /// Each object's first position and the distance below which its positions count as one, file units.
-    welds: Vec<(u32, f64)>,
+    objects: Vec<FacesOfObject>,
+}
+
+/// The place of an object's faces among those of all objects.
+struct FacesOfObject {
+    first_position: u32,
+    first_face: u32,
+    /// The distance below which its positions count as one, file units.
+    weld: f64,
 }
 
 /// A point of a line, to test whether faces hide it.
@@ -219,13 +226,22 @@ impl Own {
 }
 
 impl Faces {
+    /// Collects the faces of a scene.
+    pub(in crate::lines) fn of(space: &Space, scene: &Scene) -> Self {
+        let meshes: Vec<_> = scene.objects.iter().map(|object| (object, object.mesh.clone())).collect();
+        Self::new(space, &meshes)
+    }
+
     /// Collects the objects' faces; the meshes may be repaired ones.
-    pub(in crate::lines) fn new(space: &Space, parts: &[(&Object, Arc<Mesh>)]) -> Self {
-        let mut positions = Vec::with_capacity(parts.iter().map(|(_, mesh)| mesh.positions.len()).sum());
-        let mut welds = Vec::with_capacity(parts.len());
-        for (object, mesh) in parts {
+    pub(in crate::lines) fn new(space: &Space, meshes: &[(&Object, Arc<Mesh>)]) -> Self {
+        let mut positions = Vec::with_capacity(meshes.iter().map(|(_, mesh)| mesh.positions.len()).sum());
+        let mut objects: Vec<FacesOfObject> = Vec::with_capacity(meshes.len());
+        let mut first_face = 0;
+        for (object, mesh) in meshes {
             let (low, high) = mesh.bounds();
-            welds.push((positions.len() as u32, WELD * (high - low).length()));
+            let (first_position, weld) = (positions.len() as u32, WELD * (high - low).length());
+            objects.push(FacesOfObject { first_position, first_face, weld });
+            first_face += mesh.triangles.len() as u32;
             let view = |index: usize| space.view(mesh.positions[index] + object.offset);
             positions.extend(filled(mesh.positions.len(), threads_for_items(mesh.positions.len()), DVec3::ZERO, view));
         }
@@ -235,31 +251,25 @@ impl Faces {
             if -view.z >= space.near { space.project(view) } else { (DVec2::NAN, f64::NAN) }
         });
         let mut sorted = SortedFaces::default();
-        let mut first_number = 0;
-        for ((_, mesh), (first_position, _)) in parts.iter().zip(&welds) {
+        for ((_, mesh), FacesOfObject { first_position, first_face, .. }) in meshes.iter().zip(&objects) {
             let chunks = in_chunks(mesh.triangles.len(), CHUNK, cores(), |range| {
                 let mut sorted = SortedFaces::default();
                 for face in range {
                     let corners = mesh.triangles[face].map(|corner| corner + first_position);
                     let points = corners.map(|corner| positions[corner as usize]);
                     let images = || corners.map(|corner| projected[corner as usize]);
-                    sorted.add((first_number + face) as u32, space, points, images);
+                    sorted.add(first_face + face as u32, space, points, images);
                 }
                 sorted
             });
             chunks.into_iter().for_each(|chunk| sorted.append(chunk));
-            first_number += mesh.triangles.len();
         }
         drop(projected);
         let (mut tree, order) = BoxTree::new(&sorted.boxes);
         let numbers: Vec<u32> = order.iter().map(|index| sorted.numbers[*index as usize]).collect();
-        let starts: Vec<u32> = parts
-            .iter()
-            .scan(0, |next, (_, mesh)| Some(std::mem::replace(next, *next + mesh.triangles.len() as u32)))
-            .collect();
         let triangle = |number: &u32| {
-            let part = starts.partition_point(|start| start <= number) - 1;
-            parts[part].1.triangles[(number - starts[part]) as usize].map(|corner| corner + welds[part].0)
+            let (object, face) = in_object(&objects, *number);
+            meshes[object].1.triangles[face as usize].map(|corner| corner + objects[object].first_position)
         };
         let triangles: Vec<[u32; 3]> = numbers.iter().map(triangle).collect();
         let is_cut = |place: &u32| sorted.cut_by_near.binary_search(&numbers[*place as usize]).is_ok();
@@ -282,11 +292,16 @@ impl Faces {
             planes,
             numbers,
             ghosts: Vec::new(),
-            welds,
+            objects,
         };
         let limits = (space.size.max_element() / 512.0, faces.smallest_weld());
-        faces.planes =
-            planes::planes(faces.tree.boxes(), |place| faces.corners(place), &faces.numbers, limits, first_number);
+        faces.planes = planes::planes(
+            faces.tree.boxes(),
+            |place| faces.corners(place),
+            &faces.numbers,
+            limits,
+            first_face as usize,
+        );
         if !faces.planes.is_empty() {
             let of_places: Vec<u32> = faces.numbers.iter().map(|number| faces.plane(*number)).collect();
             faces.tree.set_planes(&of_places);
@@ -311,12 +326,17 @@ impl Faces {
 
     /// The smallest distance below which positions of an object count as one, file units.
     pub(in crate::lines) fn smallest_weld(&self) -> f64 {
-        self.welds.iter().map(|(_, weld)| *weld).fold(f64::INFINITY, f64::min)
+        self.objects.iter().map(|object| object.weld).fold(f64::INFINITY, f64::min)
     }
 
     /// The distance below which positions count as one in the object that has this position, file units.
     pub(in crate::lines) fn weld(&self, position: u32) -> f64 {
-        self.welds[self.welds.partition_point(|(first, _)| *first <= position) - 1].1
+        self.objects[self.objects.partition_point(|object| object.first_position <= position) - 1].weld
+    }
+
+    /// The object of the face with this number, and the face's number in it.
+    pub(in crate::lines) fn in_object(&self, number: u32) -> (usize, u32) {
+        in_object(&self.objects, number)
     }
 
     /// Whether one place's face has a lower number than another's.
@@ -390,6 +410,11 @@ impl Faces {
     }
 }
 
+fn in_object(objects: &[FacesOfObject], number: u32) -> (usize, u32) {
+    let object = objects.partition_point(|object| object.first_face <= number) - 1;
+    (object, number - objects[object].first_face)
+}
+
 /// Faces that a thread sorts at once.
 const CHUNK: usize = 8192;
 
@@ -460,7 +485,7 @@ impl SortedFaces {
     }
 }
 
-/// Returns for each face its position with the most faces, if these are more than [`HIGH_VALENCE`]; an empty list without such
+/// Returns for each face its position with the most faces, if these form a group of [`THRESHOLDS`]; an empty list without such
 /// positions. Leaves out faces that the near plane cuts, because the images of their sides are incomplete.
 fn high_valence(triangles: &[[u32; 3]], positions: usize, cut_by_near: &[u32]) -> Vec<u32> {
     let mut counts = vec![0u32; positions];

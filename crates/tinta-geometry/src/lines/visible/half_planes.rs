@@ -12,31 +12,26 @@ use std::collections::{HashMap, HashSet};
 
 /// The splits of edges at T-junctions.
 pub(in crate::lines::visible) struct SplitEdges<'a> {
-    parts: &'a [ObjectEdges<'a>],
-    /// Each part's first position.
-    starts: Vec<u32>,
+    objects: &'a [ObjectEdges<'a>],
 }
 
 impl<'a> SplitEdges<'a> {
-    pub(in crate::lines::visible) fn new(parts: &'a [ObjectEdges<'a>]) -> Self {
-        let next_start = |next: &mut u32, part: &ObjectEdges| {
-            Some(std::mem::replace(next, *next + part.shape().positions.len() as u32))
-        };
-        Self { parts, starts: parts.iter().scan(0, next_start).collect() }
+    pub(in crate::lines::visible) fn new(objects: &'a [ObjectEdges<'a>]) -> Self {
+        Self { objects }
     }
 
     /// The positions along an edge, its own first and last.
     fn way(&self, edge: [u32; 2]) -> Vec<u32> {
-        let part = self.starts.partition_point(|start| *start <= edge[0]) - 1;
-        let start = self.starts[part];
-        let on_edge = self.parts[part].on_edge(edge.map(|position| position - start)).iter();
+        let number = self.objects.partition_point(|object| object.first_position <= edge[0]) - 1;
+        let (object, start) = (&self.objects[number], self.objects[number].first_position);
+        let on_edge = object.on_edge(edge.map(|position| position - start)).iter();
         [edge[0]].into_iter().chain(on_edge.map(|position| position + start)).chain([edge[1]]).collect()
     }
 
     /// Assigns each piercing of an edge to the piece that holds it, and to that piece's neighbours, because they may meet there.
     /// A point beyond a piece's end does not cut the piece.
     pub(in crate::lines::visible) fn piercings(&self, faces: &Faces, found: Vec<Piercing>) -> Vec<Piercing> {
-        if !self.parts.iter().any(ObjectEdges::has_split_edges) {
+        if !self.objects.iter().any(ObjectEdges::has_split_edges) {
             return found;
         }
         let of_pieces = |piercing: Piercing| {
@@ -79,17 +74,15 @@ impl HalfPlanes {
         if ways.is_empty() {
             return Self { ways, at_pieces };
         }
-        let mut first_face = 0;
-        for (part, start) in split.parts.iter().zip(&split.starts) {
-            for (face, triangle) in (0..).zip(&part.edges.get().mesh().triangles) {
-                let [a, b, c] = triangle.map(|corner| corner + start);
+        for object in split.objects {
+            for (face, triangle) in (0..).zip(&object.edges.get().mesh().triangles) {
+                let [a, b, c] = triangle.map(|corner| corner + object.first_position);
                 for (from, to, third) in [(a, b, c), (b, c, a), (c, a, b)] {
                     if let Some(at_piece) = at_pieces.get_mut(&[from.min(to), from.max(to)]) {
-                        at_piece.push((third, first_face + part.whole_face(face)));
+                        at_piece.push((third, object.first_face + object.whole_face(face)));
                     }
                 }
             }
-            first_face += part.shape().triangles.len() as u32;
         }
         Self { ways, at_pieces }
     }

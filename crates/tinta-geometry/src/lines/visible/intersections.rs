@@ -4,6 +4,7 @@
 //! *surfaces* decide: they intersect if their half-planes around that edge alternate. No rule depends on a face's winding.
 
 use crate::bvh::{Box3, LARGEST_LEAF, NO_GROUP, NodeSelection, counting_steps, steps};
+use crate::lines::input::line_input::LineInput;
 use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::progress::{Phase, Progress};
 use crate::lines::visible::face_pair::{FaceCrossing, FacePlane, Piercing};
@@ -11,6 +12,7 @@ use crate::lines::visible::faces::{Faces, Own, ProbedLine};
 use crate::lines::visible::half_planes::{HalfPlanes, SplitEdges};
 use crate::lines::visible::nearest_faces::NearestFaces;
 use crate::lines::visible::pyramid::Pyramid;
+use crate::lines::visible::search::Search;
 use crate::lines::visible::space::Space;
 use crate::threads::{cores, filled, in_chunks, spread_chunks, threads_for_items};
 use crate::tolerances::CONTACT;
@@ -41,15 +43,12 @@ fn is_hidden(space: &Space, pyramid: &Pyramid, ends: [DVec3; 2]) -> bool {
     ends.iter().all(|end| -end.z >= space.near) && pyramid.hides_line(ends.map(|end| space.project(end)))
 }
 
-/// Finds all intersections of a scene's faces that a pyramid does not hide, and the points where edges pierce faces. The list is
-/// incomplete if the time runs out.
-pub(in crate::lines) fn intersections(
-    space: &Space,
-    faces: &Faces,
-    parts: &[ObjectEdges],
-    (pyramid, nearest_faces): (Option<&Pyramid>, Option<&NearestFaces>),
-    progress: &Progress,
-) -> Intersections {
+/// Finds all intersections of a scene's faces, and the points where edges pierce faces. Unless hidden ones are wanted, leaves out
+/// those that the search finds hidden. The list is incomplete if the time runs out.
+pub(in crate::lines) fn intersections(input: &LineInput<'_>, search: &Search, progress: &Progress) -> Intersections {
+    let LineInput { space, faces, objects, .. } = input;
+    let pyramid = search.pyramid.as_ref().filter(|_| !input.settings.finds_hidden);
+    let nearest_faces = search.nearest_faces.as_ref().filter(|_| !input.settings.finds_hidden);
     let seen = pyramid.map(|pyramid| pyramid.seen(space, faces));
     let is_seen = |place: u32| seen.as_ref().is_none_or(|seen| seen[place as usize]);
     let wanted = seen.as_ref().map_or_else(NodeSelection::default, |seen| faces.tree.wanted(seen));
@@ -90,11 +89,11 @@ pub(in crate::lines) fn intersections(
     }
     let mut all = Findings::default();
     chunks.into_iter().for_each(|(some, _)| all.append(some));
-    let split = SplitEdges::new(parts);
+    let split = SplitEdges::new(objects);
     let touched = HalfPlanes::at_touched_edges(&split, &all.lines);
     let lines = all.lines.into_iter().filter(|found| touched.pass_through(space, faces, found));
     let lines = lines.map(|found| Intersection { faces: found.faces, ends: found.ends });
-    let mut lines: Vec<Intersection> = lines.chain(along_diagonals(faces, parts)).collect();
+    let mut lines: Vec<Intersection> = lines.chain(along_diagonals(faces, objects)).collect();
     lines.sort_by_key(|line| line.faces.map(|face| faces.numbers[face as usize]));
     Intersections {
         lines: without_repeated(space, faces, lines),
@@ -104,16 +103,13 @@ pub(in crate::lines) fn intersections(
 }
 
 /// The intersections of polygons with surfaces that pass through them along one of their diagonals: there both have an edge in common.
-fn along_diagonals(faces: &Faces, parts: &[ObjectEdges]) -> Vec<Intersection> {
+fn along_diagonals(faces: &Faces, objects: &[ObjectEdges]) -> Vec<Intersection> {
     let mut found = Vec::new();
-    let (mut first_position, mut first_face) = (0, 0);
-    for part in parts {
-        found.extend(part.crossings().map(|(ends, of_faces)| {
-            let ends = ends.map(|end| faces.positions[(end + first_position) as usize]);
-            (of_faces.map(|face| face + first_face), ends)
+    for object in objects {
+        found.extend(object.crossings().map(|(ends, of_faces)| {
+            let ends = ends.map(|end| faces.positions[(end + object.first_position) as usize]);
+            (of_faces.map(|face| face + object.first_face), ends)
         }));
-        first_position += part.shape().positions.len() as u32;
-        first_face += part.shape().triangles.len() as u32;
     }
     if found.is_empty() {
         return Vec::new();

@@ -3,15 +3,15 @@
 use crate::bvh::{Box3, Exclusion, NO_GROUP, Walk};
 use crate::edges::Class;
 use crate::error::Result;
+use crate::lines::input::candidates::Candidates;
 use crate::lines::input::feature::Feature;
+use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
-use crate::lines::settings::LineSettings;
 use crate::lines::visible::bundles::Bundles;
-use crate::lines::visible::face_pair::Piercing;
 use crate::lines::visible::faces::{Faces, Own, Probe, ProbedLine};
 use crate::lines::visible::image::{Image, LineParts, LineTree};
 use crate::lines::visible::occluders::Occluders;
-use crate::lines::visible::pyramid::Pyramid;
+use crate::lines::visible::search::Search;
 use crate::lines::visible::space::Space;
 use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::memory;
@@ -28,11 +28,11 @@ pub(in crate::lines) struct LineIndex<'a> {
     /// The image of each line's part between the near and the far plane.
     pub(in crate::lines) images: Vec<Option<Image>>,
     /// The points where edges pass through faces.
-    pub(in crate::lines) piercings: HashMap<[u32; 2], Vec<DVec3>>,
+    pub(in crate::lines) piercings: &'a HashMap<[u32; 2], Vec<DVec3>>,
     /// The rims, where surfaces end: they may cross any line.
     pub(in crate::lines) rims: LineTree,
     /// The faces that may hide lines, in parts; `None` where the faces' own tree serves.
-    occluders: Option<Occluders>,
+    occluders: Option<&'a Occluders>,
     /// The wanted lines, with the direction of their images as the third coordinate: the candidates for overlapping lines.
     pub(in crate::lines) overlapping: LineTree,
     /// Bundles of many overlapping lines.
@@ -40,7 +40,7 @@ pub(in crate::lines) struct LineIndex<'a> {
     pub(in crate::lines) shortest_px: f64,
     pub(in crate::lines) finds_outline: bool,
     pub(in crate::lines) finds_hidden: bool,
-    /// See [`LineSettings::on_surface`].
+    /// See [`LineSettings::on_surface`](crate::lines::LineSettings::on_surface).
     on_surface: f64,
 }
 
@@ -55,15 +55,13 @@ const LINES_A_GLANCE: usize = 64;
 
 impl<'a> LineIndex<'a> {
     pub(in crate::lines) fn new(
-        space: &'a Space,
-        faces: &'a Faces,
-        features: &'a [Feature],
-        piercings: &[Piercing],
-        (pyramid, is_crowded): (Option<&'a Pyramid>, bool),
-        settings: &LineSettings,
+        LineInput { space, faces, settings, .. }: &'a LineInput<'_>,
+        Candidates { features, piercings, .. }: &'a Candidates,
+        search: &'a Search,
         progress: &Progress,
     ) -> Result<Self> {
-        let &LineSettings { finds_outline, finds_hidden, .. } = settings;
+        let (finds_outline, finds_hidden) = (settings.finds_outline, settings.finds_hidden);
+        let pyramid = search.pyramid.as_ref();
         // A lifted line is cut off where it would be without the lift.
         let lifted = [space.near, space.far].map(|depth| -space.lifted(DVec3::NEG_Z * depth, settings.on_surface).z);
         let image = |feature: &Feature| match feature.own {
@@ -73,7 +71,6 @@ impl<'a> LineIndex<'a> {
         let images: Vec<Option<Image>> = features.iter().map(image).collect();
         let side = space.size.max_element();
         let high_valence = high_valence(features);
-        let occluders = is_crowded.then(|| Occluders::new(space, faces, pyramid));
         let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
             let (mut rims, mut overlapping) = (LineParts::default(), LineParts::default());
             for index in range {
@@ -112,18 +109,14 @@ impl<'a> LineIndex<'a> {
         memory::check_lines((rims.len() + overlapping.len()) * BYTES_A_PART, memory::free())?;
         let is_wanted = |index: usize| features[index].overlaps();
         let bundles = Bundles::new(&images, is_wanted, space.size * 0.5, 2.0 * TOUCH * side);
-        let mut pierced: HashMap<[u32; 2], Vec<DVec3>> = HashMap::new();
-        for piercing in piercings {
-            pierced.entry(piercing.edge).or_default().push(piercing.point);
-        }
         Ok(Self {
             space,
             faces,
             features,
             images,
-            piercings: pierced,
+            piercings,
             rims: rims.tree(progress),
-            occluders,
+            occluders: search.occluders.as_ref(),
             overlapping: overlapping.tree(progress),
             bundles,
             shortest_px: SHORTEST_LINE * side,
@@ -180,7 +173,7 @@ impl<'a> LineIndex<'a> {
     }
 
     pub(in crate::lines) fn any_but(&self, query: &Box3, excluded: Exclusion, visit: impl FnMut(u32) -> bool) -> bool {
-        match &self.occluders {
+        match self.occluders {
             Some(occluders) => occluders.any_but(query, excluded, visit),
             None => self.faces.tree.any_but(query, excluded, visit),
         }
@@ -188,7 +181,7 @@ impl<'a> LineIndex<'a> {
 
     /// Shows a walk the faces that may hide something, perhaps several times. Leaves out whole nodes of excluded groups.
     pub(in crate::lines) fn walk_occluders(&self, excluded: Exclusion, walk: &mut impl Walk) {
-        match &self.occluders {
+        match self.occluders {
             Some(occluders) => occluders.walk(excluded, walk),
             None => self.faces.tree.walk(excluded, walk),
         }

@@ -129,9 +129,12 @@ impl ProjectedFace {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lines::LineSettings;
+    use crate::lines::input::line_input::LineInput;
     use crate::lines::visible::cast::{first_hit, first_hits};
     use crate::lines::visible::faces::Own;
     use crate::lines::visible::intersections::intersections;
+    use crate::lines::visible::search::Search;
     use crate::mesh::Mesh;
     use crate::scene::{Scene, SceneSettings};
     use std::sync::Arc;
@@ -155,7 +158,7 @@ mod tests {
     fn the_nearest_face_is_what_a_ray_meets_first() {
         let scene = soup();
         let space = Space::of(&scene);
-        let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
+        let faces = Faces::of(&space, &scene);
         let nearest_faces = NearestFaces::new(&space, &faces, &Progress::default());
         assert_eq!((nearest_faces.sample_px, nearest_faces.columns), (1.0, 512), "samples are the pixels' middles");
         let hits = first_hits(&scene);
@@ -170,15 +173,14 @@ mod tests {
     #[test]
     fn an_intersection_that_the_nearest_faces_hide_lies_behind_a_face_everywhere() {
         let scene = soup();
-        let space = Space::of(&scene);
-        let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
-        let nearest_faces = NearestFaces::new(&space, &faces, &Progress::default());
-        let parts = crate::lines::input::object_edges::object_edges(&scene, None);
-        let all = intersections(&space, &faces, &parts, (None, None), &Progress::default()).lines;
+        let input = LineInput::of(&scene, &LineSettings::default()).unwrap();
+        let (space, faces) = (&input.space, &input.faces);
+        let nearest_faces = NearestFaces::new(space, faces, &Progress::default());
+        let all = intersections(&input, &Search::default(), &Progress::default()).lines;
         let (mut hidden, mut points) = (0, 0);
         for line in &all {
             let own = Own::Faces(line.faces);
-            if !nearest_faces.hide(&space, &faces, ProbedLine::new(&faces, own, line.ends, 1e-7), line.ends) {
+            if !nearest_faces.hide(space, faces, ProbedLine::new(faces, own, line.ends, 1e-7), line.ends) {
                 continue;
             }
             hidden += 1;
@@ -186,7 +188,7 @@ mod tests {
                 let view = line.ends[0].lerp(line.ends[1], f64::from(step) / 20.0);
                 let px = space.project(view).0;
                 if px.cmpge(DVec2::ZERO).all() && px.cmplt(space.size).all() {
-                    let hit = first_hit(&space, &faces, &[0], px).unwrap();
+                    let hit = first_hit(space, faces, px).unwrap();
                     // Up to the tip, where an edge passes through a face.
                     assert!(hit.depth < -view.z + 1e-9, "{line:?} at {step}: {} of {}", hit.depth, -view.z);
                     points += 1;

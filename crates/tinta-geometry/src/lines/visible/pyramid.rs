@@ -346,7 +346,7 @@ mod tests {
         let size = "500x310".parse().unwrap();
         let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings { size, ..SceneSettings::default() }).unwrap();
         let space = Space::of(&scene);
-        let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
+        let faces = Faces::of(&space, &scene);
         let found = Pyramid::new(&space, &faces).unwrap();
         let mut occluders: Vec<Occluder> =
             (0..faces.triangles.len() as u32).filter_map(|place| Occluder::new(&space, &faces, place)).collect();

@@ -11,117 +11,38 @@
 //!
 //! The geometric rules themselves are those of the fast search. So are the intersections of faces, and the outline of what is seen.
 
-use crate::clock::{Instant, milliseconds_since};
-use crate::edges::{Class, ClassCounts, ClassSet};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::lines::input::feature::Feature;
-use crate::lines::input::features;
-use crate::lines::input::object_edges::{self, Edges, IsGhost, ObjectEdges};
-use crate::lines::labels;
-use crate::lines::parts::scene_parts::SceneParts;
-use crate::lines::progress::Progress;
+use crate::lines::progress::{Phase, Progress};
 use crate::lines::segment::LineSegment;
-use crate::lines::settings::LineSettings;
-use crate::lines::smooth::forms;
-use crate::lines::visible::doubled;
-use crate::lines::visible::faces::{Faces, Own};
+use crate::lines::visible::faces::Own;
 use crate::lines::visible::image::Image;
-use crate::lines::visible::intersections::intersections;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::overlapping_lines::OverlappingLines;
-use crate::lines::visible::space::Space;
-use crate::lines::visible_lines::{LineTimes, VisibleLines};
-use crate::mesh::Mesh;
-use crate::scene::Scene;
-
-/// The lines of a scene, not yet decided.
-pub(in crate::lines) struct Undecided<'a> {
-    pub lines: &'a LineIndex<'a>,
-    pub parts: &'a [ObjectEdges<'a>],
-    scene_parts: &'a SceneParts,
-    edges: ClassCounts,
-}
-
-/// Finds the lines of a scene.
-pub(in crate::lines) fn visible_lines(
-    scene: &Scene,
-    settings: &LineSettings,
-    progress: &Progress,
-) -> Result<VisibleLines> {
-    let clock = Instant::now();
-    with_lines(scene, settings, progress, |Undecided { lines, parts, scene_parts, edges }| {
-        let mut segments: Vec<LineSegment> = Vec::new();
-        for index in 0..lines.features.len() {
-            progress.go_on()?;
-            let wanted = lines.pieces(index).into_iter().filter(|piece| piece.is_visible || settings.finds_hidden);
-            segments.extend(wanted.flat_map(|piece| lines.segments_of(index, piece)));
-        }
-        let labels = labels::labels(scene, &segments);
-        let mut segments = doubled::marked(segments, scene_parts, lines.space, progress)?;
-        scene_parts.put_looks(&mut segments);
-        Ok(VisibleLines {
-            size: scene.size,
-            labels,
-            segments,
-            parts: scene_parts.list.clone(),
-            looks: scene_parts.looks.clone(),
-            edges,
-            covered_triangles: parts.iter().map(ObjectEdges::covered).sum(),
-            changes: None,
-            undecided: 0,
-            has_specks: false,
-            times: LineTimes { visibility_ms: milliseconds_since(clock), ..LineTimes::default() },
-        })
-    })
-}
-
-/// Calls `decide` with all lines of a scene, hidden ones too.
-///
-/// # Errors
-///
-/// [`Error::Setting`] for smooth silhouettes, whose visibility follows other rules.
-pub(in crate::lines) fn with_lines<T>(
-    scene: &Scene,
-    settings: &LineSettings,
-    progress: &Progress,
-    decide: impl FnOnce(Undecided<'_>) -> Result<T>,
-) -> Result<T> {
-    if settings.has_smooth_contours() || settings.counts_changes {
-        return Err(Error::setting("silhouette", "smooth silhouettes follow other rules; ask for exact ones"));
-    }
-    let scene_parts = SceneParts::new(scene, settings)?;
-    let settings = &LineSettings { finds_hidden: true, ..scene_parts.settings(settings) };
-    let space = Space::of(scene);
-    let is_ghost = |object: usize, mesh: &Mesh, face| scene_parts.is_ghost(scene_parts.of_face(object, mesh, face));
-    let ghosts = scene_parts.has_ghosts().then_some(&is_ghost as IsGhost<'_>);
-    let parts = object_edges::object_edges(scene, ghosts);
-    let meshes: Vec<_> = parts.iter().map(|part| (part.object, part.shape().clone())).collect();
-    let mut faces = Faces::new(&space, &meshes);
-    if let Some(is_ghost) = ghosts {
-        faces.set_ghosts(&object_edges::ghost_faces(&parts, is_ghost));
-    }
-    let all_parts = (parts.as_slice(), &scene_parts);
-    let (mut all, mut edges) = features::edge_features(scene, &space, &faces, all_parts, None, settings);
-    let crossing_faces = intersections(&space, &faces, &parts, (None, None), progress);
-    if !settings.classes.and(ClassSet::of(&[Class::Intersection, Class::Part])).is_empty() {
-        all.extend(features::intersection_features(&faces, all_parts, &crossing_faces.lines, &mut edges));
-    }
-    if !settings.classes.and(ClassSet::FORMS).is_empty() {
-        parts.iter().filter(|part| matches!(part.edges, Edges::OfScene(_))).for_each(|part| {
-            forms::curvatures(scene, part, settings);
-        });
-        all.extend(forms::form_features(scene, &space, &faces, all_parts, settings, &mut edges));
-    }
-    all.extend(features::free_features(&space, all_parts, settings, &mut edges)?);
-    all.extend(features::near_plane_features(&space, &faces));
-    let piercings = &crossing_faces.piercings;
-    let lines = LineIndex::new(&space, &faces, &all, piercings, (None, false), settings, progress)?;
-    progress.go_on()?;
-    decide(Undecided { lines: &lines, parts: &parts, scene_parts: &scene_parts, edges })
-}
 
 impl LineIndex<'_> {
+    /// The wanted lines' pieces, in the lines' order.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Progress::go_on`].
+    pub(in crate::lines) fn segments_by_rules(
+        &self,
+        finds_hidden: bool,
+        progress: &Progress,
+    ) -> Result<Vec<LineSegment>> {
+        progress.begin(Phase::Lines, self.features.len());
+        let mut segments = Vec::new();
+        for index in 0..self.features.len() {
+            progress.go_on()?;
+            let wanted = self.pieces(index).into_iter().filter(|piece| piece.is_visible || finds_hidden);
+            segments.extend(wanted.flat_map(|piece| self.segments_of(index, piece)));
+            progress.advance(1, 0);
+        }
+        Ok(segments)
+    }
+
     /// The pieces of a wanted line, each visible or hidden as a whole. What another line in the same place stands for is none.
     pub(in crate::lines) fn pieces(&self, index: usize) -> Vec<Interval> {
         let Some((image, inside)) = self.wanted(index) else { return Vec::new() };

@@ -108,18 +108,11 @@ impl LineIndex<'_> {
         let feature = &self.features[index];
         let (Some(class), Some(image)) = (feature.class, self.images[index]) else { return Vec::new() };
         let segment = |piece: Interval| LineSegment {
-            class,
-            is_visible: piece.is_visible,
-            is_outline: piece.background != [false; 2],
-            background: piece.background,
-            is_covered: false,
-            ends_px: [image.at(piece.from), image.at(piece.to)],
-            ends_world: self.ends_world(index, &image, [piece.from, piece.to]),
             edge: feature.edge,
             angle_degrees: feature.angle_degrees,
             object: feature.object,
             part: feature.part,
-            look: 0,
+            ..piece.segment(class, &image, self.ends_world(index, &image, [piece.from, piece.to]))
         };
         match self.finds_outline && piece.is_visible && feature.overlaps() {
             true => self.with_outline(index, &image, piece).into_iter().map(segment).collect(),

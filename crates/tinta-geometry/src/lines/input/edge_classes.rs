@@ -9,7 +9,7 @@ use std::sync::Arc;
 pub(super) const CREASES: [Class; 3] = [Class::Crease, Class::ConvexCrease, Class::ConcaveCrease];
 
 /// The classes of a mesh's edges for the crease angles of all parts.
-pub(super) struct PartClasses {
+pub(super) struct EdgeClasses {
     of_angles: Vec<OfAngle>,
     /// For each style of parts its place in `of_angles`.
     of_looks: Vec<usize>,
@@ -23,7 +23,7 @@ struct OfAngle {
     lasting: Option<Vec<bool>>,
 }
 
-impl PartClasses {
+impl EdgeClasses {
     /// Finds the classes in `wanted` for the crease angle of each style of parts.
     pub(super) fn new(edges: &MeshEdges, settings: &LineSettings, angles: &[CreaseAngle], wanted: ClassSet) -> Self {
         let mut all = Self { of_angles: Vec::new(), of_looks: Vec::with_capacity(angles.len()) };

@@ -1,0 +1,92 @@
+//! What lines are found in: a scene's objects with their edges and parts, and all faces in the eye's space.
+
+use crate::edges::{Class, ClassSet};
+use crate::error::{Error, Result};
+use crate::lines::input::object_edges::{Edges, IsGhost, ObjectEdges, ghost_faces, object_edges};
+use crate::lines::parts::scene_parts::SceneParts;
+use crate::lines::settings::{LineSettings, check_on_surface, not_published};
+use crate::lines::visible::faces::Faces;
+use crate::lines::visible::space::Space;
+use crate::mesh::Mesh;
+use crate::scene::Scene;
+use crate::threads::both;
+
+/// Classes at which a surface ends or turns away.
+pub(in crate::lines) const OCCLUDING: ClassSet =
+    ClassSet::of(&[Class::Boundary, Class::NonManifold, Class::Silhouette]);
+
+/// A scene, repaired where needed.
+pub(in crate::lines) struct LineInput<'a> {
+    pub scene: &'a Scene,
+    /// With the classes of all parts together. Hidden pieces are found wherever anything depends on them.
+    pub settings: LineSettings,
+    pub space: Space,
+    pub objects: Vec<ObjectEdges<'a>>,
+    pub scene_parts: SceneParts,
+    pub faces: Faces,
+}
+
+impl<'a> LineInput<'a> {
+    /// Finds the objects' edges, repairs their meshes, and collects all faces.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for settings without lines, for a pattern that names no part, and for a scene that is too large.
+    pub(in crate::lines) fn of(scene: &'a Scene, settings: &LineSettings) -> Result<Self> {
+        check(scene, settings)?;
+        let scene_parts = SceneParts::new(scene, settings)?;
+        let mut settings = scene_parts.settings(settings);
+        settings.finds_hidden |= settings.counts_changes || settings.reference;
+        let is_ghost = |object: usize, mesh: &Mesh, face| scene_parts.is_ghost(scene_parts.of_face(object, mesh, face));
+        let ghosts = scene_parts.has_ghosts().then_some(&is_ghost as IsGhost<'_>);
+        let has_forms = !settings.classes.and(ClassSet::FORMS).is_empty();
+        let space = Space::of(scene);
+        // One thread builds the hierarchy, another the edges.
+        let edges = || {
+            let objects = object_edges(scene, ghosts);
+            for object in &objects {
+                object.edges.get().classes(settings.crease_angle, asked(&settings));
+                if has_forms && matches!(object.edges, Edges::OfScene(_)) {
+                    object.curvatures(scene, &settings.forms);
+                }
+            }
+            objects
+        };
+        let (objects, mut faces) = both(edges, || Faces::of(&space, scene));
+        if objects.iter().any(|object| matches!(object.edges, Edges::Repaired(_))) {
+            let meshes: Vec<_> = objects.iter().map(|object| (object.object, object.shape().clone())).collect();
+            faces = Faces::new(&space, &meshes);
+        }
+        if let Some(is_ghost) = ghosts {
+            faces.set_ghosts(&ghost_faces(&objects, is_ghost));
+        }
+        Ok(Self { scene, settings, space, objects, scene_parts, faces })
+    }
+}
+
+/// Refuses settings without lines, and scenes that are too large.
+fn check(scene: &Scene, settings: &LineSettings) -> Result<()> {
+    if settings.classes.is_empty() {
+        return Err(Error::setting("classes", "name at least one class of lines"));
+    }
+    let all_positions: usize = scene.objects.iter().map(|object| object.mesh.positions.len()).sum();
+    if scene.triangle_count().max(all_positions) > u32::MAX as usize / 4 {
+        return Err(Error::setting("copies", "the scene has too many faces to find its lines; ask for fewer"));
+    }
+    if settings.reference && (settings.has_smooth_contours() || settings.counts_changes) {
+        return Err(Error::setting("silhouette", "smooth silhouettes follow other rules; ask for exact ones"));
+    }
+    not_published(settings.silhouette)?;
+    check_on_surface(settings.on_surface)?;
+    settings.forms.check()
+}
+
+/// The classes of a mesh's edges that these settings need.
+pub(in crate::lines) fn asked(settings: &LineSettings) -> ClassSet {
+    let of_normals = match settings.creases_by_normals && settings.classes.contains(Class::Crease) {
+        true => ClassSet::of(&[Class::Normal]),
+        false => ClassSet::default(),
+    };
+    let of_contours = if settings.has_smooth_contours() { ClassSet::of(&[Class::Crease]) } else { ClassSet::default() };
+    settings.classes.or(OCCLUDING).or(of_contours).or(of_normals).and(ClassSet::EDGES)
+}

@@ -1,0 +1,30 @@
+//! What quickens the search for lines in crowded scenes. Without it the same lines are found.
+
+use crate::lines::input::line_input::LineInput;
+use crate::lines::progress::Progress;
+use crate::lines::visible::nearest_faces::NearestFaces;
+use crate::lines::visible::occluders::Occluders;
+use crate::lines::visible::pyramid::{Pyramid, is_crowded};
+
+/// Accelerators; by default none.
+#[derive(Default)]
+pub(in crate::lines) struct Search {
+    /// The parts of the picture that single faces hide.
+    pub pyramid: Option<Pyramid>,
+    /// The nearest face at samples of the picture.
+    pub nearest_faces: Option<NearestFaces>,
+    /// The faces that may hide lines, in short pieces.
+    pub occluders: Option<Occluders>,
+}
+
+impl Search {
+    /// Builds what pays for a scene.
+    pub(in crate::lines) fn of(LineInput { space, faces, .. }: &LineInput<'_>, progress: &Progress) -> Self {
+        if !is_crowded(space, faces) {
+            return Self::default();
+        }
+        let pyramid = Pyramid::new(space, faces);
+        let occluders = Occluders::new(space, faces, pyramid.as_ref());
+        Self { nearest_faces: Some(NearestFaces::new(space, faces, progress)), occluders: Some(occluders), pyramid }
+    }
+}
