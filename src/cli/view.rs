@@ -7,10 +7,9 @@ use std::path::{Path, PathBuf};
 use tinta::mesh::refuse_address;
 use tinta::request::Request;
 use tinta::settings::{HasSettings, Setting, names_of};
-use tinta::styles::is_of_lines_alone;
+
 use tinta::window::{
-    Buffer, LINE_SETTINGS, Layout, Orbit, Replay, SCENE_SETTINGS, Side, ViewerEvent, ViewerOptions, ViewerState,
-    WindowOptions, open,
+    Buffer, Layout, Orbit, Replay, SCENE_SETTINGS, Side, ViewerEvent, ViewerOptions, ViewerState, WindowOptions, open,
 };
 use tinta::{Error, LoadOptions, Result, Size, Style, StyleName};
 
@@ -73,7 +72,7 @@ impl Selection for OfWindow {
 
     fn has(setting: &Setting<Request>) -> bool {
         let name = setting.name;
-        let is_of_style = Style::table().has(name) && (!is_of_lines_alone(name) || LINE_SETTINGS.contains(&name));
+        let is_of_style = Style::table().has(name);
         let is_other = ["style", "show", "backend", "glsl"].contains(&name) || SCENE_SETTINGS.contains(&name);
         is_of_style || is_other || LoadOptions::table().has(name)
     }

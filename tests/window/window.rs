@@ -5,8 +5,9 @@ use crate::support::{BACKENDS, backend_names, root, skip};
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
+use tinta::settings::OptionValue;
 use tinta::window::{Layout, Side, Viewer, ViewerEvent, ViewerOptions, ViewerState};
-use tinta::{Backend, LoadOptions, Picture, Size, View};
+use tinta::{Backend, LoadOptions, Picture, Size, Style, StyleName, View};
 
 /// A viewer of these models without a window, at rest.
 fn viewer(models: &[&str], backend: Backend, shaders: Option<&Path>) -> Viewer {
@@ -303,11 +304,17 @@ fn lines_tones_areas_and_sheets_are_saved_byte_for_byte_as_the_command_line_writ
             vec![ViewerEvent::Overlay(Side::Left, true), lines("--hidden", "dashed"), ViewerEvent::Turn([0.3, 0.1])],
             vec![style("lines"), lines("--class-colors", "outline=red,crease=royalblue"), ViewerEvent::Zoom(1.5)],
             vec![ViewerEvent::Look("technical".to_owned()), ViewerEvent::Background("tan".to_owned())],
-            vec![lines("--areas", "face")],
-            vec![ViewerEvent::LinesDefault("--areas".to_owned()), lines("--sheet", "third")],
+            vec![style("lines")],
+            vec![style("lines")],
         ];
         for (number, step) in steps.into_iter().enumerate() {
             shown(&mut viewer, step);
+            // As a preset or an option of `tinta view` sets them.
+            if let Some((option, value)) = [("areas", "face"), ("sheet", "third")].get(number.wrapping_sub(5)) {
+                let options = [((*option).to_owned(), OptionValue::text(*value))].into();
+                viewer.state.put_style(Side::Left, Style::with_options(StyleName::Lines, &options).unwrap());
+                shown(&mut viewer, []);
+            }
             let message = saved(&mut viewer, ViewerEvent::SaveLines);
             let (name, command) = message.strip_prefix("saved ").unwrap().split_once("; the same by ").unwrap();
             let again = folder.path().join("again.svg");

@@ -1,7 +1,7 @@
-//! The settings of exact lines in the window.
+//! The settings of exact lines in the window's panel.
 
-/// The settings of exact lines that a window shows and sets: the others are of files and of paper.
-pub const LINE_SETTINGS: [&str; 13] = [
+/// The settings of exact lines that the panel shows and sets: the others are of files and of paper, and count where a drawing is saved.
+pub(in crate::window) const LINE_SETTINGS: [&str; 13] = [
     "classes",
     "crease-angle",
     "lasting-creases",
