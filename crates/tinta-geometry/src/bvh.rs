@@ -2,6 +2,7 @@
 //!
 //! Boxes are f32, rounded outwards: they only find candidates, f64 decides.
 
+use crate::ranges::between;
 use crate::threads::{cores, in_chunks};
 use glam::{DVec3, Vec3A};
 use obvhs::Boundable;
@@ -62,10 +63,9 @@ pub(crate) struct BoxTree {
     nodes: Bvh2,
     /// The boxes, leaf by leaf.
     boxes: Vec<Box3>,
-    /// Each node's high-valence vertex, if all things below it have the same one, else [`NO_GROUP`]; empty without such vertices.
-    high_valence: Vec<u32>,
-    /// Each node's plane, if all things below it lie in the same one; likewise.
-    planes: Vec<u32>,
+    /// For each node the plane in which all things below it lie, and the vertex that they all share, else [`NO_GROUP`]; each empty
+    /// without such groups.
+    groups: [Vec<u32>; 2],
 }
 
 /// A search through a hierarchy, front to back.
@@ -102,21 +102,14 @@ impl Line3 {
         self.around.overlaps(around)
     }
 
-    /// Returns the range of the line that is in a box or behind it (Liang and Barsky 1984).
+    /// Returns the range of the line that is in a box or behind it.
     pub(crate) fn range(&self, around: &Box3) -> Option<[f64; 2]> {
         let [low, high] = around.corners();
         let (low, high) = (low - self.from, high - self.from);
-        let mut range = [0.0f64, 1.0f64];
+        let mut range = [0.0, 1.0];
         for axis in 0..2 {
-            let (low, high, along) = (low[axis] - self.margin, high[axis] + self.margin, self.along[axis]);
-            if along == 0.0 {
-                if low > 0.0 || high < 0.0 {
-                    return None;
-                }
-                continue;
-            }
-            let (one, other) = (low / along, high / along);
-            range = [range[0].max(one.min(other)), range[1].min(one.max(other))];
+            let limits = [low[axis] - self.margin, high[axis] + self.margin];
+            range = between(range, 0.0, self.along[axis], limits)?;
         }
         let (nearest, along) = (low.z - self.slack, self.along.z);
         match along {
@@ -142,23 +135,20 @@ impl NodeSelection {
 /// The group of things that belong to none.
 pub(crate) const NO_GROUP: u32 = u32::MAX;
 
-/// Groups whose things a search leaves out; [`NO_GROUP`] leaves out nothing.
+/// Two planes and two vertices whose things a search leaves out; [`NO_GROUP`] leaves out nothing.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Exclusion {
-    pub planes: [u32; 2],
-    pub high_valence: [u32; 2],
-}
+pub(crate) struct Exclusion(pub [[u32; 2]; 2]);
 
 impl Default for Exclusion {
     fn default() -> Self {
-        Self { planes: [NO_GROUP; 2], high_valence: [NO_GROUP; 2] }
+        Self([[NO_GROUP; 2]; 2])
     }
 }
 
 impl Exclusion {
     /// Excludes things in planes.
     pub(crate) fn planes(planes: [u32; 2]) -> Self {
-        Self { planes, ..Self::default() }
+        Self([planes, [NO_GROUP; 2]])
     }
 }
 
@@ -189,7 +179,7 @@ impl BoxTree {
         nodes.parents = Vec::new();
         let order = std::mem::take(&mut nodes.primitive_indices);
         let boxes = order.iter().map(|index| boxes[*index as usize]).collect();
-        (Self { boxes, nodes, high_valence: Vec::new(), planes: Vec::new() }, order)
+        (Self { boxes, nodes, groups: Default::default() }, order)
     }
 
     /// The things' boxes, by their places.
@@ -197,16 +187,27 @@ impl BoxTree {
         &self.boxes
     }
 
-    /// Sets the high-valence vertex of the thing at each place. [`BoxTree::pairs`] then leaves out pairs around one such vertex,
-    /// and takes no time over them.
-    pub(crate) fn set_high_valence(&mut self, vertex_of: &[u32]) {
-        self.high_valence = self.of_nodes(vertex_of);
+    /// Sets the plane and the high-valence vertex of the thing at each place; an empty list where there are none. [`BoxTree::pairs`]
+    /// then leaves out pairs of one group, and takes no time over them. [`BoxTree::any_but`] leaves out things in given groups.
+    pub(crate) fn set_groups(&mut self, groups: [&[u32]; 2]) {
+        self.groups = groups.map(|of_places| if of_places.is_empty() { Vec::new() } else { self.of_nodes(of_places) });
     }
 
-    /// Sets the plane of the thing at each place. [`BoxTree::pairs`] then leaves out pairs in one plane, and [`BoxTree::any_but`]
-    /// things in given planes.
-    pub(crate) fn set_planes(&mut self, plane_of: &[u32]) {
-        self.planes = self.of_nodes(plane_of);
+    /// Whether all below a node is in excluded groups.
+    fn is_left_out(&self, node: u32, excluded: Exclusion) -> bool {
+        self.groups.iter().zip(excluded.0).any(|(groups, excluded)| {
+            let group = group(groups, node);
+            group != NO_GROUP && excluded.contains(&group)
+        })
+    }
+
+    /// Whether all below two nodes is in one group.
+    fn are_of_one(&self, [first, second]: [u32; 2]) -> bool {
+        let is_common = |groups: &Vec<u32>| {
+            let group_of_first = group(groups, first);
+            group_of_first != NO_GROUP && group_of_first == group(groups, second)
+        };
+        self.groups.iter().any(is_common)
     }
 
     /// Selects the nodes with wanted things below them. `is_wanted` has a value for each place.
@@ -251,29 +252,41 @@ impl BoxTree {
 
     /// Searches as [`BoxTree::any`] does, but leaves out whole leaves of excluded groups.
     pub(crate) fn any_but(&self, query: &Box3, excluded: Exclusion, mut visit: impl FnMut(u32) -> bool) -> bool {
-        let is_none = |groups: &[u32], node: u32, excluded: [u32; 2]| {
-            let group = group(groups, node);
-            group == NO_GROUP || !excluded.contains(&group)
-        };
-        let is_other = |node: u32| {
-            is_none(&self.planes, node, excluded.planes) && is_none(&self.high_valence, node, excluded.high_valence)
-        };
-        self.any_leaf(query, is_other, |leaf| {
-            range(leaf.first_index, leaf.prim_count)
-                .any(|place| query.overlaps(&self.boxes[place]) && visit(place as u32))
-        })
+        let nodes = &self.nodes.nodes;
+        if nodes.is_empty() || !nodes[0].aabb().intersect_aabb(&query.0) {
+            return false;
+        }
+        let mut open = Stack::default();
+        if !self.is_left_out(0, excluded) {
+            open.push(0);
+        }
+        let (mut steps, mut is_found) = (0, false);
+        while let Some(index) = open.pop() {
+            let node = &nodes[index as usize];
+            steps += 1;
+            if node.is_leaf() {
+                steps += u64::from(node.prim_count);
+                is_found = range(node.first_index, node.prim_count)
+                    .any(|place| query.overlaps(&self.boxes[place]) && visit(place as u32));
+                if is_found {
+                    break;
+                }
+                continue;
+            }
+            for child in [node.first_index, node.first_index + 1] {
+                if nodes[child as usize].aabb().intersect_aabb(&query.0) && !self.is_left_out(child, excluded) {
+                    open.push(child);
+                }
+            }
+        }
+        add_steps(steps);
+        is_found
     }
 
     /// Shows a walk the things whose boxes it enters, the nearer of two nodes first. Leaves out whole nodes of excluded groups.
     pub(crate) fn walk(&self, excluded: Exclusion, walk: &mut impl Walk) {
         let nodes = &self.nodes.nodes;
-        let is_left_out = |node: u32| {
-            let is_one = |groups: &[u32], excluded: [u32; 2]| {
-                let group = group(groups, node);
-                group != NO_GROUP && excluded.contains(&group)
-            };
-            is_one(&self.planes, excluded.planes) || is_one(&self.high_valence, excluded.high_valence)
-        };
+        let is_left_out = |node: u32| self.is_left_out(node, excluded);
         if nodes.is_empty() || is_left_out(0) || !walk.enters(&Box3(*nodes[0].aabb())) {
             return;
         }
@@ -337,14 +350,8 @@ impl BoxTree {
     /// below.
     fn halves(&self, [first, second]: [u32; 2], wanted: &NodeSelection, mut push: impl FnMut([u32; 2])) {
         let [a, b] = [first, second].map(|node| &self.nodes.nodes[node as usize]);
-        let are_of_one =
-            |groups: &[u32]| group(groups, first) != NO_GROUP && group(groups, first) == group(groups, second);
         let is_unwanted = !wanted.any_below(first) || !wanted.any_below(second);
-        if is_unwanted
-            || are_of_one(&self.high_valence)
-            || are_of_one(&self.planes)
-            || !a.aabb().intersect_aabb(b.aabb())
-        {
+        if is_unwanted || self.are_of_one([first, second]) || !a.aabb().intersect_aabb(b.aabb()) {
             return;
         }
         match (a.is_leaf(), b.is_leaf()) {
@@ -395,38 +402,6 @@ impl BoxTree {
             });
             if is_found {
                 break;
-            }
-        }
-        add_steps(steps);
-        is_found
-    }
-
-    /// Calls `visit` with each leaf that overlaps and lies below no excluded node, until it returns true.
-    fn any_leaf(&self, query: &Box3, is_other: impl Fn(u32) -> bool, mut visit: impl FnMut(&Bvh2Node) -> bool) -> bool {
-        let nodes = &self.nodes.nodes;
-        if nodes.is_empty() || !nodes[0].aabb().intersect_aabb(&query.0) {
-            return false;
-        }
-        let mut open = Stack::default();
-        if is_other(0) {
-            open.push(0);
-        }
-        let (mut steps, mut is_found) = (0, false);
-        while let Some(index) = open.pop() {
-            let node = &nodes[index as usize];
-            steps += 1;
-            if node.is_leaf() {
-                steps += u64::from(node.prim_count);
-                if visit(node) {
-                    is_found = true;
-                    break;
-                }
-            } else {
-                for child in [node.first_index, node.first_index + 1] {
-                    if nodes[child as usize].aabb().intersect_aabb(&query.0) && is_other(child) {
-                        open.push(child);
-                    }
-                }
             }
         }
         add_steps(steps);

@@ -331,17 +331,7 @@ impl CameraSettings {
             let from_target = point - target;
             DVec3::new(from_target.dot(right), from_target.dot(true_up), from_target.dot(back))
         };
-        let across = match self.framing {
-            Framing::Outline if self.eye.is_none() && self.target.is_none() => {
-                let points = points.clone().map(in_frame);
-                let tan_half = (self.fov_y_degrees.to_radians() * 0.5).tan();
-                match self.parallel {
-                    true => framing::middle_of_parallel(points),
-                    false => framing::middle_of_perspective(points, DVec2::new(tan_half * aspect, tan_half)),
-                }
-            }
-            _ => DVec2::ZERO,
-        };
+        let across = self.middle(points.clone().map(in_frame), aspect);
         let frame = points.map(|point| in_frame(point) - across.extend(0.0));
         let target = target + right * across.x + true_up * across.y;
         let fill = self.framing.fill();
@@ -371,6 +361,17 @@ impl CameraSettings {
         let (near, far) = self.depth_range(distance, radius, frame.map(|p| distance - p.z))?;
         let eye = self.eye.unwrap_or(target + back * distance);
         Ok(Camera { eye, target, up, projection, near, far })
+    }
+
+    /// How far the picture's middle lies beside the target, given the scene's points around it.
+    fn middle(&self, points: impl Iterator<Item = DVec3> + Clone, aspect: f64) -> DVec2 {
+        let tan_half = (self.fov_y_degrees.to_radians() * 0.5).tan();
+        match self.framing {
+            Framing::Outline if self.eye.is_some() || self.target.is_some() => DVec2::ZERO,
+            Framing::Outline if self.parallel => framing::middle_of_parallel(points),
+            Framing::Outline => framing::middle_of_perspective(points, DVec2::new(tan_half * aspect, tan_half)),
+            _ => DVec2::ZERO,
+        }
     }
 
     fn check_numbers(&self) -> Result<()> {

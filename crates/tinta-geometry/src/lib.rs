@@ -39,6 +39,8 @@ pub mod choice;
 pub mod files;
 mod memory;
 mod disjoint_sets;
+mod ranges;
+mod thresholds;
 #[doc(hidden)]
 pub mod markup;
 #[doc(hidden)]

@@ -32,6 +32,7 @@
 //! ```
 
 mod drawing;
+mod eye;
 mod identity;
 mod input;
 mod labels;
@@ -64,6 +65,7 @@ pub use drawing::length::{Length, Millimetres, Units, line_width};
 pub use drawing::page::{PageSize, Paper, Sheet, Turn};
 pub use drawing::painted::painted;
 pub use drawing::settings::{DrawingSettings, Hidden};
+pub use eye::cast::{Hit, first_hits};
 pub use identity::StrokeIds;
 pub use labels::Label;
 pub use parts::pattern::Pattern;
@@ -79,7 +81,6 @@ pub use smooth::closed_forms;
 pub use smooth::forms::FormSettings;
 pub use smooth::silhouettes::{SmoothSilhouette, smooth_silhouettes};
 pub use smooth::visibility_events::{Inconsistency, InconsistencyKind, VisibilityChanges};
-pub use visible::cast::{Hit, first_hits};
 pub use visible_lines::{LineTimes, VisibleLines};
 pub use why::{Hider, Why, WhyLine, WhyPiece};
 pub use write::dxf::{dxf, dxf_of_paths};

@@ -364,44 +364,24 @@ impl<T: Clone + 'static> Setting<T> {
 
     /// Returns this setting for a struct that may contain a `T`; without a `T` the struct does not have the setting.
     pub fn within<S: Clone + 'static>(self, part: fn(&mut S) -> Option<&mut T>) -> Setting<S> {
-        let Self {
-            name,
-            kind,
-            value_name,
-            help,
-            said_default,
-            heading,
-            is_common,
-            open,
-            provenance,
-            former,
-            stands_alone,
-            between,
-            is_first,
-            label,
-            get,
-            set,
-        } = self;
-        let get = move |whole: &S| part(&mut whole.clone()).and_then(|part| get(part));
-        let set = move |whole: &mut S, text: &str| part(whole).map_or(Ok(()), |part| set(part, text));
-        let (get, set): (Get<S>, Set<S>) = (Box::new(get), Box::new(set));
+        let (get, set) = (self.get, self.set);
         Setting {
-            name,
-            kind,
-            value_name,
-            help,
-            said_default,
-            heading,
-            is_common,
-            open,
-            provenance,
-            former,
-            stands_alone,
-            between,
-            is_first,
-            label,
-            get,
-            set,
+            name: self.name,
+            kind: self.kind,
+            value_name: self.value_name,
+            help: self.help,
+            said_default: self.said_default,
+            heading: self.heading,
+            is_common: self.is_common,
+            open: self.open,
+            provenance: self.provenance,
+            former: self.former,
+            stands_alone: self.stands_alone,
+            between: self.between,
+            is_first: self.is_first,
+            label: self.label,
+            get: Box::new(move |whole: &S| part(&mut whole.clone()).and_then(|part| get(part))),
+            set: Box::new(move |whole: &mut S, text: &str| part(whole).map_or(Ok(()), |part| set(part, text))),
         }
     }
 

@@ -3,11 +3,11 @@
 use crate::edges::Class;
 use crate::error::{Error, Result};
 use crate::lines::LineSegment;
+use crate::lines::eye::image::Image;
 use crate::lines::input::candidates::Candidates;
 use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
 use crate::lines::settings::LineSettings;
-use crate::lines::visible::image::Image;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::search::Search;

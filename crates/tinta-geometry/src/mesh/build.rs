@@ -98,12 +98,7 @@ impl Soup {
         let welded = self.welded(&used, options.weld, name)?;
         let mut pieces = Pieces::of(&self, &finite, &welded);
         pieces.drop_duplicates(self.positions.len());
-        defects.degenerate_triangles += pieces.degenerate;
-        defects.long_polygons += pieces.too_long;
-        defects.crossing_polygons += pieces.crossing;
-        defects.repeated_corners += pieces.repeated_corners;
-        defects.duplicate_triangles += pieces.duplicate;
-        defects.doubled_triangles += pieces.doubled;
+        pieces.count(&mut defects);
         let curves = Curves::of(&self, &finite);
         check_coordinates(&curves.positions, name)?;
         if pieces.triangles.is_empty() && curves.is_empty() {
@@ -117,15 +112,7 @@ impl Soup {
         defects.unused_vertices += unused.into_iter().filter(|unused| *unused).count();
 
         let (positions, file_vertices) = compact(&self.positions, &mut pieces.triangles);
-        // A position's file vertex is the one that others are welded to.
-        let position = |vertex: u32| file_vertices.binary_search(&welded[vertex as usize]).ok().map(|at| at as u32);
-        let edge = |[a, b]: &[u32; 2]| {
-            let (a, b) = (position(*a)?, position(*b)?);
-            (a != b).then_some([a.min(b), a.max(b)])
-        };
-        let mut marked: Vec<[u32; 2]> = self.marked.iter().filter_map(edge).collect();
-        marked.sort_unstable();
-        marked.dedup();
+        let marked = self.marked_edges(&file_vertices, &welded);
         let color = |vertex: &u32| self.colors.get(*vertex as usize).copied();
         let mut mesh = Mesh {
             name: name.to_owned(),
@@ -146,31 +133,26 @@ impl Soup {
             curves,
             defects,
         };
-        if mesh.triangle_texture_coordinates.as_flattened().iter().all(|index| *index == NONE) {
-            mesh.triangle_texture_coordinates.clear();
-        }
-        if mesh.triangle_materials.iter().all(|index| *index == NONE) {
-            mesh.triangle_materials.clear();
-        }
-        if mesh.position_colors.len() != mesh.positions.len() {
-            mesh.position_colors.clear();
-        }
+        mesh.clear_unused();
         watch(LoadStage::Normals);
         mesh.take_normals(&self.normals, &pieces.face_normals, options, remarks);
         if options.strict && !mesh.defects.is_empty() {
             return Err(Error::Strict { path: name.into(), defects: mesh.defects.to_string() });
         }
-        let Some(plane) = &options.section else { return Ok(mesh) };
-        let (mesh, cut) = mesh.section(plane)?;
-        match cut {
-            Cut::Closed => {}
-            Cut::Gone => remarks.push(format!("{name}: it lies wholly in front of the section's plane, which cuts it away")),
-            Cut::Missed => remarks.push(format!("{name}: the section's plane meets nothing to cut away; move the plane")),
-            Cut::Open => remarks.push(format!(
-                "{name}: the surface is open, or its faces disagree on the outside, where --section cuts it; no faces close the cut there"
-            )),
-        }
-        Ok(mesh)
+        cut_open(mesh, name, options, remarks)
+    }
+
+    /// The marked edges between positions, each once, ascending. A position's file vertex is the one that others are welded to.
+    fn marked_edges(&self, file_vertices: &[u32], welded: &[u32]) -> Vec<[u32; 2]> {
+        let position = |vertex: u32| file_vertices.binary_search(&welded[vertex as usize]).ok().map(|at| at as u32);
+        let edge = |[a, b]: &[u32; 2]| {
+            let (a, b) = (position(*a)?, position(*b)?);
+            (a != b).then_some([a.min(b), a.max(b)])
+        };
+        let mut marked: Vec<[u32; 2]> = self.marked.iter().filter_map(edge).collect();
+        marked.sort_unstable();
+        marked.dedup();
+        marked
     }
 
     /// Returns for each vertex the one it is welded to, by a tolerance relative to the used vertices' bounding-box diagonal;
@@ -279,6 +261,36 @@ fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
         format!("it holds {} {vertices} but no faces; export it with its faces", soup.positions.len())
     };
     Error::model(name, problem)
+}
+
+impl Mesh {
+    /// Clears lists in which nothing is given.
+    fn clear_unused(&mut self) {
+        if self.triangle_texture_coordinates.as_flattened().iter().all(|index| *index == NONE) {
+            self.triangle_texture_coordinates.clear();
+        }
+        if self.triangle_materials.iter().all(|index| *index == NONE) {
+            self.triangle_materials.clear();
+        }
+        if self.position_colors.len() != self.positions.len() {
+            self.position_colors.clear();
+        }
+    }
+}
+
+/// Cuts a mesh open at the options' plane, if they have one, with remarks.
+fn cut_open(mesh: Mesh, name: &str, options: &LoadOptions, remarks: &mut Vec<String>) -> Result<Mesh> {
+    let Some(plane) = &options.section else { return Ok(mesh) };
+    let (mesh, cut) = mesh.section(plane)?;
+    match cut {
+        Cut::Closed => {}
+        Cut::Gone => remarks.push(format!("{name}: it lies wholly in front of the section's plane, which cuts it away")),
+        Cut::Missed => remarks.push(format!("{name}: the section's plane meets nothing to cut away; move the plane")),
+        Cut::Open => remarks.push(format!(
+            "{name}: the surface is open, or its faces disagree on the outside, where --section cuts it; no faces close the cut there"
+        )),
+    }
+    Ok(mesh)
 }
 
 #[cfg(test)]

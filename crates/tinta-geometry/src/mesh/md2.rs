@@ -103,10 +103,8 @@ pub(super) fn read(
     remarks: &mut Vec<String>,
 ) -> Result<Soup> {
     if !bytes.starts_with(MAGIC) {
-        return Err(Error::model(
-            path,
-            "it does not begin like an MD2 file; it is damaged or misnamed, export it again",
-        ));
+        let problem = "it does not begin like an MD2 file; it is damaged or misnamed, export it again";
+        return Err(Error::model(path, problem));
     }
     let cut_off = |promise: String| {
         let has = bytes.len();
@@ -124,23 +122,16 @@ pub(super) fn read(
         records.ok_or_else(|| cut_off(format!("its header promises {count} {what} of {size} bytes from byte {at}")))
     };
     let skins = table("skins", header.skins_at, header.skins, SKIN_BYTES)?;
-    let texels = table(
-        "texture coordinates",
-        header.texture_coordinates_at,
-        header.texture_coordinates,
-        TEXTURE_COORDINATE_BYTES,
-    )?;
+    let (texels_at, texels) = (header.texture_coordinates_at, header.texture_coordinates);
+    let texels = table("texture coordinates", texels_at, texels, TEXTURE_COORDINATE_BYTES)?;
     let triangles = table("triangles", header.triangles_at, header.triangles, TRIANGLE_BYTES)?;
     let frames = table("frames", header.frames_at, header.frames, header.frame_bytes)?;
 
     let names: Vec<String> = frames.clone().map(frame_name).collect();
     let between = options.model_frame.find(&names, path)?;
-    let turned = options.up_axis == UpAxis::Auto;
+    let placed = |position| if options.up_axis == UpAxis::Auto { to_y_up(position) } else { position };
     let mut soup = Soup {
-        positions: positions(frames, between, header.vertices)
-            .into_iter()
-            .map(|position| if turned { to_y_up(position) } else { position })
-            .collect(),
+        positions: positions(frames, between, header.vertices).into_iter().map(placed).collect(),
         texture_coordinates: texels.map(|texel| texture_coordinate(texel, &header)).collect(),
         frames: names,
         ..Soup::default()
@@ -151,12 +142,9 @@ pub(super) fn read(
             None => soup.defects.out_of_range_faces += 1,
         }
     }
-    let texture = match options.skin {
-        Some(_) => None,
-        None => find_skin(skins.take(SKINS).map(name), path, folder, remarks),
-    };
     let mut skin = Material { name: "skin".to_owned(), color: None, ..Material::default() };
-    if let Some(found) = texture {
+    let names = skins.take(SKINS).map(name);
+    if let Some(found) = options.skin.is_none().then(|| find_skin(names, path, folder, remarks)).flatten() {
         folder.put_picture(&mut skin, found);
     }
     soup.polygon_materials = vec![0; soup.polygon_count()];

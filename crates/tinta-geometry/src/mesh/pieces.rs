@@ -6,7 +6,7 @@ use super::coincident::{Coincident, coincident, sorted};
 use super::same_polygons::{in_order_of, same_polygons};
 use super::soup::{Corner, Soup};
 use super::triangulate::{self, Cut};
-use super::{NONE, triangle_normal};
+use super::{Defects, NONE, triangle_normal};
 use crate::threads::{in_parallel, threads_for};
 use earcut::Earcut;
 use glam::DVec3;
@@ -43,6 +43,16 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
+    /// Adds what was left out to a file's defects.
+    pub(super) fn count(&self, defects: &mut Defects) {
+        defects.degenerate_triangles += self.degenerate;
+        defects.long_polygons += self.too_long;
+        defects.crossing_polygons += self.crossing;
+        defects.repeated_corners += self.repeated_corners;
+        defects.duplicate_triangles += self.duplicate;
+        defects.doubled_triangles += self.doubled;
+    }
+
     /// Returns all triangles with area of the polygons with finite vertices.
     pub(super) fn of(soup: &Soup, finite: &[bool], welded: &[u32]) -> Self {
         let starts = starts(soup);

@@ -16,8 +16,8 @@ use crate::lines::drawing::hatch::{Hatch, Ruling};
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::length::Length;
 use crate::lines::drawing::settings::DrawingSettings;
+use crate::lines::eye::space::Space;
 use crate::lines::regions::{Regions, TonedSurface};
-use crate::lines::visible::space::Space;
 use crate::scene::Scene;
 use glam::DVec2;
 

@@ -2,7 +2,7 @@
 
 use crate::bvh::NO_GROUP;
 use crate::edges::Class;
-use crate::lines::visible::faces::Own;
+use crate::lines::eye::faces::Faces;
 use glam::DVec3;
 
 /// A line in eye space.
@@ -53,5 +53,40 @@ impl Feature {
     /// nothing and nothing but faces hides them.
     pub(in crate::lines) fn overlaps(&self) -> bool {
         self.class.is_some() && self.own != Own::Free && !self.is_ghost
+    }
+}
+
+/// Marks an end of a line that is no position.
+pub(in crate::lines) const NO_POSITION: u32 = u32::MAX;
+
+/// The edge or the faces that a line belongs to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::lines) enum Own {
+    /// The edge between two positions.
+    Edge([u32; 2]),
+    /// The intersection of two faces.
+    Faces([u32; 2]),
+    /// None: a curve or a point beside all surfaces, moved towards the eye by [`Space::lifted`]. It touches no face.
+    Free,
+}
+
+impl Own {
+    /// Returns the length that contact with a face is relative to, for a line between two points, file units: none for a free line.
+    pub(in crate::lines) fn contact_length(self, ends: [DVec3; 2]) -> f64 {
+        if self == Self::Free { 0.0 } else { ends[0].distance(ends[1]) }
+    }
+
+    /// Returns the positions at the line's ends, or [`NO_POSITION`]. An intersection of faces with a common corner begins in
+    /// that corner.
+    pub(in crate::lines) fn corners(self, faces: &Faces) -> [u32; 2] {
+        match self {
+            Self::Edge(ends) => ends,
+            Self::Free => [NO_POSITION; 2],
+            Self::Faces([first, second]) => {
+                let [first, second] = [first, second].map(|face| faces.triangles[face as usize]);
+                let common = first.into_iter().find(|corner| second.contains(corner) && first != second);
+                [common.unwrap_or(NO_POSITION), NO_POSITION]
+            }
+        }
     }
 }

@@ -3,17 +3,17 @@
 use crate::bvh::NO_GROUP;
 use crate::edges::{Class, ClassCounts, ClassSet, CreaseAngle, EdgeList, Incidence, SilhouetteRule};
 use crate::error::Result;
+use crate::lines::eye::space::at_depth;
 use crate::lines::input::edge_classes::{CREASES, EdgeClasses};
-use crate::lines::input::feature::Feature;
+use crate::lines::input::feature::{Feature, Own};
 use crate::lines::input::line_input::{LineInput, OCCLUDING, asked};
 use crate::lines::input::normal_creases::creased_parts;
 use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::smooth::contours::{Contours, ObjectSurface, OnEdge, between};
-use crate::lines::visible::faces::{Own, near_crossing};
 use crate::lines::visible::intersections::Intersection;
-use crate::lines::visible::ranges::gaps;
 use crate::memory;
 use crate::mesh::{Mesh, triangle_normal};
+use crate::ranges::gaps;
 use glam::DVec3;
 
 impl LineInput<'_> {
@@ -303,7 +303,7 @@ impl LineInput<'_> {
         let cut = |face: &u32| {
             let corners = self.faces.corners(*face);
             let mut points =
-                (0..3).filter_map(|side| near_crossing(&self.space, corners[side], corners[(side + 1) % 3]));
+                (0..3).filter_map(|side| at_depth([corners[side], corners[(side + 1) % 3]], self.space.near));
             let ends = [points.next()?, points.next()?];
             Some(Feature { occludes: true, ..Feature::new(Own::Faces([*face; 2]), ends) })
         };

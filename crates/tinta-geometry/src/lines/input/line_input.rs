@@ -2,11 +2,11 @@
 
 use crate::edges::{Class, ClassSet};
 use crate::error::{Error, Result};
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::space::Space;
 use crate::lines::input::object_edges::{Edges, IsGhost, ObjectEdges, ghost_faces, object_edges};
 use crate::lines::parts::scene_parts::SceneParts;
 use crate::lines::settings::{LineSettings, check_on_surface, not_published};
-use crate::lines::visible::faces::Faces;
-use crate::lines::visible::space::Space;
 use crate::mesh::Mesh;
 use crate::scene::Scene;
 use crate::threads::both;

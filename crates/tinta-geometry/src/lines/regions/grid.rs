@@ -1,6 +1,7 @@
 //! The picture's pixels on an integer grid.
 
 use super::snap::{LARGEST, Point, Segment, ordered};
+use crate::ranges::between;
 use glam::DVec2;
 
 /// Steps of a grid over a picture.
@@ -34,21 +35,12 @@ impl Grid {
 
     /// The part of a segment inside the picture, given in pixels; `None` where none is.
     pub(super) fn segment(&self, [from, to]: [DVec2; 2]) -> Option<Segment> {
-        let along = to - from;
-        let (mut first, mut last) = (0.0f64, 1.0f64);
-        for (from, along, size) in [(from.x, along.x, self.size.x), (from.y, along.y, self.size.y)] {
-            if along == 0.0 {
-                if !(0.0..=size).contains(&from) {
-                    return None;
-                }
-                continue;
-            }
-            let (a, b) = (-from / along, (size - from) / along);
-            (first, last) = (first.max(a.min(b)), last.min(a.max(b)));
-        }
-        if !(from.is_finite() && to.is_finite() && first <= last) {
+        if !(from.is_finite() && to.is_finite()) {
             return None;
         }
+        let along = to - from;
+        let range = between([0.0, 1.0], from.x, along.x, [0.0, self.size.x])?;
+        let [first, last] = between(range, from.y, along.y, [0.0, self.size.y])?;
         let at = |place: f64, end: DVec2, is_end: bool| {
             let px = if is_end { end } else { from + along * place };
             self.point(px.clamp(DVec2::ZERO, self.size))

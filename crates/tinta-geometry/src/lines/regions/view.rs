@@ -4,16 +4,15 @@ use super::crossings::crossings;
 use super::grid::Grid;
 use super::region::SeenFace;
 use super::snap::Segment;
-use crate::bvh::Box3;
 use crate::error::Result;
+use crate::lines::eye::cast::{Hit, first_hit, nearest_hits};
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::image::Image;
+use crate::lines::eye::pyramid::{Pyramid, is_crowded};
+use crate::lines::eye::space::{Space, at_depth};
 use crate::lines::progress::Progress;
-use crate::lines::visible::cast::{Hit, meet};
-use crate::lines::visible::faces::Faces;
-use crate::lines::visible::pyramid::{Pyramid, is_crowded};
-use crate::lines::visible::space::Space;
 use crate::scene::Scene;
 use crate::threads::{cores, in_chunks, sort_by};
-use crate::tolerances::CONTACT;
 use glam::{DVec2, DVec3};
 
 /// How far a line is drawn beyond a border, grid steps: at angles above a hundredth of a degree it then crosses the border.
@@ -46,7 +45,7 @@ impl<'a> View<'a> {
         let pyramid = is_crowded(&space, &faces).then(|| Pyramid::new(&space, &faces)).flatten();
         let all = || vec![true; faces.triangles.len()];
         let is_seen = pyramid.as_ref().map_or_else(all, |pyramid| pyramid.seen(&space, &faces));
-        let crossings = crossings(&faces, &is_seen, progress);
+        let crossings = crossings(&space, &faces, &is_seen, progress);
         progress.go_on()?;
         let seen: Vec<u32> = (0..faces.triangles.len() as u32).filter(|place| is_seen[*place as usize]).collect();
         let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * seen.len());
@@ -63,24 +62,8 @@ impl<'a> View<'a> {
     }
 
     /// The image of a line of the eye's space, between the near and the far plane.
-    fn image(&self, [from, to]: [DVec3; 2]) -> Option<[DVec2; 2]> {
-        let (near, far) = (self.space.near, self.space.far);
-        let (mut first, mut last) = (from, to);
-        // Positive where a point is on the drawn side of a plane.
-        for (plane, sign) in [(near, 1.0), (far, -1.0)] {
-            let [a, b] = [from, to].map(|point| (-point.z - plane) * sign);
-            let crossing = || {
-                let point = from + (to - from) * (a / (a - b));
-                DVec3::new(point.x, point.y, -plane)
-            };
-            match (a >= 0.0, b >= 0.0) {
-                (false, false) => return None,
-                (true, true) => {}
-                (false, true) => first = crossing(),
-                (true, false) => last = crossing(),
-            }
-        }
-        Some([first, last].map(|point| self.space.project(point).0))
+    fn image(&self, line: [DVec3; 2]) -> Option<[DVec2; 2]> {
+        Image::of(&self.space, line).map(|image| [image.a, image.b])
     }
 
     /// The part of an image inside the picture.
@@ -104,14 +87,8 @@ impl<'a> View<'a> {
             let corners = self.faces.corners(*place);
             [self.space.near, self.space.far].map(|plane| {
                 let sides = [0, 1, 2].map(|side| [corners[side], corners[(side + 1) % 3]]);
-                let crossings = sides.into_iter().filter_map(|[a, b]| {
-                    let [above, below] = [a, b].map(|point| -point.z - plane);
-                    let mut point = a + (b - a) * (above / (above - below));
-                    point.z = -plane;
-                    ((above >= 0.0) != (below >= 0.0)).then_some(point)
-                });
-                let crossings: Vec<DVec3> = crossings.collect();
-                <[DVec3; 2]>::try_from(crossings).ok()
+                let mut crossings = sides.into_iter().filter_map(|side| at_depth(side, plane));
+                Some([crossings.next()?, crossings.next()?])
             })
         };
         self.seen.iter().flat_map(of_face).flatten()
@@ -145,44 +122,14 @@ impl<'a> View<'a> {
         first > 0.0 && second < 0.0 || first < 0.0 && second > 0.0
     }
 
-    /// The first face that the ray through a place of the picture hits. Of faces that touch there, the one with the lowest number
-    /// counts, as in a picture by GL.
+    /// The first face that the ray through a place of the picture hits.
     pub(super) fn first_hit(&self, px: DVec2) -> Option<Hit> {
-        let first =
-            |a: &FaceHit, b: &FaceHit| self.faces.numbers[a.place as usize].cmp(&self.faces.numbers[b.place as usize]);
-        let FaceHit { depth, place, weights } = self.nearest_hits(px).into_iter().min_by(first)?;
-        let SeenFace { object, face } = self.face(place);
-        Some(Hit { object, face, weights, depth })
+        first_hit(&self.space, &self.faces, px)
     }
 
     /// Whether a face is the first that the ray through a place of the picture hits, or touches the first there.
     pub(super) fn is_seen(&self, place: u32, px: DVec2) -> bool {
-        self.nearest_hits(px).iter().any(|hit| hit.place == place)
-    }
-
-    /// The first hit of the ray through a place of the picture, and those of faces that touch it there.
-    fn nearest_hits(&self, px: DVec2) -> Vec<FaceHit> {
-        let column = Box3::new(px.extend(f64::NEG_INFINITY), px.extend(f64::INFINITY));
-        let ray = self.space.ray(px);
-        let mut hits: Vec<FaceHit> = Vec::new();
-        self.faces.tree.any(&column, |place| {
-            let hit = meet(&self.space, self.faces.corners(place), ray);
-            let hit = hit.filter(|(depth, _)| (self.space.near..=self.space.far).contains(depth));
-            hits.extend(hit.map(|(depth, weights)| FaceHit { depth, place, weights }));
-            false
-        });
-        let Some(nearest) = hits.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)).copied() else { return hits };
-        let [a, b, c] = self.faces.corners(nearest.place);
-        let point = a * nearest.weights[0] + b * nearest.weights[1] + c * nearest.weights[2];
-        hits.retain(|hit| {
-            let [a, b, c] = self.faces.corners(hit.place);
-            let normal = (b - a).cross(c - a);
-            let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-            let contact = CONTACT * longest + self.faces.weld(self.faces.triangles[hit.place as usize][0]);
-            let distance = normal.dot(point - a).abs();
-            hit.place == nearest.place || distance <= (contact + 4.0 * self.space.noise) * normal.length()
-        });
-        hits
+        nearest_hits(&self.space, &self.faces, px).iter().any(|hit| hit.place == place)
     }
 
     /// The object and the face in it at a place of the hierarchy.
@@ -210,14 +157,6 @@ impl<'a> View<'a> {
         progress.go_on()?;
         Ok(labels.concat())
     }
-}
-
-/// Where a ray meets a face.
-#[derive(Debug, Clone, Copy)]
-struct FaceHit {
-    depth: f64,
-    place: u32,
-    weights: [f64; 3],
 }
 
 /// An edge with those of its faces that may be seen.

@@ -36,7 +36,7 @@ use patch::quad;
 use crate::edges::{Class, Eye, SilhouetteRule};
 use crate::error::Result;
 use crate::lines::VisibleLines;
-use crate::lines::visible::space::Space;
+use crate::lines::eye::space::Space;
 use crate::mesh::{LoadOptions, Mesh};
 use crate::scene::Scene;
 use glam::{DVec2, DVec3};

@@ -23,11 +23,12 @@
 use crate::bvh::{NO_GROUP, steps};
 use crate::edges::Class;
 use crate::lines::LineSegment;
+use crate::lines::eye::image::Image;
+use crate::lines::input::feature::Own;
 use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::{Phase, Progress};
 use crate::lines::smooth::contours::{ContourPiece, Contours, between};
-use crate::lines::visible::faces::{Own, Probe, ProbedLine};
-use crate::lines::visible::image::Image;
+use crate::lines::visible::contact::{Probe, ProbedLine};
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::mesh::NONE;

@@ -13,8 +13,8 @@
 //! polygons.
 
 use crate::edges::{CreaseAngle, EdgeList, Eye, Incidence, Shell, SilhouetteRule, SmoothSurface};
+use crate::lines::eye::space::Space;
 use crate::lines::input::object_edges::ObjectEdges;
-use crate::lines::visible::space::Space;
 use crate::mesh::{Mesh, NONE, triangle_normal};
 use crate::scene::Scene;
 use crate::threads::{cores, filled, in_chunks};

@@ -7,9 +7,9 @@
 //! to face. A change that lasts for less than two edges is not a cusp.
 
 use crate::edges::{CreaseAngle, Shell};
+use crate::lines::eye::space::Space;
 use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::smooth::contours::{ContourPiece, Contours, Link, ObjectSurface, between};
-use crate::lines::visible::space::Space;
 use crate::scene::Scene;
 use glam::DVec3;
 
@@ -49,35 +49,44 @@ fn links(parts: &[ObjectSurface], pieces: &[ContourPiece]) -> Vec<Link> {
     links.collect()
 }
 
-/// Gives each segment the mean bend of its contour, and cuts segments in two where it changes.
-fn settle(parts: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[DVec3], links: &mut Vec<Link>) {
+/// The mean bend around each segment, and whether its whole contour is shorter than the range of the mean.
+fn means(
+    parts: &[ObjectSurface],
+    pieces: &[ContourPiece],
+    lengths: &[f64],
+    positions: &[DVec3],
+    links: &[Link],
+) -> Vec<(f64, bool)> {
     let mut neighbours = vec![[None; 2]; pieces.len()];
-    for Link { ends: [first, second], .. } in links.iter() {
+    for Link { ends: [first, second], .. } in links {
         neighbours[first.0][first.1] = Some(*second);
         neighbours[second.0][second.1] = Some(*first);
     }
-    let lengths: Vec<f64> = pieces.iter().map(|piece| piece.ends[0].distance(piece.ends[1])).collect();
-    // For each segment, the mean around it, and whether its whole contour is shorter than the range of the mean.
-    let means: Vec<(f64, bool)> = (0..pieces.len())
-        .map(|number| {
-            let reach = REACH * parts[pieces[number].part as usize].longest_side(positions, pieces[number].face);
-            let (mut sum, mut length) = (pieces[number].bend * lengths[number], lengths[number]);
-            let mut is_short = true;
-            for end in 0..2 {
-                let mut left = reach;
-                let mut next = neighbours[number][end];
-                while let Some((other, came)) = next.filter(|(other, _)| left > 0.0 && *other != number) {
-                    sum += pieces[other].bend * lengths[other].min(left);
-                    length += lengths[other].min(left);
-                    left -= lengths[other];
-                    next = neighbours[other][came ^ 1];
-                }
-                is_short &= left > 0.0;
+    let mean = |number: usize| {
+        let reach = REACH * parts[pieces[number].part as usize].longest_side(positions, pieces[number].face);
+        let (mut sum, mut length) = (pieces[number].bend * lengths[number], lengths[number]);
+        let mut is_short = true;
+        for end in 0..2 {
+            let mut left = reach;
+            let mut next = neighbours[number][end];
+            while let Some((other, came)) = next.filter(|(other, _)| left > 0.0 && *other != number) {
+                sum += pieces[other].bend * lengths[other].min(left);
+                length += lengths[other].min(left);
+                left -= lengths[other];
+                next = neighbours[other][came ^ 1];
             }
-            let own = if pieces[number].bends_away { f64::MIN_POSITIVE } else { -f64::MIN_POSITIVE };
-            (if sum == 0.0 { own } else { sum / length }, is_short)
-        })
-        .collect();
+            is_short &= left > 0.0;
+        }
+        let own = if pieces[number].bends_away { f64::MIN_POSITIVE } else { -f64::MIN_POSITIVE };
+        (if sum == 0.0 { own } else { sum / length }, is_short)
+    };
+    (0..pieces.len()).map(mean).collect()
+}
+
+/// Gives each segment the mean bend of its contour, and cuts segments in two where it changes.
+fn settle(parts: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[DVec3], links: &mut Vec<Link>) {
+    let lengths: Vec<f64> = pieces.iter().map(|piece| piece.ends[0].distance(piece.ends[1])).collect();
+    let means = means(parts, pieces, &lengths, positions, links);
     for (piece, (mean, is_short)) in pieces.iter_mut().zip(&means).filter(|(piece, _)| piece.on_edge.is_none()) {
         let shell = parts[piece.part as usize].surface.shells[piece.face as usize];
         piece.bends_away = match (is_short, shell) {

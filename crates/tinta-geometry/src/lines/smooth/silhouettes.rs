@@ -8,10 +8,10 @@
 //! where it comes in front of the end. The end moves to that depth. Its place in the picture stays the same.
 
 use crate::edges::{CreaseAngle, SilhouetteRule};
+use crate::lines::eye::space::Space;
 use crate::lines::input::object_edges::{Edges, ObjectEdges};
 use crate::lines::smooth::contour_visibility::MOST_FACES;
 use crate::lines::smooth::contours::{ContourPiece, Contours, ObjectSurface, OnEdge};
-use crate::lines::visible::space::Space;
 use crate::mesh::NONE;
 use crate::scene::Scene;
 use crate::threads::{filled, threads_for};
@@ -127,11 +127,11 @@ fn before_own_faces(
 mod tests {
     use super::*;
     use crate::edges::Class;
+    use crate::lines::eye::cast::first_hit;
+    use crate::lines::eye::faces::Faces;
     use crate::lines::smooth::closed_forms::ClosedForm;
     use crate::lines::smooth::contours::between;
     use crate::lines::smooth_tests::{camera, cylinder, found, scene, smooth};
-    use crate::lines::visible::cast::first_hit;
-    use crate::lines::visible::faces::Faces;
     use crate::mesh::{LoadOptions, load};
     use glam::DVec2;
 

@@ -17,11 +17,12 @@
 use crate::edges::Class;
 use crate::error::Result;
 use crate::lines::LineSegment;
+use crate::lines::input::feature::Own;
 use crate::lines::progress::Progress;
 use crate::lines::smooth::contour_visibility::{ContourIntervals, ContourLines};
 use crate::lines::smooth::contours::Link;
 use crate::lines::smooth::cusps::REACH;
-use crate::lines::visible::faces::{Own, Probe};
+use crate::lines::visible::contact::Probe;
 use crate::lines::visible::interval::Interval;
 use glam::{DVec2, DVec3};
 use serde::Serialize;

@@ -7,8 +7,8 @@
 //! The lines of a bundle share one direction and one distance from the picture's middle, within the tolerance for lines that
 //! touch. A tree of lines (Li Chao) finds the nearest line of a bundle at all places between the lines' ends, in m log² m.
 
-use crate::lines::visible::image::Image;
-use crate::lines::visible::thresholds::THRESHOLDS;
+use crate::lines::eye::image::Image;
+use crate::thresholds::THRESHOLDS;
 use glam::DVec2;
 use std::f64::consts::PI;
 

@@ -1,18 +1,18 @@
 //! The parts of a line that faces hide for sure, and those that they may hide: one walk of the tree of faces, front to back.
 //!
 //! The walk keeps the parts of the line that no face hides yet, and enters only boxes that one of these parts reaches. Each face
-//! in them answers with two ranges ([`Faces::hidden_ranges`](crate::lines::visible::faces::Faces)): where it hides the line by
+//! in them answers with two ranges ([`Faces::hidden_ranges`](crate::lines::eye::faces::Faces)): where it hides the line by
 //! more than any tolerance, and where it may hide it. The walk ends with the last such part. Only the parts that a face may hide
 //! need a ray and the exact rules.
 
 use crate::bvh::{Box3, Exclusion, Line3, Walk};
-use crate::lines::visible::faces::ProbedLine;
-use crate::lines::visible::image::Image;
+use crate::lines::eye::image::Image;
+use crate::lines::eye::projected_face::ProjectedFace;
+use crate::lines::visible::contact::ProbedLine;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
-use crate::lines::visible::projected_face::ProjectedFace;
-use crate::lines::visible::ranges::{gaps, hold, meet, united};
-use crate::lines::visible::thresholds::THRESHOLDS;
+use crate::ranges::{gaps, hold, meet, united};
+use crate::thresholds::THRESHOLDS;
 use crate::tolerances::CONTACT;
 
 /// The parts of a line that are hidden, and those that may be.

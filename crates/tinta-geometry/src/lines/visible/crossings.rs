@@ -2,8 +2,8 @@
 //! another begin, end or change places.
 
 use crate::bvh::Exclusion;
-use crate::lines::visible::faces::Own;
-use crate::lines::visible::image::Image;
+use crate::lines::eye::image::Image;
+use crate::lines::input::feature::Own;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::SearchDepth;
 use crate::lines::visible::overlapping_lines::OverlappingLines;
@@ -28,7 +28,7 @@ impl LineIndex<'_> {
         let farthest = keys[0].max(keys[1]);
         let line = self.line(image, SearchDepth::Nearer, farthest.abs() * (2.0 * CONTACT));
         // Lines from one position cross nowhere else.
-        let excluded = Exclusion { planes: feature.planes, high_valence: feature.own.corners(self.faces) };
+        let excluded = Exclusion([feature.planes, feature.own.corners(self.faces)]);
         let is_cut = self.rims.any_along(line, part, excluded, |other_index| {
             if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
                 let touch_px = touch_px.max(other.touch_px(self.space));

@@ -9,11 +9,11 @@
 use crate::edges::ClassSet;
 use crate::error::{Error, Result};
 use crate::lines::LineSegment;
+use crate::lines::eye::image::{Image, LineParts, LineTree};
+use crate::lines::eye::space::Space;
 use crate::lines::parts::scene_parts::SceneParts;
 use crate::lines::progress::Progress;
-use crate::lines::visible::image::{Image, LineParts, LineTree};
-use crate::lines::visible::ranges::gaps;
-use crate::lines::visible::space::Space;
+use crate::ranges::gaps;
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::JOINED_PX;
 

@@ -3,10 +3,10 @@
 //! Input: the objects with their split edges, and faces that meet. Output: whether the surfaces pass through one another, and the
 //! pieces of split edges that faces pierce.
 
+use crate::lines::eye::face_pair::{FaceCrossing, FacePlane, Piercing};
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::space::Space;
 use crate::lines::input::object_edges::ObjectEdges;
-use crate::lines::visible::face_pair::{FaceCrossing, FacePlane, Piercing};
-use crate::lines::visible::faces::Faces;
-use crate::lines::visible::space::Space;
 use glam::{DVec2, DVec3};
 use std::collections::{HashMap, HashSet};
 

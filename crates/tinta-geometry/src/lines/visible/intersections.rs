@@ -4,16 +4,18 @@
 //! *surfaces* decide: they intersect if their half-planes around that edge alternate. No rule depends on a face's winding.
 
 use crate::bvh::{Box3, LARGEST_LEAF, NO_GROUP, NodeSelection, counting_steps, steps};
+use crate::lines::eye::face_pair::{FaceCrossing, FacePlane, Piercing};
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::pyramid::Pyramid;
+use crate::lines::eye::space::Space;
+use crate::lines::input::feature::Own;
 use crate::lines::input::line_input::LineInput;
 use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::progress::{Phase, Progress};
-use crate::lines::visible::face_pair::{FaceCrossing, FacePlane, Piercing};
-use crate::lines::visible::faces::{Faces, Own, ProbedLine};
+use crate::lines::visible::contact::ProbedLine;
 use crate::lines::visible::half_planes::{HalfPlanes, SplitEdges};
 use crate::lines::visible::nearest_faces::NearestFaces;
-use crate::lines::visible::pyramid::Pyramid;
 use crate::lines::visible::search::Search;
-use crate::lines::visible::space::Space;
 use crate::threads::{cores, filled, in_chunks, spread_chunks, threads_for_items};
 use crate::tolerances::CONTACT;
 use glam::DVec3;
@@ -162,7 +164,7 @@ fn without_repeated(space: &Space, faces: &Faces, mut lines: Vec<Intersection>) 
     const SAME: f64 = 0.01;
     let mut places: HashSet<[[i64; 3]; 2]> = HashSet::new();
     lines.retain(|line| {
-        let touching = faces.weld(faces.triangles[line.faces[0] as usize][0]) + 4.0 * space.noise;
+        let touching = space.contact(0.0, faces.weld(faces.triangles[line.faces[0] as usize][0]));
         let place = |end: DVec3| (end / (SAME * touching)).round().to_array().map(|number| number as i64);
         let [a, b] = line.ends.map(place);
         places.insert([a.min(b), a.max(b)])

@@ -1,8 +1,8 @@
 //! A part of a line that is visible or hidden as a whole.
 
 use crate::edges::Class;
+use crate::lines::eye::image::Image;
 use crate::lines::segment::LineSegment;
-use crate::lines::visible::image::Image;
 use glam::DVec3;
 
 /// A part of a line that is visible or hidden as a whole, by its places on the image.

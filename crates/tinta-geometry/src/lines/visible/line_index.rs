@@ -3,19 +3,20 @@
 use crate::bvh::{Box3, Exclusion, NO_GROUP, Walk};
 use crate::edges::Class;
 use crate::error::Result;
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::image::{Image, LineParts, LineTree};
+use crate::lines::eye::space::Space;
 use crate::lines::input::candidates::Candidates;
-use crate::lines::input::feature::Feature;
+use crate::lines::input::feature::{Feature, Own};
 use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
 use crate::lines::visible::bundles::Bundles;
-use crate::lines::visible::faces::{Faces, Own, Probe, ProbedLine};
-use crate::lines::visible::image::{Image, LineParts, LineTree};
+use crate::lines::visible::contact::{Probe, ProbedLine};
 use crate::lines::visible::occluders::Occluders;
 use crate::lines::visible::search::Search;
-use crate::lines::visible::space::Space;
-use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::memory;
 use crate::threads::{cores, in_chunks};
+use crate::thresholds::THRESHOLDS;
 use crate::tolerances::{SHORTEST_LINE, TOUCH};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
@@ -89,7 +90,7 @@ impl<'a> LineIndex<'a> {
                 for part in image.parts(range, side / THRESHOLDS.parts).filter(|_| feature.occludes) {
                     if finds_outline || !is_hidden(part) {
                         let around = image.part_box(part, image.noise_px, part.map(|place| image.key(place)));
-                        rims.add_of_groups(around, index, feature.plane, vertex_of(&high_valence, feature.own));
+                        rims.add_of_groups(around, index, [feature.plane, vertex_of(&high_valence, feature.own)]);
                     }
                 }
                 if feature.overlaps() && (finds_hidden || !is_hidden(range)) {

@@ -5,15 +5,16 @@
 //! whether the face hides a line.
 
 use crate::bvh::NO_GROUP;
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::image::Image;
+use crate::lines::eye::projected_face::ProjectedFace;
+use crate::lines::eye::space::Space;
 use crate::lines::progress::Progress;
-use crate::lines::visible::faces::{Faces, ProbedLine};
-use crate::lines::visible::image::Image;
+use crate::lines::visible::contact::ProbedLine;
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
-use crate::lines::visible::projected_face::ProjectedFace;
-use crate::lines::visible::ranges::gaps;
-use crate::lines::visible::space::Space;
-use crate::lines::visible::thresholds::THRESHOLDS;
+use crate::ranges::gaps;
 use crate::threads::{cores, in_chunks};
+use crate::thresholds::THRESHOLDS;
 use glam::{DVec2, DVec3};
 
 /// Rows of samples that a thread fills at once.
@@ -130,9 +131,9 @@ impl ProjectedFace {
 mod tests {
     use super::*;
     use crate::lines::LineSettings;
+    use crate::lines::eye::cast::{first_hit, nearest_hits};
+    use crate::lines::input::feature::Own;
     use crate::lines::input::line_input::LineInput;
-    use crate::lines::visible::cast::{first_hit, first_hits};
-    use crate::lines::visible::faces::Own;
     use crate::lines::visible::intersections::intersections;
     use crate::lines::visible::search::Search;
     use crate::mesh::Mesh;
@@ -161,13 +162,15 @@ mod tests {
         let faces = Faces::of(&space, &scene);
         let nearest_faces = NearestFaces::new(&space, &faces, &Progress::default());
         assert_eq!((nearest_faces.sample_px, nearest_faces.columns), (1.0, 512), "samples are the pixels' middles");
-        let hits = first_hits(&scene);
-        assert_eq!(hits.len(), nearest_faces.nearest.len());
-        let by_samples =
-            nearest_faces.nearest.iter().map(|face| (*face != NO_GROUP).then(|| faces.numbers[*face as usize]));
-        let differing = hits.iter().zip(by_samples).filter(|(hit, face)| hit.map(|hit| hit.face) != *face).count();
-        assert_eq!(differing, 0);
-        assert!(hits.iter().flatten().count() > 50_000, "hardly anything is covered");
+        let pixels = (0..512).flat_map(|y| (0..512).map(move |x| DVec2::new(f64::from(x), f64::from(y)) + 0.5));
+        let mut covered = 0;
+        for (px, face) in pixels.zip(&nearest_faces.nearest) {
+            let hits = nearest_hits(&space, &faces, px);
+            let first = hits.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)).map_or(NO_GROUP, |hit| hit.place);
+            assert_eq!(first, *face, "at {px}");
+            covered += usize::from(first != NO_GROUP);
+        }
+        assert!(covered > 50_000, "hardly anything is covered");
     }
 
     #[test]

@@ -2,11 +2,13 @@
 //!
 //! Plain linear equations decide both. The exact rules decide the rest; where the equations are sure, the exact rules agree.
 
-use crate::lines::visible::faces::{Contact, Faces, Own, ProbedLine};
-use crate::lines::visible::image::Image;
-use crate::lines::visible::projected_face::{ProjectedFace, ROUNDING};
-use crate::lines::visible::ranges::{above_zero, clipped, common};
-use crate::lines::visible::space::Space;
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::image::Image;
+use crate::lines::eye::projected_face::{ProjectedFace, ROUNDING};
+use crate::lines::eye::space::Space;
+use crate::lines::input::feature::Own;
+use crate::lines::visible::contact::{Contact, ProbedLine};
+use crate::ranges::{above_zero, clipped, common};
 use crate::tolerances::TIP;
 use glam::{DVec2, DVec3};
 

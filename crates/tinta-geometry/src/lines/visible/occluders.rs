@@ -2,17 +2,17 @@
 //!
 //! The box of a large diagonal face, or of a long thin one, is mostly empty: a search in front of a point would test most of the
 //! scene. So faces are halved across their longest sides until their parts are short. Parts that the
-//! [pyramid](crate::lines::visible::pyramid) hides are left out, because it hides everything behind them, too.
+//! [pyramid](crate::lines::eye::pyramid) hides are left out, because it hides everything behind them, too.
 //!
 //! The hierarchy leaves out faces seen edge-on. They have no image that could hide a line, and the lines in them overlap, where the
 //! search for the nearest line finds them.
 
 use crate::bvh::{Box3, BoxTree, Exclusion, Walk};
-use crate::lines::visible::faces::Faces;
-use crate::lines::visible::pyramid::Pyramid;
-use crate::lines::visible::space::Space;
-use crate::lines::visible::thresholds::THRESHOLDS;
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::pyramid::Pyramid;
+use crate::lines::eye::space::Space;
 use crate::threads::{cores, in_chunks};
+use crate::thresholds::THRESHOLDS;
 use glam::DVec3;
 
 /// Parts of faces with the faces' places.
@@ -66,15 +66,12 @@ impl Occluders {
         .concat();
         let (mut tree, order) = BoxTree::new(&parts.iter().map(|(around, _)| *around).collect::<Vec<Box3>>());
         let places: Vec<u32> = order.iter().map(|index| parts[*index as usize].1).collect();
-        if !faces.planes.is_empty() {
-            let planes: Vec<u32> = places.iter().map(|place| faces.plane(faces.numbers[*place as usize])).collect();
-            tree.set_planes(&planes);
-        }
-        if !faces.high_valence.is_empty() {
-            tree.set_high_valence(
-                &places.iter().map(|place| faces.high_valence[*place as usize]).collect::<Vec<u32>>(),
-            );
-        }
+        let groups = faces.groups().map(|of_places| {
+            let has_some = !of_places.is_empty();
+            let of_pieces = places.iter().filter(|_| has_some).map(|place| of_places[*place as usize]);
+            of_pieces.collect::<Vec<u32>>()
+        });
+        tree.set_groups([&groups[0], &groups[1]]);
         Self { tree, places }
     }
 

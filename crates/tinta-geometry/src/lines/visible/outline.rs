@@ -10,13 +10,14 @@ mod runs;
 pub(in crate::lines) use runs::readable;
 
 use crate::bvh::{Box3, Exclusion};
-use crate::lines::visible::faces::{Faces, Probe};
-use crate::lines::visible::image::Image;
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::image::Image;
+use crate::lines::eye::space::Space;
+use crate::lines::visible::contact::Probe;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::SearchDepth;
-use crate::lines::visible::ranges::hold;
-use crate::lines::visible::space::Space;
+use crate::ranges::hold;
 use crate::tolerances::BESIDE;
 use glam::DVec2;
 

@@ -1,12 +1,11 @@
 //! Which other lines lie on one in the picture: mostly none, so that they are looked for once and not piece by piece. Of lines on one
 //! another the nearest is seen, and of equally near ones one stands for all.
 
+use crate::lines::eye::image::Image;
 use crate::lines::input::feature::Feature;
-use crate::lines::visible::image::Image;
 use crate::lines::visible::line_index::LineIndex;
-use crate::lines::visible::ranges::{above_zero, united};
-use crate::lines::visible::thresholds::THRESHOLDS;
-use crate::tolerances::CONTACT;
+use crate::ranges::{above_zero, united};
+use crate::thresholds::THRESHOLDS;
 use glam::DVec2;
 use std::cell::OnceCell;
 
@@ -143,7 +142,7 @@ impl LineIndex<'_> {
     pub(in crate::lines) fn contact(&self, first: usize, second: usize) -> f64 {
         let [first, second] = [first, second].map(|index| &self.features[index]);
         let length = |feature: &Feature| feature.ends[0].distance(feature.ends[1]);
-        CONTACT * length(first).min(length(second)) + first.weld.min(second.weld) + 4.0 * self.space.noise
+        self.space.contact(length(first).min(length(second)), first.weld.min(second.weld))
     }
 
     /// Adds where other lines that lie in the picture on a part of one begin, end and are as near: all, or only the first line's.
@@ -220,7 +219,6 @@ impl LineIndex<'_> {
         let feature = &self.features[index];
         let length = feature.ends[0].distance(feature.ends[1]);
         let depths = other.keys.map(|key| self.space.depth_of_key(key));
-        let touching = CONTACT * length + feature.weld + 4.0 * self.space.noise;
-        self.space.key_step(depths[0].min(depths[1]), 2.0 * touching)
+        self.space.key_step(depths[0].min(depths[1]), 2.0 * self.space.contact(length, feature.weld))
     }
 }

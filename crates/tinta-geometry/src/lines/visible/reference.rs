@@ -5,18 +5,17 @@
 //!
 //! 1. *Cuts*. What is seen of a line can change only where the image of an edge at which a surface ends crosses it, where it passes
 //!    through a face, and where the image of another line that lies on it begins, ends, or is as near. It is cut at all these places.
-//! 2. *Faces*. In the middle of a piece each face of the scene is tested ([`Faces::hides`](crate::lines::visible::faces::Faces::hides)):
+//! 2. *Faces*. In the middle of a piece each face of the scene is tested ([`Faces::hides`](crate::lines::eye::faces::Faces::hides)):
 //!    the piece is hidden where faces hide both of its sides.
 //! 3. *Lines*. Of the lines that lie on a piece the nearest is seen. Of lines that coincide in space one stands for all.
 //!
 //! The geometric rules themselves are those of the fast search. So are the intersections of faces, and the outline of what is seen.
 
 use crate::error::Result;
-use crate::lines::input::feature::Feature;
+use crate::lines::eye::image::Image;
+use crate::lines::input::feature::{Feature, Own};
 use crate::lines::progress::{Phase, Progress};
 use crate::lines::segment::LineSegment;
-use crate::lines::visible::faces::Own;
-use crate::lines::visible::image::Image;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::overlapping_lines::OverlappingLines;

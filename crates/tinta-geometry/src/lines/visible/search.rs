@@ -1,10 +1,10 @@
 //! What quickens the search for lines in crowded scenes. Without it the same lines are found.
 
+use crate::lines::eye::pyramid::{Pyramid, is_crowded};
 use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
 use crate::lines::visible::nearest_faces::NearestFaces;
 use crate::lines::visible::occluders::Occluders;
-use crate::lines::visible::pyramid::{Pyramid, is_crowded};
 
 /// Accelerators; by default none.
 #[derive(Default)]

@@ -4,10 +4,10 @@
 //! them ends and where both are equally near; the nearest is drawn; of equally near ones, one.
 
 use crate::bvh::{counting_steps, steps};
+use crate::lines::eye::image::Image;
 use crate::lines::progress::{Phase, Progress};
 use crate::lines::segment::LineSegment;
 use crate::lines::visible::cover::Cover;
-use crate::lines::visible::image::Image;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::SearchDepth;

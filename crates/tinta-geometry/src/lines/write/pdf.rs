@@ -18,7 +18,7 @@ use crate::lines::drawing::text::{written_point, written_points};
 use crate::scene::{Background, Color};
 use glam::DVec2;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
-use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
+use pdf_writer::{Buf, Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
 /// Returns the lines as a PDF file, without spurs and specks.
 ///
@@ -80,11 +80,77 @@ const CONTENT: Ref = Ref::new(4);
 const INFORMATION: Ref = Ref::new(5);
 const FIRST_LAYER: i32 = 6;
 
+/// The numbers of a document's other objects.
+struct Refs {
+    layers: Vec<Ref>,
+    /// Of labels, if there are any.
+    font: Option<Ref>,
+    /// The graphics state and the form of areas that are seen through together.
+    clear: Vec<[Ref; 2]>,
+}
+
+impl Refs {
+    fn new(layers: usize, areas: &Areas, has_labels: bool) -> Self {
+        let mut next = (FIRST_LAYER..).map(Ref::new);
+        let layers = next.by_ref().take(layers).collect();
+        let font = next.next().filter(|_| has_labels);
+        let mut two = || next.next().zip(next.next()).map(|(state, form)| [state, form]);
+        Self { layers, font, clear: clear(areas).filter_map(|_| two()).collect() }
+    }
+}
+
+/// Areas of one opacity, as they follow one another.
+fn as_one(areas: &Areas) -> impl Iterator<Item = &[FillGroup]> {
+    areas.fills.chunk_by(|one, next| one.opacity == next.opacity)
+}
+
+/// Those that are seen through.
+fn clear(areas: &Areas) -> impl Iterator<Item = &[FillGroup]> {
+    as_one(areas).filter(|groups| groups[0].opacity < 1.0)
+}
+
 fn written(drawing: &Drawing<'_>, areas: &Areas, labels: &[Text], scale: f64) -> Vec<u8> {
     let (settings, page) = (drawing.settings, &drawing.page);
-    let [width, height] = (page.extent_px * scale).to_array().map(|side| side as f32);
-    let layers: Vec<Ref> = (FIRST_LAYER..).map(Ref::new).take(drawing.layers.len()).collect();
+    let refs = Refs::new(drawing.layers.len(), areas, !labels.is_empty());
+    let extent = (page.extent_px * scale).to_array().map(|side| side as f32);
     let mut pdf = Pdf::new();
+    write_catalog(&refs, extent, &mut pdf);
+    let content = written_content(drawing, areas, labels, extent, scale);
+    if let Some(font) = refs.font {
+        pdf.type1_font(font).base_font(Name(FONT)).encoding_predefined(Name(b"WinAnsiEncoding"));
+    }
+    pdf.stream(CONTENT, &content);
+    for (groups, [state, form]) in clear(areas).zip(&refs.clear) {
+        pdf.ext_graphics(*state).non_stroking_alpha(groups[0].opacity);
+        let mut content = Content::new();
+        groups.iter().for_each(|group| write_fills(group, &mut content));
+        let content = content.finish();
+        let ends = [page.origin_px, page.origin_px + page.extent_px];
+        let [low, high] = ends.map(|corner| corner.to_array().map(|side| side as f32));
+        let mut form = pdf.form_xobject(*form, &content);
+        form.bbox(Rect::new(low[0], low[1], high[0], high[1])).group().transparency().isolated(true);
+    }
+    for (layer, drawn) in refs.layers.iter().zip(&drawing.layers) {
+        let label = drawn.label();
+        pdf.indirect(*layer).dict().pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr(&label));
+    }
+    let mut information = pdf.document_info(INFORMATION);
+    information.creator(TextStr("tinta"));
+    if !settings.title.is_empty() {
+        information.title(TextStr(&settings.title));
+    }
+    if !settings.command.is_empty() {
+        information.subject(TextStr(&settings.command));
+    }
+    if let Some(note) = &drawing.note {
+        information.keywords(TextStr(note));
+    }
+    information.finish();
+    pdf.finish()
+}
+
+/// Writes the catalog with the layers, and the page with what its content names.
+fn write_catalog(Refs { layers, font, clear }: &Refs, [width, height]: [f32; 2], pdf: &mut Pdf) {
     let mut catalog = pdf.catalog(CATALOG);
     catalog.pages(PAGES);
     if !layers.is_empty() {
@@ -104,29 +170,31 @@ fn written(drawing: &Drawing<'_>, areas: &Areas, labels: &[Text], scale: f64) ->
         properties.pair(Name(layer_name(number).as_bytes()), *layer);
     }
     properties.finish();
-    let font = Ref::new(FIRST_LAYER + layers.len() as i32);
-    if !labels.is_empty() {
-        resources.fonts().pair(Name(FONT_NAME), font);
+    if let Some(font) = font {
+        resources.fonts().pair(Name(FONT_NAME), *font);
     }
-    // Areas that are seen through together: the number of each is that of its graphics state, the next that of its form.
-    let as_one = || areas.fills.chunk_by(|one, next| one.opacity == next.opacity);
-    let clear = || as_one().filter(|groups| groups[0].opacity < 1.0);
-    let refs: Vec<[Ref; 2]> =
-        (font.get() + 1..).step_by(2).map(|first| [first, first + 1].map(Ref::new)).take(clear().count()).collect();
-    if !refs.is_empty() {
+    if !clear.is_empty() {
         let mut states = resources.ext_g_states();
-        refs.iter().enumerate().for_each(|(number, [state, _])| {
+        for (number, [state, _]) in clear.iter().enumerate() {
             states.pair(Name(clear_name(number).as_bytes()), *state);
-        });
+        }
         states.finish();
         let mut forms = resources.x_objects();
-        refs.iter().enumerate().for_each(|(number, [_, form])| {
+        for (number, [_, form]) in clear.iter().enumerate() {
             forms.pair(Name(clear_name(number).as_bytes()), *form);
-        });
+        }
     }
-    resources.finish();
-    sheet.finish();
+}
 
+/// Returns the content of the page: background, areas, lines, keys, labels.
+fn written_content(
+    drawing: &Drawing<'_>,
+    areas: &Areas,
+    labels: &[Text],
+    [width, height]: [f32; 2],
+    scale: f64,
+) -> Buf {
+    let (settings, page) = (drawing.settings, &drawing.page);
     let mut content = Content::new();
     if let (Background::Color(Color([red, green, blue])), false) = (settings.background, settings.is_for_pen) {
         content.set_fill_rgb(red, green, blue).rect(0.0, 0.0, width, height).fill_nonzero();
@@ -135,7 +203,7 @@ fn written(drawing: &Drawing<'_>, areas: &Areas, labels: &[Text], scale: f64) ->
     let matrix = [scale, 0.0, 0.0, -scale, -origin.x * scale, (origin.y + page.extent_px.y) * scale];
     content.transform(matrix.map(|number| number as f32));
     let mut numbers_of_clear = 0..;
-    for groups in as_one() {
+    for groups in as_one(areas) {
         if groups[0].opacity < 1.0 {
             let name = clear_name(numbers_of_clear.next().unwrap_or_default());
             content.save_state().set_parameters(Name(name.as_bytes())).x_object(Name(name.as_bytes())).restore_state();
@@ -152,44 +220,15 @@ fn written(drawing: &Drawing<'_>, areas: &Areas, labels: &[Text], scale: f64) ->
         content.set_fill_rgb(*red, *green, *blue).rect(x, y, width, height).fill_nonzero();
     }
     if !labels.is_empty() {
-        let height = height_px(page.units) as f32;
-        content.begin_text().set_font(Name(FONT_NAME), height);
+        content.begin_text().set_font(Name(FONT_NAME), height_px(page.units) as f32);
         for (text, at, Color([red, green, blue])) in labels {
             // Pixels have y down, letters up.
             content.set_fill_rgb(*red, *green, *blue).set_text_matrix([1.0, 0.0, 0.0, -1.0, at.x as f32, at.y as f32]);
             content.show(Str(text));
         }
         content.end_text();
-        pdf.type1_font(font).base_font(Name(FONT)).encoding_predefined(Name(b"WinAnsiEncoding"));
     }
-    pdf.stream(CONTENT, &content.finish());
-    for (groups, [state, form]) in clear().zip(&refs) {
-        pdf.ext_graphics(*state).non_stroking_alpha(groups[0].opacity);
-        let mut content = Content::new();
-        groups.iter().for_each(|group| write_fills(group, &mut content));
-        let content = content.finish();
-        let [low, high] = [origin, origin + page.extent_px].map(|corner| corner.to_array().map(|side| side as f32));
-        let mut form = pdf.form_xobject(*form, &content);
-        form.bbox(Rect::new(low[0], low[1], high[0], high[1])).group().transparency().isolated(true);
-    }
-
-    for (layer, drawn) in layers.iter().zip(&drawing.layers) {
-        let label = drawn.label();
-        pdf.indirect(*layer).dict().pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr(&label));
-    }
-    let mut information = pdf.document_info(INFORMATION);
-    information.creator(TextStr("tinta"));
-    if !settings.title.is_empty() {
-        information.title(TextStr(&settings.title));
-    }
-    if !settings.command.is_empty() {
-        information.subject(TextStr(&settings.command));
-    }
-    if let Some(note) = &drawing.note {
-        information.keywords(TextStr(note));
-    }
-    information.finish();
-    pdf.finish()
+    content.finish()
 }
 
 /// The resource name of areas that are seen through, and of their opacity.
@@ -247,15 +286,19 @@ fn write_fill(fill: &Fill, content: &mut Content) {
 }
 
 fn write_polyline(points: &[DVec2], is_closed: bool, content: &mut Content) {
-    for (index, point) in written_points(points, is_closed, false).iter().enumerate() {
+    write_points(&written_points(points, is_closed, false), content);
+    if is_closed {
+        content.close_path();
+    }
+}
+
+fn write_points(points: &[[String; 2]], content: &mut Content) {
+    for (index, point) in points.iter().enumerate() {
         let [x, y] = numbers(point);
         match index {
             0 => content.move_to(x, y),
             _ => content.line_to(x, y),
         };
-    }
-    if is_closed {
-        content.close_path();
     }
 }
 
@@ -283,14 +326,8 @@ fn write_path(settings: &DrawingSettings, path: &LinePath, content: &mut Content
             };
         }
     } else {
-        let points = written_points(&settings.points_of(path), path.is_closed, settings.has_provenance);
-        for (index, point) in points.iter().enumerate() {
-            let [x, y] = numbers(point);
-            match index {
-                0 => content.move_to(x, y),
-                _ => content.line_to(x, y),
-            };
-        }
+        let points = settings.points_of(path);
+        write_points(&written_points(&points, path.is_closed, settings.has_provenance), content);
     }
     if path.is_closed {
         content.close_and_stroke()

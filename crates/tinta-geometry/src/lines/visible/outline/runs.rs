@@ -12,9 +12,9 @@
 //! outline are paired first, then the pair that continues straightest.
 
 use crate::lines::LineSegment;
+use crate::lines::eye::image::{Image, LineParts};
 use crate::lines::progress::Progress;
-use crate::lines::visible::image::{Image, LineParts};
-use crate::lines::visible::ranges::{gaps, united};
+use crate::ranges::{above_zero, clipped, gaps, united};
 use crate::tolerances::JOINED_PX;
 use glam::DVec2;
 use std::collections::HashMap;
@@ -101,20 +101,11 @@ fn before(image: &Image, side: usize, other: &LineSegment, distance_px: f64) -> 
     let aside = if side == 0 { along.perp() } else { -along.perp() };
     let [first, second] = other.ends_px.map(|end| DVec2::new(along.dot(end - image.a), aside.dot(end - image.a)));
     // The part of the other line in the strip beside this line.
-    let mut range = [0.0f64, 1.0f64];
-    for (start, end) in [(first.y - JOINED_PX, second.y - JOINED_PX), (distance_px - first.y, distance_px - second.y)] {
-        if start < 0.0 && end < 0.0 {
-            return None;
-        }
-        if start < 0.0 {
-            range[0] = range[0].max(start / (start - end));
-        } else if end < 0.0 {
-            range[1] = range[1].min(start / (start - end));
-        }
-    }
+    let range = above_zero([0.0, 1.0], [first.y - JOINED_PX, second.y - JOINED_PX]);
+    let range = clipped(range, [0.0, 1.0], [distance_px - first.y, distance_px - second.y])?;
     let places = range.map(|share| (first.x + (second.x - first.x) * share) / image.length());
     let places = [places[0].min(places[1]).max(0.0), places[0].max(places[1]).min(1.0)];
-    ((places[1] - places[0]) * image.length() > JOINED_PX && range[0] < range[1]).then_some(places)
+    ((places[1] - places[0]) * image.length() > JOINED_PX).then_some(places)
 }
 
 /// Pieces in order: each continues the one before.

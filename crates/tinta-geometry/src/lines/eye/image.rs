@@ -1,9 +1,9 @@
 //! Images of lines in the picture, and trees of them.
 
 use crate::bvh::{Box3, BoxTree, Exclusion, Line3, NO_GROUP, Walk};
+use crate::lines::eye::space::{Space, at_depth};
 use crate::lines::progress::Progress;
-use crate::lines::visible::ranges::meet;
-use crate::lines::visible::space::Space;
+use crate::ranges::{between, meet};
 use crate::tolerances::TOUCH;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
@@ -27,29 +27,20 @@ impl Image {
     /// Returns the image of a line's part between two depths.
     pub(in crate::lines) fn between(space: &Space, ends: [DVec3; 2], [near, far]: [f64; 2]) -> Option<Self> {
         let depths = ends.map(|end| -end.z);
-        let mut range = [0.0f64, 1.0f64];
-        for (start, end) in [(depths[0] - near, depths[1] - near), (far - depths[0], far - depths[1])] {
-            if start < 0.0 && end < 0.0 {
-                return None;
-            }
-            if start < 0.0 {
-                range[0] = range[0].max(start / (start - end));
-            } else if end < 0.0 {
-                range[1] = range[1].min(start / (start - end));
-            }
-        }
-        if range[0] >= range[1] {
+        let (nearest, farthest) = (depths[0].min(depths[1]), depths[0].max(depths[1]));
+        let is_flat = nearest == farthest;
+        if farthest < near || nearest > far || !is_flat && (farthest <= near || nearest >= far) {
             return None;
         }
         // The ends themselves stay unchanged: lines that meet there meet in the picture.
-        let point = |share: f64| match share {
-            0.0 => ends[0],
-            1.0 => ends[1],
-            _ => ends[0] + (ends[1] - ends[0]) * share,
+        let kept = |end: DVec3| match -end.z {
+            depth if depth < near => at_depth(ends, near).unwrap_or(end),
+            depth if depth > far => at_depth(ends, far).unwrap_or(end),
+            _ => end,
         };
-        let ((a, first), (b, second)) = (space.project(point(range[0])), space.project(point(range[1])));
-        let nearest = range.map(|share| -point(share).z).into_iter().fold(f64::INFINITY, f64::min);
-        Some(Self { a, b, keys: [first, second], noise_px: space.noise * space.px_per_unit(nearest) })
+        let [(a, first), (b, second)] = ends.map(|end| space.project(kept(end)));
+        let noise_px = space.noise * space.px_per_unit(nearest.max(near));
+        Some(Self { a, b, keys: [first, second], noise_px })
     }
 
     pub(in crate::lines) fn length(&self) -> f64 {
@@ -126,22 +117,11 @@ impl Image {
         if square > 0.0 { (px - self.a).dot(along) / square } else { 0.0 }
     }
 
-    /// Returns the range of a line inside the picture with a margin around it (Liang and Barsky 1984).
+    /// Returns the range of a line inside the picture with a margin around it.
     pub(in crate::lines) fn inside(&self, size: DVec2, margin: f64) -> Option<[f64; 2]> {
         let along = self.b - self.a;
-        let mut range = [0.0f64, 1.0f64];
-        for (start, step, limit) in [(self.a.x, along.x, size.x), (self.a.y, along.y, size.y)] {
-            let (low, high) = (-margin - start, limit + margin - start);
-            if step == 0.0 {
-                if low > 0.0 || high < 0.0 {
-                    return None;
-                }
-                continue;
-            }
-            let (enter, leave) = if step > 0.0 { (low / step, high / step) } else { (high / step, low / step) };
-            range = [range[0].max(enter), range[1].min(leave)];
-        }
-        (range[0] <= range[1]).then_some(range)
+        let range = between([0.0, 1.0], self.a.x, along.x, [-margin, size.x + margin])?;
+        between(range, self.a.y, along.y, [-margin, size.y + margin])
     }
 
     /// Cuts a range of places into parts no longer than `longest_px`.
@@ -170,8 +150,8 @@ impl Image {
 pub(in crate::lines) struct LineParts {
     boxes: Vec<Box3>,
     numbers: Vec<u32>,
-    planes: Vec<u32>,
-    high_valence: Vec<u32>,
+    /// The plane and the high-valence vertex of each; empty without groups.
+    groups: [Vec<u32>; 2],
 }
 
 /// Parts of lines in a tree, for searches.
@@ -190,8 +170,7 @@ impl LineParts {
     pub(in crate::lines) fn append(&mut self, other: Self) {
         self.boxes.extend(other.boxes);
         self.numbers.extend(other.numbers);
-        self.planes.extend(other.planes);
-        self.high_valence.extend(other.high_valence);
+        self.groups.iter_mut().zip(other.groups).for_each(|(all, more)| all.extend(more));
     }
 
     /// Adds a part of a line.
@@ -201,10 +180,9 @@ impl LineParts {
     }
 
     /// Adds a part of a line that ends in a high-valence vertex, all of whose faces lie in a plane.
-    pub(in crate::lines) fn add_of_groups(&mut self, around: Box3, line: usize, plane: u32, vertex: u32) {
+    pub(in crate::lines) fn add_of_groups(&mut self, around: Box3, line: usize, of_part: [u32; 2]) {
         self.add(around, line);
-        self.planes.push(plane);
-        self.high_valence.push(vertex);
+        self.groups.iter_mut().zip(of_part).for_each(|(groups, group)| groups.push(group));
     }
 
     /// Builds their tree; an empty one if the time runs out.
@@ -213,16 +191,11 @@ impl LineParts {
         if order.len() < self.boxes.len() {
             return LineTree { tree, numbers: Vec::new() };
         }
-        let in_order = |groups: &[u32]| {
+        let [planes, vertices] = self.groups.map(|groups| {
             let has_some = groups.iter().any(|group| *group != NO_GROUP);
-            has_some.then(|| order.iter().map(|index| groups[*index as usize]).collect::<Vec<u32>>())
-        };
-        if let Some(planes) = in_order(&self.planes) {
-            tree.set_planes(&planes);
-        }
-        if let Some(high_valence) = in_order(&self.high_valence) {
-            tree.set_high_valence(&high_valence);
-        }
+            order.iter().filter(|_| has_some).map(|index| groups[*index as usize]).collect::<Vec<u32>>()
+        });
+        tree.set_groups([&planes, &vertices]);
         LineTree { tree, numbers: order.iter().map(|index| self.numbers[*index as usize]).collect() }
     }
 }

@@ -1,7 +1,7 @@
 //! The numbers that choose between ways to the same lines. They change times, never lines.
 
 /// See [`THRESHOLDS`].
-pub(in crate::lines) struct Thresholds {
+pub(crate) struct Thresholds {
     /// How often boxes of faces cover the picture before it has a depth buffer, nearest faces and parts of faces. With fewer
     /// layers these cost more than they save.
     pub crowded: f64,
@@ -20,5 +20,5 @@ pub(in crate::lines) struct Thresholds {
 }
 
 /// Measured over the families of scenes in `benches/lines_growth.rs`, with 1,000 to 80,000 triangles, and public models.
-pub(in crate::lines) const THRESHOLDS: Thresholds =
+pub(crate) const THRESHOLDS: Thresholds =
     Thresholds { crowded: 24.0, cells: 9, parts: 16.0, most_parts: 600_000, group: 16, remembered: 256 };

@@ -1,7 +1,7 @@
 //! Faces' images in the picture: by one product each, how far inside of each side a pixel is, and the key of the face's plane there.
 
-use crate::lines::visible::faces::Faces;
-use crate::lines::visible::space::Space;
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::space::Space;
 use glam::DVec2;
 
 /// A face's image. Meaningless for faces that reach through the near plane.

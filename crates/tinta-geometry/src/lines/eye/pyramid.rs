@@ -6,12 +6,12 @@
 //! faces overlap, most need few steps. The buffer decides only clear cases and leaves the rest to the exact rules.
 
 use crate::bvh::Box3;
-use crate::lines::visible::faces::Faces;
-use crate::lines::visible::projected_face::ProjectedFace;
-use crate::lines::visible::space::Space;
-use crate::lines::visible::thresholds::THRESHOLDS;
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::projected_face::ProjectedFace;
+use crate::lines::eye::space::Space;
 use crate::threads::{cores, filled, in_chunks, threads_for_items};
-use crate::tolerances::{CONTACT, TOUCH};
+use crate::thresholds::THRESHOLDS;
+use crate::tolerances::TOUCH;
 use glam::DVec2;
 
 /// Faces that a thread projects at once.
@@ -62,7 +62,7 @@ impl Occluder {
         let [(pa, key_a), (pb, key_b), (pc, key_c)] = images;
         let nearest = (-a.z).min(-b.z).min(-c.z);
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        let touching = CONTACT * longest + faces.weld(faces.triangles[place as usize][0]) + 4.0 * space.noise;
+        let touching = space.contact(longest, faces.weld(faces.triangles[place as usize][0]));
         let beyond = space.key_beyond([a, normal.normalize_or_zero()], nearest, 2.0 * touching);
         let image = ProjectedFace::of_corners(space, images);
         let occluder = Self {

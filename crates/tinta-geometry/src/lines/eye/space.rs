@@ -7,7 +7,7 @@
 
 use crate::camera::Projection;
 use crate::scene::Scene;
-use crate::tolerances::{COORDINATE_NOISE, EDGE_ON, TIE};
+use crate::tolerances::{CONTACT, COORDINATE_NOISE, EDGE_ON, TIE};
 use glam::{DMat3, DVec2, DVec3};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
@@ -186,6 +186,11 @@ impl Space {
         }
     }
 
+    /// Distance below which two things touch whose shorter length is this, and whose positions count as one below `weld`, file units.
+    pub(in crate::lines) fn contact(&self, length: f64, weld: f64) -> f64 {
+        CONTACT * length + weld + 4.0 * self.noise
+    }
+
     /// Distance in pixels below which a point lies on the image of a line.
     pub(in crate::lines) fn tie_px(&self, depth: f64) -> f64 {
         TIE * self.size.max_element() + self.noise * self.px_per_unit(depth)
@@ -240,4 +245,11 @@ impl Space {
             Lens::Parallel { .. } => DVec3::Z,
         }
     }
+}
+
+/// Returns the point where the line between two points of the eye's space passes the plane across the view at a depth, if it does.
+pub(in crate::lines) fn at_depth([a, b]: [DVec3; 2], depth: f64) -> Option<DVec3> {
+    let (above, below) = (-a.z - depth, -b.z - depth);
+    let point = || (a + (b - a) * (above / (above - below))).with_z(-depth);
+    ((above >= 0.0) != (below >= 0.0)).then(point)
 }

@@ -4,8 +4,8 @@
 //! overlap. A corner nearer to a plane than the contact distance lies in it. A face with an edge in the other's plane is told as
 //! touching there.
 
-use crate::lines::visible::faces::Faces;
-use crate::lines::visible::space::Space;
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::space::Space;
 use crate::tolerances::CONTACT;
 use glam::DVec3;
 
@@ -20,7 +20,7 @@ pub(in crate::lines) struct Piercing {
 
 /// The common part of two faces.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::lines::visible) struct FaceCrossing {
+pub(in crate::lines) struct FaceCrossing {
     /// The one with the lower number first.
     pub faces: [u32; 2],
     pub ends: [DVec3; 2],
@@ -32,7 +32,7 @@ pub(in crate::lines::visible) struct FaceCrossing {
 }
 
 /// A face with its plane.
-pub(in crate::lines::visible) struct FacePlane {
+pub(in crate::lines) struct FacePlane {
     pub place: u32,
     numbers: [u32; 3],
     corners: [DVec3; 3],
@@ -44,6 +44,8 @@ pub(in crate::lines::visible) struct FacePlane {
     weld: f64,
     /// The largest contact distance with any other face, times the normal's length.
     loose: f64,
+    /// Whether no tolerance is used: each pair of faces that pass through one another is found, and some that do not.
+    is_exact: bool,
 }
 
 /// Two faces that each reach across the other's plane or have an edge in it.
@@ -71,19 +73,25 @@ struct Crossing {
 }
 
 impl FacePlane {
-    pub(in crate::lines::visible) fn new(space: &Space, faces: &Faces, place: u32) -> Self {
+    pub(in crate::lines) fn new(space: &Space, faces: &Faces, place: u32) -> Self {
+        let face_plane = Self::exact(faces, place);
+        let loose = space.contact(face_plane.longest, face_plane.weld) * face_plane.normal_length;
+        Self { loose, is_exact: false, ..face_plane }
+    }
+
+    /// The plane of a face that meets others without tolerance.
+    pub(in crate::lines) fn exact(faces: &Faces, place: u32) -> Self {
         let numbers = faces.triangles[place as usize];
         let corners = faces.corners(place);
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
         let (normal_length, weld) = (normal.length(), faces.weld(numbers[0]));
         let longest = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared()).sqrt();
-        let loose = (CONTACT * longest + weld + 4.0 * space.noise) * normal_length;
-        Self { place, numbers, corners, normal, normal_length, longest, weld, loose }
+        Self { place, numbers, corners, normal, normal_length, longest, weld, loose: 0.0, is_exact: true }
     }
 
     /// Returns the common part of this face and another, if each has corners on both sides of the other's plane.
-    pub(in crate::lines::visible) fn meet(&self, space: &Space, faces: &Faces, other: u32) -> Option<FaceCrossing> {
+    pub(in crate::lines) fn meet(&self, space: &Space, faces: &Faces, other: u32) -> Option<FaceCrossing> {
         let numbers = faces.triangles[other as usize];
         let mut shared = None;
         let mut shared_count = 0;
@@ -103,7 +111,7 @@ impl FacePlane {
         if all(&|distance| distance > self.loose) || all(&|distance| distance < -self.loose) {
             return None;
         }
-        let other = Self::new(space, faces, other);
+        let other = if self.is_exact { Self::exact(faces, other) } else { Self::new(space, faces, other) };
         let contact = self.contact(space, &other);
         // A face no higher than the contact distance is a line and has no plane, but may still pass through a face.
         let is_needle = |face_plane: &Self| face_plane.normal_length <= contact * face_plane.longest;
@@ -176,8 +184,11 @@ impl FacePlane {
     }
 
     /// The distance below which this face and another touch, file units.
-    pub(in crate::lines::visible) fn contact(&self, space: &Space, other: &Self) -> f64 {
-        CONTACT * self.longest.min(other.longest) + self.weld.min(other.weld) + 4.0 * space.noise
+    pub(in crate::lines) fn contact(&self, space: &Space, other: &Self) -> f64 {
+        match self.is_exact {
+            true => 0.0,
+            false => space.contact(self.longest.min(other.longest), self.weld.min(other.weld)),
+        }
     }
 
     /// Points' distances from the plane, times the normal's length.

@@ -1,8 +1,8 @@
 //! The first face that a ray through each pixel's middle hits: a picture of the scene without GL.
 
 use crate::bvh::Box3;
-use crate::lines::visible::faces::Faces;
-use crate::lines::visible::space::Space;
+use crate::lines::eye::faces::Faces;
+use crate::lines::eye::space::Space;
 use crate::scene::Scene;
 use crate::threads::{cores, in_chunks};
 use glam::{DVec2, DVec3};
@@ -21,7 +21,7 @@ pub struct Hit {
 }
 
 /// Returns the first hit of the ray through each pixel's middle, row by row from the top; `None` where no face lies between the
-/// near and the far plane. Computes in f64. Of faces in the same place, the one with the lower number counts.
+/// near and the far plane. Computes in f64. Of faces that touch there, the one with the lowest number counts.
 pub fn first_hits(scene: &Scene) -> Vec<Option<Hit>> {
     let space = Space::of(scene);
     let faces = Faces::of(&space, scene);
@@ -39,29 +39,49 @@ pub fn first_hits(scene: &Scene) -> Vec<Option<Hit>> {
     rows.concat()
 }
 
-/// Returns the first hit of the ray through a place in the picture.
+/// Where a ray meets a face.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::lines) struct FaceHit {
+    pub depth: f64,
+    pub place: u32,
+    pub weights: [f64; 3],
+}
+
+/// Returns the first hit of the ray through a place in the picture. Of faces that touch there, the one with the lowest number counts, as
+/// in a picture by GL.
 pub(in crate::lines) fn first_hit(space: &Space, faces: &Faces, px: DVec2) -> Option<Hit> {
+    let hits = nearest_hits(space, faces, px).into_iter();
+    let FaceHit { depth, place, weights } = hits.min_by_key(|hit| faces.numbers[hit.place as usize])?;
+    let (object, face) = faces.in_object(faces.numbers[place as usize]);
+    Some(Hit { object: object as u32, face, weights, depth })
+}
+
+/// Returns the first hit of the ray through a place in the picture, and those of faces that touch it there.
+pub(in crate::lines) fn nearest_hits(space: &Space, faces: &Faces, px: DVec2) -> Vec<FaceHit> {
     let column = Box3::new(px.extend(f64::NEG_INFINITY), px.extend(f64::INFINITY));
     let ray = space.ray(px);
-    let mut first: Option<(f64, u32, [f64; 3])> = None;
+    let mut hits: Vec<FaceHit> = Vec::new();
     faces.tree.any(&column, |place| {
-        let number = faces.numbers[place as usize];
-        if let Some((depth, weights)) = meet(space, faces.corners(place), ray) {
-            let is_first = first.is_none_or(|(least, other, _)| depth < least || (depth == least && number < other));
-            if is_first && (space.near..=space.far).contains(&depth) {
-                first = Some((depth, number, weights));
-            }
-        }
+        let hit = meet(space, faces.corners(place), ray);
+        let hit = hit.filter(|(depth, _)| (space.near..=space.far).contains(depth));
+        hits.extend(hit.map(|(depth, weights)| FaceHit { depth, place, weights }));
         false
     });
-    first.map(|(depth, number, weights)| {
-        let (object, face) = faces.in_object(number);
-        Hit { object: object as u32, face, weights, depth }
-    })
+    let Some(nearest) = hits.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)).copied() else { return hits };
+    let [a, b, c] = faces.corners(nearest.place);
+    let point = a * nearest.weights[0] + b * nearest.weights[1] + c * nearest.weights[2];
+    hits.retain(|hit| {
+        let [a, b, c] = faces.corners(hit.place);
+        let normal = (b - a).cross(c - a);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let contact = space.contact(longest, faces.weld(faces.triangles[hit.place as usize][0]));
+        hit.place == nearest.place || normal.dot(point - a).abs() <= contact * normal.length()
+    });
+    hits
 }
 
 /// Returns the depth at which a ray, given by two of its points, meets a face, with the corners' weights.
-pub(in crate::lines) fn meet(space: &Space, corners: [DVec3; 3], [from, to]: [DVec3; 2]) -> Option<(f64, [f64; 3])> {
+fn meet(space: &Space, corners: [DVec3; 3], [from, to]: [DVec3; 2]) -> Option<(f64, [f64; 3])> {
     let turns = [1, 2, 0].map(|first| space.turn(corners[first], corners[(first + 1) % 3], to).0);
     let is_inside = turns.iter().all(|turn| *turn >= 0.0) || turns.iter().all(|turn| *turn <= 0.0);
     let [a, b, c] = corners;

@@ -2,8 +2,8 @@
 //! skip such pairs as a group.
 
 use crate::bvh::{Box3, NO_GROUP};
-use crate::lines::visible::thresholds::THRESHOLDS;
 use crate::threads::{filled, threads_for_items};
+use crate::thresholds::THRESHOLDS;
 use glam::DVec3;
 use std::collections::HashMap;
 
