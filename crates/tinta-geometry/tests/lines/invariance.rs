@@ -1,11 +1,13 @@
 //! The visible lines stay the same under changes that leave the picture the same.
 
+use crate::support::families::FAMILIES;
 use crate::support::lines::{explicit, length, lines, scene_of, shuffled, view};
 use crate::support::shapes::{Random, cuboid, icosphere};
 use crate::support::{builtin, public_meshes};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use tinta::camera::Projection;
 use tinta::edges::Class;
 use tinta::lines::VisibleLines;
 use tinta::{CameraSettings, Mesh, Scene, SceneSettings};
@@ -155,6 +157,17 @@ fn lines_a_million_units_away_are_the_same_as_far_as_numbers_reach() {
             let actual = lines(&seen(&mesh, &view("33,17", parallel)));
             assert_same_sums(&expected, &actual, 1e-5, &format!("{name} parallel {parallel}"));
         }
+    }
+}
+
+#[test]
+fn families_of_scenes_far_from_the_origin_are_seen_alike() {
+    for (name, make) in &FAMILIES {
+        let scene = make(&mut Random::seeded(1));
+        let camera = explicit(&scene, matches!(scene.camera.projection, Projection::Parallel { .. }));
+        let far = |mesh: &Mesh| moved(mesh, &camera, DMat3::IDENTITY, 1.0, DVec3::new(1e8, -1e8, 1e8));
+        let away = scene_of(scene.objects.iter().map(|it| far(&it.mesh).0).collect(), far(&scene.objects[0].mesh).1);
+        assert_same_sums(&lines(&scene), &lines(&away), 1e-5, name);
     }
 }
 

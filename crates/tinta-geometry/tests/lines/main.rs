@@ -2,7 +2,6 @@
 
 extern crate tinta_geometry as tinta;
 
-mod brute;
 mod degenerate;
 mod flicker;
 mod free_lines;
@@ -19,7 +18,6 @@ mod reports;
 mod rewritings;
 mod rules;
 mod same;
-mod sides;
 mod smooth_waves;
 #[expect(dead_code, reason = "shared with the other tests")]
 #[path = "../support/mod.rs"]

@@ -1,13 +1,16 @@
-//! Rays from points of lines to the eye.
+//! Lines by rays in f64 and world space, each against every face, with no formula of the library.
 
-use crate::support::lines::{length, px};
+mod crossings;
+mod edges;
+
+use crate::support::lines::{length, lines, lines_with, px};
 use crate::support::shapes::Random;
 use glam::{DVec2, DVec3};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use tinta::Scene;
 use tinta::camera::Projection;
-use tinta::lines::{LineSegment, VisibleLines};
-use tinta::tolerances::{CONTACT, CREASE_DIGITS, TOUCH, WELD};
+use tinta::lines::{LineSegment, LineSettings, VisibleLines};
+use tinta::tolerances::{CONTACT, TOUCH, WELD};
 
 /// Distance of the rays' start from a line on either side, pixels. It is twice the distance within which two lines
 /// coincide in the picture, so each ray is clearly on its side of anything on the line.
@@ -16,9 +19,6 @@ const ASIDE_PX: f64 = 1e-4;
 /// Least distance of tested points from a segment's ends, pixels: more than the 0.02 pixels near a common corner
 /// within which an adjacent face may hide the line.
 const FROM_ENDS_PX: f64 = 0.03;
-
-/// Sine of the angle to the view: a face is edge-on below the first value and not edge-on above the second.
-const EDGE_ON: [f64; 2] = [1e-12, 1e-7];
 
 /// Largest overlap or gap between the ends of segments, pixels: ten times the shortest line in a picture of 640.
 const SAME_PLACE_PX: f64 = 1e-3;
@@ -67,6 +67,33 @@ pub struct Rays<'a> {
     welds: Vec<f64>,
     /// Largest shift of a point by rounding, file units.
     noise: f64,
+    creases: Creases,
+}
+
+/// Which creases are lines.
+#[derive(Debug, Clone, Copy)]
+pub enum Creases {
+    /// From 30 degrees, as in drawings.
+    Drawn,
+    /// With a cosine below 0.4, as in Dachsbacher's listing.
+    Published,
+}
+
+impl Creases {
+    /// The lines with these.
+    pub fn lines(self, scene: &Scene) -> VisibleLines {
+        match self {
+            Self::Drawn => lines(scene),
+            Self::Published => lines_with(scene, &LineSettings::as_published()),
+        }
+    }
+
+    fn cosine(self) -> f64 {
+        match self {
+            Self::Drawn => 30f64.to_radians().cos(),
+            Self::Published => 0.4,
+        }
+    }
 }
 
 #[derive(Debug, Default, Clone)]
@@ -78,6 +105,8 @@ pub struct Found {
     /// Edges whose points were counted, and those that a rule for covered edges exempts in part.
     pub edges: usize,
     pub exempt: usize,
+    /// Points where two faces pass through one another.
+    pub crossings: usize,
     pub wrong: Vec<String>,
 }
 
@@ -88,18 +117,19 @@ impl Found {
         self.unclear += other.unclear;
         self.edges += other.edges;
         self.exempt += other.exempt;
+        self.crossings += other.crossings;
     }
 
     pub fn summary(&self) -> String {
         format!(
-            "{} hidden and {} visible points, {} of these unclear; {} edges, {} covered by others",
-            self.hidden, self.visible, self.unclear, self.edges, self.exempt
+            "{} hidden and {} visible points, {} of these unclear; {} edges, {} covered by others; {} points of crossings",
+            self.hidden, self.visible, self.unclear, self.edges, self.exempt, self.crossings
         )
     }
 }
 
 impl<'a> Rays<'a> {
-    pub fn new(scene: &'a Scene) -> Self {
+    pub fn new(scene: &'a Scene, creases: Creases) -> Self {
         let (mut faces, mut edges, mut welds) = (Vec::new(), BTreeMap::new(), Vec::new());
         let mut farthest: f64 = 0.0;
         let camera = &scene.camera;
@@ -137,7 +167,7 @@ impl<'a> Rays<'a> {
                 });
             }
         }
-        Self { scene, faces, edges, welds, noise: ROUNDING * farthest }
+        Self { scene, faces, edges, welds, noise: ROUNDING * farthest, creases }
     }
 
     fn is_parallel(&self) -> bool {
@@ -296,13 +326,15 @@ impl<'a> Rays<'a> {
         lines.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, line)| line)
     }
 
-    /// Tests points of all segments, and all edges.
-    pub fn check(&self, lines: &VisibleLines, random: &mut Random) -> Found {
+    /// Tests points of all segments, all edges, and all places where faces pass through one another.
+    pub fn check(&self, random: &mut Random) -> Found {
+        let lines = &self.creases.lines(self.scene);
         let mut found = Found::default();
         for piece in lines.segments.iter().filter(|piece| length(piece) > 3.0 * FROM_ENDS_PX) {
             self.check_piece(piece, lines, random, &mut found);
         }
         self.check_edges(lines, &mut found);
+        self.check_crossings(lines, &mut found);
         found
     }
 
@@ -335,6 +367,9 @@ impl<'a> Rays<'a> {
                 false => sides == [Side::Covered; 2] || sides.contains(&Side::Open),
             };
             found.unclear += usize::from(!is_decided);
+            if piece.is_visible && self.is_doubled(point, along_px, piece, lines) {
+                found.wrong.push(format!("drawn twice at {} of {piece:?}", px(self.scene, point)));
+            }
             if is_wrong {
                 found.wrong.push(format!("{sides:?} at {} of {piece:?}", px(self.scene, point)));
             }
@@ -352,173 +387,27 @@ impl<'a> Rays<'a> {
         })
     }
 
+    /// Whether another visible segment runs along this one at a point.
+    fn is_doubled(&self, point: DVec3, along_px: DVec2, piece: &LineSegment, lines: &VisibleLines) -> bool {
+        let image = px(self.scene, point);
+        lines.segments.iter().any(|other| {
+            let [a, b] = other.ends_px;
+            let (share, along) = ((image - a).dot(b - a) / a.distance_squared(b), (b - a).normalize_or_zero());
+            other.is_visible
+                && !std::ptr::eq(other, piece)
+                && [a, b].iter().all(|end| end.distance(image) > FROM_ENDS_PX)
+                && (0.0..=1.0).contains(&share)
+                && a.lerp(b, share).distance(image) < 1e-6
+                && along.perp_dot(along_px).abs() < 1e-6
+        })
+    }
+
     /// The point of a segment whose image is at a pixel, if its image passes through it.
     fn nearest(&self, piece: &LineSegment, image: DVec2) -> Option<DVec3> {
         let [a, b] = piece.ends_px;
         let share = ((image - a).dot(b - a) / a.distance_squared(b).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         let touch_px = 2.0 * TOUCH * f64::from(self.scene.size.width.max(self.scene.size.height));
         (a.lerp(b, share).distance(image) <= touch_px).then(|| self.at(piece.ends_world, share))
-    }
-
-    /// Sine of the angle between a face and the view, positive from its front.
-    fn sine(&self, face: usize) -> f64 {
-        let face = &self.faces[face];
-        let camera = &self.scene.camera;
-        let towards_eye = if self.is_parallel() { camera.backward() } else { camera.eye - face.corners[0] };
-        face.normal.dot(towards_eye.normalize())
-    }
-
-    /// Whether an edge is a line by the default settings; `None` if rounding or a rule for overlapping faces decides.
-    fn is_line(&self, [a, b]: [u32; 2], faces: &[usize]) -> Option<bool> {
-        let [first, second] = match *faces {
-            [_] => return Some(true),
-            [first, second] => [first, second],
-            _ => return None,
-        };
-        let runs_up = |face: usize| {
-            let corners = self.faces[face].numbers.map(|number| number[1]);
-            (0..3).any(|side| [corners[side], corners[(side + 1) % 3]] == [a, b])
-        };
-        let turned = if runs_up(first) == runs_up(second) { -1.0 } else { 1.0 };
-        let normals = [first, second].map(|face| self.faces[face].normal);
-        let cosine = turned * normals[0].dot(normals[1]);
-        let of_drawings = 30f64.to_radians().cos();
-        if normals.contains(&DVec3::ZERO) || (cosine - of_drawings).abs() < 2.0 * CREASE_DIGITS || cosine < 1e-9 - 1.0 {
-            return None;
-        }
-        let way = |sine: f64| match sine.abs() {
-            size if size <= EDGE_ON[0] => Some(0.0),
-            size if size >= EDGE_ON[1] => Some(sine.signum()),
-            _ => None,
-        };
-        let ways = [way(self.sine(first))?, way(turned * self.sine(second))?];
-        Some(ways[0] != ways[1] || cosine < of_drawings)
-    }
-
-    /// Asserts that the segments of each edge follow one another without gap or overlap, unless another line fills
-    /// the gap.
-    fn check_edges(&self, lines: &VisibleLines, found: &mut Found) {
-        let mut pieces: BTreeMap<(u32, [u32; 2]), Vec<&LineSegment>> = BTreeMap::new();
-        for piece in &lines.segments {
-            if let Some([a, b]) = self.numbers(piece) {
-                pieces.entry((piece.object, [a.min(b), a.max(b)])).or_default().push(piece);
-            }
-        }
-        for (&(object, numbers), faces) in &self.edges {
-            let own = pieces.remove(&(object, numbers)).unwrap_or_default();
-            let in_scene = &self.scene.objects[object as usize];
-            let ends = numbers.map(|number| in_scene.mesh.positions[number as usize] + in_scene.offset);
-            let is_line = self.is_line(numbers, faces);
-            let Some(clipped) = self.clipped(ends) else { continue };
-            let images = clipped.map(|end| px(self.scene, end));
-            let length_px = images[0].distance(images[1]);
-            if length_px < SAME_PLACE_PX {
-                continue;
-            }
-            let along = (images[1] - images[0]) / length_px;
-            let mut ranges: Vec<[f64; 2]> = own
-                .iter()
-                .map(|piece| {
-                    let [a, b] = piece.ends_px.map(|end| (end - images[0]).dot(along));
-                    [a.min(b), a.max(b)]
-                })
-                .collect();
-            ranges.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
-            let what = || format!("object {object} edge {numbers:?}, {length_px} px, {} faces", faces.len());
-            if let Some(pair) = ranges.windows(2).find(|pair| pair[1][0] < pair[0][1] - SAME_PLACE_PX) {
-                found.wrong.push(format!("{} is twice from {} to {}", what(), pair[1][0], pair[0][1]));
-            }
-            let is_mended = |point: DVec3| self.lies_on_others(point, object, numbers);
-            if is_line == Some(false) && !own.is_empty() && !is_mended(ends[0].lerp(ends[1], 0.5)) {
-                found.wrong.push(format!("{} is no line", what()));
-            }
-            if is_line != Some(true) && own.is_empty() {
-                continue;
-            }
-            found.edges += 1;
-            let mut is_exempt = false;
-            let mut start = 0.0;
-            ranges.push([length_px; 2]);
-            for [from, to] in ranges {
-                let gap = [start, from];
-                start = to.max(start);
-                if gap[1] - gap[0] <= SAME_PLACE_PX {
-                    continue;
-                }
-                for share in [0.01, 0.3, 0.5, 0.77, 0.99] {
-                    let place = gap[0] + (gap[1] - gap[0]) * share;
-                    let point = self.at(clipped, place / length_px);
-                    if self.is_stood_for(point, object, ends[0].distance(ends[1]), lines) {
-                        continue;
-                    }
-                    match is_mended(point) {
-                        true => is_exempt = true,
-                        false => {
-                            found.wrong.push(format!("{} is in no piece at {}", what(), px(self.scene, point)));
-                            break;
-                        }
-                    }
-                }
-            }
-            found.exempt += usize::from(is_exempt);
-        }
-        // A face with a corner on its rim is split, and parts replace its edges.
-        let is_part = |(object, numbers): &(u32, [u32; 2])| {
-            let in_scene = &self.scene.objects[*object as usize];
-            let place = |number: u32| in_scene.mesh.positions[number as usize];
-            self.edges.keys().filter(|(other, _)| other == object).any(|(_, edge)| {
-                let [a, b] = edge.map(place);
-                numbers.iter().all(|number| {
-                    let point = place(*number);
-                    a.distance(point) + point.distance(b) <= a.distance(b) + self.noise
-                })
-            })
-        };
-        let invented = pieces.into_keys().filter(|edge| !is_part(edge));
-        found.wrong.extend(invented.map(|edge| format!("lines of no edge: {edge:?}")));
-    }
-
-    /// Whether another line lies in the same place in space.
-    fn is_stood_for(&self, point: DVec3, object: u32, length: f64, lines: &VisibleLines) -> bool {
-        let image = px(self.scene, point);
-        let touch = 2.1 * (CONTACT * length + self.welds[object as usize]) + self.noise;
-        lines
-            .segments
-            .iter()
-            .any(|piece| self.nearest(piece, image).is_some_and(|other| other.distance(point) <= touch))
-    }
-
-    /// Whether faces of its object without this edge touch it at a point, or faces at it lie on one another. The
-    /// rules for covering faces and T-junctions then decide.
-    fn lies_on_others(&self, point: DVec3, object: u32, numbers: [u32; 2]) -> bool {
-        let own = &self.edges[&(object, numbers)];
-        let ends = numbers.map(|number| self.scene.objects[object as usize].mesh.positions[number as usize]);
-        let across: Vec<DVec3> = own
-            .iter()
-            .map(|face| {
-                let face = &self.faces[*face];
-                let apex = (0..3).find(|corner| !numbers.contains(&face.numbers[*corner][1])).unwrap_or(0);
-                let along = (ends[1] - ends[0]).normalize();
-                let to_apex = face.corners[apex] - point;
-                (to_apex - along * along.dot(to_apex)).normalize_or_zero()
-            })
-            .collect();
-        let lie_on_one_another =
-            (0..across.len()).any(|second| (0..second).any(|first| across[first].dot(across[second]) > 1.0 - 1e-9));
-        let others: BTreeSet<usize> = own.iter().copied().collect();
-        let touch = 2.0 * self.welds[object as usize] + self.noise;
-        let touches = |face: &Face| {
-            let [p, q, r] = face.corners;
-            let inside = [(p, q), (q, r), (r, p)]
-                .map(|(from, to)| face.normal.cross(to - from).normalize_or_zero().dot(point - from));
-            face.normal.dot(point - p).abs() <= touch && inside.iter().all(|inside| *inside >= -touch)
-        };
-        lie_on_one_another
-            || self
-                .faces
-                .iter()
-                .enumerate()
-                .any(|(number, face)| face.object == object && !others.contains(&number) && touches(face))
     }
 
     /// The part of a line in the picture and between the planes.

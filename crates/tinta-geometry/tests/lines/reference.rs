@@ -1,30 +1,17 @@
 //! The fast search for visible lines against the reference that tests each piece against all faces and lines.
 
 use crate::support::builtin;
-use crate::support::growth::{FAMILIES, Shape};
-use std::sync::Arc;
+use crate::support::growth::FAMILIES;
+use crate::support::lines::{scene_of, view};
+use crate::support::shapes::mesh;
 use tinta::edges::SilhouetteRule;
 use tinta::lines::LineSegment;
 use tinta::tolerances::SHORTEST_LINE;
-use tinta::{CameraSettings, LineSettings, Mesh, Scene, SceneSettings, Size, VisibleLines};
+use tinta::{LineSettings, Scene, VisibleLines};
 
 /// How far an end may be off, pixels: a piece below the shortest length joins its neighbour, and lines that are farther away cut one
 /// only in the reference.
 const SAME_PX: f64 = SHORTEST_LINE * 512.0;
-
-fn camera(view: &str, parallel: bool) -> CameraSettings {
-    CameraSettings { view: view.parse().unwrap(), parallel, ..CameraSettings::default() }
-}
-
-fn scene(meshes: Vec<Mesh>, camera: CameraSettings) -> Scene {
-    let settings = SceneSettings { camera, size: Size { width: 512, height: 512 }, ..SceneSettings::default() };
-    Scene::new(meshes.into_iter().map(Arc::new).collect::<Vec<_>>(), &settings).unwrap()
-}
-
-fn mesh(Shape { positions, triangles }: Shape) -> Mesh {
-    let file_vertices = (0..positions.len() as u32).collect();
-    Mesh { positions, file_vertices, triangles, normals: Vec::new(), triangle_normals: Vec::new(), ..Mesh::triangle() }
-}
 
 /// The pieces of one list that have no equal in another.
 fn without_equal<'a>(segments: &[&'a LineSegment], others: &[&LineSegment]) -> Vec<&'a LineSegment> {
@@ -80,9 +67,10 @@ fn assert_none(failures: &[String]) {
 fn the_search_shows_of_every_family_what_the_reference_shows() {
     let mut failures = Vec::new();
     for family in &FAMILIES {
-        for camera in [camera("30,20", false), camera("0,0", true)] {
+        for camera in [view("30,20", false), view("0,0", true)] {
             for count in [60, 100] {
-                let scene = scene(vec![mesh((family.make)(count))], camera.clone());
+                let shape = (family.make)(count);
+                let scene = scene_of(vec![mesh(shape.positions, shape.triangles)], camera.clone());
                 for finds_hidden in [true, false] {
                     failures.extend(differences(&format!("{} of {count}", family.name), &scene, finds_hidden));
                 }
@@ -97,8 +85,8 @@ fn the_search_shows_of_models_what_the_reference_shows() {
     let mut failures = Vec::new();
     for name in ["open-box", "gear"] {
         let mesh = builtin(name);
-        for (view, parallel) in [("30,20", false), ("30,20", true), ("0,0", true)] {
-            let scene = scene(vec![mesh.clone()], camera(view, parallel));
+        for (at, parallel) in [("30,20", false), ("30,20", true), ("0,0", true)] {
+            let scene = scene_of(vec![mesh.clone()], view(at, parallel));
             for finds_hidden in [true, false] {
                 failures.extend(differences(name, &scene, finds_hidden));
             }
@@ -110,7 +98,7 @@ fn the_search_shows_of_models_what_the_reference_shows() {
 #[test]
 fn the_reference_refuses_smooth_silhouettes_and_finds_outlines() {
     let mesh = builtin("open-box");
-    let scene = scene(vec![mesh], camera("30,20", false));
+    let scene = scene_of(vec![mesh], view("30,20", false));
     let settings = LineSettings { reference: true, finds_outline: true, ..LineSettings::default() };
     let [found, fast] = [true, false].map(|reference| {
         let lines = VisibleLines::of(&scene, &LineSettings { reference, ..settings.clone() }).unwrap();

@@ -1,6 +1,7 @@
 //! Shared parts of the tests of visible lines: scenes of meshes, separate projections, sums of lengths.
 
-use super::shapes::Random;
+use super::growth::{Family, Seen};
+use super::shapes::{Random, mesh};
 use glam::{DVec2, DVec3};
 use tinta::edges::{Class, ClassSet};
 use tinta::lines::{LineSegment, LineSettings, VisibleLines};
@@ -16,6 +17,16 @@ pub fn scenes_wanted() -> Option<u64> {
 pub fn scene_of(meshes: Vec<Mesh>, camera: CameraSettings) -> Scene {
     let settings = SceneSettings { camera, size: Size { width: 512, height: 512 }, ..SceneSettings::default() };
     Scene::new(meshes, &settings).unwrap()
+}
+
+/// A family's scene of about so many triangles, as the benchmark sees it.
+pub fn scene_of_family(family: &Family, triangles: usize) -> Scene {
+    let shape = (family.make)(triangles);
+    let camera = match family.seen {
+        Seen::Aslant => view("30,20", false),
+        Seen::Along => view("0,0", true),
+    };
+    scene_of(vec![mesh(shape.positions, shape.triangles)], camera)
 }
 
 /// The fitted camera as settings.
@@ -40,11 +51,6 @@ pub fn view(name: &str, parallel: bool) -> CameraSettings {
 /// The lines by the default settings, with the general checks.
 pub fn lines(scene: &Scene) -> VisibleLines {
     lines_with(scene, &LineSettings::default())
-}
-
-/// The lines with the creases of Dachsbacher's listing, which the twins of lines compute too.
-pub fn published_lines(scene: &Scene) -> VisibleLines {
-    lines_with(scene, &LineSettings::as_published())
 }
 
 /// Like [`lines`], with settings.
