@@ -80,7 +80,7 @@ fn check_frames(frames_at_once: usize, looks: usize) {
 }
 
 #[test]
-fn a_few_frames_leave_memory_and_objects_as_they_were() {
+fn a_few_frames_leave_memory_and_objects_as_they_were_briefly() {
     check_frames(3, 5);
 }
 
@@ -177,7 +177,7 @@ fn check_switches(at_once: usize, looks: usize) {
 
 #[cfg(feature = "window")]
 #[test]
-fn a_hundred_style_switches_and_ten_model_reloads_leave_memory_and_objects_as_they_were() {
+fn a_hundred_style_switches_and_ten_model_reloads_leave_memory_and_objects_as_they_were_briefly() {
     check_switches(20, 3);
 }
 
@@ -234,7 +234,7 @@ fn check_worker(looks: usize, has_charcoal: bool) {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_worker_of_a_batch_does_dozens_of_jobs_in_the_memory_of_the_first() {
+fn a_worker_of_a_batch_does_dozens_of_jobs_in_the_memory_of_the_first_briefly() {
     check_worker(3, false);
 }
 

@@ -112,8 +112,8 @@ fn succeeds(command: &mut Command) -> String {
 }
 
 #[test]
-#[ignore = "exhaustive: builds a copy of the program"]
-fn the_page_adds_a_style_whose_setting_is_found_at_every_door() {
+#[ignore = "nightly: builds a copy of the program"]
+fn the_page_adds_a_style_whose_setting_is_found_at_every_door_nightly() {
     let folder = copy_of_the_sources();
     blocks().iter().for_each(|block| block.put_into(&folder));
     lines_style().put_into(&folder);

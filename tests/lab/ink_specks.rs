@@ -171,7 +171,7 @@ fn is_no_worse(files: &[&str]) {
 }
 
 #[test]
-fn ink_without_specks_measures_no_worse_on_two_public_models() {
+fn ink_without_specks_measures_no_worse_on_two_public_models_briefly() {
     is_no_worse(&["suzanne.obj", "teapot.obj"]);
 }
 

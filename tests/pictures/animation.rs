@@ -1,8 +1,8 @@
 //! Animations written and decoded again, without a GL context: pictures, delays, loops, holes.
 
 use crate::support::Folder;
-use crate::support::full_sizes;
-use image::codecs::{gif::GifDecoder, png::PngDecoder};
+use crate::support::{frames_of_gif, full_sizes};
+use image::codecs::png::PngDecoder;
 use image::{AnimationDecoder, Frame};
 use std::fs::File;
 use std::io::BufReader;
@@ -49,11 +49,6 @@ fn write(name: &str, pictures: &[Picture], transparent: bool, delay_ms: u16) {
     let written = writer.finish().unwrap();
     assert_eq!(written.encode_ms.len(), pictures.len());
     assert!(written.bytes > 0);
-}
-
-fn frames_of_gif(name: &str) -> Vec<Frame> {
-    let decoder = GifDecoder::new(BufReader::new(File::open(name).unwrap())).unwrap();
-    decoder.into_frames().collect_frames().unwrap()
 }
 
 fn frames_of_apng(name: &str) -> Vec<Frame> {

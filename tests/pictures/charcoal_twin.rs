@@ -296,7 +296,7 @@ fn check_formula(backends: &[Backend], variants: &[(&str, Charcoal)]) {
 }
 
 #[test]
-fn the_plain_drawing_one_by_one_light_and_the_mended_one_are_the_texts_formula() {
+fn the_plain_drawing_one_by_one_light_and_the_mended_one_are_the_texts_formula_briefly() {
     let variants = variants();
     check_formula(&BACKENDS[..1], &[&variants[..1], &variants[5..6], &variants[7..]].concat());
 }

@@ -1,6 +1,6 @@
 //! Pixels recomputed by the interpreter against the driver's: every step of every style, pixel by pixel.
 
-use crate::support::{BACKENDS, renderer, scene_with};
+use crate::support::{BACKENDS, full_sizes, renderer, scene_with};
 use std::process::Command;
 use tinta::gl::Backend;
 use tinta::glam::DVec2;
@@ -128,7 +128,7 @@ fn variants() -> Vec<Style> {
 }
 
 #[test]
-fn llvmpipe_s_values_are_those_of_the_interpreter() {
+fn llvmpipe_s_values_are_those_of_the_interpreter_briefly() {
     for style in styles() {
         all_within_a_step("builtin:bust", &style, 64, 3, BACKENDS[0]);
     }
@@ -137,20 +137,25 @@ fn llvmpipe_s_values_are_those_of_the_interpreter() {
     }
 }
 
+/// Of the goldens' pixels every second, across and down; with `TINTA_FULL_SIZES` every one.
+fn every() -> u32 {
+    if full_sizes() { 1 } else { 2 }
+}
+
 #[test]
-#[ignore = "exhaustive: every pixel of the goldens' size: all styles on the bust, all filters and maps on the gear, two more models"]
-fn every_pixel_of_llvmpipe_is_the_interpreter_s() {
+#[ignore = "exhaustive: pixels of the goldens' size: all styles on the bust, all filters and maps on the gear, two more models"]
+fn pixels_of_llvmpipe_are_the_interpreter_s() {
     for style in styles() {
-        all_within_a_step("builtin:bust", &style, 160, 1, BACKENDS[0]);
+        all_within_a_step("builtin:bust", &style, 160, every(), BACKENDS[0]);
     }
     for style in variants() {
-        all_within_a_step("builtin:gear", &style, 160, 1, BACKENDS[0]);
+        all_within_a_step("builtin:gear", &style, 160, every(), BACKENDS[0]);
     }
     for model in ["builtin:ant", "builtin:open-box"] {
-        all_within_a_step(model, &Style::named(StyleName::ThreePass), 160, 1, BACKENDS[0]);
+        all_within_a_step(model, &Style::named(StyleName::ThreePass), 160, every(), BACKENDS[0]);
     }
-    all_within_a_step("builtin:soldier", &Style::named(StyleName::Sand), 160, 1, BACKENDS[0]);
-    all_within_a_step("builtin:bust", &Style::named(StyleName::ThreePass), 160, 1, BACKENDS[1]);
+    all_within_a_step("builtin:soldier", &Style::named(StyleName::Sand), 160, every(), BACKENDS[0]);
+    all_within_a_step("builtin:bust", &Style::named(StyleName::ThreePass), 160, every(), BACKENDS[1]);
 }
 
 #[test]
@@ -230,18 +235,18 @@ fn softpipe_differs_little(side: u32, every: u32, allowed: impl Fn(StyleName) ->
 }
 
 #[test]
-fn softpipe_s_values_are_those_of_the_interpreter() {
-    if is_softpipe("softpipe_s_values_are_those_of_the_interpreter") {
+fn softpipe_s_values_are_those_of_the_interpreter_briefly() {
+    if is_softpipe("softpipe_s_values_are_those_of_the_interpreter_briefly") {
         // Derivatives of depth, at the rims of triangles.
         softpipe_differs_little(64, 3, |style| if style == StyleName::Ink { 2 } else { 0 });
     }
 }
 
 #[test]
-#[ignore = "exhaustive: every pixel of the goldens' size, all styles on the bust"]
-fn every_pixel_of_softpipe_is_the_interpreter_s() {
-    if is_softpipe("every_pixel_of_softpipe_is_the_interpreter_s") {
-        softpipe_differs_little(160, 1, |style| match style {
+#[ignore = "exhaustive: pixels of the goldens' size, all styles on the bust"]
+fn pixels_of_softpipe_are_the_interpreter_s() {
+    if is_softpipe("pixels_of_softpipe_are_the_interpreter_s") {
+        softpipe_differs_little(160, every(), |style| match style {
             // Derivatives of depth, at the rims of triangles: plane-map.frag, line 22.
             StyleName::Ink => 5,
             // facing.frag, line 14.

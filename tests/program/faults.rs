@@ -89,7 +89,7 @@ fn check_memory(backends: &[Backend], styles: &[StyleName]) {
 }
 
 #[test]
-fn memory_that_runs_out_in_three_passes_is_named_wherever_it_does_and_the_next_picture_is_right() {
+fn memory_that_runs_out_in_three_passes_is_named_wherever_it_does_and_the_next_picture_is_right_briefly() {
     check_memory(&*BACKENDS, &[StyleName::ThreePass]);
 }
 

@@ -111,7 +111,7 @@ const EIGHTHS: [u64; 4] = [0, 3, 5, 7];
 const LOOKS: [usize; 3] = [1, 4, 16];
 
 #[test]
-fn a_picture_killed_while_it_is_drawn_or_written_leaves_the_old_file_or_the_new_one() {
+fn a_picture_killed_while_it_is_drawn_or_written_leaves_the_old_file_or_the_new_one_briefly() {
     killed_at("a.ppm", &["--size", "1600", "--style", "phong"], &[3], &[2]);
 }
 

@@ -2,9 +2,9 @@
 
 use crate::program::{refused_in_one_line, tinta};
 use crate::support::Folder;
-use crate::support::{public_models, skip};
+use crate::support::{frames_of_gif as gif, public_models, skip};
 use image::AnimationDecoder;
-use image::codecs::{gif::GifDecoder, png::PngDecoder};
+use image::codecs::png::PngDecoder;
 use std::io::Cursor;
 
 fn render(arguments: &[&str]) -> String {
@@ -13,10 +13,6 @@ fn render(arguments: &[&str]) -> String {
     assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}");
     assert_eq!(said, "", "no progress bar where there is no terminal");
     String::from_utf8(output.stdout).unwrap()
-}
-
-fn gif(path: &str) -> Vec<image::Frame> {
-    GifDecoder::new(Cursor::new(std::fs::read(path).unwrap())).unwrap().into_frames().collect_frames().unwrap()
 }
 
 #[test]

@@ -112,6 +112,34 @@ pub fn styles() -> Vec<(&'static str, Style)> {
     STYLES.clone()
 }
 
+/// The pictures that an animated GIF shows one after another.
+pub fn frames_of_gif(path: &str) -> Vec<image::Frame> {
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = options.read_info(std::fs::File::open(path).unwrap()).unwrap();
+    let mut screen = image::RgbaImage::new(decoder.width().into(), decoder.height().into());
+    let mut frames = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        let before = screen.clone();
+        let (left, top) = (u32::from(frame.left), u32::from(frame.top));
+        let pixels = frame.buffer.to_vec();
+        let part = image::RgbaImage::from_raw(frame.width.into(), frame.height.into(), pixels).unwrap();
+        for (x, y, pixel) in part.enumerate_pixels().filter(|(.., pixel)| pixel.0[3] > 0) {
+            screen.put_pixel(left + x, top + y, *pixel);
+        }
+        let delay = image::Delay::from_numer_denom_ms(u32::from(frame.delay) * 10, 1);
+        frames.push(image::Frame::from_parts(screen.clone(), 0, 0, delay));
+        match frame.dispose {
+            gif::DisposalMethod::Any | gif::DisposalMethod::Keep => {}
+            gif::DisposalMethod::Previous => screen = before,
+            gif::DisposalMethod::Background => {
+                part.enumerate_pixels().for_each(|(x, y, _)| screen.put_pixel(left + x, top + y, image::Rgba([0; 4])));
+            }
+        }
+    }
+    frames
+}
+
 /// Where pictures of failed comparisons go.
 pub fn failure_folder() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("failures");
@@ -136,7 +164,7 @@ pub fn side_by_side(expected: &Picture, actual: &Picture) -> Picture {
     Picture { size, pixels }
 }
 
-/// Whether tests that draw less in the quick tier draw as much as they can: the variable `TINTA_FULL_SIZES` is set.
+/// Whether tests draw as much as they can: the variable `TINTA_FULL_SIZES` is set.
 pub fn full_sizes() -> bool {
     std::env::var_os("TINTA_FULL_SIZES").is_some()
 }

@@ -111,7 +111,7 @@ fn draw_at_once(pictures: usize, backends: [Backend; 2]) {
 }
 
 #[test]
-fn two_screens_draw_the_same_at_once() {
+fn two_screens_draw_the_same_at_once_briefly() {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     draw_at_once(12, [Backend::Egl, Backend::Surfaceless]);
 }

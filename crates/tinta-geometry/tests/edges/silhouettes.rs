@@ -153,7 +153,7 @@ fn check_edge_on(cases: usize, least_of_each: usize) {
 }
 
 #[test]
-fn a_thousand_faces_seen_all_but_edge_on_are_judged_as_rational_arithmetic_does() {
+fn a_thousand_faces_seen_all_but_edge_on_are_judged_as_rational_arithmetic_does_briefly() {
     check_edge_on(1000, 2);
 }
 
@@ -225,7 +225,7 @@ fn check_close_eyes(cases: usize) {
 }
 
 #[test]
-fn silhouettes_from_a_few_eyes_close_to_a_surface_are_those_of_its_faces_sides() {
+fn silhouettes_from_a_few_eyes_close_to_a_surface_are_those_of_its_faces_sides_briefly() {
     check_close_eyes(40);
 }
 
