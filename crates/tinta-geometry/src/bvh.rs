@@ -4,6 +4,7 @@
 
 use crate::ranges::between;
 use crate::threads::{cores, in_chunks};
+use crate::thresholds::THRESHOLDS;
 use glam::{DVec3, Vec3A};
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;
@@ -151,12 +152,6 @@ impl Exclusion {
         Self([planes, [NO_GROUP; 2]])
     }
 }
-
-/// Most things in a leaf.
-pub(crate) const LARGEST_LEAF: u32 = 8;
-
-/// The cost of a step down the hierarchy, in tests of a thing: a higher cost makes larger leaves.
-const STEP_COST: f32 = 3.0;
 
 impl BoxTree {
     /// Builds the hierarchy over boxes in time n log n. Returns it with the boxes' numbers in its own order. The hierarchy refers
@@ -330,10 +325,8 @@ impl BoxTree {
     /// Returns pairs of nodes that together hold all pairs of things with overlapping boxes: enough of them to share among
     /// threads.
     pub(crate) fn node_pairs(&self, wanted: &NodeSelection) -> Vec<[u32; 2]> {
-        /// Fewest pairs of nodes, where the hierarchy has enough.
-        const ENOUGH: usize = 1024;
         let mut pairs = vec![[0, 0]];
-        while !self.nodes.nodes.is_empty() && pairs.len() < ENOUGH {
+        while !self.nodes.nodes.is_empty() && pairs.len() < THRESHOLDS.node_pairs {
             let mut next = Vec::with_capacity(2 * pairs.len());
             for pair in &pairs {
                 self.halves(*pair, wanted, |half| next.push(half));
@@ -467,18 +460,14 @@ fn group(groups: &[u32], node: u32) -> u32 {
     groups.get(node as usize).copied().unwrap_or(NO_GROUP)
 }
 
-/// Most things whose hierarchy is built at once. The builder joins things that are nearest to one another. In a row where each is
-/// nearest to the one before, such as a railing seen from its end, each pass over all joins only two.
-const BUILT_AT_ONCE: usize = 8192;
-
-/// Splits the things' numbers into batches of at most [`BUILT_AT_ONCE`], neighbours together: halves them in the middle of their
+/// Splits the things' numbers into batches that are built at once, neighbours together: halves them in the middle of their
 /// longest extent.
 fn batches(boxes: &[Box3], is_over: impl Fn() -> bool) -> Vec<Vec<u32>> {
     let middle = |number: &u32| boxes[*number as usize].0.center();
     let mut open: Vec<Vec<u32>> = vec![(0..boxes.len() as u32).collect()];
     let mut done = Vec::new();
     while let Some(mut numbers) = open.pop() {
-        if numbers.len() <= BUILT_AT_ONCE || is_over() {
+        if numbers.len() <= THRESHOLDS.built_at_once || is_over() {
             done.push(numbers);
             continue;
         }
@@ -499,7 +488,7 @@ fn batches(boxes: &[Box3], is_over: impl Fn() -> bool) -> Vec<Vec<u32>> {
 fn built(boxes: &[Box3], numbers: &[u32]) -> Bvh2 {
     let own: Vec<Box3> = numbers.iter().map(|number| boxes[*number as usize]).collect();
     let mut nodes = hierarchy(&own);
-    collapse(&mut nodes, LARGEST_LEAF, STEP_COST);
+    collapse(&mut nodes, THRESHOLDS.largest_leaf, THRESHOLDS.step_cost);
     // Until here, indices count within the batch.
     nodes.primitive_indices.iter_mut().for_each(|place| *place = numbers[*place as usize]);
     nodes

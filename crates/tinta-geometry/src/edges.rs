@@ -21,7 +21,7 @@ mod build;
 mod classes;
 mod cracks;
 mod edge_list;
-mod persistent_creases;
+mod lasting_creases;
 mod mesh_edges;
 mod orientation;
 mod silhouette;
@@ -29,7 +29,7 @@ mod smooth;
 #[cfg(feature = "gltf")]
 mod write_glb;
 
-pub(crate) use persistent_creases::persistent_creases;
+pub(crate) use lasting_creases::lasting_creases;
 
 pub use classes::{Class, ClassCounts, ClassSet, Classes, CreaseAngle};
 pub use cracks::cracks;

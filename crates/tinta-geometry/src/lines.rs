@@ -139,7 +139,7 @@ impl VisibleLines {
         let changes = contours.map(|contours| contours.add(&mut segments, progress)).transpose()?.flatten();
         // Overlaps are marked only if all lines are decided.
         if undecided == 0 {
-            segments = visible::doubled::marked(segments, &input.scene_parts, &input.space, progress)?;
+            segments = visible::covered_lines::marked(segments, &input.scene_parts, &input.space, progress)?;
         }
         input.scene_parts.put_looks(&mut segments);
         let (silhouette_ms, compared) = (candidates.silhouette_ms, candidates.compared + compared);

@@ -24,23 +24,31 @@ pub(crate) fn united(mut ranges: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     united
 }
 
-/// Returns the gaps that ranges leave in a part. The ranges that meet the part must ascend.
-pub(crate) fn gaps(part: [f64; 2], ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
+/// Returns the gaps that ranges leave in a stretch. The ranges that meet the stretch must ascend.
+pub(crate) fn gaps(stretch: [f64; 2], ranges: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut gaps = Vec::new();
-    let mut from = part[0];
-    for range in ranges.iter().filter(|range| range[1] > part[0] && range[0] < part[1]) {
+    let mut from = stretch[0];
+    for range in ranges.iter().filter(|range| range[1] > stretch[0] && range[0] < stretch[1]) {
         if range[0] > from {
             gaps.push([from, range[0]]);
         }
         from = from.max(range[1]);
     }
-    if from < part[1] {
-        gaps.push([from, part[1]]);
+    if from < stretch[1] {
+        gaps.push([from, stretch[1]]);
     }
     gaps
 }
 
-/// Returns the part of a range where a linear function is not negative, from the function's values at the range's ends.
+/// Returns ascending, disjoint ranges of a stretch and the gaps between them, in order, each with whether it is a range.
+pub(crate) fn with_gaps(stretch: [f64; 2], ranges: &[[f64; 2]]) -> Vec<([f64; 2], bool)> {
+    let mut all: Vec<_> = ranges.iter().map(|range| (*range, true)).collect();
+    all.extend(gaps(stretch, ranges).into_iter().map(|gap| (gap, false)));
+    all.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+    all
+}
+
+/// Returns the stretch of a range where a linear function is not negative, from the function's values at the range's ends.
 pub(crate) fn above_zero([from, to]: [f64; 2], [start, end]: [f64; 2]) -> Option<[f64; 2]> {
     match (start >= 0.0, end >= 0.0) {
         (true, true) => Some([from, to]),
@@ -50,13 +58,13 @@ pub(crate) fn above_zero([from, to]: [f64; 2], [start, end]: [f64; 2]) -> Option
     }
 }
 
-/// Returns the overlap of a range with the part of `whole` where a linear function, given by its values at the ends, is not
+/// Returns the overlap of a range with the stretch of `whole` where a linear function, given by its values at the ends, is not
 /// negative.
 pub(crate) fn clipped(range: Option<[f64; 2]>, whole: [f64; 2], at_ends: [f64; 2]) -> Option<[f64; 2]> {
     common(range?, above_zero(whole, at_ends)?)
 }
 
-/// Returns the part of a range in which a value that grows linearly, `start + along * place`, lies between two limits (Liang and
+/// Returns the stretch of a range in which a value that grows linearly, `start + along * place`, lies between two limits (Liang and
 /// Barsky 1984).
 pub(crate) fn between(range: [f64; 2], start: f64, along: f64, [low, high]: [f64; 2]) -> Option<[f64; 2]> {
     if along == 0.0 {

@@ -12,6 +12,7 @@ pub(super) mod hatches;
 pub(super) mod key;
 pub(super) mod layers;
 pub(super) mod length;
+pub(super) mod outline_runs;
 pub(super) mod page;
 pub(super) mod painted;
 pub(super) mod pen;

@@ -3,7 +3,6 @@
 
 pub(super) mod candidates;
 mod coplanar;
-pub(super) mod covered;
 mod edge_classes;
 pub(super) mod face_subset;
 pub(super) mod feature;
@@ -13,4 +12,5 @@ pub(super) mod line_input;
 pub(super) mod mesh_repair;
 mod normal_creases;
 pub(super) mod object_edges;
+pub(super) mod repeated_sheets;
 pub(super) mod split_t_junctions;

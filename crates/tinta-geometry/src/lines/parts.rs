@@ -1,6 +1,6 @@
 //! Style by part: rules that name parts of a scene by patterns, and the style that each part gets.
 //!
-//! Input: [`PartRules`], and the names of a scene's models, parts and materials. Output: the part that each line belongs to, its
+//! Input: [`PartRules`](rules::PartRules), and the names of a scene's models, parts and materials. Output: the part that each line belongs to, its
 //! role in hiding, its classes, and how it is drawn.
 
 pub(super) mod pattern;

@@ -1,6 +1,6 @@
 //! Exact regions: a view cut into areas, each seen as one face or as background.
 //!
-//! Input: a [`Scene`]. Output: [`Regions`], polygons with holes that fill the picture without gaps and overlaps. Neighbours share
+//! Input: a [`Scene`](crate::scene::Scene). Output: [`Regions`], polygons with holes that fill the picture without gaps and overlaps. Neighbours share
 //! their vertices. Three steps make them:
 //!
 //! 1. *Borders*. Where one face gives way to another lies the image of a side of a face, of an intersection of faces, or of a cut

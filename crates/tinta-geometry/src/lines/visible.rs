@@ -2,9 +2,9 @@
 
 pub(super) mod bundles;
 pub(super) mod cover;
+pub(super) mod covered_lines;
 pub(super) mod contact;
 pub(super) mod crossings;
-pub(super) mod doubled;
 mod half_planes;
 pub(super) mod intersections;
 pub(super) mod interval;

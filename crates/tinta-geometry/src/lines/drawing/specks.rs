@@ -1,7 +1,7 @@
 //! Removes lines that are too short to read: specks, barbs, and strokes covered by the ink of others.
 //!
 //! Input: line segments, their drawn widths and least lengths. Output: the segments that stay. Segments are connected
-//! where they share an end bit for bit. They touch where an end of one is within [`JOINED_PX`] of the other, for
+//! where they share an end bit for bit. They touch where an end of one is within [`JOINED_PX`](crate::tolerances::JOINED_PX) of the other, for
 //! example where a line ends behind a nearer one. Three things are removed:
 //!
 //! - a *speck*: a connected set shorter than its least length that touches the rest in at most one place;
@@ -20,9 +20,9 @@ use crate::edges::ClassSet;
 use crate::error::{Error, Result};
 use crate::lines::VisibleLines;
 use crate::lines::drawing::layers::Layer;
+use crate::lines::drawing::outline_runs::readable;
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::progress::{Phase, Progress};
-use crate::lines::visible::outline::readable;
 use crate::threads::{cores, in_chunks};
 use glam::DVec2;
 use shortest_path::ShortestPaths;

@@ -1,6 +1,7 @@
 //! The first face that a ray through each pixel's middle hits: a picture of the scene without GL.
 
 use crate::bvh::Box3;
+use crate::lines::eye::face_pair::FacePlane;
 use crate::lines::eye::faces::Faces;
 use crate::lines::eye::space::Space;
 use crate::scene::Scene;
@@ -70,13 +71,7 @@ pub(in crate::lines) fn nearest_hits(space: &Space, faces: &Faces, px: DVec2) ->
     let Some(nearest) = hits.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)).copied() else { return hits };
     let [a, b, c] = faces.corners(nearest.place);
     let point = a * nearest.weights[0] + b * nearest.weights[1] + c * nearest.weights[2];
-    hits.retain(|hit| {
-        let [a, b, c] = faces.corners(hit.place);
-        let normal = (b - a).cross(c - a);
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        let contact = space.contact(longest, faces.weld(faces.triangles[hit.place as usize][0]));
-        hit.place == nearest.place || normal.dot(point - a).abs() <= contact * normal.length()
-    });
+    hits.retain(|hit| hit.place == nearest.place || FacePlane::new(space, faces, hit.place).touches(point));
     hits
 }
 

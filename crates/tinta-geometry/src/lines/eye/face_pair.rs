@@ -6,6 +6,7 @@
 
 use crate::lines::eye::faces::Faces;
 use crate::lines::eye::space::Space;
+use crate::lines::eye::touch::lies_in;
 use crate::tolerances::CONTACT;
 use glam::DVec3;
 
@@ -35,13 +36,13 @@ pub(in crate::lines) struct FaceCrossing {
 pub(in crate::lines) struct FacePlane {
     pub place: u32,
     numbers: [u32; 3],
-    corners: [DVec3; 3],
+    pub corners: [DVec3; 3],
     /// Not normalised.
-    normal: DVec3,
-    normal_length: f64,
+    pub normal: DVec3,
+    pub normal_length: f64,
     /// The longest side.
-    longest: f64,
-    weld: f64,
+    pub longest: f64,
+    pub weld: f64,
     /// The largest contact distance with any other face, times the normal's length.
     loose: f64,
     /// Whether no tolerance is used: each pair of faces that pass through one another is found, and some that do not.
@@ -176,11 +177,14 @@ impl FacePlane {
         Some(FaceCrossing { faces: places, ends: [point; 2], is_line: false, piercings, touching: [None; 2] })
     }
 
+    /// Whether a point touches the plane.
+    pub(in crate::lines) fn touches(&self, point: DVec3) -> bool {
+        self.normal.dot(point - self.corners[0]).abs() <= self.loose
+    }
+
     /// Whether a point of the plane lies in the face, or so near its rim that the error is at most a needless cut.
     fn contains(&self, point: DVec3) -> bool {
-        let [a, b, c] = self.corners;
-        let least = -CONTACT * self.normal_length * self.normal_length;
-        [(a, b), (b, c), (c, a)].iter().all(|(from, to)| (*to - *from).cross(point - *from).dot(self.normal) >= least)
+        lies_in(self.corners, self.normal, point, CONTACT)
     }
 
     /// The distance below which this face and another touch, file units.

@@ -7,7 +7,7 @@ use crate::mesh::Mesh;
 use crate::scene::{Object, Scene};
 use crate::threads::{cores, filled, in_chunks, threads_for_items};
 use crate::thresholds::THRESHOLDS;
-use crate::tolerances::{CONTACT, WELD};
+use crate::tolerances::{CONTACT, MARGIN_PX, WELD};
 use glam::{DVec2, DVec3};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -96,7 +96,7 @@ impl Faces {
             ghosts: Vec::new(),
             objects,
         };
-        let limits = (space.size.max_element() / 512.0, faces.smallest_weld());
+        let limits = (space.size.max_element() * THRESHOLDS.plane_face, faces.smallest_weld());
         faces.planes = planes::planes(
             faces.tree.boxes(),
             |place| faces.corners(place),
@@ -248,9 +248,8 @@ impl SortedFaces {
         } else {
             images().into_iter().for_each(widen);
         }
-        // Far more than rounding moves an image by.
-        const MARGIN: f64 = 1.0;
-        if low.x <= space.size.x + MARGIN && low.y <= space.size.y + MARGIN && high.x >= -MARGIN && high.y >= -MARGIN {
+        let (low_px, high_px) = (low.truncate(), high.truncate());
+        if low_px.cmple(space.size + MARGIN_PX).all() && high_px.cmpge(-DVec2::splat(MARGIN_PX)).all() {
             self.boxes.push(Box3::new(low, high));
             self.numbers.push(number);
         }

@@ -1,10 +1,10 @@
-//! Images of lines in the picture, and trees of them.
+//! Images of lines in the picture.
 
-use crate::bvh::{Box3, BoxTree, Exclusion, Line3, NO_GROUP, Walk};
+use crate::bvh::Box3;
 use crate::lines::eye::space::{Space, at_depth};
-use crate::lines::progress::Progress;
-use crate::ranges::{between, meet};
-use crate::tolerances::TOUCH;
+use crate::ranges::between;
+use crate::thresholds::THRESHOLDS;
+use crate::tolerances::TURNED;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -19,12 +19,12 @@ pub(in crate::lines) struct Image {
 }
 
 impl Image {
-    /// Returns the image of a line's part between the planes.
+    /// Returns the image of a line's stretch between the planes.
     pub(in crate::lines) fn of(space: &Space, ends: [DVec3; 2]) -> Option<Self> {
         Self::between(space, ends, [space.near, space.far])
     }
 
-    /// Returns the image of a line's part between two depths.
+    /// Returns the image of a line's stretch between two depths.
     pub(in crate::lines) fn between(space: &Space, ends: [DVec3; 2], [near, far]: [f64; 2]) -> Option<Self> {
         let depths = ends.map(|end| -end.z);
         let (nearest, farthest) = (depths[0].min(depths[1]), depths[0].max(depths[1]));
@@ -47,49 +47,18 @@ impl Image {
         self.a.distance(self.b)
     }
 
-    /// The distance below which a place lies on the line, pixels.
-    pub(in crate::lines) fn touch_px(&self, space: &Space) -> f64 {
-        TOUCH * space.size.max_element() + self.noise_px
-    }
-
-    /// Returns the range of this line that another line overlaps, if any: everywhere in it the other is nearer than `touch_px`.
-    pub(in crate::lines) fn overlap(&self, other: &Self, touch_px: f64) -> Option<[f64; 2]> {
-        let (first, last) = (self.place_of(other.a), self.place_of(other.b));
-        let range = [first.min(last).max(0.0), first.max(last).min(1.0)];
-        let length = (range[1] - range[0]) * self.length();
-        // Covers lines that only meet at their ends.
-        if length <= touch_px || length.is_nan() {
-            return None;
-        }
-        let is_on_it = |place: f64| {
-            let px = self.at(place);
-            other.at(other.place_of(px).clamp(0.0, 1.0)).distance(px) <= touch_px
-        };
-        (is_on_it(range[0]) && is_on_it(range[1])).then_some(range)
-    }
-
-    /// Returns the place on this line where both have the same key, if any. Two overlapping lines change their order in depth
-    /// there.
-    pub(in crate::lines) fn same_key(&self, other: &Self) -> Option<f64> {
-        let difference = |place: f64| self.key(place) - other.key(other.place_of(self.at(place)));
-        let (start, end) = (difference(0.0), difference(1.0));
-        ((start < 0.0) != (end < 0.0)).then(|| start / (start - end))
-    }
-
     /// Returns the range of directions of lines that touch this one at two places, as the third coordinate of boxes. A range that
     /// reaches over an end comes a second time, half a turn away: then of two lines, one has the other's direction.
     pub(in crate::lines) fn directions(&self, touch_px: f64) -> impl Iterator<Item = [f64; 2]> + use<> {
-        /// Far more than rounding turns a line.
-        const LEAST: f64 = 1e-6;
-        /// Pixels per radian: lines of different directions then lie apart in the hierarchy, too.
-        const PX: f64 = 1024.0;
         let along = self.b - self.a;
         let direction = along.y.atan2(along.x).rem_euclid(PI);
-        let spread = (2.0 * touch_px / along.length() + LEAST).min(PI);
+        let spread = (2.0 * touch_px / along.length() + TURNED).min(PI);
         let turned = if direction < PI * 0.5 { direction + PI } else { direction - PI };
         let reaches_over = direction < spread || direction + spread > PI;
         let all = [Some(direction), reaches_over.then_some(turned)];
-        all.into_iter().flatten().map(move |direction| [(direction - spread) * PX, (direction + spread) * PX])
+        all.into_iter()
+            .flatten()
+            .map(move |direction| [direction - spread, direction + spread].map(|it| it * THRESHOLDS.px_per_radian))
     }
 
     /// The pixel at a place from 0 to 1.
@@ -124,119 +93,23 @@ impl Image {
         between(range, self.a.y, along.y, [-margin, size.y + margin])
     }
 
-    /// Cuts a range of places into parts no longer than `longest_px`.
-    pub(in crate::lines) fn parts(
+    /// Cuts a range of places into stretches no longer than `longest_px`.
+    pub(in crate::lines) fn stretches(
         &self,
         [from, to]: [f64; 2],
         longest_px: f64,
     ) -> impl Iterator<Item = [f64; 2]> + use<> {
         let count = ((to - from) * self.length() / longest_px).ceil().max(1.0);
-        (0..count as usize).map(move |part| {
-            let place = |part: usize| from + (to - from) * (part as f64 / count);
-            [place(part), place(part + 1)]
+        (0..count as usize).map(move |stretch| {
+            let place = |stretch: usize| from + (to - from) * (stretch as f64 / count);
+            [place(stretch), place(stretch + 1)]
         })
     }
 
-    /// The box around a part, wider by a margin in pixels, between two keys.
-    pub(in crate::lines) fn part_box(&self, part: [f64; 2], margin: f64, keys: [f64; 2]) -> Box3 {
-        let [first, second] = part.map(|place| self.at(place));
+    /// The box around a stretch, wider by a margin in pixels, between two keys.
+    pub(in crate::lines) fn box_around(&self, stretch: [f64; 2], margin: f64, keys: [f64; 2]) -> Box3 {
+        let [first, second] = stretch.map(|place| self.at(place));
         let (low, high) = (first.min(second) - margin, first.max(second) + margin);
         Box3::new(low.extend(keys[0].min(keys[1])), high.extend(keys[0].max(keys[1])))
-    }
-}
-
-/// Parts of lines with their boxes, and each one's line.
-#[derive(Default)]
-pub(in crate::lines) struct LineParts {
-    boxes: Vec<Box3>,
-    numbers: Vec<u32>,
-    /// The plane and the high-valence vertex of each; empty without groups.
-    groups: [Vec<u32>; 2],
-}
-
-/// Parts of lines in a tree, for searches.
-pub(in crate::lines) struct LineTree {
-    tree: BoxTree,
-    numbers: Vec<u32>,
-}
-
-impl LineParts {
-    /// The count of parts.
-    pub(in crate::lines) fn len(&self) -> usize {
-        self.boxes.len()
-    }
-
-    /// Adds another's parts.
-    pub(in crate::lines) fn append(&mut self, other: Self) {
-        self.boxes.extend(other.boxes);
-        self.numbers.extend(other.numbers);
-        self.groups.iter_mut().zip(other.groups).for_each(|(all, more)| all.extend(more));
-    }
-
-    /// Adds a part of a line.
-    pub(in crate::lines) fn add(&mut self, around: Box3, line: usize) {
-        self.boxes.push(around);
-        self.numbers.push(line as u32);
-    }
-
-    /// Adds a part of a line that ends in a high-valence vertex, all of whose faces lie in a plane.
-    pub(in crate::lines) fn add_of_groups(&mut self, around: Box3, line: usize, of_part: [u32; 2]) {
-        self.add(around, line);
-        self.groups.iter_mut().zip(of_part).for_each(|(groups, group)| groups.push(group));
-    }
-
-    /// Builds their tree; an empty one if the time runs out.
-    pub(in crate::lines) fn tree(self, progress: &Progress) -> LineTree {
-        let (mut tree, order) = BoxTree::new_unless(&self.boxes, || progress.is_over());
-        if order.len() < self.boxes.len() {
-            return LineTree { tree, numbers: Vec::new() };
-        }
-        let [planes, vertices] = self.groups.map(|groups| {
-            let has_some = groups.iter().any(|group| *group != NO_GROUP);
-            order.iter().filter(|_| has_some).map(|index| groups[*index as usize]).collect::<Vec<u32>>()
-        });
-        tree.set_groups([&planes, &vertices]);
-        LineTree { tree, numbers: order.iter().map(|index| self.numbers[*index as usize]).collect() }
-    }
-}
-
-impl LineTree {
-    /// Calls `visit` with each line that has a part in `query`, perhaps several times, until it returns true.
-    pub(in crate::lines) fn any(&self, query: &Box3, mut visit: impl FnMut(usize) -> bool) -> bool {
-        self.tree.any(query, |place| visit(self.numbers[place as usize] as usize))
-    }
-
-    /// Calls `visit` with each line that may cross a part of another, perhaps several times, until it returns true; returns
-    /// whether it did. Leaves out whole nodes of excluded groups.
-    pub(in crate::lines) fn any_along(
-        &self,
-        line: Line3,
-        part: [f64; 2],
-        excluded: Exclusion,
-        mut visit: impl FnMut(usize) -> bool,
-    ) -> bool {
-        let visit = |place| visit(self.numbers[place as usize] as usize);
-        let mut walk = PartWalk { line, part, visit, is_found: false };
-        self.tree.walk(excluded, &mut walk);
-        walk.is_found
-    }
-}
-
-/// The walk along a part of a line.
-struct PartWalk<F> {
-    line: Line3,
-    part: [f64; 2],
-    visit: F,
-    is_found: bool,
-}
-
-impl<F: FnMut(u32) -> bool> Walk for PartWalk<F> {
-    fn enters(&self, around: &Box3) -> bool {
-        self.line.is_near(around) && self.line.range(around).is_some_and(|range| meet(self.part, range))
-    }
-
-    fn visit(&mut self, place: u32) -> bool {
-        self.is_found = (self.visit)(place);
-        self.is_found
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::lines::eye::faces::Faces;
 use crate::lines::eye::space::Space;
+use crate::tolerances::IMAGE_ROUNDING;
 use glam::DVec2;
 
 /// A face's image. Meaningless for faces that reach through the near plane.
@@ -18,9 +19,6 @@ pub(in crate::lines) struct ProjectedFace {
     key: f64,
     growth: DVec2,
 }
-
-/// Rounding error of a distance, as a share of the largest coordinate.
-pub(in crate::lines) const ROUNDING: f64 = 1e-12;
 
 impl ProjectedFace {
     pub(in crate::lines) fn of(space: &Space, faces: &Faces, place: u32) -> Self {
@@ -43,7 +41,7 @@ impl ProjectedFace {
             inwards,
             starts_px,
             lengths_px,
-            rounding_px: reach * ROUNDING,
+            rounding_px: reach * IMAGE_ROUNDING,
             key: key_a - growth.dot(points[0]),
             growth,
         }

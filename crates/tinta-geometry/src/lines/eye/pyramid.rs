@@ -6,12 +6,12 @@
 //! faces overlap, most need few steps. The buffer decides only clear cases and leaves the rest to the exact rules.
 
 use crate::bvh::Box3;
+use crate::lines::eye::face_pair::FacePlane;
 use crate::lines::eye::faces::Faces;
 use crate::lines::eye::projected_face::ProjectedFace;
 use crate::lines::eye::space::Space;
 use crate::threads::{cores, filled, in_chunks, threads_for_items};
 use crate::thresholds::THRESHOLDS;
-use crate::tolerances::TOUCH;
 use glam::DVec2;
 
 /// Faces that a thread projects at once.
@@ -55,14 +55,11 @@ impl Occluder {
         if faces.cut_by_near.binary_search(&place).is_ok() || faces.is_ghost(place) {
             return None;
         }
-        let corners = faces.corners(place);
-        let [a, b, c] = corners;
-        let normal = (b - a).cross(c - a);
+        let FacePlane { corners: corners @ [a, b, c], normal, longest, weld, .. } = FacePlane::exact(faces, place);
         let images = corners.map(|corner| space.project(corner));
         let [(pa, key_a), (pb, key_b), (pc, key_c)] = images;
         let nearest = (-a.z).min(-b.z).min(-c.z);
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        let touching = space.contact(longest, faces.weld(faces.triangles[place as usize][0]));
+        let touching = space.contact(longest, weld);
         let beyond = space.key_beyond([a, normal.normalize_or_zero()], nearest, 2.0 * touching);
         let image = ProjectedFace::of_corners(space, images);
         let occluder = Self {
@@ -71,8 +68,7 @@ impl Occluder {
             high: pa.max(pb).max(pc),
             nearest_key: key_a.min(key_b).min(key_c),
             beyond,
-            margin: 2.0 * (TOUCH * space.size.max_element() + space.noise * space.px_per_unit(nearest))
-                + image.rounding_px,
+            margin: 2.0 * (space.touch_px() + space.noise * space.px_per_unit(nearest)) + image.rounding_px,
             area_px: (pb - pa).perp_dot(pc - pa).abs() * 0.5,
         };
         (image.growth().is_finite() && beyond.is_finite() && occluder.margin.is_finite()).then_some(occluder)

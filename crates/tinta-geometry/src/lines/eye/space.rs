@@ -7,7 +7,7 @@
 
 use crate::camera::Projection;
 use crate::scene::Scene;
-use crate::tolerances::{CONTACT, COORDINATE_NOISE, EDGE_ON, TIE};
+use crate::tolerances::{COORDINATE_NOISE, EDGE_ON};
 use glam::{DMat3, DVec2, DVec3};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
@@ -184,21 +184,6 @@ impl Space {
             Lens::Perspective { focal_px, .. } => focal_px / depth,
             Lens::Parallel { px_per_unit } => px_per_unit,
         }
-    }
-
-    /// Distance below which two things touch whose shorter length is this, and whose positions count as one below `weld`, file units.
-    pub(in crate::lines) fn contact(&self, length: f64, weld: f64) -> f64 {
-        CONTACT * length + weld + 4.0 * self.noise
-    }
-
-    /// Distance in pixels below which a point lies on the image of a line.
-    pub(in crate::lines) fn tie_px(&self, depth: f64) -> f64 {
-        TIE * self.size.max_element() + self.noise * self.px_per_unit(depth)
-    }
-
-    /// The same at a depth in file units.
-    pub(in crate::lines) fn tie(&self, depth: f64) -> f64 {
-        TIE * self.size.max_element() / self.px_per_unit(depth) + self.noise
     }
 
     /// Positive where the image of `point` lies left of the line from `from` to `to`, seen by the eye with y up, negative

@@ -1,6 +1,6 @@
 //! The classes of a mesh's edges, each by the crease angle of its part.
 
-use crate::edges::{Class, ClassSet, Classes, CreaseAngle, MeshEdges, persistent_creases};
+use crate::edges::{Class, ClassSet, Classes, CreaseAngle, MeshEdges, lasting_creases};
 use crate::lines::LineSettings;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -74,5 +74,5 @@ fn lasting(edges: &MeshEdges, classes: &Classes, settings: &LineSettings) -> Opt
         false => ClassSet::of(&CREASES),
     };
     let is_crease = |edge: u32| !classes.of_edges[edge as usize].and(creases).is_empty();
-    settings.lasting_creases.then(|| persistent_creases(edges.mesh(), edges.list(), is_crease))
+    settings.lasting_creases.then(|| lasting_creases(edges.mesh(), edges.list(), is_crease))
 }

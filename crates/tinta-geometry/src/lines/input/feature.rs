@@ -66,7 +66,7 @@ pub(in crate::lines) enum Own {
     Edge([u32; 2]),
     /// The intersection of two faces.
     Faces([u32; 2]),
-    /// None: a curve or a point beside all surfaces, moved towards the eye by [`Space::lifted`]. It touches no face.
+    /// None: a curve or a point beside all surfaces, moved towards the eye by [`Space::lifted`](crate::lines::eye::space::Space::lifted). It touches no face.
     Free,
 }
 

@@ -13,7 +13,7 @@ use crate::lines::smooth::contours::{Contours, ObjectSurface, OnEdge, between};
 use crate::lines::visible::intersections::Intersection;
 use crate::memory;
 use crate::mesh::{Mesh, triangle_normal};
-use crate::ranges::gaps;
+use crate::ranges::with_gaps;
 use glam::DVec3;
 
 impl LineInput<'_> {
@@ -25,7 +25,7 @@ impl LineInput<'_> {
         let (mut features, mut counts) = (Vec::new(), ClassCounts::default());
         for (number, object) in self.objects.iter().enumerate() {
             let edges = EdgesOfObject::new(self, number, object, &crease_angles);
-            let surface = contours.map(|contours| &contours.parts[number]);
+            let surface = contours.map(|contours| &contours.surfaces[number]);
             for edge in edges.candidates() {
                 edges.add(edge, surface, &mut features, &mut counts);
             }
@@ -199,10 +199,8 @@ fn pieces_by_class(of_edge: ClassSet, on_edge: OnEdge, wanted: ClassSet) -> Vec<
         OnEdge::Shares(shares) => (drawn(&[Class::Silhouette]), shares),
         OnEdge::OfContour(shares) => (None, shares),
     };
-    let others = gaps([0.0, 1.0], &silhouette).into_iter().map(|share| (other, share));
-    let mut pieces: Vec<_> = silhouette.iter().map(|share| (turned, *share)).chain(others).collect();
-    pieces.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
-    pieces
+    let pieces = with_gaps([0.0, 1.0], &silhouette).into_iter();
+    pieces.map(|(share, is_turned)| (if is_turned { turned } else { other }, share)).collect()
 }
 
 /// Pieces of an edge, cut where the normals begin and end to make a crease, and drawn as creases there unless their class comes before.
@@ -256,7 +254,7 @@ impl LineInput<'_> {
         intersections.iter().filter_map(&mut feature).collect()
     }
 
-    /// The curves and points of all objects, lifted by [`LineSettings::on_surface`]; counts them.
+    /// The curves and points of all objects, lifted by [`LineSettings::on_surface`](crate::lines::LineSettings::on_surface); counts them.
     ///
     /// # Errors
     ///

@@ -1,6 +1,6 @@
 //! Repairs a mesh before its lines are found.
 //!
-//! - Of faces that [cover one another](crate::lines::input::covered), as in surfaces modelled from both sides, one
+//! - Of faces that [cover one another](crate::lines::input::repeated_sheets), as in surfaces modelled from both sides, one
 //!   set stays. The others would turn every edge into one with four faces.
 //! - Faces no higher than the weld distance are removed if they touch others: they are lines.
 //! - Faces are split at [T-junctions](crate::lines::input::split_t_junctions), so no line crosses a surface that
@@ -10,8 +10,8 @@
 
 use crate::edges::EdgeList;
 use crate::lines::input::coplanar::{Ending, Kinds, ending_faces};
-use crate::lines::input::covered::covered_faces;
 use crate::lines::input::face_subset::keep_faces;
+use crate::lines::input::repeated_sheets::repeated_sheets;
 use crate::lines::input::split_t_junctions::{Split, chains, split_at_junctions};
 use crate::mesh::Mesh;
 use crate::threads::{in_chunks, threads_for};
@@ -50,7 +50,7 @@ pub(in crate::lines) fn repaired(
     let mut shape = WorkingMesh { mesh: mesh.clone(), edges: Cow::Borrowed(edges) };
     shape.leave_out(&lines);
     let covered = match ghosts {
-        None => covered_faces(&shape.mesh, &shape.edges, &chains(&shape.mesh, &shape.edges)),
+        None => repeated_sheets(&shape.mesh, &shape.edges, &chains(&shape.mesh, &shape.edges)),
         Some(is_ghost) => [true, false]
             .into_iter()
             .flat_map(|are_ghosts| covered_among(&shape.mesh, |face| is_ghost(&shape.mesh, face) == are_ghosts))
@@ -96,7 +96,7 @@ fn covered_among(mesh: &Mesh, is_of_them: impl Fn(u32) -> bool) -> Vec<u32> {
     let numbers: Vec<u32> = (0..mesh.triangles.len() as u32).filter(|face| is_of_them(*face)).collect();
     let some = keep_faces(mesh, is_of_them);
     let edges = EdgeList::new(&some);
-    covered_faces(&some, &edges, &chains(&some, &edges)).into_iter().map(|face| numbers[face as usize]).collect()
+    repeated_sheets(&some, &edges, &chains(&some, &edges)).into_iter().map(|face| numbers[face as usize]).collect()
 }
 
 /// A mesh with some of its faces removed, and its edges.

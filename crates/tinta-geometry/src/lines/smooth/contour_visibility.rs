@@ -18,12 +18,13 @@
 //! from the surface's inner side; on a closed shell it is hidden without a test.
 //!
 //! A segment is cut where its image crosses nearer edges at which a surface ends or turns away, and where it passes
-//! through a face. Its midpoint decides each part.
+//! through a face. Its midpoint decides each piece.
 
 use crate::bvh::{NO_GROUP, steps};
 use crate::edges::Class;
 use crate::lines::LineSegment;
 use crate::lines::eye::image::Image;
+use crate::lines::eye::touch::{key_slack, piercing};
 use crate::lines::input::feature::Own;
 use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::{Phase, Progress};
@@ -33,10 +34,9 @@ use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::mesh::NONE;
 use crate::threads::{cores, spread_chunks};
-use crate::tolerances::CONTACT;
 use glam::{DVec2, DVec3};
 
-/// A segment of a contour in the picture, with its visible and hidden parts.
+/// A segment of a contour in the picture, with its visible and hidden pieces.
 #[derive(Debug, Clone)]
 pub(in crate::lines) struct ContourIntervals {
     /// Its index among the contours' segments.
@@ -88,7 +88,7 @@ impl ContourLines<'_> {
                 let ends_world = image.ends_world(self.lines.space, [interval.from, interval.to]);
                 LineSegment {
                     edge: self.edge_in_file(&self.contours.pieces[*piece]),
-                    object: self.contours.pieces[*piece].part,
+                    object: self.contours.pieces[*piece].object,
                     part,
                     ..interval.segment(Class::Silhouette, image, ends_world)
                 }
@@ -99,13 +99,13 @@ impl ContourLines<'_> {
 
     /// The part in the scene that a segment belongs to.
     fn part_of(&self, piece: &ContourPiece) -> u32 {
-        let object = piece.part as usize;
+        let object = piece.object as usize;
         self.input.scene_parts.of_face(object, self.input.objects[object].edges.get().mesh(), piece.face)
     }
 
     /// The edge that a segment lies on, by its vertices in the file.
     fn edge_in_file(&self, piece: &ContourPiece) -> Option<[u32; 2]> {
-        let edges = self.input.objects[piece.part as usize].edges.get();
+        let edges = self.input.objects[piece.object as usize].edges.get();
         let ends = edges.list().positions()[piece.on_edge? as usize];
         Some(ends.map(|position| edges.mesh().file_vertices[position as usize]))
     }
@@ -133,10 +133,7 @@ impl ContourLines<'_> {
             } else {
                 [false; 2]
             };
-            match intervals.last_mut() {
-                Some(last) if last.is_visible == is_visible && last.background == background => last.to = place[1],
-                _ => intervals.push(Interval { from: place[0], to: place[1], is_visible, background }),
-            }
+            Interval { from: place[0], to: place[1], is_visible, background }.add_to(&mut intervals);
         }
         whole(intervals)
     }
@@ -160,21 +157,20 @@ impl ContourLines<'_> {
         let touch_px = image.touch_px(lines.space);
         let keys = inside.map(|place| image.key(place));
         let farthest = keys[0].max(keys[1]);
-        let nearer = [f64::NEG_INFINITY, farthest + farthest.abs() * (2.0 * CONTACT)];
+        let nearer = [f64::NEG_INFINITY, farthest + key_slack(farthest)];
         let sought = if lines.finds_outline { [f64::NEG_INFINITY, f64::INFINITY] } else { nearer };
         let mut cuts = Vec::new();
-        lines.rims.any(&image.part_box(inside, touch_px, sought), |other_index| {
+        lines.rims.any(&image.box_around(inside, touch_px, sought), |other_index| {
             if let Some(other) = &lines.images[other_index] {
-                let touch_px = touch_px.max(other.touch_px(lines.space));
                 match lines.finds_outline {
-                    true => cuts.extend(image.meetings(other, touch_px)),
-                    false => lines.add_crossings(image, other, touch_px, true, &mut cuts),
+                    true => cuts.extend(image.meetings(other, lines.space)),
+                    false => lines.add_crossings(image, other, true, &mut cuts),
                 }
             }
             false
         });
-        lines.any_occluder(&image.part_box(inside, touch_px, keys), [NO_GROUP; 2], |face| {
-            let point = lines.piercing(piece.ends, face);
+        lines.any_occluder(&image.box_around(inside, touch_px, keys), [NO_GROUP; 2], |face| {
+            let point = piercing(piece.ends, lines.faces.corners(face));
             cuts.extend(point.map(|point| image.place_of(lines.space.project(point).0)));
             false
         });
@@ -194,10 +190,10 @@ impl ContourLines<'_> {
         let normal = between(piece.normals[0], piece.normals[1], place);
         let outwards = lines.space.image_direction(start, normal).normalize_or_zero();
         let outwards = if piece.bends_away { outwards } else { -outwards };
-        let part = &self.contours.parts[piece.part as usize];
+        let curved = &self.contours.surfaces[piece.object as usize];
         let (summit, edge) = self.summit(piece, start, normal, outwards);
-        let ends = self.input.objects[piece.part as usize].edges.get().list().positions()[edge as usize];
-        let own = ends.map(|position| position + part.first_position);
+        let ends = self.input.objects[piece.object as usize].edges.get().list().positions()[edge as usize];
+        let own = ends.map(|position| position + curved.first_position);
         let ends = own.map(|position| lines.faces.positions[position as usize]);
         let (px, key) = lines.space.project(summit);
         Probe {
@@ -206,7 +202,7 @@ impl ContourLines<'_> {
             key,
             // The picture's y axis points down, that of eye space up.
             aside: DVec3::new(outwards.x, -outwards.y, 0.0),
-            line: ProbedLine::new(lines.faces, Own::Edge(own), ends, lines.faces.weld(part.first_position))
+            line: ProbedLine::new(lines.faces, Own::Edge(own), ends, lines.faces.weld(curved.first_position))
                 .without_ends(),
         }
     }
@@ -216,9 +212,9 @@ impl ContourLines<'_> {
         let space = self.lines.space;
         let plane = space.to_eye(start).cross(normal);
         let start_px = space.project(start).0;
-        let part = &self.contours.parts[piece.part as usize];
-        let list = self.input.objects[piece.part as usize].edges.get().list();
-        let near = part.longest_side(&self.lines.faces.positions, piece.face);
+        let curved = &self.contours.surfaces[piece.object as usize];
+        let list = self.input.objects[piece.object as usize].edges.get().list();
+        let near = curved.longest_side(&self.lines.faces.positions, piece.face);
         let to_eye = space.to_eye(start);
         // From inside a face in both directions, from an edge into both its faces.
         let ways = match piece.on_edge {
@@ -232,7 +228,7 @@ impl ContourLines<'_> {
         for (mut face, mut came, way) in ways {
             for _ in 0..MOST_FACES {
                 let positions = &self.lines.faces.positions;
-                let Some(exit) = part.exit(positions, face, came, [start, plane], to_eye * way) else { break };
+                let Some(exit) = curved.exit(positions, face, came, [start, plane], to_eye * way) else { break };
                 let is_towards = to_eye.dot(exit.point - start) > 0.0;
                 if -exit.point.z < space.near {
                     break;
@@ -245,11 +241,11 @@ impl ContourLines<'_> {
                 // back.
                 let is_on_its_side = (exit.towards > 0.0) == (is_towards == piece.bends_away);
                 let is_near = exit.point.distance(start) < near;
-                if (!is_near && !is_on_its_side) || part.surface.is_sharp[exit.edge as usize] {
+                if (!is_near && !is_on_its_side) || curved.surface.is_sharp[exit.edge as usize] {
                     break;
                 }
                 let Some(next) = list.faces(exit.edge).iter().find(|other| **other != face) else { break };
-                if !is_near && self.agrees(piece.part, *next) {
+                if !is_near && self.agrees(piece.object, *next) {
                     break;
                 }
                 (face, came) = (*next, exit.edge);
@@ -259,10 +255,10 @@ impl ContourLines<'_> {
     }
 
     /// Whether a face's side agrees with its smooth normals.
-    fn agrees(&self, part: u32, face: u32) -> bool {
-        let part = &self.contours.parts[part as usize];
-        let is_front = part.is_front_face(self.lines.space, &self.lines.faces.positions, face);
-        part.of_face(face).iter().all(|towards| (*towards >= 0.0) == is_front)
+    fn agrees(&self, object: u32, face: u32) -> bool {
+        let curved = &self.contours.surfaces[object as usize];
+        let is_front = curved.is_front_face(self.lines.space, &self.lines.faces.positions, face);
+        curved.of_face(face).iter().all(|towards| (*towards >= 0.0) == is_front)
     }
 
     /// Calls `visit` with each face that hides a probe and its distance before the probe, until it returns true.

@@ -1,15 +1,15 @@
 //! Smooth contours: where the smooth surface that the faces approximate turns away from the eye (Hertzmann and Zorin
 //! 2000).
 //!
-//! Input: the scene's parts with their [`SmoothSurface`]s. Output: [`Contours`]. n . v is computed at every corner,
+//! Input: the scene's objects with their [`SmoothSurface`]s. Output: [`Contours`]. n . v is computed at every corner,
 //! where n is the smooth normal and v the direction to the eye. Inside a face it is taken as linear, so it is 0 along
 //! at most one straight segment, which begins and ends on the face's sides. At a side that is not sharp, both faces
 //! get bit-identical ends, so the segments chain without gaps. Exactly 0, or a value within rounding of it, counts as
 //! front, as if the eye were slightly farther out along the normal. So no face has more than one segment, and a face
 //! with n . v = 0 everywhere has none. At a vertex with n . v = 0 the contour passes as if slightly beside it.
 //!
-//! At a sharp edge each face has its own normals. The edge is silhouette along the parts where exactly one side is
-//! front. Such a part begins where a smooth contour ends on the edge. Between flat faces this is the rule for
+//! At a sharp edge each face has its own normals. The edge is silhouette along the shares where exactly one side is
+//! front. Such a share begins where a smooth contour ends on the edge. Between flat faces this is the rule for
 //! polygons.
 
 use crate::edges::{CreaseAngle, EdgeList, Eye, Incidence, Shell, SilhouetteRule, SmoothSurface};
@@ -24,32 +24,32 @@ use std::sync::Arc;
 
 /// The smooth contours of a scene, before their visibility is decided.
 pub(in crate::lines) struct Contours {
-    pub parts: Vec<ObjectSurface>,
-    /// Segments by object, then face; then those on edges; then parts cut off at cusps.
+    pub surfaces: Vec<ObjectSurface>,
+    /// Segments by object, then face; then those on edges; then pieces cut off at cusps.
     pub pieces: Vec<ContourPiece>,
     /// The connections between segments.
     pub links: Vec<Link>,
 }
 
-/// The smooth surface of a part, seen from an eye.
+/// The smooth surface of an object, seen from an eye.
 pub(in crate::lines) struct ObjectSurface {
     pub surface: Arc<SmoothSurface>,
     pub mesh: Arc<Mesh>,
     /// n . v of each normal, in units of v; 0 if it is within rounding.
     pub towards: Vec<f64>,
-    /// The part's first position among those of all parts.
+    /// The object's first position among those of all objects.
     pub first_position: u32,
     /// Whether the eye may be inside closed shells.
     sees_inside: bool,
-    /// The silhouette parts of sharp edges next to curved faces: by edge, then along it.
+    /// The silhouette shares of sharp edges next to curved faces: by edge, then along it.
     pub edge_parts: Vec<(u32, [f64; 2])>,
 }
 
 /// A straight segment of a contour, inside one face or on a sharp edge.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::lines) struct ContourPiece {
-    /// The part, and the face in the part's edge list.
-    pub part: u32,
+    /// The object, and the face in its edge list.
+    pub object: u32,
     pub face: u32,
     /// The edges on which it begins and ends, and its ends in eye space.
     pub edges: [u32; 2],
@@ -67,7 +67,7 @@ pub(in crate::lines) struct ContourPiece {
 /// Two segments that meet, on an edge or at a cusp inside a face, and the end of each.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::lines) struct Link {
-    pub part: u32,
+    pub object: u32,
     pub ends: [(usize, usize); 2],
 }
 
@@ -85,7 +85,7 @@ pub(in crate::lines) enum OnEdge {
     ByFaces,
     /// Silhouette between these shares of it, counted from its lower position.
     Shares(Vec<[f64; 2]>),
-    /// Like `Shares`, but only the smooth normals turn away, not the faces: the parts belong to a contour.
+    /// Like `Shares`, but only the smooth normals turn away, not the faces: the shares belong to a contour.
     OfContour(Vec<[f64; 2]>),
 }
 
@@ -93,22 +93,21 @@ pub(in crate::lines) enum OnEdge {
 const CHUNK: usize = 8192;
 
 impl Contours {
-    /// Finds the segments, each with the bend of its own face. `positions` are those of all parts in eye space. The
+    /// Finds the segments, each with the bend of its own face. `positions` are those of all objects in eye space. The
     /// near plane may cut faces open.
     pub(in crate::lines) fn new(
         scene: &Scene,
         space: &Space,
         positions: &[DVec3],
         is_cut_by_near: bool,
-        parts: &[ObjectEdges<'_>],
+        objects: &[ObjectEdges<'_>],
         crease_angle: CreaseAngle,
     ) -> Self {
-        let mut all = Self { parts: Vec::with_capacity(parts.len()), pieces: Vec::new(), links: Vec::new() };
-        let mut first_position = 0;
-        for (number, part) in parts.iter().enumerate() {
-            let edges = part.edges.get();
+        let mut all = Self { surfaces: Vec::with_capacity(objects.len()), pieces: Vec::new(), links: Vec::new() };
+        for (number, object) in objects.iter().enumerate() {
+            let edges = object.edges.get();
             let (mesh, surface) = (edges.mesh().clone(), edges.smooth(crease_angle));
-            let eye = scene.eye(part.object, SilhouetteRule::Exact);
+            let eye = scene.eye(object.object, SilhouetteRule::Exact);
             let count = surface.normals.len();
             let towards = filled(count, cores().min(count / CHUNK).max(1), 0.0, |normal| {
                 towards(surface.normals[normal], mesh.positions[surface.normal_positions[normal] as usize], eye)
@@ -116,25 +115,25 @@ impl Contours {
             let (low, high) = mesh.bounds();
             let is_within = |eye: DVec3| eye.cmpge(low).all() && eye.cmple(high).all();
             let sees_inside = is_cut_by_near || matches!(eye, Eye::Point(eye) if is_within(eye));
-            let mut part =
+            let first_position = object.first_position;
+            let mut curved =
                 ObjectSurface { surface, mesh, towards, first_position, sees_inside, edge_parts: Vec::new() };
-            let chunks = in_chunks(part.mesh.triangles.len(), CHUNK, cores(), |range| {
-                range.filter_map(|face| part.piece(space, positions, number as u32, face as u32)).collect::<Vec<_>>()
+            let chunks = in_chunks(curved.mesh.triangles.len(), CHUNK, cores(), |range| {
+                range.filter_map(|face| curved.piece(space, positions, number as u32, face as u32)).collect::<Vec<_>>()
             });
             chunks.into_iter().for_each(|chunk| all.pieces.extend(chunk));
             let list = edges.list();
-            for edge in (0..list.len() as u32).filter(|edge| part.surface.is_sharp[*edge as usize]) {
-                match part.on_edge(space, positions, list, edge) {
+            for edge in (0..list.len() as u32).filter(|edge| curved.surface.is_sharp[*edge as usize]) {
+                match curved.on_edge(space, positions, list, edge) {
                     OnEdge::ByFaces => {}
-                    OnEdge::Shares(shares) => part.edge_parts.extend(shares.into_iter().map(|share| (edge, share))),
+                    OnEdge::Shares(shares) => curved.edge_parts.extend(shares.into_iter().map(|share| (edge, share))),
                     OnEdge::OfContour(shares) => {
-                        let pieces = part.pieces_on_edge(space, positions, list, number as u32, edge, shares);
+                        let pieces = curved.pieces_on_edge(space, positions, list, number as u32, edge, shares);
                         all.pieces.extend(pieces);
                     }
                 }
             }
-            first_position += part.mesh.positions.len() as u32;
-            all.parts.push(part);
+            all.surfaces.push(curved);
         }
         all
     }
@@ -142,7 +141,7 @@ impl Contours {
     /// Whether a segment belongs to a closed shell and bends towards its inside, so it cannot be visible from
     /// outside.
     pub(in crate::lines) fn is_inside(&self, piece: &ContourPiece) -> bool {
-        self.parts[piece.part as usize].encloses(piece.face, piece.bends_away)
+        self.surfaces[piece.object as usize].encloses(piece.face, piece.bends_away)
     }
 }
 
@@ -192,7 +191,7 @@ impl ObjectSurface {
     }
 
     /// The contour's segment inside a face; `None` if it has none.
-    fn piece(&self, space: &Space, positions: &[DVec3], part: u32, face: u32) -> Option<ContourPiece> {
+    fn piece(&self, space: &Space, positions: &[DVec3], object: u32, face: u32) -> Option<ContourPiece> {
         let values = self.of_face(face);
         let fronts = values.map(is_front);
         if fronts == [true; 3] || fronts == [false; 3] || self.surface.sides[face as usize] == [NONE; 3] {
@@ -218,7 +217,7 @@ impl ObjectSurface {
         let growth = across.cross(normal) * (values[1] - values[0]) + normal.cross(along) * (values[2] - values[0]);
         let bend = growth.dot(space.to_eye((first.1 + second.1) * 0.5)) / normal.length();
         Some(ContourPiece {
-            part,
+            object,
             face,
             edges: [first.0, second.0],
             ends: [first.1, second.1],
@@ -229,13 +228,13 @@ impl ObjectSurface {
         })
     }
 
-    /// The parts of a sharp edge at which its smooth normals turn away but its faces do not.
+    /// The shares of a sharp edge at which its smooth normals turn away but its faces do not.
     fn pieces_on_edge(
         &self,
         space: &Space,
         positions: &[DVec3],
         list: &EdgeList,
-        part: u32,
+        object: u32,
         edge: u32,
         shares: Vec<[f64; 2]>,
     ) -> Vec<ContourPiece> {
@@ -248,7 +247,7 @@ impl ObjectSurface {
         };
         let bends_away = self.is_convex(positions, [first, second]);
         let piece = |[from, to]: [f64; 2]| ContourPiece {
-            part,
+            object,
             face: first,
             edges: [edge; 2],
             ends: [from, to].map(|share| between(low, high, share)),
@@ -291,7 +290,7 @@ impl ObjectSurface {
         (b - a).cross(c - a).dot(space.to_eye(a)) > 0.0
     }
 
-    /// The silhouette parts of an edge.
+    /// The silhouette shares of an edge.
     pub(in crate::lines) fn on_edge(&self, space: &Space, positions: &[DVec3], list: &EdgeList, edge: u32) -> OnEdge {
         if list.incidence()[edge as usize] != Incidence::Inner {
             return OnEdge::ByFaces;
@@ -312,13 +311,13 @@ impl ObjectSurface {
             let [first, second] = values.map(|[low, high]| low + (high - low) * place);
             is_front(first) != is_front(second)
         };
-        let parts = places.windows(2).filter(|part| part[0] < part[1] && differs((part[0] + part[1]) * 0.5));
-        let parts = parts.map(|part| [part[0], part[1]]).collect();
+        let shares = places.windows(2).filter(|share| share[0] < share[1] && differs((share[0] + share[1]) * 0.5));
+        let shares = shares.map(|share| [share[0], share[1]]).collect();
         // If the bend cannot be seen from outside, the edge keeps its other classes.
         match self.is_front_face(space, positions, first) == self.is_front_face(space, positions, second) {
-            false => OnEdge::Shares(parts),
+            false => OnEdge::Shares(shares),
             true if self.encloses(first, self.is_convex(positions, [first, second])) => OnEdge::Shares(Vec::new()),
-            true => OnEdge::OfContour(parts),
+            true => OnEdge::OfContour(shares),
         }
     }
 

@@ -23,27 +23,27 @@ impl Contours {
         space: &Space,
         positions: &[DVec3],
         is_cut_by_near: bool,
-        parts: &[ObjectEdges<'_>],
+        objects: &[ObjectEdges<'_>],
         crease_angle: CreaseAngle,
     ) -> Self {
-        let mut all = Self::new(scene, space, positions, is_cut_by_near, parts, crease_angle);
-        all.links = links(&all.parts, &all.pieces);
-        settle(&all.parts, &mut all.pieces, positions, &mut all.links);
+        let mut all = Self::new(scene, space, positions, is_cut_by_near, objects, crease_angle);
+        all.links = links(&all.surfaces, &all.pieces);
+        settle(&all.surfaces, &mut all.pieces, positions, &mut all.links);
         all
     }
 }
 
 /// The places where two segments meet: on edges that are not sharp.
-fn links(parts: &[ObjectSurface], pieces: &[ContourPiece]) -> Vec<Link> {
+fn links(surfaces: &[ObjectSurface], pieces: &[ContourPiece]) -> Vec<Link> {
     let mut ends: Vec<(u32, u32, usize, usize)> = Vec::with_capacity(pieces.len() * 2);
     for (number, piece) in pieces.iter().enumerate() {
-        let is_sharp = &parts[piece.part as usize].surface.is_sharp;
+        let is_sharp = &surfaces[piece.object as usize].surface.is_sharp;
         let smooth = piece.edges.iter().enumerate().filter(|(_, edge)| !is_sharp[**edge as usize]);
-        ends.extend(smooth.map(|(end, edge)| (piece.part, *edge, number, end)));
+        ends.extend(smooth.map(|(end, edge)| (piece.object, *edge, number, end)));
     }
     ends.sort_unstable();
     let links = ends.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).filter_map(|ends| match ends {
-        [a, b] => Some(Link { part: a.0, ends: [(a.2, a.3), (b.2, b.3)] }),
+        [a, b] => Some(Link { object: a.0, ends: [(a.2, a.3), (b.2, b.3)] }),
         _ => None,
     });
     links.collect()
@@ -51,7 +51,7 @@ fn links(parts: &[ObjectSurface], pieces: &[ContourPiece]) -> Vec<Link> {
 
 /// The mean bend around each segment, and whether its whole contour is shorter than the range of the mean.
 fn means(
-    parts: &[ObjectSurface],
+    surfaces: &[ObjectSurface],
     pieces: &[ContourPiece],
     lengths: &[f64],
     positions: &[DVec3],
@@ -63,7 +63,7 @@ fn means(
         neighbours[second.0][second.1] = Some(*first);
     }
     let mean = |number: usize| {
-        let reach = REACH * parts[pieces[number].part as usize].longest_side(positions, pieces[number].face);
+        let reach = REACH * surfaces[pieces[number].object as usize].longest_side(positions, pieces[number].face);
         let (mut sum, mut length) = (pieces[number].bend * lengths[number], lengths[number]);
         let mut is_short = true;
         for end in 0..2 {
@@ -84,11 +84,11 @@ fn means(
 }
 
 /// Gives each segment the mean bend of its contour, and cuts segments in two where it changes.
-fn settle(parts: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[DVec3], links: &mut Vec<Link>) {
+fn settle(surfaces: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[DVec3], links: &mut Vec<Link>) {
     let lengths: Vec<f64> = pieces.iter().map(|piece| piece.ends[0].distance(piece.ends[1])).collect();
-    let means = means(parts, pieces, &lengths, positions, links);
+    let means = means(surfaces, pieces, &lengths, positions, links);
     for (piece, (mean, is_short)) in pieces.iter_mut().zip(&means).filter(|(piece, _)| piece.on_edge.is_none()) {
-        let shell = parts[piece.part as usize].surface.shells[piece.face as usize];
+        let shell = surfaces[piece.object as usize].surface.shells[piece.face as usize];
         piece.bends_away = match (is_short, shell) {
             (false, _) | (_, Shell::Open) => *mean > 0.0,
             (true, Shell::Outward) => true,
@@ -97,7 +97,7 @@ fn settle(parts: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[
     }
     let mut is_cut = vec![false; pieces.len()];
     for index in 0..links.len() {
-        let Link { part, ends: [first, second] } = links[index];
+        let Link { object, ends: [first, second] } = links[index];
         if pieces[first.0].bends_away == pieces[second.0].bends_away || means[first.0].1 || means[second.0].1 {
             continue;
         }
@@ -118,12 +118,12 @@ fn settle(parts: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[
         let middle = between(piece.ends[0], piece.ends[1], at);
         let normal = between(piece.normals[0], piece.normals[1], at);
         let mut cut = *piece;
-        // The part at the edge is the new segment.
+        // The piece at the edge is the new segment.
         (cut.ends[far.1 ^ 1], cut.normals[far.1 ^ 1]) = (middle, normal);
         (piece.ends[far.1], piece.normals[far.1]) = (middle, normal);
         cut.bends_away = !piece.bends_away;
         pieces.push(cut);
         links[index].ends = [near, (new, far.1)];
-        links.push(Link { part, ends: [(new, far.1 ^ 1), far] });
+        links.push(Link { object, ends: [(new, far.1 ^ 1), far] });
     }
 }

@@ -43,7 +43,7 @@ impl SmoothSilhouette {
 /// shell hides of itself are omitted.
 pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<SmoothSilhouette> {
     let space = Space::of(scene);
-    let parts = ObjectEdges::all(scene, |_, object| Edges::OfScene(scene.edges(object)));
+    let objects = ObjectEdges::all(scene, |_, object| Edges::OfScene(scene.edges(object)));
     let mut positions = Vec::with_capacity(scene.objects.iter().map(|object| object.mesh.positions.len()).sum());
     for object in &scene.objects {
         let own = &object.mesh.positions;
@@ -52,12 +52,12 @@ pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<Smoot
     }
     let is_before = |position: &DVec3| -position.z < space.near;
     let is_cut_by_near = positions.iter().any(is_before) && !positions.iter().all(is_before);
-    let contours = Contours::with_cusps(scene, &space, &positions, is_cut_by_near, &parts, crease_angle);
-    let mut found = Vec::with_capacity(parts.len());
-    for (part, surface) in parts.iter().zip(&contours.parts) {
-        let edges = part.edges.get();
+    let contours = Contours::with_cusps(scene, &space, &positions, is_cut_by_near, &objects, crease_angle);
+    let mut found = Vec::with_capacity(objects.len());
+    for (object, surface) in objects.iter().zip(&contours.surfaces) {
+        let edges = object.edges.get();
         let mut silhouette = SmoothSilhouette::default();
-        silhouette.edges = edges.silhouette(scene.eye(part.object, SilhouetteRule::Exact), SilhouetteRule::Exact);
+        silhouette.edges = edges.silhouette(scene.eye(object.object, SilhouetteRule::Exact), SilhouetteRule::Exact);
         silhouette
             .edges
             .retain(|edge| matches!(surface.on_edge(&space, &positions, edges.list(), *edge), OnEdge::ByFaces));
@@ -68,12 +68,12 @@ pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<Smoot
     let mut moved: HashMap<(u32, [u64; 3]), DVec3> = HashMap::new();
     let is_seen = |piece: &&ContourPiece| !contours.is_inside(piece);
     for piece in contours.pieces.iter().filter(is_seen) {
-        let number = piece.part as usize;
-        let (part, surface) = (&parts[number], &contours.parts[number]);
+        let number = piece.object as usize;
+        let (object, surface) = (&objects[number], &contours.surfaces[number]);
         let ends = [0, 1].map(|end| {
-            let key = (piece.part, piece.ends[end].to_array().map(f64::to_bits));
+            let key = (piece.object, piece.ends[end].to_array().map(f64::to_bits));
             *moved.entry(key).or_insert_with(|| {
-                space.world(before_own_faces(&space, &positions, part, surface, piece, end)) - part.object.offset
+                space.world(before_own_faces(&space, &positions, object, surface, piece, end)) - object.object.offset
             })
         });
         found[number].pieces.push(ends);
@@ -85,7 +85,7 @@ pub fn smooth_silhouettes(scene: &Scene, crease_angle: CreaseAngle) -> Vec<Smoot
 fn before_own_faces(
     space: &Space,
     positions: &[DVec3],
-    part: &ObjectEdges<'_>,
+    object: &ObjectEdges<'_>,
     surface: &ObjectSurface,
     piece: &ContourPiece,
     end: usize,
@@ -94,7 +94,7 @@ fn before_own_faces(
     if -start.z <= space.near {
         return start;
     }
-    let list = part.edges.get().list();
+    let list = object.edges.get().list();
     let to_eye = space.to_eye(start).normalize_or_zero();
     let plane = to_eye.cross(normal);
     // Across the line of sight, towards the side where the surface extends beyond the end.

@@ -195,18 +195,18 @@ impl ContourLines<'_> {
         let probe = self.probe(piece, &decided.image, (hidden.from + hidden.to) * 0.5);
         self.reason_of(
             &probe,
-            piece.part,
-            self.contours.parts[piece.part as usize].longest_side(&self.lines.faces.positions, piece.face),
+            piece.object,
+            self.contours.surfaces[piece.object as usize].longest_side(&self.lines.faces.positions, piece.face),
             cusps,
         )
     }
 
     /// The reason why a point is hidden.
-    fn reason_of(&self, probe: &Probe, part: u32, longest: f64, cusps: &Cusps) -> Reason {
+    fn reason_of(&self, probe: &Probe, object: u32, longest: f64, cusps: &Cusps) -> Reason {
         let mut is_hidden = false;
         let is_far = self.any_hider(probe, |place, distance| {
             is_hidden = true;
-            distance > REACH * longest || self.is_of_another_shell(probe, part, place)
+            distance > REACH * longest || self.is_of_another_shell(probe, object, place)
         });
         // A point that no face hides is covered by a nearer line.
         if is_far || !is_hidden {
@@ -216,9 +216,9 @@ impl ContourLines<'_> {
     }
 
     /// Whether a face, by its index, is not connected to a probe's line.
-    fn is_of_another_shell(&self, probe: &Probe, part: u32, place: u32) -> bool {
-        let surface = &self.contours.parts[part as usize].surface;
-        let first = self.contours.parts[part as usize].first_position;
+    fn is_of_another_shell(&self, probe: &Probe, object: u32, place: u32) -> bool {
+        let surface = &self.contours.surfaces[object as usize].surface;
+        let first = self.contours.surfaces[object as usize].first_position;
         let Own::Edge([own, _]) = probe.line.own else { return false };
         let position = self.lines.faces.triangles[place as usize][0];
         let shell = |position: u32| surface.position_shells.get(position.checked_sub(first)? as usize).copied();
@@ -229,15 +229,15 @@ impl ContourLines<'_> {
     fn longest_at_edge(&self, feature: usize) -> Option<f64> {
         let feature = &self.lines.features[feature];
         let Own::Edge(ends) = feature.own else { return None };
-        let part = &self.contours.parts[feature.object as usize];
+        let curved = &self.contours.surfaces[feature.object as usize];
         let list = self.input.objects[feature.object as usize].edges.get().list();
-        let ends = ends.map(|end| end - part.first_position);
+        let ends = ends.map(|end| end - curved.first_position);
         let start = list.positions().partition_point(|[low, _]| *low < ends[0]);
         let edge = start + list.positions()[start..].iter().position(|positions| *positions == ends)?;
-        if part.surface.is_sharp[edge] {
+        if curved.surface.is_sharp[edge] {
             return None;
         }
-        let sides = list.faces(edge as u32).iter().map(|face| part.longest_side(&self.lines.faces.positions, *face));
+        let sides = list.faces(edge as u32).iter().map(|face| curved.longest_side(&self.lines.faces.positions, *face));
         Some(sides.fold(0.0, f64::max))
     }
 
@@ -263,9 +263,9 @@ impl ContourLines<'_> {
             lengths[root(&mut runs, number)] += piece.ends[0].distance(piece.ends[1]);
         }
         let mut cusps = Cusps { places: Vec::new(), links: HashSet::new() };
-        for (number, Link { part, ends: [(a, end), (b, _)] }) in self.contours.links.iter().enumerate() {
+        for (number, Link { object, ends: [(a, end), (b, _)] }) in self.contours.links.iter().enumerate() {
             let longest_side = |piece: usize| {
-                self.contours.parts[*part as usize].longest_side(&self.lines.faces.positions, pieces[piece].face)
+                self.contours.surfaces[*object as usize].longest_side(&self.lines.faces.positions, pieces[piece].face)
             };
             let longest = longest_side(*a).max(longest_side(*b));
             let least = lengths[root(&mut runs, *a)].min(lengths[root(&mut runs, *b)]);

@@ -9,11 +9,9 @@
 
 use crate::lines::eye::image::Image;
 use crate::thresholds::THRESHOLDS;
+use crate::tolerances::TURNED;
 use glam::DVec2;
 use std::f64::consts::PI;
-
-/// The largest difference between directions in a bundle: far more than rounding turns lines.
-const TURN: f64 = 1e-6;
 
 /// An angle that hardly any line has: the order of directions begins there.
 const FIRST_DIRECTION: f64 = 0.1234;
@@ -77,7 +75,7 @@ impl Bundles {
         directed.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut all = Self::default();
         let mut placed: Vec<(f64, u32)> = Vec::new();
-        for of_direction in runs(&directed, TURN).filter(|run| run.len() >= THRESHOLDS.group) {
+        for of_direction in runs(&directed, TURNED).filter(|run| run.len() >= THRESHOLDS.group) {
             let Some(first) = images[of_direction[0].1 as usize] else { continue };
             let along = (first.b - first.a).normalize();
             placed.clear();

@@ -1,11 +1,13 @@
 //! Whether faces hide a point of a line, and whether a line touches a face, lies behind it or passes through it.
 
 use crate::bvh::Box3;
+use crate::lines::eye::face_pair::FacePlane;
 use crate::lines::eye::faces::Faces;
 use crate::lines::eye::space::Space;
+use crate::lines::eye::touch::key_slack;
 use crate::lines::input::feature::Own;
 use crate::ranges::{above_zero, clipped};
-use crate::tolerances::{ACROSS, CONTACT};
+use crate::tolerances::ACROSS;
 use glam::{DVec2, DVec3};
 
 /// A point of a line, to test whether faces hide it.
@@ -24,8 +26,37 @@ impl Probe {
     /// The box around the line of sight, up to all that the point may touch.
     pub(in crate::lines) fn column(&self, space: &Space) -> Box3 {
         let tie_px = space.tie_px(-self.view.z);
-        let deepest = self.key + self.key.abs() * (2.0 * CONTACT);
+        let deepest = self.key + key_slack(self.key);
         Box3::new((self.px - tie_px).extend(f64::NEG_INFINITY), (self.px + tie_px).extend(deepest))
+    }
+}
+
+impl Probe {
+    /// Returns whether the point, moved by an arbitrarily small distance to either side of its line, lies in a face's image, whose corners
+    /// turn counter-clockwise if `sign` is 1. Within a distance of a side, which `forgiven` returns, the point lies on it, and its way
+    /// inwards decides.
+    pub(in crate::lines) fn inside(
+        &self,
+        space: &Space,
+        corners: [DVec3; 3],
+        sign: f64,
+        forgiven: impl Fn(usize) -> f64,
+        is_inward: impl Fn(f64, f64) -> bool,
+    ) -> [bool; 2] {
+        let mut is_inside = [true; 2];
+        for side in 0..3 {
+            let (from, to) = (corners[side], corners[(side + 1) % 3]);
+            let (turn, length) = space.turn(from, to, self.view);
+            let forgiven = forgiven(side) * length;
+            if sign * turn < -forgiven {
+                return [false; 2];
+            }
+            if sign * turn <= forgiven {
+                let inward = sign * space.turn_aside(from, to, self.aside);
+                is_inside = [is_inside[0] && is_inward(inward, length), is_inside[1] && is_inward(-inward, length)];
+            }
+        }
+        is_inside
     }
 }
 
@@ -86,14 +117,10 @@ pub(in crate::lines) struct Contact {
 
 impl Contact {
     pub(in crate::lines) fn new(space: &Space, faces: &Faces, face: u32, line: &ProbedLine, is_own: [bool; 3]) -> Self {
-        let corners @ [a, b, c] = faces.corners(face);
-        let (ab, ac, bc) = (b - a, c - a, c - b);
-        let normal = ab.cross(ac);
-        let longest = ab.length_squared().max(ac.length_squared()).max(bc.length_squared()).sqrt();
-        let towards_eye = normal.dot(space.to_eye(a));
+        let FacePlane { corners, normal, normal_length, longest, weld, .. } = FacePlane::exact(faces, face);
+        let towards_eye = normal.dot(space.to_eye(corners[0]));
         let turn = if towards_eye == 0.0 { 0.0 } else { towards_eye.signum() };
-        let weld = faces.weld(faces.triangles[face as usize][0]).min(line.weld);
-        let touching = space.contact(longest.min(line.length), weld) * normal.length();
+        let touching = space.contact(longest.min(line.length), weld.min(line.weld)) * normal_length;
         Self { corners, is_own, normal: -turn * normal, turn, touching }
     }
 
@@ -179,20 +206,10 @@ impl Faces {
             return NEITHER;
         }
         let (corners, tie) = (contact.corners, space.tie(-probe.view.z));
-        let mut is_inside = [true; 2];
-        for side in 0..3 {
-            let (from, to) = (corners[side], corners[(side + 1) % 3]);
-            let (turn, length) = space.turn(from, to, probe.view);
-            // A side that meets the line's end may run beside it at any distance: there only rounding is forgiven.
-            let forgiven = if is_own[side] || is_own[(side + 1) % 3] { 4.0 * space.noise } else { tie } * length;
-            if contact.turn * turn < -forgiven {
-                return NEITHER;
-            }
-            if contact.turn * turn <= forgiven {
-                let inward = contact.turn * space.turn_aside(from, to, probe.aside);
-                is_inside = [is_inside[0] && inward >= -ACROSS * length, is_inside[1] && -inward >= -ACROSS * length];
-            }
-        }
+        // A side that meets the line's end may run beside it at any distance: there only rounding is forgiven.
+        let forgiven = |side: usize| if is_own[side] || is_own[(side + 1) % 3] { 4.0 * space.noise } else { tie };
+        let is_inward = |inward: f64, length: f64| inward >= -ACROSS * length;
+        let is_inside = probe.inside(space, corners, contact.turn, forgiven, is_inward);
         if is_inside == NEITHER || behind <= contact.hides_from(space, &probe.line) {
             return NEITHER;
         }

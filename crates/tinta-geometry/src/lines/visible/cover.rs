@@ -1,28 +1,28 @@
-//! The parts of a line that faces hide for sure, and those that they may hide: one walk of the tree of faces, front to back.
+//! The stretches of a line that faces hide for sure, and those that they may hide: one walk of the tree of faces, front to back.
 //!
-//! The walk keeps the parts of the line that no face hides yet, and enters only boxes that one of these parts reaches. Each face
+//! The walk keeps the stretches of the line that no face hides yet, and enters only boxes that one of these stretches reaches. Each face
 //! in them answers with two ranges ([`Faces::hidden_ranges`](crate::lines::eye::faces::Faces)): where it hides the line by
-//! more than any tolerance, and where it may hide it. The walk ends with the last such part. Only the parts that a face may hide
+//! more than any tolerance, and where it may hide it. The walk ends with the last such stretch. Only the stretches that a face may hide
 //! need a ray and the exact rules.
 
 use crate::bvh::{Box3, Exclusion, Line3, Walk};
 use crate::lines::eye::image::Image;
 use crate::lines::eye::projected_face::ProjectedFace;
+use crate::lines::eye::touch::key_slack;
 use crate::lines::visible::contact::ProbedLine;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
 use crate::ranges::{gaps, hold, meet, united};
 use crate::thresholds::THRESHOLDS;
-use crate::tolerances::CONTACT;
 
-/// The parts of a line that are hidden, and those that may be.
+/// The stretches of a line that are hidden, and those that may be.
 #[derive(Default)]
 pub(in crate::lines) struct Cover {
-    /// The parts that are hidden for sure.
+    /// The stretches that are hidden for sure.
     hidden: Vec<[f64; 2]>,
-    /// The parts that something may hide.
+    /// The stretches that something may hide.
     maybe: Vec<[f64; 2]>,
-    /// Ascending parts that are not hidden for sure.
+    /// Ascending stretches that are not hidden for sure.
     pub open: Vec<[f64; 2]>,
 }
 
@@ -38,18 +38,17 @@ impl Cover {
         hold(&self.open, place) && !hold(&self.maybe, place)
     }
 
-    /// Hides another part. Remaining parts no longer than `least` are no longer open.
-    fn hide(&mut self, part: [f64; 2], least: f64) {
-        self.hidden.push(part);
-        let is_outside = |gap: &[f64; 2]| part[1] <= gap[0] || part[0] >= gap[1];
+    /// Hides another stretch. Remaining stretches no longer than `least` are no longer open.
+    fn hide(&mut self, stretch: [f64; 2], least: f64) {
+        self.hidden.push(stretch);
+        let is_outside = |gap: &[f64; 2]| stretch[1] <= gap[0] || stretch[0] >= gap[1];
         if self.open.iter().all(is_outside) {
             return;
         }
         let rest_of = |gap: [f64; 2]| match is_outside(&gap) {
             true => [Some(gap), None],
-            false => {
-                [[gap[0], part[0]], [part[1], gap[1]]].map(|rest| Some(rest).filter(|rest| rest[1] - rest[0] > least))
-            }
+            false => [[gap[0], stretch[0]], [stretch[1], gap[1]]]
+                .map(|rest| Some(rest).filter(|rest| rest[1] - rest[0] > least)),
         };
         self.open = std::mem::take(&mut self.open).into_iter().flat_map(rest_of).flatten().collect();
     }
@@ -93,12 +92,12 @@ impl Walk for CoverWalk<'_> {
 }
 
 impl LineIndex<'_> {
-    /// Returns the cover of a line before any test: any face may hide it. Some parts are known to be hidden.
+    /// Returns the cover of a line before any test: any face may hide it. Some stretches are known to be hidden.
     pub(in crate::lines) fn unknown_cover(&self, inside: [f64; 2], hidden: &[[f64; 2]]) -> Cover {
         Cover { hidden: hidden.to_vec(), maybe: vec![inside], open: gaps(inside, hidden) }
     }
 
-    /// Returns the cover of a line between two places. Some parts are known to be hidden.
+    /// Returns the cover of a line between two places. Some stretches are known to be hidden.
     pub(in crate::lines) fn cover(
         &self,
         index: usize,
@@ -117,7 +116,7 @@ impl LineIndex<'_> {
         let feature = &self.features[index];
         let line = ProbedLine::new(self.faces, feature.own, feature.ends, feature.weld);
         // A face that the line ends on may lie a little behind one of its ends.
-        let slack = image.keys.map(f64::abs).into_iter().fold(0.0, f64::max) * (2.0 * CONTACT);
+        let slack = key_slack(image.keys[0]).max(key_slack(image.keys[1]));
         let mut walk = CoverWalk {
             lines: self,
             line: self.line(image, search_depth, slack),
@@ -130,10 +129,10 @@ impl LineIndex<'_> {
         walk.cover.sorted()
     }
 
-    /// Hides the parts of a line that lie in the picture on nearer lines.
+    /// Hides the stretches of a line that lie in the picture on nearer lines.
     pub(in crate::lines) fn hide_all(&self, cover: Cover, image: &Image, hidden: Vec<[f64; 2]>) -> Cover {
         let mut cover = cover;
-        hidden.into_iter().for_each(|part| cover.hide(part, self.shortest_px / image.length()));
+        hidden.into_iter().for_each(|stretch| cover.hide(stretch, self.shortest_px / image.length()));
         cover.sorted()
     }
 
@@ -145,7 +144,7 @@ impl LineIndex<'_> {
         Line3::new([image.a.extend(keys[0]), image.b.extend(keys[1])], image.touch_px(self.space), slack)
     }
 
-    /// The part of a line that a face hides for sure, on both sides, and the part that it may hide.
+    /// The stretch of a line that a face hides for sure, on both sides, and the stretch that it may hide.
     fn hidden_ranges(&self, face: u32, probe: &OccluderProbe) -> [Option<[f64; 2]>; 2] {
         // Most faces lie beside the line. This test is the cheapest.
         let points = self.faces.corners(face).map(|corner| self.space.project(corner).0);

@@ -3,52 +3,54 @@
 
 use crate::bvh::Exclusion;
 use crate::lines::eye::image::Image;
+use crate::lines::eye::touch::{key_slack, may_be_nearer, piercing};
 use crate::lines::input::feature::Own;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::SearchDepth;
 use crate::lines::visible::overlapping_lines::OverlappingLines;
-use crate::tolerances::CONTACT;
-use glam::DVec3;
 
 impl LineIndex<'_> {
-    /// Adds the places along a part of a line where what is seen of it may change: all, or only the first. Returns whether it stopped
+    /// Adds the places along a stretch of a line where what is seen of it may change: all, or only the first. Returns whether it stopped
     /// at the first.
     pub(in crate::lines) fn add_cuts(
         &self,
         index: usize,
         image: &Image,
         overlapping: &OverlappingLines,
-        part: [f64; 2],
+        stretch: [f64; 2],
         stops_at_first: bool,
         cuts: &mut Vec<f64>,
     ) -> bool {
         let feature = &self.features[index];
         let touch_px = image.touch_px(self.space);
-        let keys = part.map(|place| image.key(place));
+        let keys = stretch.map(|place| image.key(place));
         let farthest = keys[0].max(keys[1]);
-        let line = self.line(image, SearchDepth::Nearer, farthest.abs() * (2.0 * CONTACT));
+        let line = self.line(image, SearchDepth::Nearer, key_slack(farthest));
         // Lines from one position cross nowhere else.
         let excluded = Exclusion([feature.planes, feature.own.corners(self.faces)]);
-        let is_cut = self.rims.any_along(line, part, excluded, |other_index| {
+        let is_cut = self.rims.any_along(line, stretch, excluded, |other_index| {
             if let Some(other) = self.images[other_index].filter(|_| other_index != index) {
-                let touch_px = touch_px.max(other.touch_px(self.space));
                 let occludes = !feature.own.meets(self.features[other_index].own);
-                self.add_crossings(image, &other, touch_px, occludes, cuts);
+                self.add_crossings(image, &other, occludes, cuts);
             }
             stops_at_first && !cuts.is_empty()
         });
-        if is_cut || (!self.finds_hidden && self.add_overlaps(index, image, overlapping, part, stops_at_first, cuts)) {
+        if is_cut || (!self.finds_hidden && self.add_overlaps(index, image, overlapping, stretch, stops_at_first, cuts))
+        {
             return true;
         }
         if matches!(feature.own, Own::Edge(_)) {
             return false;
         }
         // Faces with the corner in which it begins it meets nowhere else.
-        self.any_but(&image.part_box(part, touch_px, keys), excluded, |face| {
+        self.any_but(&image.box_around(stretch, touch_px, keys), excluded, |face| {
             if matches!(feature.own, Own::Faces(own) if own.contains(&face)) {
                 return false;
             }
-            cuts.extend(self.piercing(feature.ends, face).map(|point| image.place_of(self.space.project(point).0)));
+            cuts.extend(
+                piercing(feature.ends, self.faces.corners(face))
+                    .map(|point| image.place_of(self.space.project(point).0)),
+            );
             stops_at_first && !cuts.is_empty()
         })
     }
@@ -63,52 +65,20 @@ impl LineIndex<'_> {
 
     /// Adds where a line's image that lies on this one begins and ends and where both are equally near, and where a nearer one
     /// at which a surface ends crosses or touches it.
-    pub(in crate::lines) fn add_crossings(
-        &self,
-        image: &Image,
-        other: &Image,
-        touch_px: f64,
-        occludes: bool,
-        cuts: &mut Vec<f64>,
-    ) {
-        let along = image.b - image.a;
-        let length = along.length();
-        let (c, d) = (along.perp_dot(other.a - image.a) / length, along.perp_dot(other.b - image.a) / length);
-        if (c > touch_px && d > touch_px) || (c < -touch_px && d < -touch_px) {
-            return;
-        }
+    pub(in crate::lines) fn add_crossings(&self, image: &Image, other: &Image, occludes: bool, cuts: &mut Vec<f64>) {
+        let touch_px = image.joint_touch_px(other, self.space);
+        let Some(ends) = image.reached(other, touch_px) else { return };
         if let Some(range) = image.overlap(other, touch_px) {
             cuts.extend(range);
             cuts.extend(image.same_key(other));
         }
-        if !occludes || c == d {
-            return;
-        }
-        let on_other = (c / (c - d)).clamp(0.0, 1.0);
-        let place = image.place_of(other.at(on_other));
-        if place * length < -touch_px || (place - 1.0) * length > touch_px {
-            return;
-        }
-        let (key, other_key) = (image.key(place), other.key(on_other));
-        // What is clearly farther away hides nothing; where that is not clear, a cut too many does no harm.
-        if other_key <= key + key.abs() * CONTACT {
+        let Some([place, on_other]) = image.crossing(other, ends).filter(|_| occludes) else { return };
+        let length = image.length();
+        let is_on_it = !(place * length < -touch_px || (place - 1.0) * length > touch_px);
+        // Where it is not clear which is nearer, a cut too many does no harm.
+        if is_on_it && may_be_nearer(other.key(on_other), image.key(place)) {
             cuts.push(place);
         }
-    }
-
-    /// Where a line passes through a face, if it does.
-    pub(in crate::lines) fn piercing(&self, [from, to]: [DVec3; 2], face: u32) -> Option<DVec3> {
-        let [a, b, c] = self.faces.corners(face);
-        let normal = (b - a).cross(c - a);
-        let (start, end) = (normal.dot(from - a), normal.dot(to - a));
-        if (start > 0.0) == (end > 0.0) {
-            return None;
-        }
-        let point = from + (to - from) * (start / (start - end));
-        // Inside, or near enough: one cut too many does no harm.
-        let scale = -1e-9 * normal.length_squared();
-        let is_left = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) >= scale;
-        (is_left(a, b) && is_left(b, c) && is_left(c, a)).then_some(point)
     }
 }
 

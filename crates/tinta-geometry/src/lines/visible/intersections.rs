@@ -3,7 +3,7 @@
 //! Pairs of faces come from the tree of faces. A face with an edge in the other's plane only touches the other face. There the
 //! *surfaces* decide: they intersect if their half-planes around that edge alternate. No rule depends on a face's winding.
 
-use crate::bvh::{Box3, LARGEST_LEAF, NO_GROUP, NodeSelection, counting_steps, steps};
+use crate::bvh::{Box3, NO_GROUP, NodeSelection, counting_steps, steps};
 use crate::lines::eye::face_pair::{FaceCrossing, FacePlane, Piercing};
 use crate::lines::eye::faces::Faces;
 use crate::lines::eye::pyramid::Pyramid;
@@ -17,7 +17,8 @@ use crate::lines::visible::half_planes::{HalfPlanes, SplitEdges};
 use crate::lines::visible::nearest_faces::NearestFaces;
 use crate::lines::visible::search::Search;
 use crate::threads::{cores, filled, in_chunks, spread_chunks, threads_for_items};
-use crate::tolerances::CONTACT;
+use crate::thresholds::THRESHOLDS;
+use crate::tolerances::{CONTACT, SAME_PLACE};
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 
@@ -63,7 +64,7 @@ pub(in crate::lines) fn intersections(input: &LineInput<'_>, search: &Search, pr
         let (count, before) = (batches.len(), steps());
         let (mut kept, mut pairs) = (Findings::default(), 0u32);
         // Pairs come leaf by leaf, and the places in a leaf follow one another.
-        let mut face_planes: [Option<FacePlane>; LARGEST_LEAF as usize] = Default::default();
+        let mut face_planes: [Option<FacePlane>; THRESHOLDS.largest_leaf as usize] = Default::default();
         faces.tree.pairs_below(&node_pairs[batches], &wanted, &mut |first, second| {
             pairs = pairs.wrapping_add(1);
             if pairs % PAIRS_A_GLANCE == 0 && progress.is_over() {
@@ -72,7 +73,7 @@ pub(in crate::lines) fn intersections(input: &LineInput<'_>, search: &Search, pr
             if !is_seen(first) || !is_seen(second) {
                 return false;
             }
-            let face_plane = &mut face_planes[(first % LARGEST_LEAF) as usize];
+            let face_plane = &mut face_planes[(first % THRESHOLDS.largest_leaf) as usize];
             if face_plane.as_ref().is_none_or(|face_plane| face_plane.place != first) {
                 *face_plane = Some(FacePlane::new(space, faces, first));
             }
@@ -160,12 +161,10 @@ impl Findings {
 
 /// Keeps the first of lines in the same place. Spokes that end in one axis have one line there, not one for each two.
 fn without_repeated(space: &Space, faces: &Faces, mut lines: Vec<Intersection>) -> Vec<Intersection> {
-    /// The resolution of places, as a share of the contact distance.
-    const SAME: f64 = 0.01;
     let mut places: HashSet<[[i64; 3]; 2]> = HashSet::new();
     lines.retain(|line| {
         let touching = space.contact(0.0, faces.weld(faces.triangles[line.faces[0] as usize][0]));
-        let place = |end: DVec3| (end / (SAME * touching)).round().to_array().map(|number| number as i64);
+        let place = |end: DVec3| (end / (SAME_PLACE * touching)).round().to_array().map(|number| number as i64);
         let [a, b] = line.ends.map(place);
         places.insert([a.min(b), a.max(b)])
     });

@@ -4,7 +4,8 @@ use crate::bvh::{Box3, Exclusion, NO_GROUP, Walk};
 use crate::edges::Class;
 use crate::error::Result;
 use crate::lines::eye::faces::Faces;
-use crate::lines::eye::image::{Image, LineParts, LineTree};
+use crate::lines::eye::image::Image;
+use crate::lines::eye::pieces::{PieceTree, Pieces};
 use crate::lines::eye::space::Space;
 use crate::lines::input::candidates::Candidates;
 use crate::lines::input::feature::{Feature, Own};
@@ -12,12 +13,11 @@ use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
 use crate::lines::visible::bundles::Bundles;
 use crate::lines::visible::contact::{Probe, ProbedLine};
-use crate::lines::visible::occluders::Occluders;
 use crate::lines::visible::search::Search;
 use crate::memory;
 use crate::threads::{cores, in_chunks};
 use crate::thresholds::THRESHOLDS;
-use crate::tolerances::{SHORTEST_LINE, TOUCH};
+use crate::tolerances::{MARGIN_PX, SHORTEST_LINE};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
@@ -26,16 +26,16 @@ pub(in crate::lines) struct LineIndex<'a> {
     pub(in crate::lines) space: &'a Space,
     pub(in crate::lines) faces: &'a Faces,
     pub(in crate::lines) features: &'a [Feature],
-    /// The image of each line's part between the near and the far plane.
+    /// The image of each line's stretch between the near and the far plane.
     pub(in crate::lines) images: Vec<Option<Image>>,
     /// The points where edges pass through faces.
     pub(in crate::lines) piercings: &'a HashMap<[u32; 2], Vec<DVec3>>,
     /// The rims, where surfaces end: they may cross any line.
-    pub(in crate::lines) rims: LineTree,
-    /// The faces that may hide lines, in parts; `None` where the faces' own tree serves.
-    occluders: Option<&'a Occluders>,
+    pub(in crate::lines) rims: PieceTree,
+    /// The faces that may hide lines, in stretches; `None` where the faces' own tree serves.
+    occluders: Option<&'a PieceTree>,
     /// The wanted lines, with the direction of their images as the third coordinate: the candidates for overlapping lines.
-    pub(in crate::lines) overlapping: LineTree,
+    pub(in crate::lines) overlapping: PieceTree,
     /// Bundles of many overlapping lines.
     pub(in crate::lines) bundles: Bundles,
     pub(in crate::lines) shortest_px: f64,
@@ -45,13 +45,13 @@ pub(in crate::lines) struct LineIndex<'a> {
     on_surface: f64,
 }
 
-/// Most bytes that a part of a line takes while its tree is built: box, nodes, numbers, and the builder's memory.
+/// Most bytes that a stretch of a line takes while its tree is built: box, nodes, numbers, and the builder's memory.
 const BYTES_A_PART: usize = 320;
 
-/// Lines whose parts a thread finds at once.
+/// Lines whose stretches a thread finds at once.
 const MADE_AT_ONCE: usize = 4096;
 
-/// Lines whose parts are found between two checks of the time.
+/// Lines whose stretches are found between two checks of the time.
 const LINES_A_GLANCE: usize = 64;
 
 impl<'a> LineIndex<'a> {
@@ -72,44 +72,45 @@ impl<'a> LineIndex<'a> {
         let images: Vec<Option<Image>> = features.iter().map(image).collect();
         let side = space.size.max_element();
         let high_valence = high_valence(features);
-        let parts = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
-            let (mut rims, mut overlapping) = (LineParts::default(), LineParts::default());
+        let stretches = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
+            let (mut rims, mut overlapping) = (Pieces::default(), Pieces::default());
             for index in range {
                 if index % LINES_A_GLANCE == 0 && progress.is_over() {
                     break;
                 }
                 let (feature, image) = (&features[index], images[index]);
-                let Some((image, range)) = image.and_then(|image| Some((image, image.inside(space.size, 1.0)?))) else {
+                let Some((image, range)) = image.and_then(|image| Some((image, image.inside(space.size, MARGIN_PX)?)))
+                else {
                     continue;
                 };
-                let is_hidden = |part: [f64; 2]| {
-                    let ends = part.map(|place| (image.at(place), image.key(place)));
+                let is_hidden = |stretch: [f64; 2]| {
+                    let ends = stretch.map(|place| (image.at(place), image.key(place)));
                     pyramid.is_some_and(|pyramid| pyramid.hides_line(ends))
                 };
                 // A rim that is hidden for sure changes no visible line. The outline needs rims at any depth.
-                for part in image.parts(range, side / THRESHOLDS.parts).filter(|_| feature.occludes) {
-                    if finds_outline || !is_hidden(part) {
-                        let around = image.part_box(part, image.noise_px, part.map(|place| image.key(place)));
+                for stretch in image.stretches(range, side / THRESHOLDS.pieces).filter(|_| feature.occludes) {
+                    if finds_outline || !is_hidden(stretch) {
+                        let around = image.box_around(stretch, image.noise_px, stretch.map(|place| image.key(place)));
                         rims.add_of_groups(around, index, [feature.plane, vertex_of(&high_valence, feature.own)]);
                     }
                 }
                 if feature.overlaps() && (finds_hidden || !is_hidden(range)) {
                     for directions in image.directions(image.touch_px(space)) {
-                        overlapping.add(image.part_box(range, image.noise_px, directions), index);
+                        overlapping.add(image.box_around(range, image.noise_px, directions), index);
                     }
                 }
             }
             (rims, overlapping)
         });
-        let (mut rims, mut overlapping) = (LineParts::default(), LineParts::default());
-        for (some_rims, some_overlapping) in parts {
+        let (mut rims, mut overlapping) = (Pieces::default(), Pieces::default());
+        for (some_rims, some_overlapping) in stretches {
             rims.append(some_rims);
             overlapping.append(some_overlapping);
         }
         progress.go_on()?;
         memory::check_lines((rims.len() + overlapping.len()) * BYTES_A_PART, memory::free())?;
         let is_wanted = |index: usize| features[index].overlaps();
-        let bundles = Bundles::new(&images, is_wanted, space.size * 0.5, 2.0 * TOUCH * side);
+        let bundles = Bundles::new(&images, is_wanted, space.size * 0.5, 2.0 * space.touch_px());
         Ok(Self {
             space,
             faces,
@@ -134,13 +135,13 @@ impl<'a> LineIndex<'a> {
         let inside = image.inside(self.space.size, 0.0);
         // A line on the picture's rim is inside, to whichever side it is rounded.
         let beside = image.inside(self.space.size, (4.0 * image.noise_px).min(self.shortest_px));
-        let length = |part: Option<[f64; 2]>| part.map_or(0.0, |[from, to]| image.length() * (to - from));
+        let length = |stretch: Option<[f64; 2]>| stretch.map_or(0.0, |[from, to]| image.length() * (to - from));
         let inside = if length(beside) - length(inside) > self.shortest_px { beside } else { inside };
         let is_drawn = self.features[index].class == Some(Class::Point) || length(inside) > self.shortest_px;
         inside.filter(|_| is_drawn).map(|inside| (image, inside))
     }
 
-    /// The ends in the world of a line's part between two places of its image: of a free line as it is, not lifted.
+    /// The ends in the world of a line's stretch between two places of its image: of a free line as it is, not lifted.
     pub(in crate::lines) fn ends_world(&self, index: usize, image: &Image, places: [f64; 2]) -> [DVec3; 2] {
         match self.features[index].own {
             Own::Free => places.map(|place| {
@@ -151,7 +152,7 @@ impl<'a> LineIndex<'a> {
         }
     }
 
-    /// Returns the places where a part of a line begins, is cut and ends. A piece below the shortest length joins its neighbour.
+    /// Returns the places where a stretch of a line begins, is cut and ends. A piece below the shortest length joins its neighbour.
     pub(in crate::lines) fn places(&self, image: &Image, [from, to]: [f64; 2], mut cuts: Vec<f64>) -> Vec<f64> {
         cuts.sort_unstable_by(f64::total_cmp);
         let shortest = self.shortest_px / image.length();
@@ -173,9 +174,14 @@ impl<'a> LineIndex<'a> {
         self.any_but(query, Exclusion::planes(planes), visit)
     }
 
-    pub(in crate::lines) fn any_but(&self, query: &Box3, excluded: Exclusion, visit: impl FnMut(u32) -> bool) -> bool {
+    pub(in crate::lines) fn any_but(
+        &self,
+        query: &Box3,
+        excluded: Exclusion,
+        mut visit: impl FnMut(u32) -> bool,
+    ) -> bool {
         match self.occluders {
-            Some(occluders) => occluders.any_but(query, excluded, visit),
+            Some(occluders) => occluders.any_but(query, excluded, |face| visit(face as u32)),
             None => self.faces.tree.any_but(query, excluded, visit),
         }
     }

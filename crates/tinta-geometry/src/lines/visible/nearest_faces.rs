@@ -80,13 +80,13 @@ impl NearestFaces {
         (face != NO_GROUP).then_some(face)
     }
 
-    /// Whether the nearest faces hide all of an intersection. Tests each open part at its middle and its ends.
+    /// Whether the nearest faces hide all of an intersection. Tests each open stretch at its middle and its ends.
     pub(in crate::lines) fn hide(&self, space: &Space, faces: &Faces, line: ProbedLine, ends: [DVec3; 2]) -> bool {
         let Some(image) = Image::of(space, ends) else { return false };
-        let length = |part: &[f64; 2]| part[1] - part[0];
+        let length = |stretch: &[f64; 2]| stretch[1] - stretch[0];
         let mut open = vec![[0.0, 1.0]];
-        while let Some(part) = open.pop() {
-            let asked = OccluderProbe::new(space, (line, ends), &image, part, SearchDepth::Nearer);
+        while let Some(stretch) = open.pop() {
+            let asked = OccluderProbe::new(space, (line, ends), &image, stretch, SearchDepth::Nearer);
             let (mut best, mut known): (Option<[f64; 2]>, _) = (None, [NO_GROUP; 3]);
             for (number, share) in [0.5, 1.0, 0.0].into_iter().enumerate() {
                 let Some(face) = self.at(asked.px[0].lerp(asked.px[1], share)).filter(|face| !known.contains(face))
@@ -98,12 +98,12 @@ impl NearestFaces {
                 if sure.is_some_and(|sure| best.is_none_or(|best| length(&sure) > length(&best))) {
                     best = sure;
                 }
-                if best == Some(part) {
+                if best == Some(stretch) {
                     break;
                 }
             }
             let Some(sure) = best else { return false };
-            open.extend(gaps(part, &[sure]));
+            open.extend(gaps(stretch, &[sure]));
         }
         true
     }

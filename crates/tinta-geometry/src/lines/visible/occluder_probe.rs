@@ -1,15 +1,15 @@
-//! The parts of a line that single faces hide for sure, and those that they may hide.
+//! The stretches of a line that single faces hide for sure, and those that they may hide.
 //!
 //! Plain linear equations decide both. The exact rules decide the rest; where the equations are sure, the exact rules agree.
 
 use crate::lines::eye::faces::Faces;
 use crate::lines::eye::image::Image;
-use crate::lines::eye::projected_face::{ProjectedFace, ROUNDING};
+use crate::lines::eye::projected_face::ProjectedFace;
 use crate::lines::eye::space::Space;
 use crate::lines::input::feature::Own;
 use crate::lines::visible::contact::{Contact, ProbedLine};
 use crate::ranges::{above_zero, clipped, common};
-use crate::tolerances::TIP;
+use crate::tolerances::{IMAGE_ROUNDING, TIP};
 use glam::{DVec2, DVec3};
 
 /// The depths at which a search finds faces.
@@ -21,14 +21,14 @@ pub(in crate::lines) enum SearchDepth {
     Any,
 }
 
-/// A part of a line, to find the faces that hide it.
+/// A stretch of a line, to find the faces that hide it.
 pub(in crate::lines) struct OccluderProbe {
-    part: [f64; 2],
+    stretch: [f64; 2],
     pub px: [DVec2; 2],
     /// In the eye's space.
     view: [DVec3; 2],
     pub line: ProbedLine,
-    /// The distance from the part's ends within which any hidden range reaches them, shares of the line.
+    /// The distance from the stretch's ends within which any hidden range reaches them, shares of the line.
     tips: [f64; 2],
     touch_px: f64,
     /// How far rounding may move a point, pixels.
@@ -49,22 +49,22 @@ impl Own {
 }
 
 impl OccluderProbe {
-    /// Creates the probe for the part between two places of the line's image.
+    /// Creates the probe for the stretch between two places of the line's image.
     pub(in crate::lines) fn new(
         space: &Space,
         (line, ends): (ProbedLine, [DVec3; 2]),
         image: &Image,
-        part: [f64; 2],
+        stretch: [f64; 2],
         search_depth: SearchDepth,
     ) -> Self {
         let length_px = image.length();
         let is_at = |end: usize, px: DVec2| space.project(ends[end]).0 == px;
-        let is_at_end = [part[0] == 0.0 && is_at(0, image.a), part[1] == 1.0 && is_at(1, image.b)];
+        let is_at_end = [stretch[0] == 0.0 && is_at(0, image.a), stretch[1] == 1.0 && is_at(1, image.b)];
         Self {
-            part,
+            stretch,
             tips: is_at_end.map(|is_at_end| if is_at_end { line.own.tip(space, length_px) } else { 0.0 }),
-            px: part.map(|place| image.at(place)),
-            view: part.map(|place| space.point(image.at(place), image.key(place))),
+            px: stretch.map(|place| image.at(place)),
+            view: stretch.map(|place| space.point(image.at(place), image.key(place))),
             line,
             touch_px: image.touch_px(space),
             noise_px: image.noise_px,
@@ -72,12 +72,12 @@ impl OccluderProbe {
         }
     }
 
-    /// Whether the part lies beyond one side of a face's image by more than any tolerance. [`Faces::hidden_ranges`] would find
+    /// Whether the stretch lies beyond one side of a face's image by more than any tolerance. [`Faces::hidden_ranges`] would find
     /// the same at more cost.
     pub(in crate::lines) fn is_beside(&self, space: &Space, points: [DVec2; 3]) -> bool {
         let sign = (points[1] - points[0]).perp_dot(points[2] - points[0]).signum();
         let reach = points.iter().map(|px| px.abs().max_element()).fold(space.size.max_element(), f64::max);
-        let forgiven_px = 2.0 * self.touch_px + reach * ROUNDING;
+        let forgiven_px = 2.0 * self.touch_px + reach * IMAGE_ROUNDING;
         (0..3).any(|side| {
             let (from, along) = (points[side], points[(side + 1) % 3] - points[side]);
             // At least the length, without a root.
@@ -90,8 +90,8 @@ impl OccluderProbe {
     /// Extends a range that a face hides to an end that is very near: no third face comes between.
     fn up_to_ends(&self, mut range: [f64; 2]) -> [f64; 2] {
         for (end, place) in range.iter_mut().enumerate() {
-            if (*place - self.part[end]).abs() <= self.tips[end] {
-                *place = self.part[end];
+            if (*place - self.stretch[end]).abs() <= self.tips[end] {
+                *place = self.stretch[end];
             }
         }
         range
@@ -108,7 +108,7 @@ impl Faces {
     ) -> [Option<[f64; 2]>; 2] {
         const NOTHING: [Option<[f64; 2]>; 2] = [None; 2];
         let is_cut = !self.cut_by_near.is_empty() && self.cut_by_near.binary_search(&face).is_ok();
-        // How far inside of each side both ends are. Most faces in the box of a part lie beside it.
+        // How far inside of each side both ends are. Most faces in the box of a stretch lie beside it.
         let [from, to] = probe.px;
         let of_side = |side: usize| [image.inside(side, from), image.inside(side, to)];
         let inside = [of_side(0), of_side(1), of_side(2)];
@@ -119,9 +119,9 @@ impl Faces {
         }
         let Some(is_own) = probe.line.own_corners(self, face) else { return NOTHING };
         if is_cut {
-            return [None, Some(probe.part)];
+            return [None, Some(probe.stretch)];
         }
-        let [mut sure, mut may] = [Some(probe.part); 2];
+        let [mut sure, mut may] = [Some(probe.stretch); 2];
         for side in 0..3 {
             if !is_side(side) {
                 // Too short for a direction.
@@ -132,8 +132,8 @@ impl Faces {
             let is_beside = probe.is_nearer_sought && (is_own[side] || is_own[(side + 1) % 3]);
             let margin = if is_beside { 8.0 * probe.noise_px } else { 2.0 * probe.touch_px } + image.rounding_px;
             let [start, end] = inside[side];
-            sure = clipped(sure, probe.part, [start - margin, end - margin]);
-            may = clipped(may, probe.part, [start - outside, end - outside]);
+            sure = clipped(sure, probe.stretch, [start - margin, end - margin]);
+            may = clipped(may, probe.stretch, [start - outside, end - outside]);
             if may.is_none() {
                 return NOTHING;
             }
@@ -153,10 +153,10 @@ impl Faces {
         let depths = probe.view.map(|view| if space.is_perspective() { -view.z } else { 1.0 });
         let place = |share: f64| {
             if share == 1.0 {
-                return probe.part[1];
+                return probe.stretch[1];
             }
             let far = share * depths[1];
-            probe.part[0] + (probe.part[1] - probe.part[0]) * (far / ((1.0 - share) * depths[0] + far))
+            probe.stretch[0] + (probe.stretch[1] - probe.stretch[0]) * (far / ((1.0 - share) * depths[0] + far))
         };
         let clip = |range: Option<[f64; 2]>| common(range?, above_zero([0.0, 1.0], behind)?.map(place));
         [clip(sure), clip(may)]

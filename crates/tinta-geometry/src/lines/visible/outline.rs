@@ -1,13 +1,9 @@
 //! The visible lines of the outline: only background lies beside them in the picture.
 //!
 //! Beside means [`BESIDE`] away, on either side. A parallel of the line at that distance is cut wherever the image of a surface's
-//! end or turn crosses it, at any depth. All faces at the middle of each part, at any depth, decide the part. This has three
+//! end or turn crosses it, at any depth. All faces at the middle of each stretch, at any depth, decide the stretch. This has three
 //! effects. Lines that overlap, up to a small share of that distance, are outline together, whichever of them is the nearest. A
 //! face seen nearly edge-on is no surface between a line and the background. A slit narrower than that distance is no background.
-
-mod runs;
-
-pub(in crate::lines) use runs::readable;
 
 use crate::bvh::{Box3, Exclusion};
 use crate::lines::eye::faces::Faces;
@@ -21,27 +17,21 @@ use crate::ranges::hold;
 use crate::tolerances::BESIDE;
 use glam::DVec2;
 
-/// Shortest part that is outline or not, in units of [`LineIndex::beside_px`]. At an acute corner of at least eleven degrees, the
+/// Shortest stretch that is outline or not, in units of [`LineIndex::beside_px`]. At an acute corner of at least eleven degrees, the
 /// parallel of a line reaches over that of the other by no more than this.
 const SHORTEST_PART: f64 = 5.0;
 
-/// Adds a part to the longer one of its neighbours.
-fn absorb(parts: &mut Vec<Interval>, part: usize) {
-    let Interval { from, to, .. } = parts.remove(part);
-    let length = |part: Option<&Interval>| part.map_or(0.0, Interval::length);
-    let (before, after) = (part.checked_sub(1), part);
-    let is_after = length(parts.get(after)) > length(before.and_then(|before| parts.get(before)));
+/// Adds a stretch to the longer one of its neighbours.
+fn absorb(stretches: &mut Vec<Interval>, stretch: usize) {
+    let Interval { from, to, .. } = stretches.remove(stretch);
+    let length = |stretch: Option<&Interval>| stretch.map_or(0.0, Interval::length);
+    let (before, after) = (stretch.checked_sub(1), stretch);
+    let is_after = length(stretches.get(after)) > length(before.and_then(|before| stretches.get(before)));
     match before.filter(|_| !is_after) {
-        Some(before) => parts[before].to = to,
-        None => parts[after].from = from,
+        Some(before) => stretches[before].to = to,
+        None => stretches[after].from = from,
     }
-    parts.dedup_by(|next, kept| {
-        let is_same = next.background == kept.background;
-        if is_same {
-            kept.to = next.to;
-        }
-        is_same
-    });
+    std::mem::take(stretches).into_iter().for_each(|stretch| stretch.add_to(stretches));
 }
 
 impl Interval {
@@ -56,20 +46,19 @@ impl LineIndex<'_> {
         let aside = (image.b - image.a).perp().normalize() * self.beside_px();
         let background = [aside, -aside].map(|aside| self.background(index, image, [piece.from, piece.to], aside));
         let cuts = background.iter().flatten().flatten().copied().collect();
-        let mut parts: Vec<Interval> = Vec::new();
+        let mut stretches: Vec<Interval> = Vec::new();
         for place in self.places(image, [piece.from, piece.to], cuts).windows(2) {
             let middle = (place[0] + place[1]) * 0.5;
             let background = [0, 1].map(|side| hold(&background[side], middle));
-            match parts.last_mut() {
-                Some(last) if last.background == background => last.to = place[1],
-                _ => parts.push(Interval { from: place[0], to: place[1], background, ..piece }),
-            }
+            Interval { from: place[0], to: place[1], background, ..piece }.add_to(&mut stretches);
         }
         let least = SHORTEST_PART * self.beside_px() / image.length();
-        while let Some(part) = (0..parts.len()).filter(|_| parts.len() > 1).find(|part| parts[*part].length() < least) {
-            absorb(&mut parts, part);
+        while let Some(stretch) =
+            (0..stretches.len()).filter(|_| stretches.len() > 1).find(|stretch| stretches[*stretch].length() < least)
+        {
+            absorb(&mut stretches, stretch);
         }
-        parts
+        stretches
     }
 
     /// How far beside a line background makes it outline, pixels.
@@ -87,7 +76,7 @@ impl LineIndex<'_> {
             let line = self.line(image, SearchDepth::Any, 0.0);
             self.rims.any_along(line, *gap, Exclusion::default(), |other_index| {
                 if let Some(other) = self.images[other_index] {
-                    cuts.extend(image.meetings(&other, touch_px.max(other.touch_px(self.space))));
+                    cuts.extend(image.meetings(&other, self.space));
                 }
                 false
             });
@@ -104,19 +93,6 @@ impl LineIndex<'_> {
             }
         }
         background
-    }
-}
-
-impl Image {
-    /// Returns the places on this line where another's image crosses or touches it, or overlaps it and ends.
-    pub(in crate::lines) fn meetings(&self, other: &Self, touch_px: f64) -> impl Iterator<Item = f64> + use<> {
-        let along = self.b - self.a;
-        let length = along.length();
-        let (c, d) = (along.perp_dot(other.a - self.a) / length, along.perp_dot(other.b - self.a) / length);
-        let is_beside = (c > touch_px && d > touch_px) || (c < -touch_px && d < -touch_px);
-        let crossing = (!is_beside && c != d).then(|| self.place_of(other.at((c / (c - d)).clamp(0.0, 1.0))));
-        let overlap = if is_beside { None } else { self.overlap(other, touch_px) };
-        overlap.into_iter().flatten().chain(crossing)
     }
 }
 
@@ -140,23 +116,10 @@ impl Faces {
         if self.is_ghost(face) || self.edge_on.binary_search(&self.numbers[face as usize]).is_ok() {
             return NEITHER;
         }
-        let corners = self.corners(face);
-        let [a, b, c] = corners;
+        let corners @ [a, b, c] = self.corners(face);
         let normal = (b - a).cross(c - a);
-        // Counter-clockwise, seen from the front.
         let sign = if normal.dot(space.to_eye(a)) > 0.0 { 1.0 } else { -1.0 };
-        let mut is_inside = [true; 2];
-        for side in 0..3 {
-            let (from, to) = (corners[side], corners[(side + 1) % 3]);
-            let (turn, length) = space.turn(from, to, probe.view);
-            if sign * turn < -touch * length {
-                return NEITHER;
-            }
-            if sign * turn <= touch * length {
-                let inward = sign * space.turn_aside(from, to, probe.aside);
-                is_inside = [is_inside[0] && inward > 0.0, is_inside[1] && -inward > 0.0];
-            }
-        }
+        let is_inside = probe.inside(space, corners, sign, |_| touch, |inward, _| inward > 0.0);
         let is_cut = is_inside != NEITHER && self.cut_by_near.binary_search(&face).is_ok();
         if is_cut && self.hit_depth(space, [a, normal], probe) < space.near { NEITHER } else { is_inside }
     }

@@ -52,11 +52,10 @@ impl OverlappingLines {
 impl LineIndex<'_> {
     /// The wanted lines that lie on one in what of it is between two places.
     fn lying_on(&self, index: usize, image: &Image, inside: [f64; 2]) -> Overlaps {
-        let touch_px = image.touch_px(self.space);
         let mut found: Vec<usize> = Vec::new();
         let are_many = self.any_of_its_direction(image, inside, |other_index| {
             let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
-            if image.overlap(&other, touch_px.max(other.touch_px(self.space))).is_some() {
+            if image.lies_on(&other, self.space).is_some() {
                 found.push(other_index);
             }
             found.len() >= THRESHOLDS.group
@@ -64,26 +63,26 @@ impl LineIndex<'_> {
         if are_many { Overlaps::Many } else { Overlaps::Few(found) }
     }
 
-    /// Calls `visit` with each line that may lie on a part of one, perhaps several times, until it returns true; returns whether
+    /// Calls `visit` with each line that may lie on a stretch of one, perhaps several times, until it returns true; returns whether
     /// it did.
     fn any_overlapping(
         &self,
         image: &Image,
         overlapping: &OverlappingLines,
-        part: [f64; 2],
+        stretch: [f64; 2],
         mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
         match overlapping.found(self) {
             Overlaps::Few(lines) => lines.iter().any(|line| visit(*line)),
-            Overlaps::Many => self.any_of_its_direction(image, part, visit),
+            Overlaps::Many => self.any_of_its_direction(image, stretch, visit),
         }
     }
 
     /// The same of all lines that have its direction where it is, as those that lie on it have.
-    fn any_of_its_direction(&self, image: &Image, part: [f64; 2], mut visit: impl FnMut(usize) -> bool) -> bool {
+    fn any_of_its_direction(&self, image: &Image, stretch: [f64; 2], mut visit: impl FnMut(usize) -> bool) -> bool {
         let touch_px = image.touch_px(self.space);
         let mut directions = image.directions(touch_px);
-        directions.any(|directions| self.overlapping.any(&image.part_box(part, touch_px, directions), &mut visit))
+        directions.any(|directions| self.overlapping.any(&image.box_around(stretch, touch_px, directions), &mut visit))
     }
 
     /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a pixel. `None` where it
@@ -96,14 +95,12 @@ impl LineIndex<'_> {
         px: DVec2,
         depth: f64,
     ) -> Option<bool> {
-        let touch_px = image.touch_px(self.space);
         let (place, own_key) = (image.place_of(px), image.key(image.place_of(px)));
         let mut others: Vec<(f64, usize)> = Vec::new();
         let is_behind = self.any_overlapping(image, overlapping, [place; 2], |other_index| {
             let Some(other) = self.images[other_index].filter(|_| other_index != index) else { return false };
-            let lies_on_it = image
-                .overlap(&other, touch_px.max(other.touch_px(self.space)))
-                .is_some_and(|range| (range[0]..=range[1]).contains(&place));
+            let lies_on_it =
+                image.lies_on(&other, self.space).is_some_and(|range| (range[0]..=range[1]).contains(&place));
             if lies_on_it {
                 let key = other.key(other.place_of(px).clamp(0.0, 1.0));
                 // Where only what is seen counts, nothing else does.
@@ -145,24 +142,23 @@ impl LineIndex<'_> {
         self.space.contact(length(first).min(length(second)), first.weld.min(second.weld))
     }
 
-    /// Adds where other lines that lie in the picture on a part of one begin, end and are as near: all, or only the first line's.
+    /// Adds where other lines that lie in the picture on a stretch of one begin, end and are as near: all, or only the first line's.
     /// Returns whether it stopped at the first. Where only what is seen counts, leaves out those that are farther away for sure.
     pub(in crate::lines) fn add_overlaps(
         &self,
         index: usize,
         image: &Image,
         overlapping: &OverlappingLines,
-        part: [f64; 2],
+        stretch: [f64; 2],
         stops_at_first: bool,
         cuts: &mut Vec<f64>,
     ) -> bool {
-        let touch_px = image.touch_px(self.space);
-        self.any_overlapping(image, overlapping, part, |other_index| {
+        self.any_overlapping(image, overlapping, stretch, |other_index| {
             let changes_nothing = |other: &Image| !self.finds_hidden && self.is_farther(other_index, other, image);
             if let Some(other) =
                 self.images[other_index].filter(|other| other_index != index && !changes_nothing(other))
             {
-                self.add_crossings(image, &other, touch_px.max(other.touch_px(self.space)), false, cuts);
+                self.add_crossings(image, &other, false, cuts);
                 return stops_at_first;
             }
             false
@@ -175,32 +171,32 @@ impl LineIndex<'_> {
         united(nearest.filter_map(|other| self.behind_overlapping_line(index, image, other, inside)).collect())
     }
 
-    /// Adds what of a part lies in the picture on another line that is nearer for sure.
+    /// Adds what of a stretch lies in the picture on another line that is nearer for sure.
     pub(in crate::lines) fn behind_overlapping_lines(
         &self,
         index: usize,
         image: &Image,
         overlapping: &OverlappingLines,
-        part: [f64; 2],
+        stretch: [f64; 2],
         hidden: &mut Vec<[f64; 2]>,
     ) {
-        self.any_overlapping(image, overlapping, part, |other| {
-            hidden.extend(self.behind_overlapping_line(index, image, other, part));
+        self.any_overlapping(image, overlapping, stretch, |other| {
+            hidden.extend(self.behind_overlapping_line(index, image, other, stretch));
             false
         });
     }
 
-    /// What of a part lies in the picture on a certain other line that is nearer for sure.
+    /// What of a stretch lies in the picture on a certain other line that is nearer for sure.
     fn behind_overlapping_line(
         &self,
         index: usize,
         image: &Image,
         other_index: usize,
-        part: [f64; 2],
+        stretch: [f64; 2],
     ) -> Option<[f64; 2]> {
         let other = self.images[other_index].filter(|_| other_index != index)?;
-        let range = image.overlap(&other, image.touch_px(self.space).max(other.touch_px(self.space)))?;
-        let range = [range[0].max(part[0]), range[1].min(part[1])];
+        let range = image.lies_on(&other, self.space)?;
+        let range = [range[0].max(stretch[0]), range[1].min(stretch[1])];
         let least = self.clearly_behind(index, &other);
         let behind = |place: f64| image.key(place) - other.key(other.place_of(image.at(place))) - least;
         if range[0] < range[1] { above_zero(range, range.map(behind)) } else { None }
@@ -208,8 +204,7 @@ impl LineIndex<'_> {
 
     /// Whether a line that lies in the picture on another is farther away than that for sure, wherever it lies on it.
     fn is_farther(&self, index: usize, image: &Image, nearer: &Image) -> bool {
-        let touch_px = nearer.touch_px(self.space).max(image.touch_px(self.space));
-        let Some(range) = nearer.overlap(image, touch_px) else { return false };
+        let Some(range) = nearer.lies_on(image, self.space) else { return false };
         let least = self.clearly_behind(index, nearer);
         range.into_iter().all(|place| image.key(image.place_of(nearer.at(place))) - nearer.key(place) > least)
     }

@@ -13,6 +13,7 @@
 
 use crate::error::Result;
 use crate::lines::eye::image::Image;
+use crate::lines::eye::touch::piercing;
 use crate::lines::input::feature::{Feature, Own};
 use crate::lines::progress::{Phase, Progress};
 use crate::lines::segment::LineSegment;
@@ -51,10 +52,7 @@ impl LineIndex<'_> {
             let [from, to] = [place[0], place[1]];
             let middle = (from + to) * 0.5;
             let Some(is_visible) = self.is_visible(index, &image, &overlapping, middle) else { continue };
-            match pieces.last_mut() {
-                Some(last) if last.is_visible == is_visible && last.to == from => last.to = to,
-                _ => pieces.push(Interval { from, to, is_visible, background: [false; 2] }),
-            }
+            Interval { from, to, is_visible, background: [false; 2] }.add_to(&mut pieces);
         }
         pieces
     }
@@ -64,9 +62,8 @@ impl LineIndex<'_> {
         let feature = &self.features[index];
         let mut cuts = Vec::new();
         for (other, other_image) in self.others(index) {
-            let touch_px = image.touch_px(self.space).max(other_image.touch_px(self.space));
             let occludes = other.occludes && !feature.own.meets(other.own);
-            self.add_crossings(image, other_image, touch_px, occludes, &mut cuts);
+            self.add_crossings(image, other_image, occludes, &mut cuts);
         }
         match feature.own {
             // An edge passes through a face where the intersections say so: what only touches a face is not cut.
@@ -74,7 +71,7 @@ impl LineIndex<'_> {
             Own::Faces(_) | Own::Free => {
                 let is_own = |face: &u32| matches!(feature.own, Own::Faces(own) if own.contains(face));
                 let passed = self.all_faces().filter(|face| !is_own(face));
-                let points = passed.filter_map(|face| self.piercing(feature.ends, face));
+                let points = passed.filter_map(|face| piercing(feature.ends, self.faces.corners(face)));
                 cuts.extend(points.map(|point| image.place_of(self.space.project(point).0)));
             }
         }
@@ -100,8 +97,7 @@ impl LineIndex<'_> {
         let nearer = |other: usize| {
             let overlap = self.features[other].overlaps() && self.features[index].overlaps();
             let (other_image, _) = self.wanted(other).filter(|_| other != index && overlap)?;
-            let touch_px = image.touch_px(self.space).max(other_image.touch_px(self.space));
-            let range = image.overlap(&other_image, touch_px)?;
+            let range = image.lies_on(&other_image, self.space)?;
             let key = other_image.key(other_image.place_of(px).clamp(0.0, 1.0));
             let in_front = depth - self.space.depth_of_key(key);
             let touches = in_front.abs() <= self.contact(index, other);
@@ -116,9 +112,8 @@ impl LineIndex<'_> {
     pub(in crate::lines) fn all_lying_on(&self, index: usize, image: &Image) -> OverlappingLines {
         let lies_on_it = |other: &usize| {
             let Some(other_image) = self.images[*other].filter(|_| *other != index) else { return false };
-            let touch_px = image.touch_px(self.space).max(other_image.touch_px(self.space));
             let overlap = self.features[*other].overlaps() && self.features[index].overlaps();
-            overlap && image.overlap(&other_image, touch_px).is_some()
+            overlap && image.lies_on(&other_image, self.space).is_some()
         };
         let lying_on = (0..self.features.len()).filter(lies_on_it).collect();
         OverlappingLines::new(index, image, [0.0, 1.0]).known(lying_on)

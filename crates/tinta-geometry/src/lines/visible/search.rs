@@ -1,10 +1,11 @@
 //! What quickens the search for lines in crowded scenes. Without it the same lines are found.
 
+use crate::lines::eye::pieces::PieceTree;
 use crate::lines::eye::pyramid::{Pyramid, is_crowded};
 use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
 use crate::lines::visible::nearest_faces::NearestFaces;
-use crate::lines::visible::occluders::Occluders;
+use crate::lines::visible::occluders::occluders;
 
 /// Accelerators; by default none.
 #[derive(Default)]
@@ -14,7 +15,7 @@ pub(in crate::lines) struct Search {
     /// The nearest face at samples of the picture.
     pub nearest_faces: Option<NearestFaces>,
     /// The faces that may hide lines, in short pieces.
-    pub occluders: Option<Occluders>,
+    pub occluders: Option<PieceTree>,
 }
 
 impl Search {
@@ -24,7 +25,7 @@ impl Search {
             return Self::default();
         }
         let pyramid = Pyramid::new(space, faces);
-        let occluders = Occluders::new(space, faces, pyramid.as_ref());
+        let occluders = occluders(space, faces, pyramid.as_ref(), progress);
         Self { nearest_faces: Some(NearestFaces::new(space, faces, progress)), occluders: Some(occluders), pyramid }
     }
 }

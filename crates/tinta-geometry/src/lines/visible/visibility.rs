@@ -93,10 +93,7 @@ impl LineIndex<'_> {
                 continue;
             }
             let Some(is_visible) = self.state(index, &image, &overlapping, place, is_hidden, &cover) else { continue };
-            match pieces.last_mut() {
-                Some(last) if last.is_visible == is_visible && last.to == from => last.to = to,
-                _ => pieces.push(Interval { from, to, is_visible, background: [false; 2] }),
-            }
+            Interval { from, to, is_visible, background: [false; 2] }.add_to(&mut pieces);
         }
         pieces.retain(|piece| piece.is_visible || self.finds_hidden);
         segments.extend(pieces.into_iter().flat_map(|piece| self.segments_of(index, piece)));

@@ -12,9 +12,10 @@
 //! outline are paired first, then the pair that continues straightest.
 
 use crate::lines::LineSegment;
-use crate::lines::eye::image::{Image, LineParts};
+use crate::lines::eye::image::Image;
+use crate::lines::eye::pieces::Pieces;
 use crate::lines::progress::Progress;
-use crate::ranges::{above_zero, clipped, gaps, united};
+use crate::ranges::{above_zero, clipped, gaps, united, with_gaps};
 use crate::tolerances::JOINED_PX;
 use glam::DVec2;
 use std::collections::HashMap;
@@ -36,9 +37,12 @@ pub(in crate::lines) fn readable(segments: &[LineSegment], width_px: f64, progre
         settle(&pieces, &mut is_outline, &chain, least_px, 1, |_| false);
     }
     pieces.iter_mut().zip(&is_outline).for_each(|(piece, is_outline)| piece.is_outline = *is_outline);
-    let ends = OutlineEnds::new(&pieces, width_px);
+    let mut ends = Squares::new(width_px);
+    for (number, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.is_outline) {
+        piece.ends_px.into_iter().for_each(|px| ends.add(px, number));
+    }
     for chain in chains(&pieces, |piece| piece.is_visible) {
-        settle(&pieces, &mut is_outline, &chain, least_px, 2, |run| ends.continue_both(run, &pieces));
+        settle(&pieces, &mut is_outline, &chain, least_px, 2, |run| continue_both(&ends, run, &pieces));
     }
     pieces.iter_mut().zip(is_outline).for_each(|(piece, is_outline)| piece.is_outline = is_outline);
     pieces
@@ -50,10 +54,12 @@ fn cut_at_slits(segments: &[LineSegment], slit_px: f64, progress: &Progress) -> 
         let [a, b] = segment.ends_px;
         Image { a, b, keys: [0.0; 2], noise_px: 0.0 }
     };
-    let mut parts = LineParts::default();
+    let mut parts = Pieces::default();
     for (number, segment) in segments.iter().enumerate().filter(|(_, segment)| segment.is_outline) {
         let image = image(segment);
-        image.parts([0.0, 1.0], LONGEST_PART).for_each(|part| parts.add(image.part_box(part, 0.0, [0.0; 2]), number));
+        image
+            .stretches([0.0, 1.0], LONGEST_PART)
+            .for_each(|part| parts.add(image.box_around(part, 0.0, [0.0; 2]), number));
     }
     let tree = parts.tree(progress);
     let (mut pieces, mut is_outline) = (Vec::with_capacity(segments.len()), Vec::with_capacity(segments.len()));
@@ -68,8 +74,8 @@ fn cut_at_slits(segments: &[LineSegment], slit_px: f64, progress: &Progress) -> 
         let mut wide: Vec<[f64; 2]> = Vec::new();
         for side in [0, 1].into_iter().filter(|side| segment.background[*side]) {
             let mut narrow: Vec<[f64; 2]> = Vec::new();
-            for part in image.parts([0.0, 1.0], LONGEST_PART) {
-                tree.any(&image.part_box(part, slit_px, [0.0; 2]), |other| {
+            for part in image.stretches([0.0, 1.0], LONGEST_PART) {
+                tree.any(&image.box_around(part, slit_px, [0.0; 2]), |other| {
                     let range = (other != number).then(|| before(&image, side, &segments[other], slit_px)).flatten();
                     narrow.extend(range);
                     false
@@ -86,9 +92,7 @@ fn cut_at_slits(segments: &[LineSegment], slit_px: f64, progress: &Progress) -> 
             let ends_px = range.map(|place| image.at(place));
             LineSegment { ends_px, ends_world: range.map(world), ..segment.clone() }
         };
-        let mut told: Vec<([f64; 2], bool)> = wide.iter().map(|range| (*range, true)).collect();
-        told.extend(gaps([0.0, 1.0], &wide).into_iter().map(|range| (range, false)));
-        told.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+        let told = with_gaps([0.0, 1.0], &wide);
         pieces.extend(told.iter().map(|(range, _)| part(*range)));
         is_outline.extend(told.iter().map(|(_, is_wide)| *is_wide));
     }
@@ -174,25 +178,49 @@ fn partners(pieces: &[LineSegment], is_meant: fn(&LineSegment) -> bool) -> Vec<O
     partners
 }
 
+/// Points in a grid of squares, each with a number.
+struct Squares {
+    squares: HashMap<[i64; 2], Vec<(DVec2, usize)>>,
+    side_px: f64,
+}
+
+impl Squares {
+    fn new(side_px: f64) -> Self {
+        Self { squares: HashMap::new(), side_px }
+    }
+
+    fn square(&self, px: DVec2) -> [i64; 2] {
+        (px / self.side_px).floor().as_i64vec2().to_array()
+    }
+
+    fn add(&mut self, px: DVec2, number: usize) {
+        self.squares.entry(self.square(px)).or_default().push((px, number));
+    }
+
+    /// The numbers of the points no farther from a place than a square's side.
+    fn near(&self, px: DVec2) -> impl Iterator<Item = usize> {
+        let [x, y] = self.square(px);
+        let around = (-1..=1).flat_map(move |dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
+        let points = around.filter_map(|square| self.squares.get(&square)).flatten();
+        points.filter(move |(point, _)| point.distance(px) <= self.side_px).map(|(_, number)| *number)
+    }
+}
+
 /// Groups ends that lie in one place, nearer than [`JOINED_PX`]: a rim may continue as another edge at the same place.
 fn meetings(ends: impl Iterator<Item = usize>, position: impl Fn(usize) -> DVec2) -> Vec<Vec<usize>> {
-    let cell = |px: DVec2| (px / JOINED_PX).floor().as_i64vec2().to_array();
-    let mut places: Vec<(DVec2, Vec<usize>)> = Vec::new();
-    let mut cells: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
+    let (mut places, mut meetings) = (Squares::new(JOINED_PX), Vec::<Vec<usize>>::new());
     for end in ends {
         let px = position(end);
-        let [x, y] = cell(px);
-        let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
-        let mut known = around.filter_map(|cell| cells.get(&cell)).flatten();
-        match known.find(|place| places[**place].0.distance(px) <= JOINED_PX) {
-            Some(place) => places[*place].1.push(end),
+        let known = places.near(px).next();
+        match known {
+            Some(place) => meetings[place].push(end),
             None => {
-                cells.entry([x, y]).or_default().push(places.len());
-                places.push((px, vec![end]));
+                places.add(px, meetings.len());
+                meetings.push(vec![end]);
             }
         }
     }
-    places.into_iter().map(|(_, ends)| ends).collect()
+    meetings
 }
 
 /// A part of a chain, all outline or all inner line.
@@ -202,39 +230,13 @@ struct Run {
     is_outline: bool,
 }
 
-/// The ends of all pieces of the outline.
-struct OutlineEnds {
-    /// By squares as wide as the outline.
-    squares: HashMap<[i64; 2], Vec<(DVec2, usize)>>,
-    width_px: f64,
-}
-
-impl OutlineEnds {
-    fn new(pieces: &[LineSegment], width_px: f64) -> Self {
-        let mut ends = Self { squares: HashMap::new(), width_px };
-        for (number, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.is_outline) {
-            piece.ends_px.iter().for_each(|px| ends.squares.entry(ends.square(*px)).or_default().push((*px, number)));
-        }
-        ends
-    }
-
-    fn square(&self, px: DVec2) -> [i64; 2] {
-        (px / self.width_px).floor().as_i64vec2().to_array()
-    }
-
-    /// Whether other pieces of the outline end within the outline's width of both ends of a run.
-    fn continue_both(&self, run: &Run, pieces: &[LineSegment]) -> bool {
-        let all: Vec<DVec2> = run.pieces.iter().flat_map(|piece| pieces[*piece].ends_px).collect();
-        let farthest = |from: DVec2| all.iter().copied().max_by(|a, b| a.distance(from).total_cmp(&b.distance(from)));
-        let Some(first) = all.first().and_then(|any| farthest(*any)) else { return false };
-        let is_continued = |px: DVec2| {
-            let [x, y] = self.square(px);
-            let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
-            let mut near = around.filter_map(|square| self.squares.get(&square)).flatten();
-            near.any(|(end, piece)| end.distance(px) <= self.width_px && !run.pieces.contains(piece))
-        };
-        is_continued(first) && farthest(first).is_some_and(is_continued)
-    }
+/// Whether other pieces of the outline, of whose ends `ends` has the pieces' numbers, end within its width of both ends of a run.
+fn continue_both(ends: &Squares, run: &Run, pieces: &[LineSegment]) -> bool {
+    let all: Vec<DVec2> = run.pieces.iter().flat_map(|piece| pieces[*piece].ends_px).collect();
+    let farthest = |from: DVec2| all.iter().copied().max_by(|a, b| a.distance(from).total_cmp(&b.distance(from)));
+    let Some(first) = all.first().and_then(|any| farthest(*any)) else { return false };
+    let is_continued = |px: DVec2| ends.near(px).any(|piece| !run.pieces.contains(&piece));
+    is_continued(first) && farthest(first).is_some_and(is_continued)
 }
 
 /// Gives each run that is too short the class of its neighbours, if it has at least `least_beside` of them. A run of the outline that

@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// The covered faces: in each region all except the set with the lowest number. `chains` are the edges that others
 /// cover.
-pub(in crate::lines) fn covered_faces(mesh: &Mesh, edges: &EdgeList, chains: &[Chain]) -> HashSet<u32> {
+pub(in crate::lines) fn repeated_sheets(mesh: &Mesh, edges: &EdgeList, chains: &[Chain]) -> HashSet<u32> {
     let planar = Planar::new(mesh);
     let at_edges = in_chunks(edges.len(), EDGES_A_THREAD, threads_for(edges.len()), |range| {
         let mut pairs = Vec::new();

@@ -2,18 +2,19 @@
 //! ghosts, which no face of their own hides.
 //!
 //! In: pieces of lines. Out: the same pieces, those lines cut where such a line begins or ends, and marked. A visible line replaces
-//! every hidden one under it, and one of a solid part every ghost's, except that curves and points replace no line of a surface. Of
+//! every hidden one under it, and one of a solid stretch every ghost's, except that curves and points replace no line of a surface. Of
 //! hidden lines, and of ghosts', the one of the first class stays, and within one class the first. Lines overlap up to [`JOINED_PX`], which a file of three decimals barely resolves. Trees of visible and of hidden lines find the
 //! candidates. The search for a line ends when it is covered as a whole.
 
 use crate::edges::ClassSet;
 use crate::error::{Error, Result};
 use crate::lines::LineSegment;
-use crate::lines::eye::image::{Image, LineParts, LineTree};
+use crate::lines::eye::image::Image;
+use crate::lines::eye::pieces::{PieceTree, Pieces};
 use crate::lines::eye::space::Space;
 use crate::lines::parts::scene_parts::SceneParts;
 use crate::lines::progress::Progress;
-use crate::ranges::gaps;
+use crate::ranges::with_gaps;
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::JOINED_PX;
 
@@ -23,7 +24,7 @@ const WHOLE: [f64; 2] = [0.0, 1.0];
 /// Hidden lines that a thread tests at once.
 const CHUNK: usize = 512;
 
-/// Cuts and marks hidden pieces, and those that are ghosts'. Returns all pieces unchanged if time runs out and the settings accept a part of the lines.
+/// Cuts and marks hidden pieces, and those that are ghosts'. Returns all pieces unchanged if time runs out and the settings accept a stretch of the lines.
 ///
 /// # Errors
 ///
@@ -45,15 +46,15 @@ pub(in crate::lines) fn marked(
     }
     let images: Vec<Image> = segments.iter().map(|segment| image_of(space, segment)).collect();
     let tree = |is_visible: bool| {
-        let mut parts = LineParts::default();
+        let mut stretches = Pieces::default();
         for (number, image) in
             images.iter().enumerate().filter(|(number, _)| segments[*number].is_visible == is_visible)
         {
             for directions in image.directions(JOINED_PX) {
-                parts.add(image.part_box(WHOLE, 0.0, directions), number);
+                stretches.add(image.box_around(WHOLE, 0.0, directions), number);
             }
         }
-        parts.tree(progress)
+        stretches.tree(progress)
     };
     let lines = DrawnLines { segments: &segments, ranks: &ranks, images: &images, trees: [tree(true), tree(false)] };
     let covered = in_chunks(segments.len(), CHUNK, cores(), |range| {
@@ -74,7 +75,7 @@ pub(in crate::lines) fn marked(
 /// Which lines replace others where they overlap: those of the lower rank.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Rank {
-    /// Visible lines of parts that hide others, and curves and points. None replaces another.
+    /// Visible lines of stretches that hide others, and curves and points. None replaces another.
     Solid,
     /// Visible lines of ghosts.
     Ghost,
@@ -97,7 +98,7 @@ struct DrawnLines<'a> {
     segments: &'a [LineSegment],
     ranks: &'a [Rank],
     images: &'a [Image],
-    trees: [LineTree; 2],
+    trees: [PieceTree; 2],
 }
 
 impl DrawnLines<'_> {
@@ -115,7 +116,7 @@ impl DrawnLines<'_> {
                 covered == [WHOLE]
             };
             let mut directions = image.directions(JOINED_PX);
-            if directions.any(|directions| tree.any(&image.part_box(WHOLE, JOINED_PX, directions), &mut found)) {
+            if directions.any(|directions| tree.any(&image.box_around(WHOLE, JOINED_PX, directions), &mut found)) {
                 return covered;
             }
         }
@@ -151,18 +152,14 @@ fn joined(ranges: Vec<[f64; 2]>, [from, to]: [f64; 2], tolerance: f64) -> Vec<[f
     joined
 }
 
-/// Cuts a piece into parts that are covered as a whole or not at all, along it.
+/// Cuts a piece into stretches that are covered as a whole or not at all, along it.
 fn cut(space: &Space, segment: &LineSegment, image: &Image, covered: &[[f64; 2]]) -> Vec<LineSegment> {
-    let part = |range: [f64; 2], is_covered: bool| {
+    let stretch = |range: [f64; 2], is_covered: bool| {
         let (px, world) = (range.map(|place| image.at(place)), image.ends_world(space, range));
         // A piece's own ends stay bit for bit.
         let is_own = [range[0] == 0.0, range[1] == 1.0];
         let end = |end: usize| if is_own[end] { segment.ends_world[end] } else { world[end] };
-        (range[0], LineSegment { is_covered, ends_px: px, ends_world: [end(0), end(1)], ..segment.clone() })
+        LineSegment { is_covered, ends_px: px, ends_world: [end(0), end(1)], ..segment.clone() }
     };
-    let covered_parts = covered.iter().map(|range| part(*range, true));
-    let mut parts: Vec<_> =
-        covered_parts.chain(gaps([0.0, 1.0], covered).into_iter().map(|gap| part(gap, false))).collect();
-    parts.sort_by(|a, b| a.0.total_cmp(&b.0));
-    parts.into_iter().map(|(_, segment)| segment).collect()
+    with_gaps(WHOLE, covered).into_iter().map(|(range, is_covered)| stretch(range, is_covered)).collect()
 }

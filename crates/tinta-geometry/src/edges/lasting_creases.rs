@@ -1,14 +1,14 @@
-//! Persistent creases: those of the surface, without the single chance folds of its faces, as on scans.
+//! Lasting creases: those of the surface, without the single chance folds of its faces, as on scans.
 //!
-//! In: a [`Mesh`], its [`EdgeList`] and the creases. Out: the persistent ones. A crease continues in the straightest one at its
-//! end, if it turns by less than 45 degrees there. It is persistent if it is closed or long, or if a flat face of several
+//! In: a [`Mesh`], its [`EdgeList`] and the creases. Out: the lasting ones. A crease continues in the straightest one at its
+//! end, if it turns by less than 45 degrees there. It is lasting if it is closed or long, or if a flat face of several
 //! triangles ends at it, as at all edges of a part.
 
 use super::EdgeList;
 use crate::mesh::{Mesh, triangle_normal};
 use glam::DVec3;
 
-/// Least length of a persistent crease, as a share of the diagonal of the model's box.
+/// Least length of a lasting crease, as a share of the diagonal of the model's box.
 const LEAST_LENGTH: f64 = 0.06;
 
 /// The cosine of the largest turn along one crease.
@@ -20,8 +20,8 @@ const FLAT: f64 = 0.99996;
 /// Most creases at a position; more of them do not continue.
 const MOST_CREASES: usize = 16;
 
-/// Returns for each edge whether it is a persistent crease.
-pub(crate) fn persistent_creases(mesh: &Mesh, edges: &EdgeList, is_crease: impl Fn(u32) -> bool) -> Vec<bool> {
+/// Returns for each edge whether it is a lasting crease.
+pub(crate) fn lasting_creases(mesh: &Mesh, edges: &EdgeList, is_crease: impl Fn(u32) -> bool) -> Vec<bool> {
     let is_flat = flat_faces(mesh, edges);
     let creases: Vec<u32> = (0..edges.len() as u32).filter(|edge| is_crease(*edge)).collect();
     let end = |end: usize| edges.positions()[creases[end / 2] as usize][end % 2];
