@@ -64,8 +64,8 @@ pub(crate) struct BoxTree {
     nodes: Bvh2,
     /// The boxes, leaf by leaf.
     boxes: Vec<Box3>,
-    /// For each node the plane in which all things below it lie, and the vertex that they all share, else [`NO_GROUP`]; each empty
-    /// without such groups.
+    /// Each node's plane and vertex, if all things below it have the same one, else [`NO_GROUP`]; each list is empty without such
+    /// groups.
     groups: [Vec<u32>; 2],
 }
 
@@ -182,7 +182,7 @@ impl BoxTree {
         &self.boxes
     }
 
-    /// Sets the plane and the high-valence vertex of the thing at each place; an empty list where there are none. [`BoxTree::pairs`]
+    /// Sets the plane and the high-valence vertex of the thing at each place; empty lists set nothing. [`BoxTree::pairs`]
     /// then leaves out pairs of one group, and takes no time over them. [`BoxTree::any_but`] leaves out things in given groups.
     pub(crate) fn set_groups(&mut self, groups: [&[u32]; 2]) {
         self.groups = groups.map(|of_places| if of_places.is_empty() { Vec::new() } else { self.of_nodes(of_places) });

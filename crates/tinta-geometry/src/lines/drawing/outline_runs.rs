@@ -5,7 +5,7 @@
 //! - *Slits.* The ink of two outline lines nearer than [`SLIT`] widths would fill the background between them: both become inner
 //!   lines there. Along the outline, a part shorter than [`SHORT_RUN`] widths, slit or not, takes the class of its neighbours.
 //! - *Short runs.* A run of inner line shorter than [`SHORT_RUN`] widths between two runs of outline becomes outline. A short run
-//!   of outline between two runs of inner line becomes inner line, unless the outline goes on in other lines at both of its ends: at
+//!   of outline between two runs of inner line becomes inner line, unless other lines continue the outline at both of its ends: at
 //!   corners, and where silhouettes cross. The shortest run changes first.
 //!
 //! Runs follow chains: pieces that continue one another, whatever their classes and objects. Where pieces meet, two of the

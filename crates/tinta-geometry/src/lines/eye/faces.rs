@@ -109,7 +109,7 @@ impl Faces {
         faces
     }
 
-    /// For each place the plane and the high-valence vertex of the face; each empty where there are none.
+    /// For each place the plane and the high-valence vertex of the face; a list without groups is empty.
     pub(in crate::lines) fn groups(&self) -> [Cow<'_, [u32]>; 2] {
         let of_places = self.numbers.iter().filter(|_| !self.planes.is_empty()).map(|number| self.plane(*number));
         [Cow::Owned(of_places.collect()), Cow::Borrowed(&self.high_valence)]

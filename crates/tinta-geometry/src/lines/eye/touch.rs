@@ -1,4 +1,4 @@
-//! What touches what: the decisions of contact on numbers that rounding moves, each with its tolerance.
+//! Contact: the decisions on numbers that rounding moves, each with its tolerance.
 
 use crate::lines::eye::image::Image;
 use crate::lines::eye::space::Space;
@@ -32,7 +32,7 @@ pub(in crate::lines) fn key_slack(key: f64) -> f64 {
     key.abs() * (2.0 * CONTACT)
 }
 
-/// Whether something with a key may be nearer than another key: what is clearly farther away is not.
+/// Whether a thing with one key may be nearer than a thing with another.
 pub(in crate::lines) fn may_be_nearer(key: f64, than: f64) -> bool {
     key <= than + than.abs() * CONTACT
 }

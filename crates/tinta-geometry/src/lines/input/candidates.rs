@@ -14,10 +14,10 @@ use crate::lines::visible::search::Search;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// Lines to decide, and what they may be cut by.
+/// Lines to decide, with the places where edges pass through faces.
 pub(in crate::lines) struct Candidates {
     pub features: Vec<Feature>,
-    /// Smooth contours, which are decided by rules of their own.
+    /// Smooth contours; other rules decide them.
     pub contours: Option<Contours>,
     /// The points where edges pass through faces.
     pub piercings: HashMap<[u32; 2], Vec<DVec3>>,
@@ -29,7 +29,7 @@ pub(in crate::lines) struct Candidates {
 }
 
 impl Candidates {
-    /// Finds the lines. The search may leave out some that it finds hidden, unless hidden ones are wanted.
+    /// Finds the lines. Unless the settings want hidden lines, the search may leave out some.
     ///
     /// # Errors
     ///

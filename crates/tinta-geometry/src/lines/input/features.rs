@@ -7,7 +7,7 @@ use crate::lines::eye::space::at_depth;
 use crate::lines::input::edge_classes::{CREASES, EdgeClasses};
 use crate::lines::input::feature::{Feature, Own};
 use crate::lines::input::line_input::{LineInput, OCCLUDING, asked};
-use crate::lines::input::normal_creases::creased_parts;
+use crate::lines::input::normal_creases::creased_shares;
 use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::smooth::contours::{Contours, ObjectSurface, OnEdge, between};
 use crate::lines::visible::intersections::Intersection;
@@ -43,7 +43,7 @@ struct EdgesOfObject<'a> {
     list: &'a EdgeList,
     crease_angles: &'a [CreaseAngle],
     classes: EdgeClasses,
-    /// Edges between front and back, edges of faces seen edge-on, and edges at which a surface goes on as ghosts only; ascending.
+    /// Edges between front and back, edges of faces seen edge-on, and edges where only ghosts continue a surface; ascending.
     silhouette: Vec<u32>,
     edge_on: Vec<u32>,
     at_ghosts: Vec<u32>,
@@ -153,7 +153,7 @@ impl<'a> EdgesOfObject<'a> {
         let mut creased = Vec::new();
         if self.input.settings.creases_by_normals {
             if may_be_crease && of_edge.contains(Class::Normal) && wanted.contains(Class::Crease) {
-                creased = creased_parts(self.mesh, self.list, edge, self.crease_angles[look as usize].cosine);
+                creased = creased_shares(self.mesh, self.list, edge, self.crease_angles[look as usize].cosine);
             }
             of_edge = of_edge.without(&CREASES);
         }

@@ -1,4 +1,4 @@
-//! What lines are found in: a scene's objects with their edges and parts, and all faces in the eye's space.
+//! The input of a search for lines: a scene's objects with their edges and parts, and all faces in the eye's space.
 
 use crate::edges::{Class, ClassSet};
 use crate::error::{Error, Result};
@@ -31,7 +31,7 @@ impl<'a> LineInput<'a> {
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for settings without lines, for a pattern that names no part, and for a scene that is too large.
+    /// [`Error::Setting`]: settings without lines, a pattern that names no part, too large a scene.
     pub(in crate::lines) fn of(scene: &'a Scene, settings: &LineSettings) -> Result<Self> {
         check(scene, settings)?;
         let scene_parts = SceneParts::new(scene, settings)?;

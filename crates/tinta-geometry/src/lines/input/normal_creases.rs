@@ -9,7 +9,7 @@ const PIECES: usize = 16;
 
 /// The parts of an edge, as shares from its first position to its second, where the cosine of the angle between the normals of its two
 /// faces is less than `cosine`; in ascending order.
-pub(super) fn creased_parts(mesh: &Mesh, list: &EdgeList, edge: u32, cosine: f64) -> Vec<[f64; 2]> {
+pub(super) fn creased_shares(mesh: &Mesh, list: &EdgeList, edge: u32, cosine: f64) -> Vec<[f64; 2]> {
     let &[first, second] = list.faces(edge) else { return Vec::new() };
     let ends = list.positions()[edge as usize];
     let Some(sides) = normals(mesh, first, ends).zip(normals(mesh, second, ends)) else { return Vec::new() };
@@ -75,7 +75,7 @@ mod tests {
         let edges = MeshEdges::new(Arc::new(mesh));
         let list = edges.list();
         let edge = list.positions().iter().position(|ends| *ends == [0, 1]).unwrap() as u32;
-        creased_parts(edges.mesh(), list, edge, limit.to_radians().cos())
+        creased_shares(edges.mesh(), list, edge, limit.to_radians().cos())
     }
 
     #[test]

@@ -37,7 +37,7 @@ impl Named {
 }
 
 impl Pattern {
-    /// What of a mesh it names.
+    /// The parts and materials of a mesh that it names.
     pub(super) fn named(&self, mesh: &Mesh) -> Named {
         if let Some(pattern) = self.0.strip_prefix(MATERIAL) {
             let materials = mesh.materials.iter().map(|material| matches(pattern, &material.name)).collect();

@@ -2,7 +2,7 @@
 //! ghosts, which no face of their own hides.
 //!
 //! In: pieces of lines. Out: the same pieces, those lines cut where such a line begins or ends, and marked. A visible line replaces
-//! every hidden one under it, and one of a solid stretch every ghost's, except that curves and points replace no line of a surface. Of
+//! every hidden one under it, and one of a solid part every ghost's, except that curves and points replace no line of a surface. Of
 //! hidden lines, and of ghosts', the one of the first class stays, and within one class the first. Lines overlap up to [`JOINED_PX`], which a file of three decimals barely resolves. Trees of visible and of hidden lines find the
 //! candidates. The search for a line ends when it is covered as a whole.
 
@@ -24,7 +24,7 @@ const WHOLE: [f64; 2] = [0.0, 1.0];
 /// Hidden lines that a thread tests at once.
 const CHUNK: usize = 512;
 
-/// Cuts and marks hidden pieces, and those that are ghosts'. Returns all pieces unchanged if time runs out and the settings accept a stretch of the lines.
+/// Cuts and marks hidden pieces, and those that are ghosts'. Returns all pieces unchanged if time runs out and the settings accept some of the lines.
 ///
 /// # Errors
 ///
@@ -75,7 +75,7 @@ pub(in crate::lines) fn marked(
 /// Which lines replace others where they overlap: those of the lower rank.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Rank {
-    /// Visible lines of stretches that hide others, and curves and points. None replaces another.
+    /// Visible lines of parts that hide others, and curves and points. None replaces another.
     Solid,
     /// Visible lines of ghosts.
     Ghost,

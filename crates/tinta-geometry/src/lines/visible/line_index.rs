@@ -32,7 +32,7 @@ pub(in crate::lines) struct LineIndex<'a> {
     pub(in crate::lines) piercings: &'a HashMap<[u32; 2], Vec<DVec3>>,
     /// The rims, where surfaces end: they may cross any line.
     pub(in crate::lines) rims: PieceTree,
-    /// The faces that may hide lines, in stretches; `None` where the faces' own tree serves.
+    /// The faces that may hide lines, in pieces; `None` where the faces' own tree serves.
     occluders: Option<&'a PieceTree>,
     /// The wanted lines, with the direction of their images as the third coordinate: the candidates for overlapping lines.
     pub(in crate::lines) overlapping: PieceTree,

@@ -171,7 +171,7 @@ impl LineIndex<'_> {
         united(nearest.filter_map(|other| self.behind_overlapping_line(index, image, other, inside)).collect())
     }
 
-    /// Adds what of a stretch lies in the picture on another line that is nearer for sure.
+    /// Adds the ranges of a stretch that lie in the picture on another line that is nearer for sure.
     pub(in crate::lines) fn behind_overlapping_lines(
         &self,
         index: usize,
@@ -186,7 +186,7 @@ impl LineIndex<'_> {
         });
     }
 
-    /// What of a stretch lies in the picture on a certain other line that is nearer for sure.
+    /// The range of a stretch that lies in the picture on one other line that is nearer for sure.
     fn behind_overlapping_line(
         &self,
         index: usize,

@@ -1,4 +1,4 @@
-//! What quickens the search for lines in crowded scenes. Without it the same lines are found.
+//! Accelerators of the search for lines in crowded scenes. No line depends on them.
 
 use crate::lines::eye::pieces::PieceTree;
 use crate::lines::eye::pyramid::{Pyramid, is_crowded};

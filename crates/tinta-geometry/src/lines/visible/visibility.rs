@@ -26,7 +26,7 @@ impl LineIndex<'_> {
         const LINES: usize = 16;
         progress.begin(Phase::Lines, self.features.len());
         // Not one after the other: what is left then takes as long as what is done, and a part is one of the whole picture.
-        let parts = spread_chunks(self.features.len(), LINES, cores(), |range| {
+        let chunks = spread_chunks(self.features.len(), LINES, cores(), |range| {
             counting_steps(|| {
                 let mut segments = Vec::new();
                 for index in range {
@@ -42,9 +42,9 @@ impl LineIndex<'_> {
                 segments
             })
         });
-        let compared = parts.iter().map(|(_, steps)| steps).sum();
-        let mut segments = Vec::with_capacity(parts.iter().map(|(segments, _)| segments.len()).sum());
-        parts.into_iter().for_each(|(some, _)| segments.extend(some));
+        let compared = chunks.iter().map(|(_, steps)| steps).sum();
+        let mut segments = Vec::with_capacity(chunks.iter().map(|(segments, _)| segments.len()).sum());
+        chunks.into_iter().for_each(|(some, _)| segments.extend(some));
         (segments, compared)
     }
 
