@@ -1,4 +1,4 @@
-//! Styles and formats by the command line: what it draws, says and refuses.
+//! Styles and formats by the command line: drawings, remarks and refusals.
 
 use crate::program::{answer, done, refused_in_one_line, tinta};
 use crate::support::Folder;

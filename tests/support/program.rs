@@ -27,7 +27,7 @@ pub fn answer(arguments: &[&str]) -> serde_json::Value {
     serde_json::from_slice(&done(arguments).stdout).unwrap()
 }
 
-/// What it said.
+/// Its standard error.
 pub fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }

@@ -36,7 +36,6 @@ fn all_creases_of_parts_last_and_the_folds_of_a_bumpy_ball_do_not() {
         let positions = ball.positions.iter().map(|point| *point * (1.0 + 0.03 * random.number())).collect();
         let found = creases(mesh(positions, ball.triangles));
         (0..2).for_each(|which| sums[which] += found[which]);
-        println!("{found:?}");
     }
     let [all, lasting] = sums;
     assert!(all > 8000.0 && lasting < 0.1 * all, "bumpy balls: {all} {lasting}");

@@ -111,6 +111,15 @@ pub fn length(segment: &LineSegment) -> f64 {
     segment.ends_px[0].distance(segment.ends_px[1])
 }
 
+/// The pieces of one list that have no equal in another: of the same class and edge, with ends as near as this many pixels.
+pub fn without_equal<'a>(segments: &[&'a LineSegment], others: &[&LineSegment], px: f64) -> Vec<&'a LineSegment> {
+    let is_equal = |a: &LineSegment, b: &LineSegment| {
+        let are_near = |end: usize| a.ends_px[end].distance(b.ends_px[end]) <= px;
+        (a.class, a.object, a.edge) == (b.class, b.object, b.edge) && are_near(0) && are_near(1)
+    };
+    segments.iter().filter(|segment| !others.iter().any(|other| is_equal(segment, other))).copied().collect()
+}
+
 /// The length of all pieces of a class, visible or hidden.
 pub fn of_class(lines: &VisibleLines, class: Class, is_visible: bool) -> f64 {
     lines.segments.iter().filter(|s| s.class == class && s.is_visible == is_visible).map(length).sum()

@@ -1,4 +1,4 @@
-//! Meshes with known counts, and random ones, for the tests of edges and of ink.
+//! Meshes with known counts, and random ones.
 
 use glam::DVec3;
 use std::collections::BTreeMap;
