@@ -7,7 +7,7 @@ mod lines;
 mod prune;
 mod rendering;
 #[cfg(test)]
-mod round_trip;
+mod round_trip_tests;
 
 pub use animate::scenes;
 

@@ -1,6 +1,6 @@
 //! The documents name only existing files, folders, headings, options and commands; quoted output is real output.
 //!
-//! A test beside the parser checks that each `tinta` command parses: `crates/tinta-lab/src/commands/documents.rs`.
+//! A test beside the parser checks that each `tinta` command parses: `crates/tinta-lab/src/commands/documents_tests.rs`.
 
 use crate::support::root;
 use std::path::PathBuf;

@@ -1,6 +1,6 @@
 //! `tinta measure` as a user meets it.
 
-use crate::program::{refused_in_one_line, tinta};
+use crate::program::{done, refused_in_one_line, tinta};
 use crate::support::Folder;
 use tinta_lab::measure::Row;
 
@@ -81,8 +81,7 @@ fn runs_of_two_machines_are_put_together() {
         assert_eq!(run(out, &["--styles", "dietrich", "--machine", machine]).status.code(), Some(0));
     }
     let files = [&left, &right].map(|out| format!("{out}/results.jsonl"));
-    let output = tinta(&["measure", "--merge", &files[0], &files[1], "-o", &both]);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    done(&["measure", "--merge", &files[0], &files[1], "-o", &both]);
     let page = std::fs::read_to_string(format!("{both}/report.html")).unwrap();
     assert!(page.contains("this one") && page.contains("that one"));
     let table = std::fs::read_to_string(format!("{both}/results.csv")).unwrap();

@@ -1,8 +1,7 @@
 //! Drawings with known faults are judged by them.
 
-use crate::program::{refused_in_one_line, tinta};
-use crate::support::Folder;
-use crate::support::{renderer, scene};
+use crate::program::{done, refused_in_one_line, said, tinta};
+use crate::support::{Folder, renderer, scene};
 use glam::DVec2;
 use serde_json::Value;
 use tinta::{Backend, DrawingSettings, LineSettings, Picture, Scene, Size, Style, StyleName, lines};
@@ -137,7 +136,7 @@ fn what_a_style_draws_is_judged_as_it_is_measured() {
         let path = folder.path("drawing.png");
         let style = format!("--style={}", name.name());
         let words = ["render", "builtin:gear", "-o", &path, &style, "--show", "borders", "--size", "120"];
-        assert_eq!(tinta(&words).status.code(), Some(0));
+        done(&words);
         let output = tinta(&["judge", &path, "--model", "builtin:gear", "--json"]);
         let record: Value = serde_json::from_slice(&output.stdout).unwrap();
         for (key, expected) in [("f1", measured.f1), ("recall", measured.recall), ("precision", measured.precision)] {
@@ -153,13 +152,12 @@ fn rows_of_drawings_are_added_to_a_folder_and_land_in_its_plot() {
     let (svg, png, out) = (folder.path("a.svg"), folder.path("b.png"), folder.path("judged"));
     let draw = |path: &str, more: &[&str]| {
         let words = ["render", "builtin:open-box", "-o", path, "--size", "128"];
-        assert_eq!(tinta(&[&words[..], more].concat()).status.code(), Some(0));
+        done(&[&words[..], more].concat());
     };
     draw(&svg, &[]);
     draw(&png, &["--style", "inking", "--show", "borders"]);
     let base = ["judge", &svg, &png, "--model", "builtin:open-box", "-o", &out];
-    let output = tinta(&[&base[..], &["--names", "one,other", "--seconds", "0.5,1.5", "--machine", "here"]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = done(&[&base[..], &["--names", "one,other", "--seconds", "0.5,1.5", "--machine", "here"]].concat());
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(text.contains("one, 128x128 px") && text.contains("one to one") && text.contains("hidden lines"), "{text}");
     let output =
@@ -206,8 +204,7 @@ fn a_camera_of_another_program_is_read_from_its_file() {
         // A drawing from it, in a look with another view.
         let again = folder.path("again.png");
         let words = ["render", "builtin:gear", "-o", &again, "--camera", file, "--size", "150x100", "--look", "print"];
-        let output = tinta(&words);
-        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        done(&words);
     }
     let bare = folder.path("bare.png");
     tinta(&["render", "builtin:gear", "-o", &bare, "--no-recipe", "--size", "150x100"]);
@@ -262,9 +259,9 @@ fn whatever_an_svg_holds_is_drawn_or_refused() {
 fn what_cannot_be_judged_is_refused_in_a_sentence() {
     let folder = Folder::new();
     let svg = folder.path("a.svg");
-    assert_eq!(tinta(&["render", "builtin:gear", "-o", &svg, "--size", "64"]).status.code(), Some(0));
+    done(&["render", "builtin:gear", "-o", &svg, "--size", "64"]);
     let png = folder.path("a.png");
-    assert_eq!(tinta(&["render", "builtin:gear", "-o", &png, "--size", "64"]).status.code(), Some(0));
+    done(&["render", "builtin:gear", "-o", &png, "--size", "64"]);
     let missing = folder.path("missing.png");
     let base = ["judge", &svg, "--model", "builtin:gear"];
     for (words, parts) in [
@@ -297,7 +294,7 @@ fn a_picture_drawn_from_elsewhere_is_said_and_gives_its_own_camera() {
     let judged = |drawing: &str, more: &[&str]| {
         let output = tinta(&[&["judge", drawing, "--json"], &model[..], more].concat());
         let record: Value = serde_json::from_slice(&output.stdout).unwrap();
-        (record["lines"]["f1"].as_f64().unwrap(), String::from_utf8_lossy(&output.stderr).into_owned())
+        (record["lines"]["f1"].as_f64().unwrap(), said(&output))
     };
     let (wrong, said) = judged(&elsewhere, &[]);
     assert!(said.contains("elsewhere.svg was drawn from elsewhere (--fov 20 --view 70,40); --camera"), "{said}");

@@ -2,8 +2,8 @@
 
 use crate::rendered::rendered;
 use crate::support::families::FAMILIES;
-use crate::support::shapes::Random;
-use crate::support::{BACKENDS, failure_folder, public_models, renderer, skip};
+use crate::support::shapes::{Random, shaded};
+use crate::support::{BACKENDS, PUBLIC_MODELS, failure_folder, public_model, renderer};
 use std::sync::Arc;
 use tinta::camera::{CameraSettings, View};
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
@@ -11,8 +11,8 @@ use tinta::lines::closed_forms::ClosedForm;
 use tinta::lines::{Length, svg};
 use tinta::styles::{Inking, PaintMode};
 use tinta::{
-    DrawingSettings, LineSettings, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Size, Style,
-    VisibleLines, load,
+    DrawingSettings, LineSettings, LoadOptions, Picture, Renderer, Scene, SceneSettings, Size, Style, VisibleLines,
+    load,
 };
 use tinta_lab::compare::{Agreement, InkMask};
 
@@ -26,26 +26,11 @@ const CLASSES: ClassSet = ClassSet::of(&[Class::Boundary, Class::NonManifold, Cl
 
 #[test]
 fn the_svg_of_public_models_has_the_ink_that_gl_draws() {
-    let Some(folder) = public_models() else { return };
     let mut renderer = renderer(BACKENDS[0]);
     let mut failures = Vec::new();
-    for file in [
-        "ant.ply",
-        "beethoven.obj",
-        "cow.obj",
-        "faerie.md2",
-        "fandisk.obj",
-        "spot/spot_triangulated.obj",
-        "stanford-bunny.obj",
-        "suzanne.obj",
-        "teapot.obj",
-    ] {
-        let path = folder.join(file);
-        if !path.is_file() {
-            skip(&format!("{file}: not in {}", folder.display()));
-            continue;
-        }
-        let [of_svg, of_gl] = shares(&mut renderer, path.to_str().unwrap());
+    for file in PUBLIC_MODELS {
+        let Some(path) = public_model(file) else { continue };
+        let [of_svg, of_gl] = shares(&mut renderer, &path);
         println!("{file}: {of_svg:.4} of the SVG's ink, {of_gl:.4} of GL's");
         if of_svg < SHARE || of_gl < SHARE {
             failures.push(format!("{file}: {of_svg:.4} of the SVG's ink is GL's too, {of_gl:.4} of GL's the SVG's"));
@@ -101,9 +86,7 @@ fn smooth_silhouettes_of_closed_forms_are_those_of_the_exact_lines() {
 /// The same scene of meshes that GL can shade.
 fn with_normals(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
-    let options = LoadOptions::default();
-    let shaded = |mesh: &Mesh| Mesh::of_triangles("made", mesh.positions.clone(), &mesh.triangles, &options).unwrap();
-    let meshes: Vec<Arc<Mesh>> = scene.objects.iter().map(|object| Arc::new(shaded(&object.mesh))).collect();
+    let meshes = scene.objects.iter().map(|object| shaded(&object.mesh));
     scene.objects = Scene::new(meshes, &SceneSettings::default()).unwrap().objects;
     scene
 }

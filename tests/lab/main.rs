@@ -1,5 +1,6 @@
 //! Measures, reports, figures and stress. One binary, to link once.
 
+mod charcoal_twin;
 mod cli_measure;
 mod figures;
 mod ink_specks;
@@ -8,6 +9,7 @@ mod judge;
 mod lines_inking;
 mod measure;
 mod measure_smooth;
+#[expect(dead_code, reason = "shared with the other tests")]
 #[path = "../support/program.rs"]
 mod program;
 #[path = "../../crates/tinta-geometry/tests/support/rendered.rs"]

@@ -1,5 +1,6 @@
 //! The numbers of a measured row: on made-up pictures with a known answer, and against a recount.
 
+use crate::support::lines::{distance, view};
 use crate::support::{BACKENDS, renderer, scene_with};
 use glam::DVec2;
 use serde_json::Value;
@@ -14,7 +15,7 @@ const SIZE: u32 = 100;
 
 /// One triangle facing the eye: three boundary edges are all its lines.
 fn triangle() -> Scene {
-    let camera = CameraSettings { view: "front".parse().unwrap(), parallel: true, ..CameraSettings::default() };
+    let camera = view("front", true);
     let settings = SceneSettings { size: Size { width: SIZE, height: SIZE }, camera, ..SceneSettings::default() };
     Scene::new([Mesh::triangle()], &settings).unwrap()
 }
@@ -135,14 +136,6 @@ fn soft_creases_are_neither_missed_nor_invented() {
     assert!(verdicts.pixels.iter().flatten().all(|verdict| *verdict == Verdict::Ignored));
 }
 
-/// The distance from a point to a segment.
-fn to_segment(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
-    let along = b - a;
-    let place =
-        if along == DVec2::ZERO { 0.0 } else { ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0) };
-    point.distance(a + along * place)
-}
-
 #[test]
 fn a_rows_error_is_found_again_from_the_picture_and_the_written_lines() {
     let scene = scene_with(
@@ -188,7 +181,7 @@ fn a_rows_error_is_found_again_from_the_picture_and_the_written_lines() {
         .collect();
     let (mut agreed, mut counted) = (0.0, 0.0);
     for (middle, darkness) in &inked {
-        let is_near = |lines: &[([DVec2; 2], f64)]| lines.iter().any(|(ends, _)| to_segment(*middle, *ends) <= 2.0);
+        let is_near = |lines: &[([DVec2; 2], f64)]| lines.iter().any(|(ends, _)| distance(*middle, *ends) <= 2.0);
         if is_near(&lines) {
             agreed += darkness;
             counted += darkness;

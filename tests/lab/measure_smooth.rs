@@ -1,6 +1,6 @@
 //! `tinta measure --against smooth`: surfaces in closed form, their references and how settings converge.
 
-use crate::program::{refused_in_one_line, tinta};
+use crate::program::{refused_in_one_line, said, tinta};
 use crate::support::Folder;
 use glam::DVec2;
 use tinta::lines::closed_forms::ClosedForm;
@@ -86,7 +86,7 @@ fn exact_lines_of_a_sphere_converge_and_ink_stays_on_its_pixels() {
         )
     };
     let output = run(&[]);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     let text = std::fs::read_to_string(format!("{out}/results.jsonl")).unwrap();
     let rows: Vec<Row> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert!(rows.iter().flat_map(|row| &row.lines).all(|lines| lines.against == Against::Smooth));

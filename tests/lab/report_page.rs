@@ -1,5 +1,6 @@
 //! The report's page in a browser: no script fails, headers sort, choices choose, the page fits a phone.
 
+use crate::program::said;
 use crate::report::{info, made_up_rows};
 use crate::support::skip;
 use base64::Engine;
@@ -102,7 +103,7 @@ fn in_browser(page: &str, widths: [u32; 2]) -> Option<serde_json::Value> {
         .arg(&path)
         .output()
         .unwrap();
-    let talk = String::from_utf8_lossy(&output.stderr);
+    let talk = said(&output);
     let console: Vec<&str> = talk.lines().filter(|line| line.contains("CONSOLE")).take(5).collect();
     assert!(console.is_empty(), "the console says {console:?}");
     let dom = String::from_utf8_lossy(&output.stdout);

@@ -1,8 +1,7 @@
 //! `tinta why` as a user meets it.
 
-use crate::program::{refused_in_one_line, tinta};
-use crate::support::Folder;
-use crate::support::root;
+use crate::program::{answer, done, refused_in_one_line, tinta};
+use crate::support::{Folder, root};
 use serde_json::Value;
 
 /// A plate, faces 0 and 1, and a cube before its lower edge.
@@ -29,8 +28,7 @@ fn a_hidden_line_names_the_faces_in_front_of_it_and_a_visible_one_none() {
     let folder = Folder::new();
     let model = folder.file("plate.obj", PLATE_AND_CUBE);
     let why = |place: &str, json: &[&str]| {
-        let output = tinta(&[&["why", &model, place], &FRONT[..], json].concat());
-        assert!(output.status.success(), "{output:?}");
+        let output = done(&[&["why", &model, place], &FRONT[..], json].concat());
         String::from_utf8(output.stdout).unwrap()
     };
     let place = middle(&folder, &model, false);
@@ -102,8 +100,7 @@ fn a_sheet_or_a_variable_that_cannot_be_made_is_refused_in_one_sentence() {
 /// The text and the JSON of a pixel of the open box, in the style and with the options given.
 fn pixel(place: &str, options: &[&str]) -> (String, Value) {
     let why = |more: &[&str]| {
-        let output = tinta(&[&["why", "builtin:open-box", place, "--size", "64"], options, more].concat());
-        assert!(output.status.success(), "{output:?}");
+        let output = done(&[&["why", "builtin:open-box", place, "--size", "64"], options, more].concat());
         String::from_utf8(output.stdout).unwrap()
     };
     (why(&[]), serde_json::from_str(&why(&["--json"])).unwrap())
@@ -188,8 +185,7 @@ fn a_variable_over_the_picture_has_the_value_that_each_pixel_s_explanation_tells
         let drawn = ["--size", "64", "--style", style];
         let of = |output: &str| {
             let variable = ["why", "builtin:open-box", "--variable", name, "-o", output, "--json"];
-            let output = tinta(&[&variable[..], &drawn].concat());
-            assert!(output.status.success(), "{output:?}");
+            let output = done(&[&variable[..], &drawn].concat());
             serde_json::from_slice::<Value>(&output.stdout).unwrap()
         };
         let (json, again) = (of(&numbers), of(&picture));
@@ -239,9 +235,7 @@ fn a_sheet_shows_the_pixel_enlarged_in_its_colour_in_every_style() {
     {
         let sheet = folder.path("sheet.png");
         let words = ["why", model, "32,32", "--size", "64", "--style", style, "--json", "-o", &sheet];
-        let output = tinta(&words);
-        assert!(output.status.success(), "{style}: {output:?}");
-        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let json = answer(&words);
         let color = [0, 1, 2].map(|channel| json["color"][channel].as_u64().unwrap() as u8);
         let sheet = tinta::Picture::read_png(std::path::Path::new(&sheet)).unwrap();
         let is_it = |x: i64, y: i64| sheet.pixel(x, y)[..3] == color;
@@ -350,8 +344,7 @@ fn a_listing_that_the_settings_do_not_run_is_named() {
     let (_folder, own) = own_listing("gl_FragColor", "gl_FragColor");
     let said = |options: &[&str]| {
         let line = ["why", "builtin:bust", "32,32", "--size", "64", "--style", "three-pass", "--glsl", &own];
-        let output = tinta(&[&line[..], options].concat());
-        assert!(output.status.success(), "{output:?}");
+        let output = done(&[&line[..], options].concat());
         String::from_utf8(output.stderr).unwrap()
     };
     assert_eq!(said(&[]), "");
@@ -382,9 +375,7 @@ fn gls_own_lights_and_materials_are_explained_as_the_driver_has_them() {
     for member in members {
         let (_folder, own) = own_phong(&format!("#version 120\nvoid main() {{ gl_FragColor = {member}; }}\n"));
         let options = ["--size", "64", "--style", "phong", "--glsl", &own, "--json"];
-        let output = tinta(&[&["why", "builtin:bust", "32,32"], &options[..]].concat());
-        assert!(output.status.success(), "{member}: {output:?}");
-        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let json = answer(&[&["why", "builtin:bust", "32,32"], &options[..]].concat());
         let difference = json["steps"].as_array().unwrap().last().unwrap()["difference"].as_f64().unwrap();
         assert!(difference <= 1.01, "{member}: {difference}");
     }

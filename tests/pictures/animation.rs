@@ -1,7 +1,6 @@
 //! Animations written and decoded again, without a GL context: pictures, delays, loops, holes.
 
-use crate::support::Folder;
-use crate::support::{frames_of_gif, full_sizes};
+use crate::support::{Folder, frames_of_gif, full_sizes};
 use image::codecs::png::PngDecoder;
 use image::{AnimationDecoder, Frame};
 use std::fs::File;

@@ -1,6 +1,6 @@
 //! The styles charcoal and sand, drawn: the direction of every setting, closed forms, and refusals.
 
-use crate::charcoal_twin::{ball, draw, variants};
+use crate::support::charcoal::{ball, draw, variants};
 use crate::support::{BACKENDS, full_sizes, renderer, scene, scene_with};
 use std::sync::Arc;
 use tinta::picture::Difference;

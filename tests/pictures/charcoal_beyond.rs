@@ -1,6 +1,6 @@
 //! The charcoal improvements beyond the report: even textures, the paper's tooth, both sides of a face, strokes; and `rand()`.
 
-use crate::charcoal_twin::{ball, draw};
+use crate::support::charcoal::{ball, draw};
 use crate::support::{BACKENDS, full_sizes, renderer, scene, scene_with};
 use glam::DVec3;
 use std::sync::Arc;

@@ -1,9 +1,7 @@
 //! Every way to store a box in glTF, and the expected mesh of each, worked out by hand.
 
-use crate::support::Folder;
 use crate::support::gltf_files::*;
-use crate::support::scene_of_mesh;
-use crate::support::{public_models, renderer, skip};
+use crate::support::{Folder, public_models, renderer, scene_of_mesh, skip};
 use glam::{DVec2, DVec3, dvec3};
 use serde_json::{Value, json};
 use std::sync::Arc;

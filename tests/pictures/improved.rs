@@ -1,39 +1,28 @@
 //! The improved variants of image-space ink: each has its option's effect and no other.
 
+use crate::support::lines::view;
 use crate::support::{BACKENDS, renderer, scene, scene_with};
 use glam::DVec3;
-use std::fmt::Write as _;
 use std::sync::Arc;
 use tinta::mesh::Normals;
 use tinta::plan::{Step, Value};
 use tinta::renderer::StepPicture;
 use tinta::styles::{Border, Cartoon, Filter, Ink, LineWidth, MapEncoding, MapTarget, Quality, Supersample};
-use tinta::{CameraSettings, LoadOptions, Picture, Renderer, Scene, SceneSettings, Show, Size, Style, load};
+use tinta::{CameraSettings, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Show, Size, Style};
 
 const SIZE: Size = Size { width: 160, height: 160 };
 
 /// A scene of quads with a normal a face, by their corners.
 fn quads(corners: &[[DVec3; 4]], camera: CameraSettings) -> Scene {
-    let mut text = String::new();
-    for (number, quad) in corners.iter().enumerate() {
-        quad.iter().for_each(|corner| writeln!(text, "v {} {} {}", corner.x, corner.y, corner.z).unwrap());
-        let first = number * 4 + 1;
-        writeln!(text, "f {} {} {} {}", first, first + 1, first + 2, first + 3).unwrap();
-    }
-    let file = tempfile::Builder::new().suffix(".obj").tempfile().unwrap();
-    std::fs::write(file.path(), text).unwrap();
     let options = LoadOptions { normals: Normals::Flat, ..LoadOptions::default() };
-    let mesh = load(file.path().to_str().unwrap(), &options).unwrap().mesh;
+    let numbers: Vec<u32> = (0..4 * corners.len() as u32).collect();
+    let mesh = Mesh::of_polygons("made", corners.concat(), &numbers, vec![4; corners.len()], &options).unwrap();
     Scene::new(vec![Arc::new(mesh)], &SceneSettings { camera, size: SIZE, ..SceneSettings::default() }).unwrap()
 }
 
 /// A rectangle of the ground.
 fn ground(half: f64) -> [DVec3; 4] {
     [[-half, half], [half, half], [half, -half], [-half, -half]].map(|[x, z]| DVec3::new(x, 0.0, z))
-}
-
-fn view(text: &str, parallel: bool) -> CameraSettings {
-    CameraSettings { view: text.parse().unwrap(), parallel, ..CameraSettings::default() }
 }
 
 fn three_pass(border: Border, map_encoding: MapEncoding) -> Style {

@@ -1,18 +1,16 @@
 //! The styles inking and dietrich, drawn: against closed forms, against each other's variants, in every option.
 
-use crate::support::shapes::{cuboid, icosphere};
+use crate::support::lines::{px, view};
+use crate::support::shapes::{cuboid, icosphere, shaded};
 use crate::support::{BACKENDS, renderer, root, scene, scene_with};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::sync::Arc;
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
 use tinta::mesh::Normals;
 use tinta::picture::Difference;
 use tinta::plan::LineDrawing;
 use tinta::styles::{ClassColors, Dietrich, Inking, LightOn, PaintMode, Ramp, RampRow};
-use tinta::{
-    Backend, Background, CameraSettings, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Show, Size, Style,
-    load,
-};
+use tinta::{Backend, Background, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Show, Size, Style, load};
 
 const EQUAL: Difference = Difference { largest: 0, pixels: 0 };
 
@@ -21,32 +19,16 @@ fn draw(renderer: &mut Renderer, scene: &Scene, style: Inking, show: Show) -> Pi
     renderer.draw(scene, &plan).unwrap()
 }
 
-/// A mesh of the edge tests, its normals computed.
-fn with_normals(mesh: &Mesh) -> Arc<Mesh> {
-    let mut text = String::new();
-    for point in &mesh.positions {
-        text.push_str(&format!("v {} {} {}\n", point.x, point.y, point.z));
-    }
-    for [a, b, c] in &mesh.triangles {
-        text.push_str(&format!("f {} {} {}\n", a + 1, b + 1, c + 1));
-    }
-    let file = tempfile::Builder::new().suffix(".obj").tempfile().unwrap();
-    std::fs::write(file.path(), text).unwrap();
-    Arc::new(load(file.path().to_str().unwrap(), &LoadOptions::default()).unwrap().mesh)
-}
-
 /// Where a world-space point falls in the picture, pixels from the upper left.
 fn pixel(scene: &Scene, point: DVec3) -> (i64, i64) {
-    let clip_from_world = scene.camera.clip_from_view(scene.size.aspect()) * scene.camera.view_from_world();
-    let ndc = clip_from_world.project_point3(point);
-    let (width, height) = (f64::from(scene.size.width), f64::from(scene.size.height));
-    (((ndc.x + 1.0) * 0.5 * width) as i64, ((1.0 - ndc.y) * 0.5 * height) as i64)
+    let DVec2 { x, y } = px(scene, point);
+    (x as i64, y as i64)
 }
 
 #[test]
 fn of_a_boxs_twelve_edges_the_nine_that_are_seen_are_drawn_and_the_others_hidden() {
-    let mesh = with_normals(&cuboid(DVec3::ZERO, DVec3::new(1.0, 1.2, 1.4)));
-    let camera = CameraSettings { view: "iso".parse().unwrap(), ..CameraSettings::default() };
+    let mesh = shaded(&cuboid(DVec3::ZERO, DVec3::new(1.0, 1.2, 1.4)));
+    let camera = view("iso", false);
     let size = Size { width: 240, height: 240 };
     let scene = Scene::new(vec![mesh.clone()], &SceneSettings { camera, size, ..SceneSettings::default() }).unwrap();
     let eye = scene.camera.eye;
@@ -211,8 +193,8 @@ fn a_gradient_for_each_colour_paints_every_material_in_three_tones_of_its_own() 
 
 #[test]
 fn flat_shading_gives_each_side_of_a_box_the_tone_of_its_light() {
-    let mesh = with_normals(&cuboid(DVec3::ZERO, DVec3::new(1.0, 1.2, 1.4)));
-    let camera = CameraSettings { view: "iso".parse().unwrap(), ..CameraSettings::default() };
+    let mesh = shaded(&cuboid(DVec3::ZERO, DVec3::new(1.0, 1.2, 1.4)));
+    let camera = view("iso", false);
     let size = Size { width: 120, height: 120 };
     let scene = Scene::new(vec![mesh.clone()], &SceneSettings { camera, size, ..SceneSettings::default() }).unwrap();
     let mut renderer = renderer(BACKENDS[0]);
@@ -253,8 +235,8 @@ fn quads_have_their_width() {
         let mut renderer = renderer(backend);
         // One edge across the picture, seen straight on.
         let mut settings = SceneSettings { size: Size { width: 200, height: 120 }, ..SceneSettings::default() };
-        settings.camera = CameraSettings { view: "front".parse().unwrap(), parallel: true, ..settings.camera };
-        let slab = with_normals(&cuboid(DVec3::new(-3.0, -1.0, 0.0), DVec3::new(3.0, 1.0, 1.0)));
+        settings.camera = view("front", true);
+        let slab = shaded(&cuboid(DVec3::new(-3.0, -1.0, 0.0), DVec3::new(3.0, 1.0, 1.0)));
         let scene = Scene::new(vec![slab], &settings).unwrap();
         for width in [1.0, 4.0, 10.0, 40.0] {
             let style = Inking {
@@ -326,7 +308,7 @@ picture: the framebuffer
 fn lines_that_only_test_depth_close_the_gaps_between_smoothed_ones() {
     // Errata D11.
     let mut settings = SceneSettings { size: Size { width: 240, height: 240 }, ..SceneSettings::default() };
-    settings.camera = CameraSettings { view: "front".parse().unwrap(), parallel: true, ..settings.camera };
+    settings.camera = view("front", true);
     let scene = scene_with("builtin:gear", settings);
     for backend in *BACKENDS {
         let mut renderer = renderer(backend);
@@ -354,7 +336,7 @@ fn the_models_own_picture_is_multiplied_into_the_paint() {
     let options = LoadOptions { skin: Some(at("four.ppm")), ..LoadOptions::default() };
     let mesh = load(at("square.obj").to_str().unwrap(), &options).unwrap().mesh;
     let mut settings = SceneSettings { size: Size { width: 100, height: 100 }, ..SceneSettings::default() };
-    settings.camera = CameraSettings { view: "front".parse().unwrap(), parallel: true, ..settings.camera };
+    settings.camera = view("front", true);
     settings.color = Some(tinta::Color([1.0, 1.0, 0.5]));
     let scene = Scene::new(vec![Arc::new(mesh)], &settings).unwrap();
     for backend in *BACKENDS {
@@ -397,7 +379,7 @@ fn ink_on_nothing_is_ink_and_nothing_else() {
 fn dietrichs_ink_on_a_sphere_is_the_rim_its_threshold_says() {
     let mut settings = SceneSettings { size: Size { width: 400, height: 400 }, ..SceneSettings::default() };
     settings.camera.parallel = true;
-    let scene = Scene::new(vec![with_normals(&icosphere(5))], &settings).unwrap();
+    let scene = Scene::new(vec![shaded(&icosphere(5))], &settings).unwrap();
     for backend in *BACKENDS {
         let mut renderer = renderer(backend);
         for threshold in [0.1f32, 0.25, 0.5, 0.9] {
@@ -474,10 +456,10 @@ fn with_free_lines(heights: [f64; 3]) -> Scene {
     let curve = vec![DVec3::new(-2.0, heights[0], 0.5), DVec3::new(2.0, heights[0], 0.5)];
     let points = [DVec3::new(-0.5, heights[1], -0.5), DVec3::new(2.0, heights[2], -0.5)];
     let free = Mesh::of_curves("free", &[curve], &points, &[], &LoadOptions::default()).unwrap();
-    let camera = CameraSettings { view: "top".parse().unwrap(), parallel: true, ..CameraSettings::default() };
+    let camera = view("top", true);
     let size = Size { width: 200, height: 200 };
     let settings = SceneSettings { camera, size, ..SceneSettings::default() };
-    Scene::new(vec![with_normals(&cuboid(-DVec3::ONE, DVec3::ONE)), Arc::new(free)], &settings).unwrap()
+    Scene::new([shaded(&cuboid(-DVec3::ONE, DVec3::ONE)), free], &settings).unwrap()
 }
 
 #[test]

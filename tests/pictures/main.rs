@@ -4,7 +4,6 @@ mod animation;
 mod api;
 mod charcoal;
 mod charcoal_beyond;
-mod charcoal_twin;
 mod doubled_faces;
 mod examples;
 mod gltf;

@@ -1,7 +1,8 @@
 //! Pictures of pruned plans against those of full ones: the same bytes for every model, style, view and backend.
 
 use crate::prune::{beside, cartoon, many_styles};
-use crate::support::{BACKENDS, full_sizes, public_models, renderer, scene_with, skip, styles};
+use crate::support::shapes::Random;
+use crate::support::{BACKENDS, PUBLIC_MODELS, full_sizes, public_model, renderer, scene_with, styles};
 use glam::DVec3;
 use std::sync::Arc;
 use tinta::plan::prune::prune;
@@ -10,27 +11,19 @@ use tinta::{
     StyleName, View, load,
 };
 
-/// Numbers from 0 to 1 that look random and are always the same.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
 /// The scene from a random view: any direction, sometimes from nearer or looking past it, sometimes in parallel.
-fn random_view(scene: &Scene, dice: &mut Dice) -> Scene {
-    let view =
-        View { azimuth_degrees: dice.roll() * 360.0, elevation_degrees: (dice.roll() * 2.0 - 1.0).asin().to_degrees() };
-    let parallel = dice.roll() < 0.2;
+fn random_view(scene: &Scene, dice: &mut Random) -> Scene {
+    let view = View {
+        azimuth_degrees: dice.number() * 360.0,
+        elevation_degrees: (dice.number() * 2.0 - 1.0).asin().to_degrees(),
+    };
+    let parallel = dice.number() < 0.2;
     let settings = SceneSettings {
-        size: Size { width: 40 + (dice.roll() * 120.0) as u32, height: 40 + (dice.roll() * 120.0) as u32 },
+        size: Size { width: 40 + (dice.number() * 120.0) as u32, height: 40 + (dice.number() * 120.0) as u32 },
         camera: CameraSettings {
             view,
             parallel,
-            fov_y_degrees: 10.0 + dice.roll() * 60.0,
+            fov_y_degrees: 10.0 + dice.number() * 60.0,
             ..CameraSettings::default()
         },
         ..SceneSettings::default()
@@ -38,8 +31,8 @@ fn random_view(scene: &Scene, dice: &mut Dice) -> Scene {
     let meshes = scene.objects.iter().map(|object| object.mesh.clone());
     let fitted = Scene::new(meshes, &settings).unwrap();
     let mut scene = Scene { camera: fitted.camera, size: fitted.size, ..scene.clone() };
-    if dice.roll() < 0.3 {
-        let aside = DVec3::new(dice.roll() - 0.5, dice.roll() - 0.5, dice.roll() - 0.5) * scene.radius;
+    if dice.number() < 0.3 {
+        let aside = DVec3::new(dice.number() - 0.5, dice.number() - 0.5, dice.number() - 0.5) * scene.radius;
         (scene.camera.eye, scene.camera.target) = (scene.camera.eye + aside, scene.camera.target + aside);
         scene.camera.near *= 0.5;
         scene.camera.far *= 1.5;
@@ -57,7 +50,7 @@ fn verify(renderer: &mut Renderer, mesh: &Arc<Mesh>, views: usize) {
     }
     styles.push(cartoon(|cartoon| (cartoon.cull_back_faces, cartoon.tones.count) = (true, 2)));
     let pruning = renderer.pruning();
-    let mut dice = Dice(mesh.triangles.len() as u64);
+    let mut dice = Random::seeded(mesh.triangles.len() as u64);
     for number in 0..views {
         let view = random_view(&scene, &mut dice);
         for style in &styles {
@@ -85,16 +78,7 @@ fn verify(renderer: &mut Renderer, mesh: &Arc<Mesh>, views: usize) {
 fn all_models() -> Vec<String> {
     let mut models: Vec<String> =
         tinta::mesh::BUILTINS.iter().map(|builtin| format!("builtin:{}", builtin.name)).collect();
-    if let Some(folder) = public_models() {
-        let files = ["ant.ply", "beethoven.obj", "cow.obj", "faerie.md2", "fandisk.obj", "spot/spot_triangulated.obj"];
-        for file in files.into_iter().chain(["stanford-bunny.obj", "suzanne.obj", "teapot.obj"]) {
-            let path = folder.join(file);
-            match path.is_file() {
-                true => models.push(path.display().to_string()),
-                false => skip(&format!("{file}: not in {}", folder.display())),
-            }
-        }
-    }
+    models.extend(PUBLIC_MODELS.into_iter().filter_map(public_model));
     models
 }
 

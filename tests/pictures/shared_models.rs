@@ -2,7 +2,7 @@
 //!
 //! `TINTA_MODELS` names their folder, by default `../shared/models`.
 
-use crate::support::{BACKENDS, public_model, public_models, renderer, skip, styles};
+use crate::support::{BACKENDS, public_model, renderer, styles};
 use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
@@ -24,15 +24,10 @@ const MODELS: [(&str, usize); 9] = [
 
 #[test]
 fn public_models_have_the_triangles_their_authors_say_and_are_drawn_in_every_style() {
-    let Some(folder) = public_models() else { return };
     let mut renderer = renderer(BACKENDS[0]);
     for (file, triangles) in MODELS {
-        let path = folder.join(file);
-        if !path.is_file() {
-            skip(&format!("{file}: not in {}", folder.display()));
-            continue;
-        }
-        let mesh = load(path.to_str().unwrap(), &LoadOptions::default()).unwrap().mesh;
+        let Some(path) = public_model(file) else { continue };
+        let mesh = load(&path, &LoadOptions::default()).unwrap().mesh;
         assert_eq!(mesh.triangles.len() + mesh.defects.degenerate_triangles, triangles, "{file}");
         assert!(mesh.normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-5), "{file}");
         let settings = SceneSettings { size: Size { width: 96, height: 96 }, ..SceneSettings::default() };

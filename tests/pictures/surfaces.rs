@@ -1,19 +1,18 @@
 //! Textures and colours at vertices under the shading of every style that leaves them to the scene.
 
+use crate::support::lines::view;
 use crate::support::{BACKENDS, renderer};
 use glam::DVec3;
 use std::sync::Arc;
 use tinta::scene::Surface;
-use tinta::{
-    CameraSettings, Color, LoadOptions, Mesh, Picture, Scene, SceneSettings, Show, Size, Style, StyleName, load,
-};
+use tinta::{Color, LoadOptions, Mesh, Picture, Scene, SceneSettings, Show, Size, Style, StyleName, load};
 
 /// Styles that use the scene's colours.
 const STYLES: [StyleName; 6] =
     [StyleName::ThreePass, StyleName::TwoPass, StyleName::Mrt, StyleName::Phong, StyleName::Ink, StyleName::Charcoal];
 
 fn settings(surface: Surface) -> SceneSettings {
-    let camera = CameraSettings { view: "front".parse().unwrap(), parallel: true, ..CameraSettings::default() };
+    let camera = view("front", true);
     SceneSettings { size: Size { width: 40, height: 40 }, camera, surface, ..SceneSettings::default() }
 }
 

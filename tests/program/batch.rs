@@ -1,11 +1,9 @@
 //! Batches end to end: the same pictures as the command line's, failures written down, slices that merge.
 
-use crate::program::{refused_in_one_line, tinta};
-use crate::support::Folder;
-use crate::support::backend_names;
+use crate::program::{done, refused_in_one_line, said, tinta};
+use crate::support::{Folder, backend_names, names};
 use serde_json::Value;
 use std::path::Path;
-use std::process::Output;
 
 /// Writes a list and gives its path.
 pub fn list(folder: &Folder, jobs: &[String]) -> String {
@@ -21,18 +19,6 @@ pub fn render(id: &str, more: &str) -> String {
 pub fn rows(path: &str) -> Vec<Value> {
     let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
     text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
-}
-
-pub fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-/// The names in a folder, hidden ones too, sorted.
-fn names(folder: &str) -> Vec<String> {
-    let mut names: Vec<String> =
-        std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
 }
 
 #[test]
@@ -59,15 +45,13 @@ fn a_jobs_options_are_those_of_the_command_line_and_its_pictures_too() {
     ];
     let jobs: Vec<String> = pairs.iter().map(|(id, more, _)| render(id, more)).collect();
     let out = folder.path("out");
-    let output = tinta(&["batch", &list(&folder, &jobs), "-o", &out, "--jobs", "2"]);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let output = done(&["batch", &list(&folder, &jobs), "-o", &out, "--jobs", "2"]);
     assert!(output.stdout.is_empty());
     for (id, _, options) in pairs {
         let alone = folder.path("alone.png");
         let mut words = vec!["render", "builtin:open-box", "-o", &alone, "--size", "32"];
         words.extend(options);
-        let output = tinta(&words);
-        assert_eq!(output.status.code(), Some(0), "{id}: {}", said(&output));
+        done(&words);
         let (alone, job) = (std::fs::read(&alone).unwrap(), std::fs::read(format!("{out}/{id}.png")).unwrap());
         assert!(alone == job, "{id}: {} and {} bytes", alone.len(), job.len());
     }
@@ -224,7 +208,7 @@ fn lists_and_folders_that_are_wrong_are_refused_before_any_work() {
         refused_in_one_line(&["batch", "jobs.jsonl", "-o", &out, "--slice", slice], &["--slice"]);
     }
     let list = list(&folder, &[a, b.clone()]);
-    assert_eq!(tinta(&["batch", &list, "-o", &out, "--slice", "1/2"]).status.code(), Some(0));
+    done(&["batch", &list, "-o", &out, "--slice", "1/2"]);
     refused_in_one_line(&["batch", &list, "-o", &out], &["this folder holds a batch;", "--resume"]);
     refused_in_one_line(&["batch", &list, "-o", &out, "--slice", "1/2"], &["this folder holds a batch;"]);
     refused_in_one_line(&["batch", &list, "-o", &out, "--slice", "2/3"], &["this folder holds a batch;"]);
@@ -234,5 +218,5 @@ fn lists_and_folders_that_are_wrong_are_refused_before_any_work() {
         &["this folder holds a batch of another list"],
     );
     refused_in_one_line(&["batch", &other, "-o", &out, "--slice", "2/2", "--resume"], &["a batch of another list"]);
-    assert_eq!(tinta(&["batch", &list, "-o", &out, "--slice", "2/2"]).status.code(), Some(0));
+    done(&["batch", &list, "-o", &out, "--slice", "2/2"]);
 }

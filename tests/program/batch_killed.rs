@@ -3,8 +3,8 @@
 
 #![cfg(target_os = "linux")]
 
-use crate::batch::{list, render, rows, said};
-use crate::program::tinta;
+use crate::batch::{list, render, rows};
+use crate::program::{done, said, tinta};
 use crate::support::Folder;
 use std::collections::HashMap;
 use std::path::Path;
@@ -42,7 +42,7 @@ fn wait_for_lines(child: &Child, path: &str, count: usize) {
     assert!(lines() >= count, "{path} has {} lines", lines());
 }
 
-fn signal(name: &str, process: u32) {
+pub fn signal(name: &str, process: u32) {
     assert!(Command::new("kill").args(["-s", name, &process.to_string()]).status().unwrap().success());
 }
 
@@ -94,14 +94,13 @@ fn a_killed_run_goes_on_and_does_nothing_twice() {
     // A torn line, as a kill may leave it.
     let text = std::fs::read_to_string(&journal).unwrap();
     std::fs::write(&journal, format!("{text}{}", &text[..40])).unwrap();
-    let done = text.lines().count();
-    let output = tinta(&["batch", &list, "-o", &out, "--resume", "--jobs", "2"]);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let finished = text.lines().count();
+    let output = done(&["batch", &list, "-o", &out, "--resume", "--jobs", "2"]);
     assert!(
         said(&output).contains(&format!(
             "tinta: {} of {JOBS} jobs done, {} were done before, 0 failed",
-            JOBS - done,
-            done
+            JOBS - finished,
+            finished
         )),
         "{}",
         said(&output)
@@ -128,8 +127,7 @@ fn a_killed_run_goes_on_and_does_nothing_twice() {
         said(&output)
     );
     assert_eq!(rows(&journal).len(), JOBS + 3);
-    let summary = tinta(&["batch", "--summary", &out]);
-    assert_eq!(summary.status.code(), Some(0));
+    let summary = done(&["batch", "--summary", &out]);
     let text = String::from_utf8(summary.stdout).unwrap();
     assert!(
         text.starts_with(&format!("{JOBS} jobs: {JOBS} done, 0 failed, 0 missing\n"))
@@ -202,8 +200,7 @@ fn a_measurement_that_is_killed_goes_on_where_it_was_and_appears_whole() {
     drop(child.wait_with_output());
     assert!(!Path::new(&folder.path("out/m")).exists(), "half a measurement has no name");
     let kept = std::fs::read_to_string(&rows_file).unwrap();
-    let output = tinta(&["batch", &list, "-o", &out, "--resume"]);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    done(&["batch", &list, "-o", &out, "--resume"]);
     assert!(in_the_making().is_none());
     let whole = std::fs::read_to_string(folder.path("out/m/results.jsonl")).unwrap();
     let sound = &kept[..kept.rfind('\n').unwrap() + 1];

@@ -1,7 +1,7 @@
 //! Batches whose jobs would write the same file by a number or in a folder, and batches that fill the disk.
 
-use crate::batch::{list, render, said};
-use crate::program::{refused_in_one_line, tinta};
+use crate::batch::{list, render};
+use crate::program::{done, refused_in_one_line, tinta};
 use crate::support::Folder;
 use std::path::Path;
 
@@ -69,8 +69,7 @@ fn names_that_only_look_alike_are_no_reason_to_refuse() {
         job("own", "render", "steps/a.png", r#","size":16,"dump":"steps""#),
     ];
     let out = folder.path("out");
-    let output = tinta(&["batch", &list(&folder, &jobs), "-o", &out, "--jobs", "1"]);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    done(&["batch", &list(&folder, &jobs), "-o", &out, "--jobs", "1"]);
     tinta(&["batch", "--summary", &out]);
     let rows = crate::batch::rows(&format!("{out}/batch-summary.jsonl"));
     let mut paths: Vec<String> = rows

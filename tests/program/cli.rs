@@ -1,6 +1,6 @@
 //! The program as a user meets it: files, messages, exit codes, records.
 
-use crate::program::{refused_in_one_line, tinta};
+use crate::program::{answer, done, refused_in_one_line, tinta};
 use crate::support::{Folder, skip};
 use std::path::Path;
 use std::process::Command;
@@ -9,8 +9,7 @@ use std::process::Command;
 fn a_picture_is_written_and_nothing_is_said() {
     let folder = Folder::new();
     let picture = folder.path("bust.png");
-    let output = tinta(&["render", "builtin:bust", "-o", &picture, "--size", "64x48"]);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = done(&["render", "builtin:bust", "-o", &picture, "--size", "64x48"]);
     assert!(output.stdout.is_empty() && output.stderr.is_empty());
     let size = image::image_dimensions(&picture).unwrap();
     assert_eq!(size, (64, 48));
@@ -62,8 +61,7 @@ fn a_model_is_read_by_its_content_where_its_name_disagrees() {
     let ply = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
         element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     let model = folder.file("misnamed.obj", ply);
-    let output = tinta(&["render", &model, "-o", &folder.path("out.png"), "--size", "32"]);
-    assert_eq!(output.status.code(), Some(0));
+    let output = done(&["render", &model, "-o", &folder.path("out.png"), "--size", "32"]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("misnamed.obj: the name says OBJ but the content is PLY"));
 }
 
@@ -157,9 +155,7 @@ fn the_record_says_what_was_drawn_and_how_long_it_took() {
         ["--json", "--frames", "3", "--size", "80x60", "--view", "front", "--copies", "4", "--look", "published"];
     let mut arguments = vec!["render", "builtin:open-box", "-o", &out];
     arguments.extend(options);
-    let output = tinta(&arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let record = answer(&arguments);
     assert_eq!(record["version"], env!("CARGO_PKG_VERSION"));
     assert_eq!(record["model"], record["models"][0]);
     assert_eq!(record["models"][0]["path"], "builtin:open-box");
@@ -226,7 +222,7 @@ fn the_plan_is_explained_with_times() {
 fn a_dump_holds_every_step() {
     let folder = Folder::new();
     let steps = folder.path("steps");
-    let output = tinta(&[
+    done(&[
         "render",
         "builtin:ant",
         "-o",
@@ -238,7 +234,6 @@ fn a_dump_holds_every_step() {
         "--dump",
         &steps,
     ]);
-    assert_eq!(output.status.code(), Some(0));
     let mut names: Vec<String> =
         std::fs::read_dir(&steps).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
@@ -329,7 +324,7 @@ fn help_states_every_default() {
     }
     let text = String::from_utf8(tinta(&["render", "--help"]).stdout).unwrap();
     assert!(text.contains("builtin:bust"));
-    assert_eq!(tinta(&["--help"]).status.code(), Some(0));
+    done(&["--help"]);
     assert_eq!(tinta(&[]).status.code(), Some(2));
 }
 
@@ -354,8 +349,7 @@ fn frames_and_skins_are_refused_where_a_model_has_none_and_recorded_where_it_has
     let render = |options: &[&str]| {
         let mut arguments = vec!["render", &model, "-o", &out, "--size", "32", "--json", "--look", "published"];
         arguments.extend(options);
-        let output = tinta(&arguments);
-        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let output = done(&arguments);
         let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         (record["load"].clone(), String::from_utf8_lossy(&output.stderr).into_owned())
     };

@@ -1,6 +1,6 @@
 //! `tinta edges`, `tinta compare` and the style inking as a user meets them.
 
-use crate::program::{refused_in_one_line, tinta};
+use crate::program::{answer, refused_in_one_line, tinta};
 use crate::support::Folder;
 use std::path::Path;
 
@@ -50,9 +50,7 @@ fn a_record_of_lines_counts_every_class_by_the_name_that_the_lines_and_the_optio
 fn a_comparison_is_one_sheet_or_a_folder_of_four_pictures() {
     let folder = Folder::new();
     let sheet = folder.path("both.png");
-    let output = tinta(&["compare", "builtin:gear", "-o", &sheet, "--size", "96", "--frames", "2", "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let record = answer(&["compare", "builtin:gear", "-o", &sheet, "--size", "96", "--frames", "2", "--json"]);
     assert_eq!(
         (&record["left"]["style"]["name"], &record["right"]["style"]["name"]),
         (&serde_json::json!("three-pass"), &serde_json::json!("inking"))

@@ -1,31 +1,24 @@
 //! `tinta render` into .svg and .json as a user meets it.
 
-use crate::program::{refused_in_one_line, tinta};
+use crate::program::{answer, done, refused_in_one_line, silent, tinta};
 use crate::support::Folder;
 use crate::support::growth::FAMILIES;
 use std::path::Path;
-
-fn made(arguments: &[&str]) -> Vec<u8> {
-    let output = tinta(arguments);
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
-    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
-    output.stdout
-}
 
 #[test]
 fn a_drawing_is_written_as_svg_with_the_command_that_made_it() {
     let folder = Folder::new();
     let out = folder.path("gear <&>.svg");
-    assert!(made(&["render", "builtin:gear", "-o", &out, "--size", "96x64", "--hidden", "dashed"]).is_empty());
+    assert!(silent(&["render", "builtin:gear", "-o", &out, "--size", "96x64", "--hidden", "dashed"]).is_empty());
     let text = std::fs::read_to_string(&out).unwrap();
     let document = roxmltree::Document::parse(&text).unwrap();
     assert_eq!(document.root_element().attribute("viewBox"), Some("0 0 96 64"));
     let said = document.descendants().find(|node| node.tag_name().name() == "description").unwrap();
     assert_eq!(said.text(), Some("tinta render builtin:gear -o drawing.svg --hidden dashed --size 96x64"));
     let again = folder.path("again.svg");
-    made(&["render", "builtin:gear", "-o", &again, "--size", "96x64", "--hidden", "dashed"]);
+    silent(&["render", "builtin:gear", "-o", &again, "--size", "96x64", "--hidden", "dashed"]);
     assert_eq!(std::fs::read_to_string(&again).unwrap(), text);
-    let piped = made(&["render", "builtin:gear", "-o", "-", "--style", "lines", "--size", "96x64"]);
+    let piped = silent(&["render", "builtin:gear", "-o", "-", "--style", "lines", "--size", "96x64"]);
     assert!(piped.starts_with(b"<?xml") && piped.ends_with(b"</svg>\n"));
 }
 
@@ -33,8 +26,7 @@ fn a_drawing_is_written_as_svg_with_the_command_that_made_it() {
 fn lines_are_written_as_json_and_their_record_is_printed() {
     let folder = Folder::new();
     let out = folder.path("lines.json");
-    let record = made(&["render", "builtin:open-box", "-o", &out, "--json", "--classes", "all"]);
-    let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
+    let record = answer(&["render", "builtin:open-box", "-o", &out, "--json", "--classes", "all"]);
     assert_eq!(record["style"]["name"], "lines");
     assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(18));
     assert_eq!(record["model"]["path"], "builtin:open-box");
@@ -51,8 +43,7 @@ fn lines_are_written_as_json_and_their_record_is_printed() {
     let segments = lines["segments"].as_array().unwrap().len() as u64;
     let counted = |name: &str| counts[name].as_u64().unwrap();
     assert_eq!(segments, counted("visible_segments") + counted("hidden_segments"));
-    let record = made(&["render", "builtin:open-box", "-o", &folder.path("a.svg"), "--json", "--hidden", "ghost"]);
-    let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
+    let record = answer(&["render", "builtin:open-box", "-o", &folder.path("a.svg"), "--json", "--hidden", "ghost"]);
     assert_eq!(
         (&record["style"]["hidden"], &record["style"]["line-width"]),
         (&"ghost".into(), &serde_json::Value::Null)
@@ -75,7 +66,7 @@ fn a_look_of_lines_is_written_into_every_format_of_lines() {
     let folder = Folder::new();
     for name in ["a.svg", "a.pdf", "a.dxf", "a.json", "a.png"] {
         let out = folder.path(name);
-        made(&["render", "builtin:gear", "-o", &out, "--look", "technical"]);
+        silent(&["render", "builtin:gear", "-o", &out, "--look", "technical"]);
     }
     let drawing = json(&folder, &["--look", "technical"]);
     assert_eq!(drawing["camera"]["fov_y_degrees"], serde_json::Value::Null, "the look's parallel projection");
@@ -120,7 +111,7 @@ fn areas_are_written_as_paths_of_their_objects() {
     let folder = Folder::new();
     let out = folder.path("areas.svg");
     let drawn = |options: &[&str]| {
-        made(&[&["render", "builtin:open-box", "builtin:gear", "-o", &out], options].concat());
+        silent(&[&["render", "builtin:open-box", "builtin:gear", "-o", &out], options].concat());
         std::fs::read_to_string(&out).unwrap()
     };
     let text = drawn(&["--areas", "object", "--no-borders"]);
@@ -136,7 +127,7 @@ fn areas_are_written_as_paths_of_their_objects() {
     assert!(text.contains(r#"data-face="0""#) && text.contains("visible-crease") && !text.contains("crispEdges"));
     assert!(text.contains(r#"<g id="fill-seams""#) && text.find("fill-seams") < text.find("fill-0"));
     let pdf = folder.path("areas.pdf");
-    made(&["render", "builtin:gear", "-o", &pdf, "--areas", "material", "--page", "A4"]);
+    silent(&["render", "builtin:gear", "-o", &pdf, "--areas", "material", "--page", "A4"]);
     assert!(std::fs::read(&pdf).unwrap().starts_with(b"%PDF"));
 }
 
@@ -150,14 +141,14 @@ fn the_hidden_lines_that_are_drawn_are_counted_and_the_others_marked() {
     let svg = folder.path("a.svg");
     let hidden_paths = |options: &[&str]| {
         let all = [&["render", &cube, "-o", &svg, "--parallel", "--json"], options].concat();
-        let record: serde_json::Value = serde_json::from_slice(&made(&all)).unwrap();
+        let record: serde_json::Value = serde_json::from_slice(&silent(&all)).unwrap();
         record["counts"]["hidden_paths"].as_u64().unwrap()
     };
     assert_eq!(hidden_paths(&["--hidden", "dashed", "--view", "front"]), 0, "under the visible ones");
     assert_eq!(hidden_paths(&["--view", "30,15"]), 0, "not drawn");
     assert_eq!(hidden_paths(&["--hidden", "dashed", "--view", "30,15"]), 2, "three edges at one corner");
     let out = folder.path("a.json");
-    made(&["render", &cube, "-o", &out, "--style", "lines", "--parallel", "--view", "front"]);
+    silent(&["render", &cube, "-o", &out, "--style", "lines", "--parallel", "--view", "front"]);
     let lines: serde_json::Value = serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap();
     let pieces = lines["segments"].as_array().unwrap();
     assert_eq!(pieces.len(), 8);
@@ -244,7 +235,7 @@ fn the_look_technical_has_one_ratio_of_widths_for_paper_pictures_and_pens() {
     let out = folder.path("gear.svg");
     let draw = |options: &[&str]| {
         let look = ["render", "builtin:gear", "-o", &out, "--look", "technical", "--hidden", "dashed"];
-        made(&[&look, options].concat());
+        silent(&[&look, options].concat());
         layer_widths(&out)
     };
     for (options, outline_mm) in [
@@ -275,7 +266,7 @@ fn what_pens_a_drawing_needs_is_explained() {
     let out = folder.path("gear.svg");
     let explain = |options: &[&str]| {
         let all = [&["render", "builtin:gear", "-o", &out, "--explain", "--pen"], options].concat();
-        String::from_utf8(made(&all)).unwrap()
+        String::from_utf8(silent(&all)).unwrap()
     };
     let said = explain(&["--look", "technical", "--page", "A4"]);
     let pens = said.split("pen, layer").nth(1).unwrap();
@@ -293,7 +284,7 @@ fn inking_has_no_intersections() {
     let out = folder.path("a.png");
     let ink = ["render", "builtin:ant", "-o", &out, "--style", "inking", "--size", "32", "--classes"];
     refused_in_one_line(&[&ink[..], &["intersection"]].concat(), &["--classes intersection", "only style lines"]);
-    made(&[&ink[..], &["all"]].concat());
+    silent(&[&ink[..], &["all"]].concat());
 }
 
 #[test]
@@ -319,8 +310,7 @@ fn a_model_is_not_written_over_and_an_empty_drawing_is_said() {
     let model = folder.file("model.svg", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     refused_in_one_line(&["render", &model, "-o", &model], &["model.svg", "this would overwrite the model;"]);
     assert!(std::fs::read_to_string(&model).unwrap().starts_with("v 0 0 0"));
-    let output = tinta(&["render", &model, "-o", &folder.path("empty.svg"), "--classes", "crease"]);
-    assert_eq!(output.status.code(), Some(0));
+    let output = done(&["render", &model, "-o", &folder.path("empty.svg"), "--classes", "crease"]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("no line of these classes is visible"));
     refused_in_one_line(
         &["render", &model, "-o", &folder.path("a.svgz")],
@@ -334,7 +324,7 @@ fn a_pdf_of_a_sheet_is_written_the_same_every_time() {
     let [first, second] = ["a.pdf", "b.pdf"].map(|name| folder.path(name));
     for out in [&first, &second] {
         let options = ["--page", "A5", "--hidden", "dashed", "--class-widths", "outline=1mm,hidden=0.2mm"];
-        assert!(made(&[&["render", "builtin:gear", "-o", out][..], &options].concat()).is_empty());
+        assert!(silent(&[&["render", "builtin:gear", "-o", out][..], &options].concat()).is_empty());
     }
     let bytes = std::fs::read(&first).unwrap();
     assert_eq!(bytes, std::fs::read(&second).unwrap());
@@ -352,7 +342,7 @@ fn a_json_file_has_all_pieces_unless_a_length_is_given_and_says_which_are_outlin
     let folder = Folder::new();
     let out = folder.path("a.json");
     let segments = |options: &[&str]| -> Vec<serde_json::Value> {
-        made(&[&["render", "builtin:bust", "-o", &out][..], options].concat());
+        silent(&[&["render", "builtin:bust", "-o", &out][..], options].concat());
         let read: serde_json::Value = serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap();
         read["segments"].as_array().unwrap().clone()
     };
@@ -370,7 +360,7 @@ fn only_lines_have_outlines_and_millimetres() {
     let ink = ["render", "builtin:ant", "-o", &png, "--style", "inking", "--size", "32"];
     refused_in_one_line(&[&ink[..], &["--class-colors", "outline=red"]].concat(), &["--class-colors outline", ".svg"]);
     refused_in_one_line(&[&ink[..], &["--line-width", "0.5mm"]].concat(), &["--line-width 0.5mm", "give pixels"]);
-    made(&[
+    silent(&[
         "render",
         "builtin:ant",
         "-o",
@@ -390,7 +380,7 @@ fn smooth_silhouettes_say_where_they_break_and_lines_are_written_as_curves() {
     let folder = Folder::new();
     let [polylines, curves, pdf] = ["a.svg", "b.svg", "c.pdf"].map(|name| folder.path(name));
     let drawn = |out: &str, options: &[&str]| {
-        made(&[&["render", "builtin:bust", "-o", out, "--silhouette", "smooth", "--size", "128"], options].concat())
+        silent(&[&["render", "builtin:bust", "-o", out, "--silhouette", "smooth", "--size", "128"], options].concat())
     };
     let record: serde_json::Value = serde_json::from_slice(&drawn(&polylines, &["--json"])).unwrap();
     assert_eq!(record["style"]["silhouette"], "smooth");
@@ -400,8 +390,7 @@ fn smooth_silhouettes_say_where_they_break_and_lines_are_written_as_curves() {
     let places = record["changes"]["places"].as_array().unwrap();
     assert_eq!(places.len() as u64, record["changes"]["inconsistencies"]);
     assert!(places.iter().all(|place| place["px"][1].is_f64() && place["kind"].is_string()), "{places:?}");
-    let exact = made(&["render", "builtin:bust", "-o", &folder.path("d.svg"), "--size", "128", "--json"]);
-    let exact: serde_json::Value = serde_json::from_slice(&exact).unwrap();
+    let exact = answer(&["render", "builtin:bust", "-o", &folder.path("d.svg"), "--size", "128", "--json"]);
     assert!(exact.get("changes").is_none());
     drawn(&curves, &["--fit-curves", "0.5"]);
     drawn(&pdf, &["--fit-curves", "0.5"]);
@@ -420,8 +409,8 @@ fn explained_lines_are_a_text_of_what_there_is() {
     let folder = Folder::new();
     let out = folder.path("a.svg");
     let base = ["render", "builtin:bust", "-o", &out, "--silhouette", "smooth", "--view", "0,35", "--size", "160"];
-    let said = String::from_utf8(made(&[&base[..], &["--explain"]].concat())).unwrap();
-    let record: serde_json::Value = serde_json::from_slice(&made(&[&base[..], &["--json"]].concat())).unwrap();
+    let said = String::from_utf8(silent(&[&base[..], &["--explain"]].concat())).unwrap();
+    let record: serde_json::Value = serde_json::from_slice(&silent(&[&base[..], &["--json"]].concat())).unwrap();
     let breaks = record["changes"]["inconsistencies"].as_u64().unwrap();
     assert!(said.contains(&format!("{breaks} times for no reason")), "{said}");
     assert_eq!(said.lines().filter(|line| line.starts_with("  at ")).count() as u64, breaks);
@@ -468,7 +457,9 @@ fn what_is_done_in_time_is_the_same_as_without_a_limit() {
     for name in ["a.svg", "a.json", "a.png"] {
         let drawn = |more: &[&str]| {
             let out = folder.path(name);
-            made(&[&["render", "builtin:gear", "-o", &out, "--style", "lines", "--size", "96x64"][..], more].concat());
+            silent(
+                &[&["render", "builtin:gear", "-o", &out, "--style", "lines", "--size", "96x64"][..], more].concat(),
+            );
             std::fs::read(out).unwrap()
         };
         assert_eq!(drawn(&["--within", "3600", "--partial"]), drawn(&[]), "{name}");
@@ -539,7 +530,7 @@ fn a_look_with_tones_takes_the_options_of_lines_into_vectors() {
     let folder = Folder::new();
     let paths = |options: &[&str]| {
         let svg = folder.path("a.svg");
-        made(&[&["render", "builtin:bust", "-o", &svg, "--look", "print", "--size", "400x300"], options].concat());
+        silent(&[&["render", "builtin:bust", "-o", &svg, "--look", "print", "--size", "400x300"], options].concat());
         std::fs::read_to_string(svg).unwrap().matches("<path").count()
     };
     let all = paths(&[]);

@@ -1,6 +1,6 @@
 //! Typing mistakes, each with its whole error: exit code 2, empty standard output, no file left.
 
-use std::path::Path;
+use crate::support::names;
 use std::process::{Command, Stdio};
 
 /// Files in the folder where the commands are typed.
@@ -301,14 +301,6 @@ const MISTAKES: [(&str, &str); 98] = [
     ("completions bahs", "invalid value 'bahs' for '<SHELL>': did you mean bash?"),
     ("provenance three_pass", "invalid value 'three_pass' for '[STYLE]': did you mean three-pass?"),
 ];
-
-/// The names in a folder, in order.
-fn names(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).unwrap();
-    let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
 
 #[test]
 fn every_mistake_is_one_sentence_that_says_what_to_do() {

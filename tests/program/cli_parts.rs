@@ -1,8 +1,7 @@
 //! `--part`, `--join-parts` and `--sheet` as a user meets them.
 
-use crate::program::{refused_in_one_line, tinta};
-use crate::support::Folder;
-use crate::support::public_model;
+use crate::program::{done, refused_in_one_line, tinta};
+use crate::support::{Folder, public_model};
 use serde_json::Value;
 
 /// Two boxes one behind the other, objects `near` and `far box`, with a material each.
@@ -26,8 +25,7 @@ fn boxes(folder: &Folder) -> String {
 fn drawn(folder: &Folder, model: &str, name: &str, options: &[&str]) -> String {
     let out = folder.path(name);
     let all = [&["render", model, "-o", &out, "--view", "20,15", "--no-recipe"], options].concat();
-    let output = tinta(&all);
-    assert_eq!(output.status.code(), Some(0), "{options:?}: {}", String::from_utf8_lossy(&output.stderr));
+    done(&all);
     std::fs::read_to_string(out).unwrap()
 }
 
@@ -104,8 +102,7 @@ fn a_sheet_has_four_views_in_vectors_and_pixels_but_not_in_json() {
         assert!(layers(&third).iter().any(|(label, _)| label.contains(part)), "{part}");
     }
     for name in ["a.pdf", "a.png"] {
-        let output = tinta(&["render", &model, "-o", &folder.path(name), "--style", "lines", "--sheet", "third"]);
-        assert_eq!(output.status.code(), Some(0), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        done(&["render", &model, "-o", &folder.path(name), "--style", "lines", "--sheet", "third"]);
     }
     let json = folder.path("a.json");
     refused_in_one_line(&["render", &model, "-o", &json, "--sheet", "third"], &["sheet", "one view"]);

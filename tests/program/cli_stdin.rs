@@ -1,8 +1,7 @@
 //! Models and lists from standard input, where a command line has `-`.
 
-use crate::program::{refused_in_one_line, tinta};
-use crate::support::Folder;
-use crate::support::root;
+use crate::program::{refused_in_one_line, said, tinta};
+use crate::support::{Folder, root};
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
@@ -14,10 +13,6 @@ fn piped(arguments: &[&str], bytes: &[u8]) -> Output {
     // A program that does not read it has already refused it.
     let _ = child.stdin.take().unwrap().write_all(bytes);
     child.wait_with_output().unwrap()
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";

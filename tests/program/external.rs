@@ -1,10 +1,8 @@
 //! Files that a model names outside its folder are read only with permission.
 
-use crate::hostile::{SQUARE, one_line, refused};
-use crate::program::tinta;
-use crate::support::Folder;
-use crate::support::root;
-use crate::support::scene_of_mesh;
+use crate::hostile::SQUARE;
+use crate::program::{assert_refused, one_line, tinta};
+use crate::support::{Folder, root, scene_of_mesh};
 use tinta::{LoadOptions, load};
 
 /// A folder with a model's folder in it and, outside that, a material file and a picture.
@@ -100,7 +98,7 @@ fn a_skin_that_the_user_names_may_lie_anywhere_and_the_option_is_the_programs_to
 
     let output = tinta(&["edges", &model]);
     one_line(&String::from_utf8(output.stderr).unwrap(), &["secret.mtl is outside", "--allow-external reads it"]);
-    refused(&tinta(&["edges", &model, "--strict"]), &["1 missing material"]);
+    assert_refused(&tinta(&["edges", &model, "--strict"]), &["1 missing material"]);
     let output = tinta(&["edges", &model, "--strict", "--allow-external"]);
     assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()));
 }

@@ -1,7 +1,6 @@
 //! Drivers that are missing, wrong, refuse, run out of memory or lose the context: each an error that names it.
 
-use crate::support::Folder;
-use crate::support::{BACKENDS, renderer, root, scene, skip};
+use crate::support::{BACKENDS, Folder, renderer, root, scene, skip};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use tinta::gl::Fault;

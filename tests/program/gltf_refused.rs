@@ -1,7 +1,6 @@
 //! glTF files that are refused, or need permission to be read, each with a sentence that gives the remedy.
 
-use crate::hostile::{one_line, refused};
-use crate::program::tinta;
+use crate::program::{assert_refused, one_line, tinta};
 use crate::support::Folder;
 use crate::support::gltf_files::*;
 use serde_json::{Value, json};
@@ -22,7 +21,10 @@ fn data_and_pictures_outside_the_models_folder_are_followed_only_when_asked_to()
     let absolute = folder.path("box.bin");
     for uri in ["../box.bin", "..%2Fbox.bin", &absolute] {
         let model = folder.file("model/box.gltf", &file.with_buffer(Some(uri)));
-        refused(&tinta(&["edges", &model]), &["box.gltf: the data file", "outside its folder", "--allow-external"]);
+        assert_refused(
+            &tinta(&["edges", &model]),
+            &["box.gltf: the data file", "outside its folder", "--allow-external"],
+        );
         let output = tinta(&["edges", &model, "--allow-external"]);
         assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()), "{uri}");
     }
@@ -35,7 +37,7 @@ fn data_and_pictures_outside_the_models_folder_are_followed_only_when_asked_to()
         ("no-such.bin", "its data file no-such.bin is missing"),
         ("data:;base64,!!!!", "broken base64"),
     ] {
-        refused(&tinta(&["edges", &folder.file("model/box.gltf", &file.with_buffer(Some(uri)))]), &[sentence]);
+        assert_refused(&tinta(&["edges", &folder.file("model/box.gltf", &file.with_buffer(Some(uri)))]), &[sentence]);
     }
     // From memory no file is read at all.
     let bytes = file.with_buffer(Some(&absolute));
@@ -54,7 +56,7 @@ fn extensions_that_are_needed_and_not_read_are_named_with_what_to_do() {
         let mut file = box_file();
         file.json["extensionsRequired"] = json!(["KHR_materials_unlit", extension]);
         let model = folder.file("box.glb", &file.binary());
-        refused(&tinta(&["edges", &model]), &["box.glb: it needs the extension", extension, remedy]);
+        assert_refused(&tinta(&["edges", &model]), &["box.glb: it needs the extension", extension, remedy]);
     }
     let mut file = box_file();
     file.json["extensionsUsed"] = json!(["KHR_materials_unlit", "XX_of_mine"]);

@@ -2,9 +2,9 @@
 //!
 //! `TINTA_UPDATE_GOLDENS=1 cargo test goldens_looks` draws them anew and then fails.
 
+use crate::program::done;
 use crate::support::backend_names;
 use crate::support::goldens::{Goldens, compare, how_to_update, names};
-use std::process::Command;
 use tinta::Picture;
 use tinta::preset::LOOKS;
 
@@ -16,11 +16,9 @@ fn every_look_draws_the_built_in_models_as_they_were_looked_at() {
         for model in ["bust", "gear", "ant"] {
             for backend in backend_names() {
                 let file = folder.path().join(format!("{}-{model}-{backend}.png", look.name));
-                let mut tinta = Command::new(env!("CARGO_BIN_EXE_tinta"));
-                tinta.args(["render", &format!("builtin:{model}"), "--look", look.name, "--size", "128"]);
-                tinta.args(["--backend", backend, "--no-recipe", "-o"]).arg(&file);
-                let output = tinta.output().unwrap();
-                assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+                let (path, out) = (format!("builtin:{model}"), file.to_str().unwrap());
+                let line = ["render", &path, "--look", look.name, "--size", "128", "--backend", backend, "-o", out];
+                done(&[&line[..], &["--no-recipe"]].concat());
                 let picture = Picture::read_png(&file).unwrap();
                 failures.extend(compare(&format!("look-{}-{model}", look.name), &picture, backend).err());
             }

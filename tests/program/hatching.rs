@@ -1,17 +1,10 @@
 //! Hatching as a user meets it: options, files, pens.
 
-use crate::program::{refused_in_one_line, tinta};
+use crate::program::{refused_in_one_line, silent, tinta};
 use crate::support::Folder;
 use tinta::Error;
 use tinta::request::{OptionLayer, Request, Session};
 use tinta::settings::{OptionValue, Options};
-
-fn made(arguments: &[&str]) -> String {
-    let output = tinta(arguments);
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
-    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
-}
 
 /// The ids of an SVG's layers, and how many paths each has.
 fn layers(text: &str) -> Vec<(String, usize)> {
@@ -23,7 +16,7 @@ fn layers(text: &str) -> Vec<(String, usize)> {
 
 fn drawn(folder: &Folder, options: &[&str]) -> String {
     let svg = folder.path("a.svg");
-    made(&[&["render", "builtin:bust", "-o", &svg, "--size", "300"], options].concat());
+    silent(&[&["render", "builtin:bust", "-o", &svg, "--size", "300"], options].concat());
     std::fs::read_to_string(&svg).unwrap()
 }
 
@@ -57,7 +50,7 @@ fn a_bare_model_is_hatched_on_paper_and_a_coloured_one_on_its_colour() {
     std::fs::write(&bare, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n").unwrap();
     let svg = folder.path("b.svg");
     let has_fills = |options: &[&str]| {
-        made(&[&["render", &bare, "-o", &svg, "--look", "print", "--size", "300"], options].concat());
+        silent(&[&["render", &bare, "-o", &svg, "--look", "print", "--size", "300"], options].concat());
         std::fs::read_to_string(&svg).unwrap().contains(r#"id="fill-"#)
     };
     assert!(has_fills(&[]) && !has_fills(&["--hatch", "auto"]) && has_fills(&["--hatch", "auto", "--color", "tan"]));
@@ -76,16 +69,17 @@ fn a_sheet_has_strokes_in_millimetres_for_a_pen_of_its_own() {
     let [(text, wide), (_, narrow)] = ["2mm", "1mm"].map(stroke);
     assert!(text.contains(r#"width="210mm""#) && !text.contains("background"));
     assert!(narrow as f64 > 1.8 * wide as f64 && (narrow as f64) < 2.2 * wide as f64, "{wide} {narrow}");
-    let pens = made(
+    let pens = silent(
         &[
             &["render", "builtin:bust", "-o", &folder.path("pens.svg"), "--hatch", "1mm", "--explain", "--size", "300"],
             &paper[..],
         ]
         .concat(),
     );
+    let pens = String::from_utf8(pens).unwrap();
     assert!(pens.contains("hatch-0") && pens.contains("hatch-1") && pens.contains("0.25 mm"), "{pens}");
     let pdf = folder.path("a.pdf");
-    made(&[
+    silent(&[
         "render",
         "builtin:bust",
         "-o",

@@ -1,28 +1,12 @@
 //! Output that cannot be written: one sentence, exit code 2, the old file unchanged, no other file left.
 
-use crate::support::Folder;
-use crate::support::{root, skip};
+use crate::program::assert_refused;
+use crate::support::{Folder, names, root, skip};
 use std::fs::File;
 use std::path::Path;
 use std::process::{Command, Output};
 
 const OLD: &[u8] = b"what was there";
-
-/// The names in a folder, sorted.
-pub fn names(folder: &Path) -> Vec<String> {
-    let files = std::fs::read_dir(folder).unwrap();
-    let mut names: Vec<String> = files.map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
-
-/// Asserts exit code 2, by no signal, and one sentence with all `words`.
-fn assert_refused(output: &Output, words: &[&str]) {
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{:?}: {said}", output.status);
-    assert_eq!(said.trim_end().lines().count(), 1, "{said}");
-    assert!(words.iter().all(|word| said.contains(word)), "{words:?}: {said}");
-}
 
 /// Commands that write into the folder `{}`, one for each kind of file, and the file each would write.
 const WRITERS: [(&str, &str); 6] = [

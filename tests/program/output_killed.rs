@@ -3,9 +3,8 @@
 
 #![cfg(target_os = "linux")]
 
-use crate::output::names;
-use crate::support::Folder;
-use crate::support::{root, skip};
+use crate::batch_killed::signal as send;
+use crate::support::{Folder, names, root, skip};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -29,8 +28,7 @@ fn end_when(mut child: Child, signal: &str, mut is_moment: impl FnMut(&Child) ->
     while state(&child).0 != 'Z' && !is_moment(&child) {
         std::thread::yield_now();
     }
-    let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
-    assert!(sent.success(), "a child that was not waited for can be sent a signal");
+    send(signal, child.id());
     child.wait().unwrap()
 }
 

@@ -1,6 +1,6 @@
 //! `tinta page`: a model in the browser's page. What the page does with it is tested in a browser, by `scripts/web --test`.
 
-use crate::program::{refused, refused_in_one_line, tinta};
+use crate::program::{done, refused, refused_in_one_line, tinta};
 use crate::support::Folder;
 
 /// A page like the built one: two files, one of a lecture, and the place for a lesson.
@@ -10,8 +10,7 @@ const BUILT: &str = "<script type=\"text/plain\" data-file=\"main.js\">QQ==</scr
 /// The lesson in the page that these words make.
 fn lesson(folder: &Folder, words: &[&str]) -> (serde_json::Value, String) {
     let (built, made) = (folder.file("built.html", BUILT.as_bytes()), folder.path("made.html"));
-    let output = tinta(&[&["page", "--from", &built, "-o", &made], words].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    done(&[&["page", "--from", &built, "-o", &made], words].concat());
     let page = std::fs::read_to_string(made).unwrap();
     let json = page.split_once("id=\"lesson\">").unwrap().1.split_once("</script>").unwrap().0;
     (serde_json::from_str(json).unwrap(), page)

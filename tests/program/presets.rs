@@ -1,6 +1,6 @@
 //! Presets as a user meets them: read, written, beaten by the command line, refused with their line.
 
-use crate::program::{refused_in_one_line, tinta};
+use crate::program::{done, refused_in_one_line};
 use crate::support::{Folder, textured};
 use serde_json::Value;
 use tinta::LoadOptions;
@@ -10,9 +10,7 @@ use tinta::settings::HasSettings;
 use tinta_lab::measure::Row;
 
 fn made(arguments: &[&str]) -> Vec<u8> {
-    let output = tinta(arguments);
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
-    output.stdout
+    done(arguments).stdout
 }
 
 /// A picture on standard output, without a recipe: equal pictures are equal bytes.

@@ -1,18 +1,11 @@
 //! Pictures that carry their recipe, and `tinta again` as a user meets it.
 
-use crate::program::{refused_in_one_line, tinta};
-use crate::support::Folder;
-use crate::support::backend_names;
-use crate::support::textured;
+use crate::program::{done, refused_in_one_line, tinta};
+use crate::support::{Folder, backend_names, textured};
 use std::path::Path;
 use std::process::Output;
 use tinta::preset::OptionValue;
 use tinta::{Picture, Recipe, Target};
-
-fn made(arguments: &[&str]) {
-    let output = tinta(arguments);
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
-}
 
 fn again(picture: &str, out: &str, more: &[&str]) -> (Option<i32>, String) {
     let Output { status, stderr, stdout } = tinta(&[&["again", picture, "-o", out], more].concat());
@@ -65,7 +58,7 @@ fn pictures_of_every_kind_are_made_again_byte_for_byte() {
         ("svg", &["--style", "lines", "--pen", "--dpi", "96.5", "--transparent"]),
     ] {
         let [first, second] = ["first", "second"].map(|name| folder.path(&format!("{name}.{kind}")));
-        made(&[&["render", &model, "-o", &first, "--size", "64x48"], options].concat());
+        done(&[&["render", &model, "-o", &first, "--size", "64x48"], options].concat());
         let (code, said) = again(&first, &second, &[]);
         assert_eq!((code, said.lines().count()), (Some(0), 1), "{options:?}: {said}");
         assert!(said.contains("second") && said.contains("is the same, byte for byte"), "{said}");
@@ -81,7 +74,7 @@ fn a_recipe_says_what_was_drawn_with_which_files_by_whom() {
     let model = textured(&folder);
     let [png, svg, other] = ["a.png", "a.svg", "b.png"].map(|name| folder.path(name));
     let render = |out: &str, options: &[&str]| {
-        made(&[&["render", &model, "builtin:ant", "-o", out, "--size", "40x30", "--frames", "1"], options].concat());
+        done(&[&["render", &model, "builtin:ant", "-o", out, "--size", "40x30", "--frames", "1"], options].concat());
     };
     render(&png, &["--style", "inking", "--texture", "on", "--explain"]);
     let recipe = read(&png);
@@ -111,7 +104,7 @@ fn files_of_earlier_versions_may_keep_a_rule_that_is_gone_and_a_command_line_may
     let folder = Folder::new();
     let [first, second, third] = ["first.png", "second.png", "third.png"].map(|name| folder.path(name));
     let render = |out: &str, options: &[&str]| {
-        made(&[&["render", "builtin:gear", "-o", out, "--size", "32", "--style", "phong"], options].concat());
+        done(&[&["render", "builtin:gear", "-o", out, "--size", "32", "--style", "phong"], options].concat());
     };
     render(&first, &["--keep", "border"]);
     let pixels = |path: &str| Picture::read_png(Path::new(path)).unwrap();
@@ -139,7 +132,7 @@ fn without_a_recipe_no_name_is_told_and_nothing_can_be_made_again() {
         // These formats never carry a recipe.
         let keep: &[&str] = if ["a.jpg", "a.apng"].contains(&name) { &[] } else { &["--no-recipe"] };
         let turn: &[&str] = if name == "a.apng" { &["--turntable", "2"] } else { &[] };
-        made(&[&["render", &model, "-o", &path, "--size", "30"], keep, turn].concat());
+        done(&[&["render", &model, "-o", &path, "--size", "30"], keep, turn].concat());
         let bytes = std::fs::read(&path).unwrap();
         let text = String::from_utf8_lossy(&bytes);
         assert!(!text.contains("tinta-recipe") && !text.contains("tinta:recipe") && !text.contains("tinta render"));
@@ -156,8 +149,8 @@ fn what_differs_is_said_and_counted() {
     let model = folder.file("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     let [first, second] = ["first.png", "second.png"].map(|name| folder.path(name));
     let [lines, lines_again] = ["first.svg", "second.svg"].map(|name| folder.path(name));
-    made(&["render", &model, "-o", &first, "--size", "32"]);
-    made(&["render", &model, "-o", &lines, "--size", "32"]);
+    done(&["render", &model, "-o", &first, "--size", "32"]);
+    done(&["render", &model, "-o", &lines, "--size", "32"]);
     // Another version and driver that draw the same.
     let original = std::fs::read(&first).unwrap();
     with_recipe(&first, |recipe| {
@@ -193,7 +186,7 @@ fn a_model_that_has_moved_is_asked_for_and_found() {
     for kind in ["png", "svg"] {
         std::fs::copy(&old, &new).unwrap();
         let [first, second] = ["first", "second"].map(|name| folder.path(&format!("{name}.{kind}")));
-        made(&["render", &old, "-o", &first, "--size", "32", "--transparent"]);
+        done(&["render", &old, "-o", &first, "--size", "32", "--transparent"]);
         std::fs::rename(&old, folder.path("hidden.obj")).unwrap();
         refused_in_one_line(&["again", &first, "-o", &second], &["old.obj: ", "--model FILE"]);
         assert!(!Path::new(&second).exists());
@@ -212,8 +205,8 @@ fn a_model_that_has_moved_is_asked_for_and_found() {
 fn outputs_that_cannot_be_compared_are_refused() {
     let folder = Folder::new();
     let [png, svg] = ["a.png", "a.svg"].map(|name| folder.path(name));
-    made(&["render", "builtin:ant", "-o", &png, "--size", "16"]);
-    made(&["render", "builtin:ant", "-o", &svg, "--size", "16"]);
+    done(&["render", "builtin:ant", "-o", &png, "--size", "16"]);
+    done(&["render", "builtin:ant", "-o", &svg, "--size", "16"]);
     let before = std::fs::read(&png).unwrap();
     refused_in_one_line(&["again", &png, "-o", &png], &["this is the picture to compare with"]);
     for out in ["b.jpg", "b.svg", "b", "-"] {
@@ -230,7 +223,7 @@ fn a_recipe_that_means_harm_writes_nothing() {
     let folder = Folder::new();
     let [png, out, target] = ["a.png", "b.png", "target"].map(|name| folder.path(name));
     let text = OptionValue::Text;
-    made(&["render", "builtin:ant", "-o", &png, "--size", "16"]);
+    done(&["render", "builtin:ant", "-o", &png, "--size", "16"]);
     let original = std::fs::read(&png).unwrap();
     for (name, value) in [
         ("dump", text(target.clone())),
@@ -267,7 +260,7 @@ fn a_recipe_that_means_harm_writes_nothing() {
 fn a_recipe_for_a_much_larger_picture_than_the_one_that_has_it_is_refused_before_it_is_drawn() {
     let folder = Folder::new();
     let [picture, out] = ["small.png", "out.png"].map(|name| folder.path(name));
-    made(&["render", "builtin:ant", "-o", &picture, "--size", "64x48"]);
+    done(&["render", "builtin:ant", "-o", &picture, "--size", "64x48"]);
     with_recipe(&picture, |recipe| {
         recipe.options.insert("size".to_owned(), OptionValue::Text("16384x16384".to_owned()));
     });
@@ -283,9 +276,8 @@ fn without_an_output_the_two_are_compared_and_no_file_is_left() {
     let folder = Folder::new();
     for name in ["a.png", "a.svg"] {
         let path = folder.path(name);
-        made(&["render", "builtin:gear", "-o", &path, "--size", "40"]);
-        let output = tinta(&["again", &path]);
-        assert!(output.status.success(), "{output:?}");
+        done(&["render", "builtin:gear", "-o", &path, "--size", "40"]);
+        let output = done(&["again", &path]);
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(said, format!("tinta: {path}, drawn again, is the same, byte for byte\n"));
         // Another picture with the same recipe.

@@ -2,17 +2,10 @@
 
 #![cfg(target_os = "linux")]
 
-use crate::program::tinta;
-use crate::support::Folder;
-use crate::support::root;
+use crate::program::{assert_refused, said, tinta};
+use crate::support::{Folder, root};
 use std::fs::File;
-use std::process::{Command, Output};
-
-fn refused(output: &Output, words: &str) {
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.starts_with("tinta: ") && said.contains(words) && said.lines().count() == 1, "{said}");
-}
+use std::process::Command;
 
 #[test]
 fn help_versions_scripts_and_pages_that_cannot_be_written_are_errors() {
@@ -30,7 +23,7 @@ fn help_versions_scripts_and_pages_that_cannot_be_written_are_errors() {
         let full = File::options().write(true).open("/dev/full").unwrap();
         let mut command = Command::new(env!("CARGO_BIN_EXE_tinta"));
         let output = command.args(arguments.split(' ')).stdout(full).output().unwrap();
-        refused(&output, "standard output cannot be written");
+        assert_refused(&output, &["standard output cannot be written"]);
         // As usual, if possible.
         let output = tinta(&arguments.split(' ').collect::<Vec<_>>());
         assert!(output.status.success() && !output.stdout.is_empty() && output.stderr.is_empty(), "{arguments}");
@@ -56,12 +49,12 @@ fn a_result_for_closed_standard_output_is_refused_before_the_work() {
         "--version",
         "completions fish",
     ] {
-        refused(&run(&format!("\"$1\" {arguments} >&-")), "standard output is closed; name a file");
+        assert_refused(&run(&format!("\"$1\" {arguments} >&-")), &["standard output is closed; name a file"]);
     }
     // Writing to a file needs no standard output.
     let picture = folder.path("a.png");
     let output = run(&format!("\"$1\" render builtin:ant --size 32 -o {picture} >&-"));
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{}", said(&output));
     assert_eq!(image::image_dimensions(&picture).unwrap(), (32, 32));
     // Redirection to /dev/null also works.
     assert!(run("\"$1\" render builtin:ant --size 32 -o - >/dev/null").status.success());

@@ -1,6 +1,6 @@
-//! Styles and formats by the command line: what it draws, says and refuses.
+//! Styles and formats by the command line: drawings, remarks and refusals.
 
-use crate::program::{refused_in_one_line, tinta};
+use crate::program::{answer, done, refused_in_one_line, tinta};
 use crate::support::Folder;
 use crate::support::shapes::cuboid;
 use glam::DVec3;
@@ -54,8 +54,7 @@ fn the_recipes_old_name_is_read_wherever_it_stands_and_no_longer_written() {
     let folder = Folder::new();
     let drawn = |file: &str, options: &[&str]| {
         let line = ["render", "builtin:gear", "-o", file, "--size", "32", "--texture-size", "16"];
-        let output = tinta(&[&line[..], options].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        done(&[&line[..], options].concat());
         std::fs::read(file).unwrap()
     };
     let [new, old] = ["plain", "published"].map(|name| {
@@ -76,13 +75,13 @@ fn the_recipes_old_name_is_read_wherever_it_stands_and_no_longer_written() {
     let pixels = Picture::read_png(&picture).unwrap();
     let (earlier, again) = (folder.path("earlier.png"), folder.path("again.png"));
     Target::check(&earlier, false).unwrap().write_with(&pixels, recipe.note().as_ref()).unwrap();
-    assert_eq!(tinta(&["again", &earlier, "-o", &again]).status.code(), Some(0));
+    done(&["again", &earlier, "-o", &again]);
     assert!(std::fs::read(again).unwrap() == new);
     // A job.
     let job = r#"{"id": 1, "command": "render", "model": "builtin:gear", "output": "a.png", "size": 32,
         "texture-size": 16, "style": "charcoal", "charcoal": "published"}"#;
     let list = folder.file("jobs.jsonl", job.replace('\n', "").as_bytes());
-    assert_eq!(tinta(&["batch", &list, "-o", &folder.path("batch")]).status.code(), Some(0));
+    done(&["batch", &list, "-o", &folder.path("batch")]);
     assert!(std::fs::read(folder.path("batch/a.png")).unwrap() == new);
     let offered = Style::table().settings.iter().filter(|setting| setting.name == "charcoal");
     assert!(offered.flat_map(|setting| setting.kind.offered()).all(|name| name != "published"));
@@ -99,8 +98,7 @@ fn textures_of_ones_own_are_drawn_with_and_those_that_tinta_writes_draw_what_it_
     let pixels = |file: &str, options: &[&str]| {
         let out = folder.path(file);
         let line = ["render", "builtin:gear", "-o", &out, "--size", "64", "--style", "charcoal", "--improve", "wrap"];
-        let output = tinta(&[&line[..], options].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        done(&[&line[..], options].concat());
         Picture::read_png(out.as_ref()).unwrap()
     };
     let made = pixels("made.png", &["--seed", "3", "--texture-size", "48"]);
@@ -127,8 +125,7 @@ fn faces_on_each_other_are_said_with_what_helps_and_no_longer_once_it_does() {
     let out = folder.path("leaf.png");
     let said = |options: &[&str]| {
         let line = ["render", &leaf, "-o", &out, "--size", "16", "--texture-size", "16"];
-        let output = tinta(&[&line[..], options].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let output = done(&[&line[..], options].concat());
         String::from_utf8(output.stderr).unwrap()
     };
     let remark = said(&["--style", "charcoal"]);
@@ -214,8 +211,7 @@ fn the_command_line_draws_the_same_file_by_every_way_to_hand_vertices_over() {
         let out = folder.path(name);
         let base =
             ["render", "builtin:gear", "-o", &out, "--style", "inking", "--size", "80", "--submission", submission];
-        let output = tinta(&[&base[..], more].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let output = done(&[&base[..], more].concat());
         (std::fs::read(out).unwrap(), String::from_utf8(output.stdout).unwrap())
     };
     let (expected, _) = made("buffers", "a.png", &[]);
@@ -238,9 +234,7 @@ fn the_command_line_draws_the_same_file_by_every_way_to_hand_vertices_over() {
 fn the_command_writes_what_it_counts_and_refuses_other_files() {
     let folder = Folder::new();
     let output = folder.path("gear.glb");
-    let done = tinta(&["edges", "builtin:gear", "-o", &output, "--json"]);
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-    let record: Value = serde_json::from_slice(&done.stdout).unwrap();
+    let record = answer(&["edges", "builtin:gear", "-o", &output, "--json"]);
     let marked = load(&output, &LoadOptions::default()).unwrap().mesh.marked.len() as u64;
     let of = |class: &str| record["classes"][class].as_u64().unwrap();
     assert_eq!(marked, of("boundary") + of("non-manifold") + of("crease") + of("material"));

@@ -1,21 +1,13 @@
 //! `tinta textures` as a user meets it.
 
-use crate::program::{refused_in_one_line, tinta};
-use crate::support::Folder;
-
-fn names(folder: &str) -> Vec<String> {
-    let mut names: Vec<String> =
-        std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
+use crate::program::{done, refused_in_one_line, tinta};
+use crate::support::{Folder, names};
 
 #[test]
 fn textures_are_written_with_the_texts_figures_and_recorded() {
     let folder = Folder::new();
     let out = folder.path("new/folder");
-    let output = tinta(&["textures", "-o", &out, "--size", "64x32", "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = done(&["textures", "-o", &out, "--size", "64x32", "--json"]);
     let figures = ["figure-2.png", "figure-3-m-1.3.png", "figure-3-m-15.png", "figure-3-m-5.5.png"];
     assert_eq!(names(&out), [&["cet.png"], &figures[..], &["noise.png", "paper.png", "ramp.png"]].concat());
     for name in names(&out) {

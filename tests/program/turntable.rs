@@ -1,18 +1,14 @@
 //! `tinta render` into animations, as a user meets it.
 
-use crate::program::{refused_in_one_line, tinta};
-use crate::support::Folder;
-use crate::support::{frames_of_gif as gif, public_models, skip};
+use crate::program::{refused_in_one_line, silent};
+use crate::support::{Folder, frames_of_gif as gif, public_models, skip};
 use image::AnimationDecoder;
 use image::codecs::png::PngDecoder;
 use std::io::Cursor;
 
 fn render(arguments: &[&str]) -> String {
-    let output = tinta(&[&["render"], arguments].concat());
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}");
-    assert_eq!(said, "", "no progress bar where there is no terminal");
-    String::from_utf8(output.stdout).unwrap()
+    // Nor is there a progress bar where there is no terminal.
+    String::from_utf8(silent(&[&["render"], arguments].concat())).unwrap()
 }
 
 #[test]

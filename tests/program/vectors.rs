@@ -1,13 +1,13 @@
 //! Cartoons as vectors: a renderer that is not ours draws their SVG, and each pixel beside no border is that of the style by OpenGL.
 
+use crate::program::done;
 use crate::rendered::rendered;
-use crate::support::{BACKENDS, public_models, renderer, scene_with};
+use crate::support::{BACKENDS, public_meshes, renderer, scene_with};
 use std::sync::Arc;
 use tinta::lines::{Areas, FillGroup, Joined, Progress, Regions, first_hits, painted, svg_of_paths};
 use tinta::styles::{Cartoon, Ink, LineStyle, Tones};
 use tinta::{
-    Background, CameraSettings, Color, DrawingSettings, LoadOptions, Picture, Scene, SceneSettings, Size, Style,
-    VisibleLines, load,
+    Background, CameraSettings, Color, DrawingSettings, Picture, Scene, SceneSettings, Size, Style, VisibleLines,
 };
 
 /// The areas of a style as SVG.
@@ -106,14 +106,7 @@ fn areas_of_tone_are_the_pixels_of_the_style() {
 #[test]
 #[ignore = "exhaustive: four public models"]
 fn areas_of_public_models_are_the_pixels_of_the_style() {
-    let Some(folder) = public_models() else { return };
-    for file in ["cow.obj", "teapot.obj", "suzanne.obj", "beethoven.obj"] {
-        let path = folder.join(file);
-        if !path.is_file() {
-            crate::support::skip(&format!("{file}: not in {}", folder.display()));
-            continue;
-        }
-        let mesh = load(path.to_str().unwrap(), &LoadOptions::default()).unwrap().mesh;
+    for (file, mesh) in public_meshes(&["cow.obj", "teapot.obj", "suzanne.obj", "beethoven.obj"]) {
         let camera = CameraSettings { view: "30,23".parse().unwrap(), ..CameraSettings::default() };
         let settings = SceneSettings { camera, ..SceneSettings::default() };
         check(file, &Scene::new(vec![Arc::new(mesh)], &settings).unwrap(), &tones_alone());
@@ -236,10 +229,7 @@ fn looks_of_tones_write_areas_without_being_told_a_style() {
     for look in ["print", "published"] {
         for name in ["a.svg", "a.pdf"] {
             let file = folder.path().join(name);
-            let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_tinta"));
-            command.args(["render", "builtin:gear", "--size", "64", "--look", look, "-o"]).arg(&file);
-            let output = command.output().unwrap();
-            assert!(output.status.success(), "{look} {name}: {}", String::from_utf8_lossy(&output.stderr));
+            done(&["render", "builtin:gear", "--size", "64", "--look", look, "-o", file.to_str().unwrap()]);
             let written = std::fs::read(&file).unwrap();
             let has_areas = String::from_utf8_lossy(&written).contains("id=\"fill-0-0\"");
             assert!(has_areas || name.ends_with("pdf"), "{look}: no areas in {name}");

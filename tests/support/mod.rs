@@ -1,5 +1,6 @@
 //! Shared parts of the integration tests: scenes, renderers, and comparisons that leave pictures for inspection.
 
+pub mod charcoal;
 pub mod gltf_files;
 pub mod goldens;
 
@@ -21,7 +22,6 @@ pub mod shapes;
 
 pub use places::*;
 
-use glam::DVec3;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
@@ -59,47 +59,8 @@ pub fn scene_with(model: &str, settings: SceneSettings) -> Scene {
 
 /// A sphere of 20 * 4^cuts triangles, an icosahedron cut again and again.
 pub fn ball(cuts: u32) -> Scene {
-    let golden = 0.5 + 1.25f64.sqrt();
-    let corner = |number: usize| {
-        let [a, b] = [number & 1, number >> 1 & 1].map(|bit| if bit == 1 { 1.0 } else { -1.0 });
-        DVec3::from_array([[0.0, a, b * golden], [a, b * golden, 0.0], [b * golden, 0.0, a]][number / 4]).normalize()
-    };
-    let corners: Vec<DVec3> = (0..12).map(corner).collect();
-    let near = |a: DVec3, b: DVec3| a.distance(b) < 1.2;
-    let mut faces = Vec::new();
-    for a in 0..12 {
-        for b in a + 1..12 {
-            for c in b + 1..12 {
-                let [p, q, r] = [a, b, c].map(|number| corners[number]);
-                if near(p, q) && near(q, r) && near(r, p) {
-                    let is_outward = (q - p).cross(r - p).dot(p) > 0.0;
-                    faces.push(if is_outward { [p, q, r] } else { [p, r, q] });
-                }
-            }
-        }
-    }
-    assert_eq!(faces.len(), 20);
-    for _ in 0..cuts {
-        let middle = |a: DVec3, b: DVec3| (a + b).normalize();
-        faces = faces
-            .iter()
-            .flat_map(|&[a, b, c]| {
-                let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
-                [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-            })
-            .collect();
-    }
-    let mut text = String::new();
-    for point in faces.as_flattened() {
-        text.push_str(&format!("v {} {} {}\n", point.x, point.y, point.z));
-    }
-    (0..faces.len()).for_each(|face| text.push_str(&format!("f {} {} {}\n", face * 3 + 1, face * 3 + 2, face * 3 + 3)));
-    let file = tempfile::Builder::new().suffix(".obj").tempfile().unwrap();
-    std::fs::write(file.path(), text).unwrap();
-    scene_with(
-        file.path().to_str().unwrap(),
-        SceneSettings { size: Size { width: 256, height: 256 }, ..Default::default() },
-    )
+    let settings = SceneSettings { size: Size { width: 256, height: 256 }, ..SceneSettings::default() };
+    Scene::new([shapes::shaded(&shapes::icosphere(cuts))], &settings).unwrap()
 }
 
 /// Every style with the published settings that can draw any model; sand cannot: it needs a model with a texture.

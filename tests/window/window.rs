@@ -1,5 +1,6 @@
 //! The viewer: its pictures without a window, and the window itself under Xvfb.
 
+use crate::program::{assert_refused, done, said};
 use crate::rendered::rendered;
 use crate::support::{BACKENDS, backend_names, root, skip};
 use std::io::{BufRead, BufReader};
@@ -57,7 +58,7 @@ fn by_command(command: &str, backend: &str) -> Picture {
         .current_dir(folder.path())
         .output()
         .unwrap();
-    assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{command}: {}", said(&output));
     Picture::read_png(&folder.path().join("drawing.png")).unwrap()
 }
 
@@ -210,15 +211,7 @@ fn prices_are_the_passes_times_and_the_lines_error_of_this_view() {
 #[test]
 fn files_saved_from_the_viewer_are_those_its_commands_write() {
     let folder = tempfile::tempdir().unwrap();
-    let options = ViewerOptions {
-        state: ViewerState::new(vec!["builtin:open-box".to_owned()], Default::default()),
-        load: LoadOptions::default(),
-        backend: Backend::Egl,
-        shaders: None,
-        folder: folder.path().to_path_buf(),
-        line_measure: Some(tinta_lab::line_measure()),
-    };
-    let mut viewer = Viewer::start(options, || {}).unwrap();
+    let mut viewer = saving_viewer("builtin:open-box", folder.path());
     viewer.event(ViewerEvent::Resize([96, 80]));
     viewer.event(set("--tones", "2"));
     viewer.rest().unwrap();
@@ -228,11 +221,7 @@ fn files_saved_from_the_viewer_are_those_its_commands_write() {
         (ViewerEvent::SaveTurn, "open-box-three-pass.gif"),
         (ViewerEvent::SavePreset, "open-box-three-pass.toml"),
     ] {
-        viewer.event(event);
-        while viewer.state.message.as_deref() == Some("saving") {
-            viewer.wait().unwrap();
-        }
-        let message = viewer.state.message.clone().unwrap();
+        let message = saved(&mut viewer, event);
         assert!(message.contains(name) && !message.contains("no command"), "{message}");
         let saved = std::fs::read(folder.path().join(name)).unwrap();
         let Some((_, command)) = message.split_once("; the same by tinta ") else { continue };
@@ -240,8 +229,7 @@ fn files_saved_from_the_viewer_are_those_its_commands_write() {
         let words = again.split(' ').chain(["--backend", "egl"]).filter(|word| !word.is_empty());
         let lines = name.ends_with("svg");
         let words: Vec<&str> = words.take_while(|word| !(lines && *word == "--backend")).collect();
-        let output = Command::new(env!("CARGO_BIN_EXE_tinta")).args(words).output().unwrap();
-        assert!(output.status.success(), "{again}: {}", String::from_utf8_lossy(&output.stderr));
+        done(&words);
         let again = std::fs::read(folder.path().join(format!("again-{name}"))).unwrap();
         match name.rsplit_once('.').unwrap().1 {
             "png" => {
@@ -320,7 +308,7 @@ fn lines_tones_areas_and_sheets_are_saved_byte_for_byte_as_the_command_line_writ
             let again = folder.path().join("again.svg");
             let command = command.replace(name, again.to_str().unwrap()).replace("tinta ", "exec \"$0\" ");
             let output = Command::new("sh").args(["-c", &command, env!("CARGO_BIN_EXE_tinta")]).output().unwrap();
-            assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
+            assert!(output.status.success(), "{command}: {}", said(&output));
             let [saved, again] = [Path::new(name), &again].map(|path| std::fs::read_to_string(path).unwrap());
             assert!(saved.contains("<path"), "{model} {number}");
             assert_eq!(saved.contains("id=\"fill-"), [0, 1, 5].contains(&number), "{model} {number}");
@@ -475,27 +463,15 @@ fn a_turn_of_lines_and_a_preset_of_them_are_saved() {
     let preset = saved(&mut viewer, ViewerEvent::SavePreset);
     assert!(preset.contains("open-box-lines.toml"), "{preset}");
     let path = folder.path().join("open-box-lines.toml").to_str().unwrap().to_owned();
-    let drawn = Command::new(env!("CARGO_BIN_EXE_tinta"))
-        .args(["render", "builtin:open-box", "--preset", &path, "-o"])
-        .arg(folder.path().join("box.svg"))
-        .output()
-        .unwrap();
-    assert!(drawn.status.success(), "{}", String::from_utf8_lossy(&drawn.stderr));
-    assert!(std::fs::read_to_string(folder.path().join("box.svg")).unwrap().contains("stroke-dasharray"));
+    let file = folder.path().join("box.svg");
+    done(&["render", "builtin:open-box", "--preset", &path, "-o", file.to_str().unwrap()]);
+    assert!(std::fs::read_to_string(file).unwrap().contains("stroke-dasharray"));
 }
 
 #[test]
 fn in_a_split_both_styles_are_saved_under_their_own_names_and_no_file_twice() {
     let folder = tempfile::tempdir().unwrap();
-    let options = ViewerOptions {
-        state: ViewerState::new(vec!["builtin:open-box".to_owned()], Default::default()),
-        load: LoadOptions::default(),
-        backend: Backend::Egl,
-        shaders: None,
-        folder: folder.path().to_path_buf(),
-        line_measure: Some(tinta_lab::line_measure()),
-    };
-    let mut viewer = Viewer::start(options, || {}).unwrap();
+    let mut viewer = saving_viewer("builtin:open-box", folder.path());
     let right = ViewerEvent::Style(Side::Right, "phong".to_owned());
     let events = [ViewerEvent::Resize([48, 40]), ViewerEvent::Layout(Layout::Split), right];
     shown(&mut viewer, events);
@@ -585,19 +561,15 @@ fn a_drag_in_the_window_and_a_preset_lead_to_the_picture_that_tinta_render_draws
     std::fs::write(here("drag.jsonl"), recording).unwrap();
     let output =
         display.view(&["builtin:bust", "--preset", &here("a.toml"), "--replay", &here("drag.jsonl"), "--json"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{}", said(&output));
     let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let shown = record["drag_frame_ms"]["all"].as_array().unwrap().len();
     assert!((1..=24).contains(&shown), "{shown} pictures were shown during the drag");
     // 24 eighths of a height are three half turns.
     let azimuth = View::DEFAULT.azimuth_degrees - 540.0;
     let view = format!("--view={azimuth},{}", View::DEFAULT.elevation_degrees);
-    let drawn = Command::new(env!("CARGO_BIN_EXE_tinta"))
-        .args(["render", "builtin:bust", "-o", &here("drawn.png"), "--preset", &here("a.toml"), &view])
-        .args(["--size", "160x120"])
-        .output()
-        .unwrap();
-    assert!(drawn.status.success(), "{}", String::from_utf8_lossy(&drawn.stderr));
+    let out = here("drawn.png");
+    done(&["render", "builtin:bust", "-o", &out, "--preset", &here("a.toml"), &view, "--size", "160x120"]);
     let read = |name: &str| Picture::read_png(&folder.path().join(name)).unwrap();
     assert_eq!(read("drawn.png").difference(&read("turned.png")).unwrap().pixels, 0);
 }
@@ -633,13 +605,8 @@ fn while_the_model_turns_no_older_picture_is_shown_after_a_newer_one() {
 #[test]
 fn without_a_display_or_opengl_on_it_there_is_a_sentence_and_exit_code_2() {
     let refused = |output: &Output, words: &[&str]| {
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{message}");
-        assert_eq!(message.trim().lines().count(), 1, "{message}");
-        for word in words.iter().chain(&["tinta render", "DISPLAY"]) {
-            assert!(message.contains(word), "{word}: {message}");
-        }
-        assert!(!message.contains("panicked") && !message.contains(".rs:"), "{message}");
+        assert_refused(output, &[words, &["tinta render", "DISPLAY"]].concat());
+        assert!(!said(output).contains(".rs:"), "{}", said(output));
     };
     refused(&view(&[], &[]), &["no window can be opened"]);
     refused(&view(&[("DISPLAY", ":4711")], &[]), &["no window can be opened"]);
@@ -656,7 +623,7 @@ fn a_recording_that_is_none_is_refused_before_a_window_opens() {
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), text).unwrap();
         let output = view(&[], &["--replay", file.path().to_str().unwrap()]);
-        let message = String::from_utf8_lossy(&output.stderr);
+        let message = said(&output);
         assert_eq!(output.status.code(), Some(2));
         assert!(message.contains("--replay") && message.contains(words), "{message}");
     }

@@ -2,7 +2,7 @@
 
 mod compare;
 #[cfg(all(test, feature = "judging", feature = "window"))]
-mod documents;
+mod documents_tests;
 #[cfg(feature = "measuring")]
 mod figures;
 #[cfg(feature = "judging")]
@@ -10,9 +10,9 @@ mod judge;
 #[cfg(feature = "measuring")]
 mod measure;
 #[cfg(all(test, feature = "judging"))]
-mod offered;
+mod offered_tests;
 #[cfg(all(test, feature = "judging"))]
-mod option_pictures;
+mod option_pictures_tests;
 mod provenance;
 #[cfg(feature = "measuring")]
 mod stress;

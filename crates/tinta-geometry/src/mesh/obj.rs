@@ -6,7 +6,7 @@
 //! none.
 
 #[cfg(test)]
-mod agreement;
+mod agreement_tests;
 mod lines;
 mod material_files;
 mod emission;

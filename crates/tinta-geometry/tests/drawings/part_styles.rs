@@ -1,5 +1,6 @@
 //! Styles of parts over random scenes: a ghost hides nothing, an occluder is not drawn, and colours change no geometry.
 
+use crate::support::lines::without_equal;
 use crate::support::random_scenes::random_scene;
 use crate::support::shapes::{Random, cuboid, joined};
 use glam::DVec3;
@@ -62,15 +63,6 @@ fn name<'a>(lines: &'a VisibleLines, segment: &LineSegment) -> &'a str {
     &lines.parts[segment.part as usize].name
 }
 
-/// The pieces of one list that have no equal in another.
-fn without_equal<'a>(segments: &[&'a LineSegment], others: &[&LineSegment]) -> Vec<&'a LineSegment> {
-    let is_equal = |a: &LineSegment, b: &LineSegment| {
-        let are_near = |end: usize| a.ends_px[end].distance(b.ends_px[end]) <= SAME_PX;
-        (a.class, a.object, a.edge) == (b.class, b.object, b.edge) && are_near(0) && are_near(1)
-    };
-    segments.iter().filter(|segment| !others.iter().any(|other| is_equal(segment, other))).copied().collect()
-}
-
 /// Calls a check with scenes of all kinds.
 fn for_scenes(count: u64, check: impl Fn(&Scene, &str, u32)) {
     for kind in 0..KINDS {
@@ -109,7 +101,8 @@ fn other_parts_are_drawn_as_if_ghosts_were_not_there() {
             *object = object.with_mesh(Arc::new(rest));
         }
         changed.set(
-            changed.get() + without_equal(&visible(&found(scene, "arm: ghost")), &visible(&found(scene, ""))).len(),
+            changed.get()
+                + without_equal(&visible(&found(scene, "arm: ghost")), &visible(&found(scene, "")), SAME_PX).len(),
         );
         // An edge that both share ends a surface where the other part is taken away.
         let is_shared = |segment: &LineSegment| {
@@ -130,7 +123,8 @@ fn other_parts_are_drawn_as_if_ghosts_were_not_there() {
                 visible.retain(|segment| is_compared(lines, segment));
                 visible
             });
-            let only: Vec<_> = [without_equal(&with, &without), without_equal(&without, &with)].concat();
+            let only: Vec<_> =
+                [without_equal(&with, &without, SAME_PX), without_equal(&without, &with, SAME_PX)].concat();
             assert!(only.is_empty(), "{which}, {others}: {only:#?}");
         }
     });
@@ -143,9 +137,9 @@ fn an_occluder_loses_its_lines_and_others_keep_theirs() {
     for_scenes(40, |scene, which, _| {
         let (before, after) = (found(scene, ""), found(scene, "bolt*: occlude-only"));
         let [all, rest] = [&before, &after].map(visible);
-        assert!(without_equal(&rest, &all).is_empty(), "{which}: new lines");
+        assert!(without_equal(&rest, &all, SAME_PX).is_empty(), "{which}: new lines");
         assert!(rest.iter().all(|segment| name(&after, segment) == "arm"), "{which}");
-        let gone = without_equal(&all, &rest);
+        let gone = without_equal(&all, &rest, SAME_PX);
         assert!(gone.iter().all(|segment| name(&before, segment) != "arm"), "{which}: lost lines");
     });
     let random = &mut Random(7);
@@ -217,7 +211,8 @@ fn the_search_shows_what_the_reference_shows() {
                 };
                 let (fast, reference) = (of(false), of(true));
                 let [fast, reference] = [&fast, &reference].map(visible);
-                let only = [without_equal(&fast, &reference), without_equal(&reference, &fast)].concat();
+                let only =
+                    [without_equal(&fast, &reference, SAME_PX), without_equal(&reference, &fast, SAME_PX)].concat();
                 assert!(only.is_empty(), "{which}, {rules}, hidden {finds_hidden}: {only:#?}");
             }
         }

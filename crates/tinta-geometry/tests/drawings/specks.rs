@@ -1,7 +1,7 @@
 //! Lines that are too short to draw, on hand-made lines and on models: never a line that closes an outline.
 
 use crate::support::drawn::{lines, segment};
-use crate::support::lines::{length, lines_with, scene_of, view};
+use crate::support::lines::{distance, length, lines_with, scene_of, view};
 use crate::support::shapes::icosphere;
 use crate::support::{builtin, public_meshes};
 use glam::DVec2;
@@ -155,12 +155,7 @@ fn hidden_lines_are_judged_among_themselves() {
 /// Whether an end lies on some other piece, or on the picture's border.
 fn is_held(pieces: &[LineSegment], number: usize, end: DVec2, size: f64, reach: f64) -> bool {
     let on_border = end.min_element() < reach || (size - end).min_element() < reach;
-    on_border
-        || pieces.iter().enumerate().any(|(other, piece)| {
-            let [a, b] = piece.ends_px;
-            let share = ((end - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
-            other != number && end.distance(a.lerp(b, share)) < reach
-        })
+    on_border || pieces.iter().enumerate().any(|(other, piece)| other != number && distance(end, piece.ends_px) < reach)
 }
 
 /// Asserts that no end of an outline is free that was not before.

@@ -2,6 +2,7 @@
 
 mod windings;
 
+use crate::support::shapes::Random;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -154,11 +155,8 @@ fn a_cylinders_and_a_tubes_section_have_the_areas_of_their_polygons() {
 
 #[test]
 fn the_two_sides_of_many_planes_make_up_a_sphere() {
-    let mut state = 1u64;
-    let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (state >> 33) as f64 / f64::from(1u32 << 30) - 1.0
-    };
+    let mut numbers = Random::seeded(1);
+    let mut random = || numbers.signed();
     let sphere = sphere(12, 17);
     let whole = volume(&sphere);
     assert_closed(&sphere, "whole");

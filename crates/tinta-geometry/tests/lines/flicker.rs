@@ -2,10 +2,10 @@
 //! explained.
 
 #[path = "../../benches/contours/flicker.rs"]
-mod flicker;
+mod measure;
 
-use flicker::{Flicker, flicker};
 use glam::DVec2;
+use measure::{Flicker, flicker};
 use std::sync::Arc;
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
 use tinta::lines::closed_forms::ClosedForm;

@@ -1,9 +1,10 @@
 //! Curves and points beside surfaces, against rays in f64 and world space: each sampled point of a curve is hidden where a face lies
 //! between the eye and the point lifted by `on_surface`, and nowhere else. The rays use no formula of the library.
 
+use crate::support::lines::px;
 use crate::support::random_scenes::random_scene;
 use crate::support::shapes::{Random, cuboid};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use std::sync::Arc;
 use tinta::camera::Projection;
 use tinta::edges::{Class, ClassSet};
@@ -13,13 +14,6 @@ use tinta::{CameraSettings, DrawingSettings, LineSettings, LoadOptions, Mesh, Sc
 
 /// Weights of a face's corners within which a ray may hit the face or pass beside it, and the same for depths, of the scene's radius.
 const UNCLEAR: f64 = 1e-7;
-
-/// Where a point of the world is drawn, pixels, y down, by the matrices that GL gets.
-fn px(scene: &Scene, point: DVec3) -> DVec2 {
-    let ndc = (scene.camera.clip_from_view(scene.size.aspect()) * scene.camera.view_from_world()).project_point3(point);
-    let size = DVec2::new(f64::from(scene.size.width), f64::from(scene.size.height));
-    DVec2::new(ndc.x + 1.0, 1.0 - ndc.y) * 0.5 * size
-}
 
 fn is_parallel(scene: &Scene) -> bool {
     matches!(scene.camera.projection, Projection::Parallel { .. })
@@ -76,15 +70,6 @@ fn is_hidden(scene: &Scene, point: DVec3, on_surface: f64) -> Option<bool> {
     if is_unclear { None } else { Some(false) }
 }
 
-/// A generator that gives other numbers for every seed.
-fn seeded(seed: u64) -> Random {
-    let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
-    (0..10).for_each(|_| {
-        random.number();
-    });
-    random
-}
-
 /// A point of space, sometimes on a face, sometimes close below or above one.
 fn somewhere(scene: &Scene, reach: f64, random: &mut Random) -> DVec3 {
     let around = |random: &mut Random| DVec3::new(random.number(), random.number(), random.number()) * 2.0 - DVec3::ONE;
@@ -123,7 +108,7 @@ fn with(scene: &Scene, free: Mesh) -> Scene {
 /// Scenes of four kinds, with curves that leave the models' box by `reach`; each with settings.
 fn scenes(count: u64, reach: f64) -> impl Iterator<Item = (Scene, Scene, LineSettings, Random)> {
     (1..=count).map(move |seed| {
-        let mut random = seeded(seed);
+        let mut random = Random::seeded(seed);
         let scene = random_scene(seed as u32 % 4, &mut random);
         let free = free_lines(&scene, reach, &mut random);
         let on_surface = [1e-6, 1e-4, 0.0, 0.03][seed as usize / 4 % 4];

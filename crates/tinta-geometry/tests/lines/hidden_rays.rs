@@ -18,7 +18,7 @@ use tinta::edges::Class;
 use tinta::lines::LineSettings;
 use tinta::{Mesh, Scene};
 
-/// Checks a scene and notes what is wrong.
+/// Checks a scene and notes its faults.
 fn note(name: &str, scene: &Scene, creases: Creases, random: &mut Random, all: &mut Found) {
     let found = Rays::new(scene, creases).check(random);
     let first = |wrong: &String| format!("{name}, {creases:?}: {} wrong, the first: {wrong}", found.wrong.len());
@@ -26,7 +26,7 @@ fn note(name: &str, scene: &Scene, creases: Creases, random: &mut Random, all: &
     all.add(&found);
 }
 
-/// Asserts that nothing is wrong, that hidden and visible points were both tested, and that few remained undecided.
+/// Asserts that no scene has a fault, that hidden and visible points were both tested, and that few remained undecided.
 fn judge(mut all: Found, scenes: usize) {
     println!("{} of {scenes} scenes fail; {}", all.wrong.len(), all.summary());
     let failed = all.wrong.len();

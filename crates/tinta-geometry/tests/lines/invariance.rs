@@ -1,13 +1,12 @@
 //! The visible lines stay the same under changes that leave the picture the same.
 
 use crate::support::families::FAMILIES;
-use crate::support::lines::{explicit, length, lines, scene_of, shuffled, view};
+use crate::support::lines::{explicit, length, lines, moved_camera, scene_of, shuffled, view};
 use crate::support::shapes::{Random, cuboid, icosphere};
 use crate::support::{builtin, public_meshes};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use tinta::camera::Projection;
 use tinta::edges::Class;
 use tinta::lines::VisibleLines;
 use tinta::{CameraSettings, Mesh, Scene, SceneSettings};
@@ -19,17 +18,8 @@ fn seen(mesh: &Mesh, camera: &CameraSettings) -> Scene {
 
 /// A mesh and its camera under a similarity.
 fn moved(mesh: &Mesh, camera: &CameraSettings, turn: DMat3, scale: f64, shift: DVec3) -> (Mesh, CameraSettings) {
-    let place = |point: DVec3| turn * point * scale + shift;
-    let positions = mesh.positions.iter().map(|point| place(*point)).collect();
-    let camera = CameraSettings {
-        eye: camera.eye.map(place),
-        target: camera.target.map(place),
-        up: camera.up.map(|up| turn * up),
-        near: camera.near.map(|near| near * scale),
-        far: camera.far.map(|far| far * scale),
-        ..camera.clone()
-    };
-    (Mesh { positions, ..mesh.clone() }, camera)
+    let positions = mesh.positions.iter().map(|point| turn * *point * scale + shift).collect();
+    (Mesh { positions, ..mesh.clone() }, moved_camera(camera, turn, scale, shift))
 }
 
 /// Length by class and visibility.
@@ -86,7 +76,7 @@ fn lines_turn_with_their_camera() {
     for (name, mesh) in models() {
         for parallel in [false, true] {
             let scene = seen(&mesh, &view("33,17", parallel));
-            let camera = explicit(&scene, parallel);
+            let camera = explicit(&scene);
             let expected = lines(&seen(&mesh, &camera));
             for _ in 0..2 {
                 let turn = DMat3::from_axis_angle(random.direction(), random.number() * 6.0);
@@ -106,7 +96,7 @@ fn rolling_the_camera_in_an_axis_view_of_flat_faces_changes_no_line() {
             for parallel in [false, true] {
                 let scene = seen(&mesh, &view(direction, parallel));
                 // From farther away, to keep the corners in the picture.
-                let mut camera = explicit(&scene, parallel);
+                let mut camera = explicit(&scene);
                 let away = scene.camera.eye - scene.camera.target;
                 camera.eye = Some(scene.camera.target + away * 2.0);
                 camera.far = None;
@@ -164,7 +154,7 @@ fn lines_a_million_units_away_are_the_same_as_far_as_numbers_reach() {
 fn families_of_scenes_far_from_the_origin_are_seen_alike() {
     for (name, make) in &FAMILIES {
         let scene = make(&mut Random::seeded(1));
-        let camera = explicit(&scene, matches!(scene.camera.projection, Projection::Parallel { .. }));
+        let camera = explicit(&scene);
         let far = |mesh: &Mesh| moved(mesh, &camera, DMat3::IDENTITY, 1.0, DVec3::new(1e8, -1e8, 1e8));
         let away = scene_of(scene.objects.iter().map(|it| far(&it.mesh).0).collect(), far(&scene.objects[0].mesh).1);
         assert_same_sums(&lines(&scene), &lines(&away), 1e-5, name);
@@ -226,7 +216,7 @@ fn copies_are_seen_as_the_same_mesh_at_other_places() {
 fn lines_of_public_models_turn_and_grow_with_their_camera() {
     for (file, mesh) in public_meshes(&["cow.obj", "suzanne.obj", "teapot.obj", "beethoven.obj"]) {
         let scene = seen(&mesh, &view("33,17", false));
-        let camera = explicit(&scene, false);
+        let camera = explicit(&scene);
         let expected = lines(&scene);
         let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.1);
         let (turned, its_camera) = moved(&mesh, &camera, turn, 1e3, DVec3::new(10.0, 20.0, -30.0));

@@ -1,7 +1,7 @@
 //! Visible lines of shapes with lines known by hand.
 
 use crate::support::lines::{
-    assert_near, length, lines, lines_with, of_class, only, px, px_between, scene_of, total, view,
+    assert_near, distance, length, lines, lines_with, of_class, only, px, px_between, scene_of, total, view,
 };
 use crate::support::shapes::{cuboid, icosphere, loops, mesh};
 use glam::{DVec2, DVec3};
@@ -276,7 +276,7 @@ fn of_a_torus_the_inner_contour_is_hidden_where_the_tube_lies_before_it() {
             // Hidden folds lie along the visible contour too.
             let places: Vec<DVec2> = smooth[0].iter().filter(|_| !is_visible).chain(&smooth[1]).copied().collect();
             let from_points = |p: DVec2| places.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min);
-            let from_pieces = |p: DVec2| pieces.iter().map(|ends| from_piece(p, *ends)).fold(f64::INFINITY, f64::min);
+            let from_pieces = |p: DVec2| pieces.iter().map(|ends| distance(p, *ends)).fold(f64::INFINITY, f64::min);
             let missed = points.iter().filter(|point| from_pieces(**point) > 0.5).count();
             let all: f64 = pieces.iter().map(|[a, b]| a.distance(*b)).sum();
             let invented = pieces.iter().filter(|[a, b]| from_points((*a + *b) * 0.5) > 1.5);
@@ -288,13 +288,6 @@ fn of_a_torus_the_inner_contour_is_hidden_where_the_tube_lies_before_it() {
         // The ellipse in the middle of the tube has its smallest radius of curvature, 2 sin^2, above the tube's.
         assert_eq!(smooth[0].is_empty(), ring * elevation.sin().powi(2) > tube, "it folds at {degrees}");
     }
-}
-
-/// The distance of a point from a piece of line.
-fn from_piece(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
-    let along = b - a;
-    let share = ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-    (a + along * share).distance(point)
 }
 
 /// Steps of height and depth 1 and width 3, the first at the front.

@@ -29,10 +29,14 @@ fn all_creases_of_parts_last_and_the_folds_of_a_bumpy_ball_do_not() {
     let steps = cuboid(DVec3::new(0.0, 0.1, 0.0), DVec3::splat(1.0));
     let [all, lasting] = creases(joined(&[plate, steps]));
     assert_eq!(all, lasting, "a step");
-    // Every vertex of a fine ball moved at random: folds everywhere, none of them continuous.
-    let mut random = Random(31 << 40 | 5);
-    let ball = icosphere(4);
-    let positions = ball.positions.iter().map(|point| *point * (1.0 + 0.03 * random.number())).collect();
-    let [all, lasting] = creases(mesh(positions, ball.triangles));
-    assert!(all > 1000.0 && lasting < 0.1 * all, "a bumpy ball: {all} {lasting}");
+    // Every vertex of fine balls moved at random: folds everywhere, few of them continuous.
+    let mut sums = [0.0; 2];
+    for seed in 1..=8 {
+        let (mut random, ball) = (Random::seeded(seed), icosphere(4));
+        let positions = ball.positions.iter().map(|point| *point * (1.0 + 0.03 * random.number())).collect();
+        let found = creases(mesh(positions, ball.triangles));
+        (0..2).for_each(|which| sums[which] += found[which]);
+    }
+    let [all, lasting] = sums;
+    assert!(all > 8000.0 && lasting < 0.1 * all, "bumpy balls: {all} {lasting}");
 }

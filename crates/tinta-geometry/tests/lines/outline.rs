@@ -1,7 +1,9 @@
 //! Outlines: the pieces of visible lines with only background on one side, on shapes with a known outline and against a twin that
 //! casts rays beside points of lines.
 
-use crate::support::lines::{assert_near, length, lines, lines_with, pierce, px, scene_of, shuffled, total, view};
+use crate::support::lines::{
+    assert_near, distance, length, lines, lines_with, pierce, px, scene_of, shuffled, total, view,
+};
 use crate::support::shapes::{Random, cuboid, icosphere, joined, mesh};
 use glam::{DMat4, DVec2, DVec3};
 use std::collections::BTreeMap;
@@ -270,12 +272,6 @@ fn a_rim_is_outline_also_where_a_face_beside_it_is_edge_on_but_for_rounding() {
             }
         }
     }
-}
-
-/// Distance of a point from a line.
-fn distance(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
-    let share = (point - a).dot(b - a) / (b - a).length_squared().max(f64::MIN_POSITIVE);
-    point.distance(a.lerp(b, share.clamp(0.0, 1.0)))
 }
 
 /// The drawn lines with an outline so many pixels wide, otherwise complete.

@@ -3,7 +3,7 @@
 mod crossings;
 mod edges;
 
-use crate::support::lines::{length, lines, lines_with, px};
+use crate::support::lines::{distance, length, lines, lines_with, px};
 use crate::support::shapes::Random;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
@@ -392,13 +392,11 @@ impl<'a> Rays<'a> {
         let image = px(self.scene, point);
         lines.segments.iter().any(|other| {
             let [a, b] = other.ends_px;
-            let (share, along) = ((image - a).dot(b - a) / a.distance_squared(b), (b - a).normalize_or_zero());
             other.is_visible
                 && !std::ptr::eq(other, piece)
                 && [a, b].iter().all(|end| end.distance(image) > FROM_ENDS_PX)
-                && (0.0..=1.0).contains(&share)
-                && a.lerp(b, share).distance(image) < 1e-6
-                && along.perp_dot(along_px).abs() < 1e-6
+                && distance(image, [a, b]) < 1e-6
+                && (b - a).normalize().perp_dot(along_px).abs() < 1e-6
         })
     }
 

@@ -2,7 +2,7 @@
 
 use crate::support::builtin;
 use crate::support::growth::FAMILIES;
-use crate::support::lines::{scene_of, view};
+use crate::support::lines::{scene_of, view, without_equal};
 use crate::support::shapes::mesh;
 use tinta::edges::SilhouetteRule;
 use tinta::lines::LineSegment;
@@ -13,16 +13,7 @@ use tinta::{LineSettings, Scene, VisibleLines};
 /// only in the reference.
 const SAME_PX: f64 = SHORTEST_LINE * 512.0;
 
-/// The pieces of one list that have no equal in another.
-fn without_equal<'a>(segments: &[&'a LineSegment], others: &[&LineSegment]) -> Vec<&'a LineSegment> {
-    let is_equal = |a: &LineSegment, b: &LineSegment| {
-        let are_near = |end: usize| a.ends_px[end].distance(b.ends_px[end]) <= SAME_PX;
-        (a.class, a.object, a.edge) == (b.class, b.object, b.edge) && are_near(0) && are_near(1)
-    };
-    segments.iter().filter(|segment| !others.iter().any(|other| is_equal(segment, other))).copied().collect()
-}
-
-/// What differs between the visible pieces of both.
+/// The differences between the visible pieces of both.
 fn differences(name: &str, scene: &Scene, finds_hidden: bool) -> Vec<String> {
     let of = |reference| {
         let settings = LineSettings { finds_hidden, reference, ..LineSettings::default() };
@@ -34,14 +25,14 @@ fn differences(name: &str, scene: &Scene, finds_hidden: bool) -> Vec<String> {
     assert!(!reference.is_empty(), "{name}");
     let mut found = Vec::new();
     for (whose, segments, others) in [("search", fast, reference), ("reference", reference, fast)] {
-        for LineSegment { class, edge, ends_px: [a, b], .. } in without_equal(segments, others) {
+        for LineSegment { class, edge, ends_px: [a, b], .. } in without_equal(segments, others, SAME_PX) {
             found.push(format!(
                 "{name}, hidden {finds_hidden}, only {whose}: {class:?} {edge:?} {a:?} {b:?} long {}",
                 a.distance(*b)
             ));
         }
     }
-    // What is only the search's is shown too much, what is only the reference's is missing.
+    // A piece of the search alone is shown too much, one of the reference alone is missing.
     if !found.is_empty() {
         found.sort_by_key(|line| !line.contains("only search"));
         found.truncate(FEW);

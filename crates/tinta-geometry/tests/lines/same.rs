@@ -1,6 +1,6 @@
 //! Compares two drawings.
 
-use crate::support::lines::length;
+use crate::support::lines::{distance, length};
 use glam::DVec2;
 use std::collections::{BTreeMap, BTreeSet};
 use tinta::edges::Class;
@@ -53,16 +53,10 @@ fn lost(pieces: &[(Class, [DVec2; 2])], others: &[(Class, [DVec2; 2])]) -> Optio
     for (class, [a, b]) in pieces {
         for share in [0.0, 0.37, 0.5, 0.81, 1.0] {
             let point = a.lerp(*b, share);
-            if !others.iter().any(|(other, ends)| other == class && distance(*ends, point) <= PIECE_PX) {
+            if !others.iter().any(|(other, ends)| other == class && distance(point, *ends) <= PIECE_PX) {
                 return Some(format!("{class:?} from {a:.3} to {b:.3} has no like at {point:.3}"));
             }
         }
     }
     None
-}
-
-fn distance([a, b]: [DVec2; 2], point: DVec2) -> f64 {
-    let along = b - a;
-    let share = ((point - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    (a + along * share).distance(point)
 }

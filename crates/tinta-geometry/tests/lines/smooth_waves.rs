@@ -1,7 +1,7 @@
 //! Smooth silhouettes of an open wavy surface, compared with a mesh with eighteen times as many faces: short contours
 //! with little bend, ends on the rim, and counted breaks.
 
-use crate::support::lines::{scene_of, view};
+use crate::support::lines::{distance, scene_of, view};
 use crate::support::shapes::{Random, mesh};
 use glam::{DVec2, DVec3};
 use tinta::Mesh;
@@ -44,16 +44,9 @@ fn pieces(lines: &VisibleLines, is_visible: bool, is_asked: impl Fn(Class) -> bo
 
 /// The largest distance of points of some segments from the nearest other segment; `is_left_out` excludes points.
 fn worst(of: &[[DVec2; 2]], from: &[[DVec2; 2]], is_left_out: impl Fn(DVec2) -> bool) -> f64 {
-    let distance = |point: DVec2| {
-        let to = |[a, b]: &[DVec2; 2]| {
-            let along = *b - *a;
-            let share = ((point - *a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-            (*a + along * share).distance(point)
-        };
-        from.iter().map(to).fold(f64::INFINITY, f64::min)
-    };
+    let nearest = |point: DVec2| from.iter().map(|ends| distance(point, *ends)).fold(f64::INFINITY, f64::min);
     let points = of.iter().flat_map(|[a, b]| [*a, a.midpoint(*b)]).filter(|point| !is_left_out(*point));
-    points.map(distance).fold(0.0, f64::max)
+    points.map(nearest).fold(0.0, f64::max)
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Lines made by hand.
 
-use tinta::edges::{Class, ClassCounts};
-use tinta::lines::{LineSegment, LineTimes};
+use tinta::edges::Class;
+use tinta::lines::LineSegment;
 use tinta::{Size, VisibleLines};
 
 /// A piece between pixels, named after its ends.
@@ -25,18 +25,5 @@ pub fn segment(class: Class, is_visible: bool, a: [f64; 2], b: [f64; 2]) -> Line
 
 /// A drawing of these pieces alone.
 pub fn lines(segments: Vec<LineSegment>) -> VisibleLines {
-    let size = Size { width: 120, height: 80 };
-    VisibleLines {
-        size,
-        segments,
-        edges: ClassCounts::default(),
-        changes: None,
-        covered_triangles: 0,
-        undecided: 0,
-        has_specks: false,
-        labels: Vec::new(),
-        parts: Vec::new(),
-        looks: Vec::new(),
-        times: LineTimes::default(),
-    }
+    VisibleLines { segments, ..VisibleLines::none(Size { width: 120, height: 80 }) }
 }

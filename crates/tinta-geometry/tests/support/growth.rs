@@ -36,53 +36,32 @@ pub enum Seen {
     Along,
 }
 
+const fn family(name: &'static str, what: &'static str, make: fn(usize) -> Shape, seen: Seen) -> Family {
+    Family { name, what, make, seen }
+}
+
 /// All of them.
 pub const FAMILIES: [Family; 20] = [
-    Family { name: "soup", what: "random triangles as large as the scene", make: soup, seen: Seen::Aslant },
-    Family { name: "confetti", what: "random triangles of a tenth of the scene", make: confetti, seen: Seen::Aslant },
-    Family { name: "coplanar", what: "rectangles that overlap in four planes", make: coplanar, seen: Seen::Aslant },
-    Family { name: "book", what: "triangles around one edge", make: book, seen: Seen::Aslant },
-    Family { name: "pages", what: "the same, seen along the edge", make: pages, seen: Seen::Along },
-    Family {
-        name: "fan",
-        what: "triangles around one corner, that pass through others",
-        make: fan,
-        seen: Seen::Aslant,
-    },
-    Family { name: "comb", what: "a comb of many teeth, extruded", make: comb, seen: Seen::Aslant },
-    Family { name: "honeycomb", what: "hexagonal cells of thin walls", make: honeycomb, seen: Seen::Aslant },
-    Family { name: "grille", what: "a plate with square holes", make: grille, seen: Seen::Aslant },
-    Family { name: "waffle", what: "sheets that all pass through one another", make: waffle, seen: Seen::Aslant },
-    Family {
-        name: "hair",
-        what: "thin triangles as long as the scene, in all directions",
-        make: hair,
-        seen: Seen::Aslant,
-    },
-    Family { name: "shells", what: "spheres inside one another", make: shells, seen: Seen::Aslant },
-    Family {
-        name: "building",
-        what: "slabs, walls and columns, flush with one another",
-        make: building,
-        seen: Seen::Aslant,
-    },
-    Family {
-        name: "assembly",
-        what: "plates with bolts, nuts and washers through them",
-        make: assembly,
-        seen: Seen::Aslant,
-    },
-    Family { name: "rail", what: "a row of thin squares, seen aslant", make: rail, seen: Seen::Aslant },
-    Family { name: "row", what: "equal fins behind one another", make: row, seen: Seen::Along },
-    Family {
-        name: "lattice",
-        what: "square bars in three directions, flush where they cross",
-        make: lattice,
-        seen: Seen::Along,
-    },
-    Family { name: "spokes", what: "bars from one axis, through one another", make: spokes, seen: Seen::Aslant },
-    Family { name: "sticks", what: "long bars in a heap, through one another", make: sticks, seen: Seen::Aslant },
-    Family { name: "twins", what: "cubes in one place but for a thousandth", make: twins, seen: Seen::Aslant },
+    family("soup", "random triangles as large as the scene", soup, Seen::Aslant),
+    family("confetti", "random triangles of a tenth of the scene", confetti, Seen::Aslant),
+    family("coplanar", "rectangles that overlap in four planes", coplanar, Seen::Aslant),
+    family("book", "triangles around one edge", book, Seen::Aslant),
+    family("pages", "the same, seen along the edge", pages, Seen::Along),
+    family("fan", "triangles around one corner, that pass through others", fan, Seen::Aslant),
+    family("comb", "a comb of many teeth, extruded", comb, Seen::Aslant),
+    family("honeycomb", "hexagonal cells of thin walls", honeycomb, Seen::Aslant),
+    family("grille", "a plate with square holes", grille, Seen::Aslant),
+    family("waffle", "sheets that all pass through one another", waffle, Seen::Aslant),
+    family("hair", "thin triangles as long as the scene, in all directions", hair, Seen::Aslant),
+    family("shells", "spheres inside one another", shells, Seen::Aslant),
+    family("building", "slabs, walls and columns, flush with one another", building, Seen::Aslant),
+    family("assembly", "plates with bolts, nuts and washers through them", assembly, Seen::Aslant),
+    family("rail", "a row of thin squares, seen aslant", rail, Seen::Aslant),
+    family("row", "equal fins behind one another", row, Seen::Along),
+    family("lattice", "square bars in three directions, flush where they cross", lattice, Seen::Along),
+    family("spokes", "bars from one axis, through one another", spokes, Seen::Aslant),
+    family("sticks", "long bars in a heap, through one another", sticks, Seen::Aslant),
+    family("twins", "cubes in one place but for a thousandth", twins, Seen::Aslant),
 ];
 
 /// Numbers that are the same everywhere (Marsaglia's xorshift).

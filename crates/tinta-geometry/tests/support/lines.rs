@@ -2,7 +2,8 @@
 
 use super::growth::{Family, Seen};
 use super::shapes::{Random, mesh};
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
+use tinta::camera::Projection;
 use tinta::edges::{Class, ClassSet};
 use tinta::lines::{LineSegment, LineSettings, VisibleLines};
 use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
@@ -30,7 +31,7 @@ pub fn scene_of_family(family: &Family, triangles: usize) -> Scene {
 }
 
 /// The fitted camera as settings.
-pub fn explicit(scene: &Scene, parallel: bool) -> CameraSettings {
+pub fn explicit(scene: &Scene) -> CameraSettings {
     let camera = &scene.camera;
     CameraSettings {
         eye: Some(camera.eye),
@@ -38,8 +39,22 @@ pub fn explicit(scene: &Scene, parallel: bool) -> CameraSettings {
         up: Some(camera.up),
         near: Some(camera.near),
         far: Some(camera.far),
-        parallel,
+        parallel: matches!(camera.projection, Projection::Parallel { .. }),
         ..CameraSettings::default()
+    }
+}
+
+/// A camera in numbers, moved by a similarity.
+pub fn moved_camera(camera: &CameraSettings, turn: DMat3, scale: f64, shift: DVec3) -> CameraSettings {
+    let place = |point: DVec3| turn * point * scale + shift;
+    CameraSettings {
+        eye: camera.eye.map(place),
+        target: camera.target.map(place),
+        up: camera.up.map(|up| turn * up),
+        near: camera.near.map(|near| near * scale),
+        far: camera.far.map(|far| far * scale),
+        height: camera.height.map(|height| height * scale),
+        ..camera.clone()
     }
 }
 
@@ -85,9 +100,24 @@ pub fn px_between(scene: &Scene, a: DVec3, b: DVec3) -> f64 {
     px(scene, a).distance(px(scene, b))
 }
 
+/// The distance of a point from a piece of line.
+pub fn distance(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
+    let share = (point - a).dot(b - a) / a.distance_squared(b).max(f64::MIN_POSITIVE);
+    a.lerp(b, share.clamp(0.0, 1.0)).distance(point)
+}
+
 /// A piece's length.
 pub fn length(segment: &LineSegment) -> f64 {
     segment.ends_px[0].distance(segment.ends_px[1])
+}
+
+/// The pieces of one list that have no equal in another: of the same class and edge, with ends as near as this many pixels.
+pub fn without_equal<'a>(segments: &[&'a LineSegment], others: &[&LineSegment], px: f64) -> Vec<&'a LineSegment> {
+    let is_equal = |a: &LineSegment, b: &LineSegment| {
+        let are_near = |end: usize| a.ends_px[end].distance(b.ends_px[end]) <= px;
+        (a.class, a.object, a.edge) == (b.class, b.object, b.edge) && are_near(0) && are_near(1)
+    };
+    segments.iter().filter(|segment| !others.iter().any(|other| is_equal(segment, other))).copied().collect()
 }
 
 /// The length of all pieces of a class, visible or hidden.

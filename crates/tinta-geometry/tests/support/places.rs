@@ -24,6 +24,19 @@ pub fn public_models() -> Option<PathBuf> {
     None
 }
 
+/// Public models that every style and the exact lines draw.
+pub const PUBLIC_MODELS: [&str; 9] = [
+    "ant.ply",
+    "beethoven.obj",
+    "cow.obj",
+    "faerie.md2",
+    "fandisk.obj",
+    "spot/spot_triangulated.obj",
+    "stanford-bunny.obj",
+    "suzanne.obj",
+    "teapot.obj",
+];
+
 /// The path of a public model, if it is there.
 pub fn public_model(file: &str) -> Option<String> {
     let folder = public_models()?;
@@ -48,6 +61,14 @@ pub fn public_meshes_with<'a>(files: &[&'a str], options: &LoadOptions) -> Vec<(
 /// A built-in model of one file, such as `gear`.
 pub fn builtin(name: &str) -> Mesh {
     load(root().join(format!("models/{name}.obj")).to_str().unwrap(), &LoadOptions::default()).unwrap().mesh
+}
+
+/// The names in a folder, hidden ones too, sorted.
+pub fn names(folder: impl AsRef<Path>) -> Vec<String> {
+    let files = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> = files.map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
 }
 
 /// A temporary folder.

@@ -1,14 +1,19 @@
-//! Meshes with known counts, and random ones, for the tests of edges and of ink.
+//! Meshes with known counts, and random ones.
 
 use glam::DVec3;
 use std::collections::BTreeMap;
-use tinta::Mesh;
 use tinta::edges::EdgeList;
+use tinta::{LoadOptions, Mesh};
 
 /// A mesh of positions and triangles alone.
 pub fn mesh(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Mesh {
     let file_vertices = (0..positions.len() as u32).collect();
     Mesh { positions, file_vertices, triangles, normals: Vec::new(), triangle_normals: Vec::new(), ..Mesh::triangle() }
+}
+
+/// A mesh as a file's is read, with normals.
+pub fn shaded(mesh: &Mesh) -> Mesh {
+    Mesh::of_triangles("made", mesh.positions.clone(), &mesh.triangles, &LoadOptions::default()).unwrap()
 }
 
 /// A box, two triangles a side, wound outwards.
@@ -42,44 +47,20 @@ pub fn joined(meshes: &[Mesh]) -> Mesh {
 /// A sphere from an icosahedron, each triangle cut into four `levels` times.
 pub fn icosphere(levels: u32) -> Mesh {
     let golden = (1.0 + 5f64.sqrt()) / 2.0;
-    let (g, o, z) = (golden, 1.0, 0.0);
-    let corners = [
-        [-o, g, z],
-        [o, g, z],
-        [-o, -g, z],
-        [o, -g, z],
-        [z, -o, g],
-        [z, o, g],
-        [z, -o, -g],
-        [z, o, -g],
-        [g, z, -o],
-        [g, z, o],
-        [-g, z, -o],
-        [-g, z, o],
-    ];
-    let mut positions: Vec<DVec3> = corners.iter().map(|corner| DVec3::from_array(*corner).normalize()).collect();
-    let mut triangles: Vec<[u32; 3]> = vec![
-        [0, 11, 5],
-        [0, 5, 1],
-        [0, 1, 7],
-        [0, 7, 10],
-        [0, 10, 11],
-        [1, 5, 9],
-        [5, 11, 4],
-        [11, 10, 2],
-        [10, 7, 6],
-        [7, 1, 8],
-        [3, 9, 4],
-        [3, 4, 2],
-        [3, 2, 6],
-        [3, 6, 8],
-        [3, 8, 9],
-        [4, 9, 5],
-        [2, 4, 11],
-        [6, 2, 10],
-        [8, 6, 7],
-        [9, 8, 1],
-    ];
+    let corner = |number: usize| {
+        let [a, b] = [number & 1, number >> 1 & 1].map(|bit| if bit == 1 { 1.0 } else { -1.0 });
+        DVec3::from_array([[0.0, a, b * golden], [a, b * golden, 0.0], [b * golden, 0.0, a]][number / 4]).normalize()
+    };
+    let mut positions: Vec<DVec3> = (0..12).map(corner).collect();
+    let mut triangles = Vec::new();
+    for a in 0..12 {
+        for (b, c) in (a + 1..12).flat_map(|b| (b + 1..12).map(move |c| (b, c))) {
+            let [p, q, r] = [a, b, c].map(|number| positions[number as usize]);
+            if p.distance(q).max(q.distance(r)).max(r.distance(p)) < 1.2 {
+                triangles.push(if p.cross(q).dot(r) > 0.0 { [a, b, c] } else { [a, c, b] });
+            }
+        }
+    }
     for _ in 0..levels {
         let mut middles: BTreeMap<(u32, u32), u32> = BTreeMap::new();
         let mut finer = Vec::new();
@@ -114,6 +95,16 @@ impl Random {
     /// A whole number from one to another, both included.
     pub fn whole(&mut self, low: i32, high: i32) -> i32 {
         low + (self.number() * f64::from(high - low + 1)) as i32
+    }
+
+    /// A whole number below another.
+    pub fn below(&mut self, count: u32) -> u32 {
+        (self.number() * f64::from(count)) as u32
+    }
+
+    /// In [-1, 1).
+    pub fn signed(&mut self) -> f64 {
+        self.number() * 2.0 - 1.0
     }
 
     /// One of a list.

@@ -79,14 +79,10 @@ mod tests {
 
     #[test]
     fn every_pixel_is_as_far_from_ink_as_a_search_of_all_ink_says() {
-        let mut state = 5_u64;
-        let mut random = move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            state >> 33
-        };
+        let mut random = tinta::random::Random::new(5, "ink");
         for count in [1, 3, 20, 200] {
             let mut ink = vec![false; 23 * 17];
-            (0..count).for_each(|_| ink[random() as usize % (23 * 17)] = true);
+            (0..count).for_each(|_| ink[random.below(23 * 17)] = true);
             let mask = InkMask { size: Size { width: 23, height: 17 }, ink };
             let distances = Distances::to(&mask, 12.0);
             let place = |index: usize| DVec2::new((index % 23) as f64 + 0.5, (index / 23) as f64 + 0.5);

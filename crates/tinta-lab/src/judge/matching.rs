@@ -185,14 +185,10 @@ mod tests {
 
     #[test]
     fn as_many_pairs_as_a_full_search_finds_and_the_same_from_both_sides() {
-        let mut state = 3_u64;
-        let mut random = move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            state >> 33
-        };
+        let mut random = tinta::random::Random::new(3, "ink");
         for round in 0..300 {
-            let density = 5 + random() % 60;
-            let mut mask = || InkMask { size: SIZE, ink: (0..63).map(|_| random() % 100 < density).collect() };
+            let density = 5 + random.below(60);
+            let mut mask = || InkMask { size: SIZE, ink: (0..63).map(|_| random.below(100) < density).collect() };
             let (left, right) = (mask(), mask());
             for distance in [0.0, 1.0, 1.5, 2.0, 3.9] {
                 let count = matched(&left, &right, distance);

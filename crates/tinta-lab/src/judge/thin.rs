@@ -89,14 +89,10 @@ mod tests {
 
     #[test]
     fn random_ink_keeps_its_pieces_and_has_no_block_left() {
-        let mut state = 7_u64;
-        let mut random = move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            state >> 33
-        };
+        let mut random = tinta::random::Random::new(7, "ink");
         for density in [30, 50, 70, 95] {
             let size = Size { width: 40, height: 30 };
-            let mask = InkMask { size, ink: (0..1200).map(|_| random() % 100 < density).collect() };
+            let mask = InkMask { size, ink: (0..1200).map(|_| random.below(100) < density).collect() };
             let thin = thinned(&mask);
             assert!(thin.ink.iter().zip(&mask.ink).all(|(thin, ink)| !thin || *ink));
             assert!(thin.count() < mask.count());

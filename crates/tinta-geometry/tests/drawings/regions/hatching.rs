@@ -11,7 +11,8 @@ use tinta::lines::{
     Areas, Hatch, Hatching, Hit, Length, PageSize, Progress, Region, Regions, ToneRule, TonedSurface, chain, hatches,
     svg_of_paths,
 };
-use tinta::{CameraSettings, DrawingSettings, Scene, SceneSettings, Size, VisibleLines};
+use tinta::mesh::Normals;
+use tinta::{CameraSettings, DrawingSettings, LoadOptions, Mesh, Scene, SceneSettings, Size, VisibleLines};
 
 /// The brightest tone of a rule.
 fn brightest(rule: &ToneRule) -> u8 {
@@ -33,27 +34,11 @@ fn hatched(
 }
 
 /// A scene whose meshes have smooth normals, or those of their faces.
-fn with_normals(scene: Scene, is_smooth: bool) -> Scene {
-    let mut scene = scene;
+fn with_normals(mut scene: Scene, is_smooth: bool) -> Scene {
+    let normals = if is_smooth { Normals::Dachsbacher } else { Normals::Flat };
     for object in &mut scene.objects {
-        let mut mesh = (*object.mesh).clone();
-        let of_face = |face: &[u32; 3]| {
-            let [a, b, c] = face.map(|corner| mesh.positions[corner as usize]);
-            (b - a).cross(c - a)
-        };
-        let across: Vec<DVec3> = mesh.triangles.iter().map(of_face).collect();
-        if is_smooth {
-            let mut normals = vec![DVec3::ZERO; mesh.positions.len()];
-            for (face, across) in mesh.triangles.iter().zip(&across) {
-                face.iter().for_each(|corner| normals[*corner as usize] += *across);
-            }
-            mesh.normals = normals.iter().map(|normal| normal.normalize_or(DVec3::Z).as_vec3()).collect();
-            mesh.triangle_normals = mesh.triangles.clone();
-        } else {
-            mesh.normals = across.iter().map(|across| across.normalize_or(DVec3::Z).as_vec3()).collect();
-            mesh.triangle_normals = (0..across.len() as u32).map(|face| [face; 3]).collect();
-        }
-        object.mesh = mesh.into();
+        let (positions, options) = (object.mesh.positions.clone(), LoadOptions { normals, ..LoadOptions::default() });
+        object.mesh = Mesh::of_triangles("made", positions, &object.mesh.triangles, &options).unwrap().into();
     }
     scene
 }

@@ -1,24 +1,11 @@
 //! Cuts of closed shells wound either way, against slices that know the solids and not the mesh's winding.
 
 use super::{both, made, regular, square, volume};
+use crate::support::shapes::Random;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use tinta::Mesh;
 use tinta::mesh::{Cut, NamedPart, SectionPlane};
-
-/// Random numbers.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, count: u32) -> u32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as u32) % count
-    }
-
-    fn signed(&mut self) -> f64 {
-        f64::from(self.below(1 << 24)) / f64::from(1 << 23) - 1.0
-    }
-}
 
 /// A closed shell: its corners and triangles, the solid at their backs.
 #[derive(Clone)]
@@ -186,7 +173,7 @@ fn in_plane(mesh: &Mesh, plane: &SectionPlane, tolerance: f64) -> (f64, bool) {
 
 #[test]
 fn areas_of_cuts_are_those_of_slices_whichever_way_500_solids_are_wound() {
-    let mut random = Random(7);
+    let mut random = Random::seeded(7);
     let (mut cuts, mut turned, mut wrong) = (0, 0, Vec::new());
     for number in 0..500 {
         let mut shells = solid(&mut random);

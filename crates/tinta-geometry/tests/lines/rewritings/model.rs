@@ -1,7 +1,7 @@
 //! A scene that can be rewritten.
 
 use super::rules::edges;
-use crate::support::lines::explicit;
+use crate::support::lines::{explicit, moved_camera};
 use crate::support::shapes::joined;
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
@@ -22,13 +22,12 @@ pub struct Model {
 
 impl Model {
     pub fn of(scene: &Scene) -> Self {
-        let parallel = matches!(scene.camera.projection, Projection::Parallel { .. });
         // As readers create them: all positions differ.
         let placed = |object: &tinta::scene::Object| {
             let positions = object.mesh.positions.iter().map(|point| *point + object.offset).collect();
             joined(&[Mesh { positions, ..(*object.mesh).clone() }])
         };
-        let mut camera = explicit(scene, parallel);
+        let mut camera = explicit(scene);
         match scene.camera.projection {
             Projection::Parallel { height } => camera.height = Some(height),
             Projection::Perspective { fov_y_degrees } => camera.fov_y_degrees = fov_y_degrees,
@@ -112,13 +111,7 @@ impl Model {
         for mesh in &mut self.meshes {
             mesh.positions.iter_mut().for_each(|point| *point = place(*point));
         }
-        let camera = &mut self.camera;
-        camera.eye = camera.eye.map(place);
-        camera.target = camera.target.map(place);
-        camera.up = camera.up.map(|up| turn * up);
-        camera.near = camera.near.map(|near| near * scale);
-        camera.far = camera.far.map(|far| far * scale);
-        camera.height = camera.height.map(|height| height * scale);
+        self.camera = moved_camera(&self.camera, turn, scale, shift);
         self
     }
 }
