@@ -65,3 +65,42 @@ fn the_scripts_of_every_job_exist_and_features_and_the_oldest_rust_have_jobs() {
         assert!(scripts.iter().any(|script| script == needed), "no job runs {needed}");
     }
 }
+
+/// The project's files of Rust.
+fn sources() -> Vec<String> {
+    let mut folders = ["src", "crates", "tests"].map(|folder| root().join(folder)).to_vec();
+    let mut sources = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if entry.is_dir() {
+                folders.push(entry);
+            } else if entry.extension().is_some_and(|extension| extension == "rs") {
+                sources.push(std::fs::read_to_string(entry).unwrap());
+            }
+        }
+    }
+    sources
+}
+
+#[test]
+fn tests_that_are_left_out_by_name_run_at_night_or_have_an_exhaustive_twin() {
+    let script = std::fs::read_to_string(root().join("scripts/test")).unwrap();
+    assert!(script.contains("--skip _briefly --skip _nightly"));
+    let mut counts = [0; 2];
+    for text in sources() {
+        let tests: Vec<&str> = text.split("#[test]\n").skip(1).collect();
+        let is_exhaustive = |test: &&str| test.trim_start().starts_with("#[ignore = \"exhaustive: ");
+        for test in &tests {
+            let Some((_, name)) = test.split_once("fn ") else { continue };
+            let name = name.split('(').next().unwrap();
+            let is_nightly = test.trim_start().starts_with("#[ignore = \"nightly: ");
+            assert_eq!(name.ends_with("_nightly"), is_nightly, "{name}");
+            counts[0] += usize::from(is_nightly);
+            if name.ends_with("_briefly") {
+                assert!(tests.iter().any(|test| is_exhaustive(test)), "{name} has no exhaustive twin in its file");
+                counts[1] += 1;
+            }
+        }
+    }
+    assert!(counts.iter().all(|count| *count > 2), "{counts:?}");
+}

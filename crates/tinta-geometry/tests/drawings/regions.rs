@@ -193,9 +193,9 @@ fn regions_of_every_family_are_the_faces_that_rays_hit() {
 }
 
 #[test]
-#[ignore = "exhaustive: 25 scenes of each family"]
+#[ignore = "exhaustive: 10 scenes of each family, or as many scenes as TINTA_LINE_SCENES says"]
 fn regions_of_many_scenes_are_the_faces_that_rays_hit() {
-    check_families(scenes_wanted().unwrap_or(25 * KINDS as u64));
+    check_families(scenes_wanted().unwrap_or(10 * KINDS as u64));
 }
 
 fn check_models(names: &[&str], views: &[CameraSettings]) {
@@ -214,17 +214,20 @@ fn check_models(names: &[&str], views: &[CameraSettings]) {
 }
 
 #[test]
-fn regions_of_public_models_are_the_faces_that_rays_hit() {
+fn regions_of_public_models_are_the_faces_that_rays_hit_briefly() {
     check_models(&["cow.obj", "teapot.obj", "suzanne.obj"], &[view("30,23", false), view("front", true)]);
 }
 
 #[test]
-#[ignore = "exhaustive: all public models from 26 sides"]
+#[ignore = "exhaustive: all public models from 6 sides, with TINTA_FULL_SIZES from 26"]
 fn regions_of_all_public_models_are_the_faces_that_rays_hit() {
     let names = [&PUBLIC_MODELS[..], &["doll.obj"]].concat();
     let mut views = vec![view("0,90", false), view("0,-90", false)];
     for height in [-45, 0, 45] {
         views.extend((0..8).map(|turn| view(&format!("{},{height}", turn * 45), turn % 2 == 1)));
+    }
+    if std::env::var_os("TINTA_FULL_SIZES").is_none() {
+        views = views.into_iter().step_by(5).collect();
     }
     check_models(&names, &views);
 }
@@ -460,26 +463,4 @@ fn regions_end_when_asked() {
     let progress = Progress::default();
     progress.cancel();
     assert!(matches!(Regions::with_progress(&scene, &progress), Err(Error::Cancelled)));
-}
-
-#[test]
-#[ignore = "exhaustive: times, for a release build"]
-fn a_map_takes_at_most_three_times_its_lines() {
-    for (name, mesh) in public_meshes(&["cow.obj", "stanford-bunny.obj"]) {
-        for _ in 0..4 {
-            let scene = Scene::new([mesh.clone()], &SceneSettings::default()).unwrap();
-            let clock = std::time::Instant::now();
-            let lines = tinta::VisibleLines::of(&scene, &tinta::LineSettings::default()).unwrap();
-            let lines_ms = clock.elapsed().as_secs_f64() * 1e3;
-            let scene = Scene::new([mesh.clone()], &SceneSettings::default()).unwrap();
-            let clock = std::time::Instant::now();
-            let regions = Regions::of(&scene).unwrap();
-            let regions_ms = clock.elapsed().as_secs_f64() * 1e3;
-            println!(
-                "{name}: {} lines in {lines_ms:.1} ms, {} regions in {regions_ms:.1} ms",
-                lines.segments.len(),
-                regions.regions.len()
-            );
-        }
-    }
 }

@@ -41,6 +41,8 @@ enum Source {
     Class(&'static str),
 }
 
+use Source::{Lines, Tones};
+
 impl Column {
     pub(super) fn value(&self, row: &Row) -> Value {
         let number = match self.source {
@@ -52,9 +54,8 @@ impl Column {
         number.map_or(Value::Missing, Value::Number)
     }
 
-    const fn main(mut self) -> Self {
-        self.is_main = true;
-        self
+    fn says(self, meaning: &'static str) -> Self {
+        Self { meaning: meaning.into(), ..self }
     }
 }
 
@@ -68,141 +69,88 @@ pub fn columns() -> Vec<Column> {
         is_main: false,
         source: Source::Class(class),
     });
-    SETTINGS.into_iter().chain(TIMES).chain(LINES).chain(of_classes).chain(TONES).collect()
+    let groups = [setting_columns(), time_columns(), line_columns(), of_classes.into(), tone_columns()];
+    groups.into_iter().flatten().collect()
 }
 
-const fn column(
-    name: &'static str,
-    title: &'static str,
-    decimals: usize,
-    source: Source,
-    meaning: &'static str,
-) -> Column {
-    Column {
-        name: Cow::Borrowed(name),
-        title: Cow::Borrowed(title),
-        meaning: Cow::Borrowed(meaning),
-        decimals,
-        is_main: false,
-        source,
-    }
+fn column(name: &'static str, title: &'static str, decimals: usize, source: Source) -> Column {
+    Column { name: name.into(), title: title.into(), meaning: "".into(), decimals, is_main: false, source }
+}
+
+/// A column that the page shows at first.
+fn main(name: &'static str, title: &'static str, decimals: usize, source: Source) -> Column {
+    Column { is_main: true, ..column(name, title, decimals, source) }
 }
 
 fn text(text: &str) -> Value {
     Value::Text(text.to_owned())
 }
 
-const SETTINGS: [Column; 10] = [
-    column("model", "Model", 0, Source::Row(|row| text(&row.model)), "The model's name, as given.").main(),
-    column("style", "Style", 0, Source::Row(|row| text(&row.style)), "The style drawn.").main(),
-    column(
-        "options",
-        "Setting",
-        0,
-        Source::Row(|row| text(&row.options)),
-        "The options that make this setting; tinta render takes them.",
-    )
-    .main(),
-    column(
-        "faithful",
-        "Published",
-        0,
-        Source::Row(|row| text(if row.is_faithful { "yes" } else { "no" })),
-        "Whether these are the published program's own settings.",
-    )
-    .main(),
-    column("triangles", "Triangles", 0, Source::Row(|row| Value::Number(row.triangles as f64)), "Triangles drawn."),
-    column(
-        "width_px",
-        "Width",
-        0,
-        Source::Row(|row| Value::Number(row.size[0].into())),
-        "Width of the picture, pixels.",
-    ),
-    column(
-        "height_px",
-        "Height",
-        0,
-        Source::Row(|row| Value::Number(row.size[1].into())),
-        "Height of the picture, pixels.",
-    ),
-    column("machine", "Machine", 0, Source::Row(|row| text(&row.machine)), "The machine it was measured on."),
-    column(
-        "renderer",
-        "Renderer",
-        0,
-        Source::Row(|row| text(&row.renderer)),
-        "The OpenGL renderer (GL_RENDERER); none for lines found without OpenGL.",
-    ),
-    column("version", "Version", 0, Source::Row(|row| text(&row.version)), "The version of tinta."),
-];
+/// The mean of distances, of which the second number is that of 95 %.
+fn mean(distances: Option<[f64; 2]>) -> Option<f64> {
+    distances.map(|[mean, _]| mean)
+}
 
-const TIMES: [Column; 9] = [
-    column(
-        "median_ms",
-        "Time, ms",
-        2,
-        Source::Row(|row| Value::Number(row.time.median_ms)),
-        "Median time of a frame, milliseconds of the clock, reading the picture back included; lower is better.",
-    )
-    .main(),
-    column(
-        "lower_quartile_ms",
-        "Lower quartile, ms",
-        2,
-        Source::Row(|row| Value::Number(row.time.quartiles_ms[0])),
-        "A quarter of the frames took no longer, milliseconds.",
-    ),
-    column(
-        "upper_quartile_ms",
-        "Upper quartile, ms",
-        2,
-        Source::Row(|row| Value::Number(row.time.quartiles_ms[1])),
-        "Three quarters of the frames took no longer, milliseconds.",
-    ),
-    column(
-        "frames",
-        "Frames",
-        0,
-        Source::Row(|row| Value::Number(row.time.frames_ms.len() as f64)),
-        "Frames measured after warm-up; the time of each stands in results.jsonl.",
-    ),
-    column(
-        "first_frame_ms",
-        "First frame, ms",
-        2,
-        Source::Row(|row| Value::Number(row.time.first_frame_ms)),
-        "The first frame, the driver's compiling of shaders included, milliseconds.",
-    ),
-    column(
-        "load_ms",
-        "Load, ms",
-        2,
-        Source::Row(|row| Value::Number(row.time.load_ms)),
-        "Reading the model, milliseconds.",
-    ),
-    column(
-        "edges_ms",
-        "Edges, ms",
-        2,
-        Source::Row(|row| Value::Number(row.time.edges_ms)),
-        "Finding the model's edges, milliseconds; 0 for a style that needs none.",
-    ),
-    column(
-        "plan_ms",
-        "Plan, ms",
-        3,
-        Source::Row(|row| Value::Number(row.time.plan_ms)),
-        "Making the plan, milliseconds.",
-    ),
-    column(
-        "passes",
-        "Passes, ms",
-        0,
-        Source::Row(passes),
-        "Median time of each pass by the clock and, after a slash, by the GPU's timer where it has one, milliseconds.",
-    ),
-];
+fn of_95(distances: Option<[f64; 2]>) -> Option<f64> {
+    distances.map(|[_, of_95]| of_95)
+}
+
+fn setting_columns() -> Vec<Column> {
+    vec![
+        main("model", "Model", 0, Source::Row(|row| text(&row.model))).says("The model's name, as given."),
+        main("style", "Style", 0, Source::Row(|row| text(&row.style))).says("The style drawn."),
+        main("options", "Setting", 0, Source::Row(|row| text(&row.options)))
+            .says("The options that make this setting; tinta render takes them."),
+        main("faithful", "Published", 0, Source::Row(|row| text(if row.is_faithful { "yes" } else { "no" })))
+            .says("Whether these are the published program's own settings."),
+        column("triangles", "Triangles", 0, Source::Row(|row| Value::Number(row.triangles as f64)))
+            .says("Triangles drawn."),
+        column("width_px", "Width", 0, Source::Row(|row| Value::Number(row.size[0].into())))
+            .says("Width of the picture, pixels."),
+        column("height_px", "Height", 0, Source::Row(|row| Value::Number(row.size[1].into())))
+            .says("Height of the picture, pixels."),
+        column("machine", "Machine", 0, Source::Row(|row| text(&row.machine))).says("The machine it was measured on."),
+        column("renderer", "Renderer", 0, Source::Row(|row| text(&row.renderer)))
+            .says("The OpenGL renderer (GL_RENDERER); none for lines found without OpenGL."),
+        column("version", "Version", 0, Source::Row(|row| text(&row.version))).says("The version of tinta."),
+    ]
+}
+
+fn time_columns() -> Vec<Column> {
+    vec![
+        main("median_ms", "Time, ms", 2, Source::Row(|row| Value::Number(row.time.median_ms))).says(
+            "Median time of a frame, milliseconds of the clock, reading the picture back included; lower is better.",
+        ),
+        column(
+            "lower_quartile_ms",
+            "Lower quartile, ms",
+            2,
+            Source::Row(|row| Value::Number(row.time.quartiles_ms[0])),
+        )
+        .says("A quarter of the frames took no longer, milliseconds."),
+        column(
+            "upper_quartile_ms",
+            "Upper quartile, ms",
+            2,
+            Source::Row(|row| Value::Number(row.time.quartiles_ms[1])),
+        )
+        .says("Three quarters of the frames took no longer, milliseconds."),
+        column("frames", "Frames", 0, Source::Row(|row| Value::Number(row.time.frames_ms.len() as f64)))
+            .says("Frames measured after warm-up; the time of each stands in results.jsonl."),
+        column("first_frame_ms", "First frame, ms", 2, Source::Row(|row| Value::Number(row.time.first_frame_ms)))
+            .says("The first frame, the driver's compiling of shaders included, milliseconds."),
+        column("load_ms", "Load, ms", 2, Source::Row(|row| Value::Number(row.time.load_ms)))
+            .says("Reading the model, milliseconds."),
+        column("edges_ms", "Edges, ms", 2, Source::Row(|row| Value::Number(row.time.edges_ms)))
+            .says("Finding the model's edges, milliseconds; 0 for a style that needs none."),
+        column("plan_ms", "Plan, ms", 3, Source::Row(|row| Value::Number(row.time.plan_ms)))
+            .says("Making the plan, milliseconds."),
+        column("passes", "Passes, ms", 0, Source::Row(passes)).says(
+            "Median time of each pass by the clock and, after a slash, by the GPU's timer where it has one, \
+             milliseconds.",
+        ),
+    ]
+}
 
 fn passes(row: &Row) -> Value {
     let of_pass = |pass: &crate::measure::PassRow| match pass.gpu_ms {
@@ -213,175 +161,81 @@ fn passes(row: &Row) -> Value {
     if all.is_empty() { Value::Missing } else { Value::Text(all.join("; ")) }
 }
 
-const LINES: [Column; 15] = [
-        column(
-            "f1",
-            "Lines F1",
-            3,
-            Source::Lines(|lines| Some(lines.f1)),
+fn line_columns() -> Vec<Column> {
+    vec![
+        main("f1", "Lines F1", 3, Lines(|lines| Some(lines.f1))).says(
             "Harmonic mean of precision and recall of the picture's ink against the exact visible lines: 1 is full \
              agreement, 0 no agreement.",
-        )
-        .main(),
-        column(
-            "precision",
-            "Precision",
-            3,
-            Source::Lines(|lines| Some(lines.precision)),
-            "Share of the ink at or above the threshold (Ink from), weighted by darkness, within the tolerance of an exact line; the rest is invented.",
-        )
-        .main(),
-        column(
-            "precision_of_all",
-            "Precision of all ink",
-            3,
-            Source::Lines(|lines| Some(lines.precision_of_all)),
-            "The same of all ink, however faint: nets of faint lines that fall below the threshold count here.",
         ),
-        column(
-            "recall",
-            "Recall",
-            3,
-            Source::Lines(|lines| Some(lines.recall)),
-            "Share of the exact lines' length with ink within the tolerance; the rest is missed.",
-        )
-        .main(),
-        column(
-            "average_precision",
-            "Average precision",
-            3,
-            Source::Lines(|lines| Some(lines.average_precision)),
+        main("precision", "Precision", 3, Lines(|lines| Some(lines.precision))).says(
+            "Share of the ink at or above the threshold (Ink from), weighted by darkness, within the tolerance of an \
+             exact line; the rest is invented.",
+        ),
+        column("precision_of_all", "Precision of all ink", 3, Lines(|lines| Some(lines.precision_of_all)))
+            .says("The same of all ink, however faint: nets of faint lines that fall below the threshold count here."),
+        main("recall", "Recall", 3, Lines(|lines| Some(lines.recall)))
+            .says("Share of the exact lines' length with ink within the tolerance; the rest is missed."),
+        column("average_precision", "Average precision", 3, Lines(|lines| Some(lines.average_precision))).says(
             "Precision averaged over recall, over all thresholds of ink: the lines without a choice of threshold.",
         ),
-        column(
-            "tolerance_px",
-            "Tolerance, px",
-            1,
-            Source::Lines(|lines| Some(lines.tolerance_px)),
-            "Distance within which ink and line count as the same, pixels.",
-        ),
-        column(
-            "ink_from",
-            "Ink from",
-            0,
-            Source::Lines(|lines| Some(lines.ink_from.into())),
-            "Least darkness of a pixel that counts as ink, of 255.",
-        ),
-        column(
-            "ignored_from_degrees",
-            "Ignored from, °",
-            1,
-            Source::Lines(|lines| Some(lines.ignored_creases_degrees[0])),
-            "Creases from this angle up to the next column's are neither missed nor invented, degrees.",
-        ),
-        column(
-            "ignored_to_degrees",
-            "Ignored to, °",
-            1,
-            Source::Lines(|lines| Some(lines.ignored_creases_degrees[1])),
-            "Creases beyond this angle belong to the exact lines, degrees.",
-        ),
-        column(
-            "reference_px",
-            "Reference, px",
-            0,
-            Source::Lines(|lines| Some(lines.reference_px)),
-            "Length of the exact visible lines, pixels.",
-        ),
-        column(
-            "ink_px",
-            "Ink, px",
-            0,
-            Source::Lines(|lines| Some(lines.ink_px)),
-            "Ink in the picture, pixels weighted by darkness.",
-        ),
-        column(
-            "reference_to_ink_mean_px",
-            "Line to ink, mean px",
-            2,
-            Source::Lines(|lines| lines.reference_to_ink_px.map(|distance| distance[0])),
-            "Mean distance from the exact lines to the nearest ink, pixels.",
-        ),
-        column(
-            "reference_to_ink_95_px",
-            "Line to ink, 95 % px",
-            2,
-            Source::Lines(|lines| lines.reference_to_ink_px.map(|distance| distance[1])),
-            "95 % of the exact lines' length is no farther from ink than this, pixels.",
-        ),
-        column(
-            "ink_to_reference_mean_px",
-            "Ink to line, mean px",
-            2,
-            Source::Lines(|lines| lines.ink_to_reference_px.map(|distance| distance[0])),
-            "Mean distance from ink to the nearest exact line, pixels.",
-        ),
-        column(
-            "ink_to_reference_95_px",
-            "Ink to line, 95 % px",
-            2,
-            Source::Lines(|lines| lines.ink_to_reference_px.map(|distance| distance[1])),
-            "95 % of the ink is no farther from an exact line than this, pixels.",
-        ),
-];
+        column("tolerance_px", "Tolerance, px", 1, Lines(|lines| Some(lines.tolerance_px)))
+            .says("Distance within which ink and line count as the same, pixels."),
+        column("ink_from", "Ink from", 0, Lines(|lines| Some(lines.ink_from.into())))
+            .says("Least darkness of a pixel that counts as ink, of 255."),
+        column("ignored_from_degrees", "Ignored from, °", 1, Lines(|lines| Some(lines.ignored_creases_degrees[0])))
+            .says("Creases from this angle up to the next column's are neither missed nor invented, degrees."),
+        column("ignored_to_degrees", "Ignored to, °", 1, Lines(|lines| Some(lines.ignored_creases_degrees[1])))
+            .says("Creases beyond this angle belong to the exact lines, degrees."),
+        column("reference_px", "Reference, px", 0, Lines(|lines| Some(lines.reference_px)))
+            .says("Length of the exact visible lines, pixels."),
+        column("ink_px", "Ink, px", 0, Lines(|lines| Some(lines.ink_px)))
+            .says("Ink in the picture, pixels weighted by darkness."),
+        column("reference_to_ink_mean_px", "Line to ink, mean px", 2, Lines(|lines| mean(lines.reference_to_ink_px)))
+            .says("Mean distance from the exact lines to the nearest ink, pixels."),
+        column("reference_to_ink_95_px", "Line to ink, 95 % px", 2, Lines(|lines| of_95(lines.reference_to_ink_px)))
+            .says("95 % of the exact lines' length is no farther from ink than this, pixels."),
+        column("ink_to_reference_mean_px", "Ink to line, mean px", 2, Lines(|lines| mean(lines.ink_to_reference_px)))
+            .says("Mean distance from ink to the nearest exact line, pixels."),
+        column("ink_to_reference_95_px", "Ink to line, 95 % px", 2, Lines(|lines| of_95(lines.ink_to_reference_px)))
+            .says("95 % of the ink is no farther from an exact line than this, pixels."),
+    ]
+}
 
-const TONES: [Column; 8] = [
-        column(
-            "tone_differing",
-            "Tones differing",
-            4,
-            Source::Tones(|tones| tones.inner_differing),
-            "Share of covered pixels away from lines whose tone is not that of a ray cast in f64; empty for continuous tones.",
-        )
-        .main(),
-        column(
-            "tone_mean_difference",
-            "Tone difference, mean",
-            2,
-            Source::Tones(|tones| Some(tones.mean_difference)),
-            "Mean difference of any channel from a ray cast in f64 over the same pixels, of 255.",
-        )
-        .main(),
-        column(
-            "tone_largest_difference",
-            "Tone difference, largest",
-            0,
-            Source::Tones(|tones| Some(tones.largest_difference)),
-            "The largest difference of any channel over the same pixels, of 255.",
+fn tone_columns() -> Vec<Column> {
+    vec![
+        main("tone_differing", "Tones differing", 4, Tones(|tones| tones.inner_differing)).says(
+            "Share of covered pixels away from lines whose tone is not that of a ray cast in f64; empty for \
+             continuous tones.",
         ),
+        main("tone_mean_difference", "Tone difference, mean", 2, Tones(|tones| Some(tones.mean_difference)))
+            .says("Mean difference of any channel from a ray cast in f64 over the same pixels, of 255."),
+        column("tone_largest_difference", "Tone difference, largest", 0, Tones(|tones| Some(tones.largest_difference)))
+            .says("The largest difference of any channel over the same pixels, of 255."),
         column(
             "tone_border_to_drawn_mean_px",
             "Tone border to drawn, mean px",
             2,
-            Source::Tones(|tones| tones.borders.as_ref().map(|borders| borders.exact_to_drawn_px[0])),
-            "Mean distance from the exact borders between tones to the nearest in the picture, away from lines, pixels.",
+            Tones(|tones| Some(tones.borders.as_ref()?.exact_to_drawn_px[0])),
+        )
+        .says(
+            "Mean distance from the exact borders between tones to the nearest in the picture, away from lines, \
+             pixels.",
         ),
         column(
             "drawn_to_tone_border_mean_px",
             "Drawn tone border to exact, mean px",
             2,
-            Source::Tones(|tones| tones.borders.as_ref().map(|borders| borders.drawn_to_exact_px[0])),
-            "Mean distance from the picture's borders between tones to the nearest exact one, away from lines, pixels.",
+            Tones(|tones| Some(tones.borders.as_ref()?.drawn_to_exact_px[0])),
+        )
+        .says(
+            "Mean distance from the picture's borders between tones to the nearest exact one, away from lines, \
+             pixels.",
         ),
-        column(
-            "tone_pixels",
-            "Tone pixels",
-            0,
-            Source::Tones(|tones| Some(tones.inner_px as f64)),
-            "Covered pixels farther than 1 pixel from every visible line.",
-        ),
-        column(
-            "tone_rim_differing",
-            "Tones differing at lines",
-            4,
-            Source::Tones(|tones| tones.rim_differing),
-            "Share of covered pixels within 1 pixel of a visible line whose tone differs.",
-        ),
-        column(
-            "tone_rim_pixels",
-            "Tone pixels at lines",
-            0,
-            Source::Tones(|tones| Some(tones.rim_px as f64)),
-            "Covered pixels within 1 pixel of a visible line.",
-        ),
-];
+        column("tone_pixels", "Tone pixels", 0, Tones(|tones| Some(tones.inner_px as f64)))
+            .says("Covered pixels farther than 1 pixel from every visible line."),
+        column("tone_rim_differing", "Tones differing at lines", 4, Tones(|tones| tones.rim_differing))
+            .says("Share of covered pixels within 1 pixel of a visible line whose tone differs."),
+        column("tone_rim_pixels", "Tone pixels at lines", 0, Tones(|tones| Some(tones.rim_px as f64)))
+            .says("Covered pixels within 1 pixel of a visible line."),
+    ]
+}

@@ -3,7 +3,7 @@
 use crate::curvature::Curvatures;
 use crate::edges::{Eye, Incidence, MeshEdges, Side, SilhouetteRule, side_of_face};
 use crate::lines::input::mesh_repair::{self, RepairedMesh};
-use crate::lines::smooth::forms::FormSettings;
+use crate::lines::smooth::forms::settings::FormSettings;
 use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::{Object, Scene};
 use crate::tolerances::CONTACT;
