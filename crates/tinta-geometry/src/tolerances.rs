@@ -105,21 +105,21 @@ pub const BESIDE: f64 = 1e-4;
 pub const TIP: f64 = 2e-6;
 
 /// Largest angle that rounding turns a line's image by, radians, and much more: lines whose directions differ more do not overlap.
-pub const TURNED: f64 = 1e-6;
+pub(crate) const TURNED: f64 = 1e-6;
 
 /// Largest rounding error of a distance in the picture, as a share of the largest coordinate: some thousand of f64's last places.
-pub const IMAGE_ROUNDING: f64 = 1e-12;
+pub(crate) const IMAGE_ROUNDING: f64 = 1e-12;
 
 /// How far beyond a face's side a line may pass and still be cut there, as a share of the face: some rounding. An unnecessary cut costs
 /// a ray.
-pub const PIERCED: f64 = 1e-9;
+pub(crate) const PIERCED: f64 = 1e-9;
 
 /// Resolution of the ends of intersections, as a share of the contact distance of a line without length: spokes that end in one axis have
 /// one line there, not one for each two.
-pub const SAME_PLACE: f64 = 0.01;
+pub(crate) const SAME_PLACE: f64 = 0.01;
 
 /// Distance beyond the picture's border up to which faces and lines are kept, pixels: far more than rounding moves an image by.
-pub const MARGIN_PX: f64 = 1.0;
+pub(crate) const MARGIN_PX: f64 = 1.0;
 
 /// Length, as a share of the picture's larger side, below which a line or a piece of one is a point: an edge seen end-on.
 pub const SHORTEST_LINE: f64 = 1e-7;

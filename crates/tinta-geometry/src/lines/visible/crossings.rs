@@ -1,4 +1,4 @@
-//! Where what is seen of a line may change: at crossings with nearer rims, where it passes through faces, and where lines on one
+//! Where the visibility of a line may change: at crossings with nearer rims, where it passes through faces, and where lines on one
 //! another begin, end or change places.
 
 use crate::bvh::Exclusion;
@@ -10,7 +10,7 @@ use crate::lines::visible::occluder_probe::SearchDepth;
 use crate::lines::visible::overlapping_lines::OverlappingLines;
 
 impl LineIndex<'_> {
-    /// Adds the places along a stretch of a line where what is seen of it may change: all, or only the first. Returns whether it stopped
+    /// Adds the places along a stretch of a line where its visibility may change: all, or only the first. Returns whether it stopped
     /// at the first.
     pub(in crate::lines) fn add_cuts(
         &self,

@@ -1,5 +1,5 @@
-//! Which other lines lie on one in the picture: mostly none, so that they are looked for once and not piece by piece. Of lines on one
-//! another the nearest is seen, and of equally near ones one stands for all.
+//! Which other lines lie on one in the picture: mostly none, and one search for a whole line finds it. Of lines on one another
+//! the nearest is seen, and of equally near ones one stands for all.
 
 use crate::lines::eye::image::Image;
 use crate::lines::input::feature::Feature;
@@ -9,18 +9,18 @@ use crate::thresholds::THRESHOLDS;
 use glam::DVec2;
 use std::cell::OnceCell;
 
-/// The lines that lie on one somewhere, looked for when somebody asks: of most hidden lines nobody does.
+/// The lines that lie on one somewhere, found at the first use: most hidden lines need none.
 pub(in crate::lines) struct OverlappingLines {
     /// The line with its image, and the places between which they matter.
     line: (usize, Image, [f64; 2]),
     found: OnceCell<Overlaps>,
 }
 
-/// What was found.
+/// The result of the search.
 enum Overlaps {
     /// These.
     Few(Vec<usize>),
-    /// So many that they are looked for where they matter.
+    /// Too many: a search finds those of each stretch.
     Many,
 }
 
@@ -50,7 +50,7 @@ impl OverlappingLines {
 }
 
 impl LineIndex<'_> {
-    /// The wanted lines that lie on one in what of it is between two places.
+    /// The wanted lines that lie on one between two places.
     fn lying_on(&self, index: usize, image: &Image, inside: [f64; 2]) -> Overlaps {
         let mut found: Vec<usize> = Vec::new();
         let are_many = self.any_of_its_direction(image, inside, |other_index| {
@@ -103,7 +103,7 @@ impl LineIndex<'_> {
                 image.lies_on(&other, self.space).is_some_and(|range| (range[0]..=range[1]).contains(&place));
             if lies_on_it {
                 let key = other.key(other.place_of(px).clamp(0.0, 1.0));
-                // Where only what is seen counts, nothing else does.
+                // Hidden, and only visible lines count.
                 if !self.finds_hidden && own_key - key > self.clearly_behind(index, &other) {
                     return true;
                 }
@@ -143,7 +143,7 @@ impl LineIndex<'_> {
     }
 
     /// Adds where other lines that lie in the picture on a stretch of one begin, end and are as near: all, or only the first line's.
-    /// Returns whether it stopped at the first. Where only what is seen counts, leaves out those that are farther away for sure.
+    /// Returns whether it stopped at the first. Where only visible lines count, leaves out those that are farther away for sure.
     pub(in crate::lines) fn add_overlaps(
         &self,
         index: usize,
@@ -165,7 +165,7 @@ impl LineIndex<'_> {
         })
     }
 
-    /// What of a line between two places is hidden for sure by those that are nearest among many lines on which it lies; ascending.
+    /// The ranges of a line between two places that the nearest of many lines on it hide for sure; ascending.
     pub(in crate::lines) fn behind_nearest(&self, index: usize, image: &Image, inside: [f64; 2]) -> Vec<[f64; 2]> {
         let nearest = self.bundles.nearest_along(index, image);
         united(nearest.filter_map(|other| self.behind_overlapping_line(index, image, other, inside)).collect())

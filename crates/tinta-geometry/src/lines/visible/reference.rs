@@ -3,7 +3,7 @@
 //!
 //! Every wanted line is decided on its own, in three steps:
 //!
-//! 1. *Cuts*. What is seen of a line can change only where the image of an edge at which a surface ends crosses it, where it passes
+//! 1. *Cuts*. The visibility of a line can change only where the image of an edge at which a surface ends crosses it, where it passes
 //!    through a face, and where the image of another line that lies on it begins, ends, or is as near. It is cut at all these places.
 //! 2. *Faces*. In the middle of a piece each face of the scene is tested ([`Faces::hides`](crate::lines::eye::faces::Faces::hides)):
 //!    the piece is hidden where faces hide both of its sides.
@@ -57,7 +57,7 @@ impl LineIndex<'_> {
         pieces
     }
 
-    /// Step 1: all places where what is seen of a line may change, in no order. One too many does no harm.
+    /// Step 1: all places where the visibility of a line may change, in no order. One too many does no harm.
     fn all_cuts(&self, index: usize, image: &Image) -> Vec<f64> {
         let feature = &self.features[index];
         let mut cuts = Vec::new();

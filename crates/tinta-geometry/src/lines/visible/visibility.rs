@@ -19,7 +19,7 @@ use std::cell::LazyCell;
 const PIECES_A_GLANCE: usize = 64;
 
 impl LineIndex<'_> {
-    /// The wanted lines' pieces, in the lines' order; with how many boxes were looked at. Of all lines, unless the time is over
+    /// The wanted lines' pieces, in the lines' order; with the count of tested boxes. Of all lines, unless the time is over
     /// before: then of some, each as a whole.
     pub(in crate::lines) fn segments(&self, progress: &Progress) -> (Vec<LineSegment>, u64) {
         /// Few: of any part of the time the lines done represent the rest.
