@@ -12,7 +12,7 @@ use tinta::animation::NumberedName;
 use tinta::lines::{StrokeIds, TurnSvg};
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
-use tinta::request::{DrawingFormat, ReadModels, Session};
+use tinta::request::{DrawingFormat, ReadModels, Request, Session};
 use tinta::{Error, Result, Scene, TextTarget};
 
 /// The names of the drawings; `None` for one animated SVG.
@@ -40,15 +40,8 @@ pub(super) fn run(
 ) -> Result<Verdict> {
     let whole = Instant::now();
     let Rendering { request, run, output } = *rendering;
-    if request.style.lines().is_none_or(|style| style.areas.is_some()) {
-        let problem = "areas are drawn from one view; leave it out, or draw lines alone";
-        return Err(Error::setting("turntable", problem));
-    }
+    refuse_what_turns_have_not(request)?;
     let style = request.line_style()?.unwrap_or_default();
-    if request.options.contains_key("page") {
-        let problem = "each view would be scaled to fill the paper, and the model change its size; leave it out, or say --width-mm";
-        return Err(Error::setting("page", problem));
-    }
     let ReadModels { meshes, ms: load_ms, .. } = request.models(&session.models)?;
     let scene = Scene::new(meshes, &request.scene)?;
     let mut animated = names.is_none().then(TurnSvg::default);
@@ -59,24 +52,22 @@ pub(super) fn run(
         let scene = Scene { camera, ..scene.clone() };
         let name = names.map_or_else(|| output.to_owned(), |names| names.with(number));
         let progress = progress(rendering);
-        let drawn = match watched(&progress, stop, || request.drawn_lines(scene, format.wanted(false), &progress)) {
-            Err(Error::Cancelled) => return Ok(stopped(stop, names.map_or(0, |_| number - 1), views)),
-            found => found?,
-        };
+        let drawn = watched(&progress, stop, || request.drawn_lines(scene, format.wanted(false), &progress));
+        if is_stopped(stop) || matches!(drawn, Err(Error::Cancelled)) {
+            return Ok(stopped(stop, names.map_or(0, |_| number - 1), views));
+        }
+        let drawn = drawn?;
         if let Some(note) = drawn.lines.partial_note() {
             say(&format!("tinta: {name}: {note}"));
         }
         let paths = ids.next(&drawn.scene, &drawn.lines);
-        if is_stopped(stop) {
-            return Ok(stopped(stop, names.map_or(0, |_| number - 1), views));
+        match &mut animated {
+            Some(animated) => animated.add(&drawn.lines, paths, &style.drawing)?,
+            None => {
+                drawn.written(format, Some(paths), None)?.write(&name, request.is_transparent())?;
+                bytes += Path::new(&name).metadata().map_or(0, |metadata| metadata.len());
+            }
         }
-        if let Some(animated) = &mut animated {
-            animated.add(&drawn.lines, paths, &style.drawing)?;
-            frame_ms.push(milliseconds_since(frame));
-            continue;
-        }
-        drawn.written(format, Some(paths), None)?.write(&name, request.is_transparent())?;
-        bytes += Path::new(&name).metadata().map_or(0, |metadata| metadata.len());
         frame_ms.push(milliseconds_since(frame));
     }
     if let Some(animated) = animated {
@@ -104,6 +95,18 @@ pub(super) fn run(
         "whole_ms": milliseconds_since(whole),
     }))
     .map(|()| Verdict::Good)
+}
+
+fn refuse_what_turns_have_not(request: &Request) -> Result<()> {
+    if request.style.lines().is_none_or(|style| style.areas.is_some()) {
+        let problem = "areas are drawn from one view; leave it out, or draw lines alone";
+        return Err(Error::setting("turntable", problem));
+    }
+    if request.options.contains_key("page") {
+        let problem = "each view would be scaled to fill the paper, and the model change its size; leave it out, or say --width-mm";
+        return Err(Error::setting("page", problem));
+    }
+    Ok(())
 }
 
 /// The verdict after a signal that came after some of the drawings.
