@@ -355,19 +355,19 @@ impl Step {
 
 impl Draw {
     /// Whether vertices are drawn at the camera's projection of them: stated, or by the fixed-function pipeline.
-    pub fn keeps_places(&self) -> bool {
+    pub(crate) fn keeps_places(&self) -> bool {
         self.program.is_none() || self.facts.keeps_places
     }
 
     /// Whether every pixel of a face is drawn at the face's depth: stated, or by the fixed-function pipeline.
-    pub fn keeps_pixels(&self) -> bool {
+    pub(crate) fn keeps_pixels(&self) -> bool {
         self.program.as_ref().is_none_or(|program| program.fragments.is_empty()) || self.facts.keeps_pixels
     }
 }
 
 impl Plan {
     /// Drops the facts of draws that use any of these shaders, because their texts were replaced.
-    pub fn forget_facts_of(&mut self, shaders: &[String]) {
+    pub(crate) fn forget_facts_of(&mut self, shaders: &[String]) {
         let has_one = |program: &Program| shaders.iter().any(|path| program.has_shader(path));
         let steps = self.passes.iter_mut().flat_map(|pass| &mut pass.steps);
         for draw in steps.filter_map(|step| if let Step::Draw(draw) = step { Some(draw) } else { None }) {

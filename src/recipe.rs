@@ -140,7 +140,7 @@ fn in_hexadecimal(bytes: &[u8]) -> String {
 }
 
 /// The picture files that a style was given.
-pub fn files_of(style: &Style) -> Vec<PathBuf> {
+fn files_of(style: &Style) -> Vec<PathBuf> {
     match style {
         Style::Inking(inking) => inking.ramp.path.iter().cloned().collect(),
         Style::Charcoal(charcoal) | Style::Sand(charcoal) => {
@@ -152,7 +152,7 @@ pub fn files_of(style: &Style) -> Vec<PathBuf> {
 }
 
 /// Whether a style draws with the pictures on the models.
-pub fn draws_with_textures(style: &Style, scene: &Scene) -> bool {
+fn draws_with_textures(style: &Style, scene: &Scene) -> bool {
     match style {
         _ if scene.has_textured_surfaces() => true,
         Style::Inking(inking) => inking.has_texture,
@@ -163,7 +163,7 @@ pub fn draws_with_textures(style: &Style, scene: &Scene) -> bool {
 
 /// Returns the files that a picture was made from, each once: the models, the files they refer to, and the files of the style, if
 /// one drew the picture. `scene` begins with the models; built-in models are not files.
-pub fn files_read(models: &[String], beside: &[PathBuf], scene: &Scene, style: Option<&Style>) -> Vec<PathBuf> {
+pub(crate) fn files_read(models: &[String], beside: &[PathBuf], scene: &Scene, style: Option<&Style>) -> Vec<PathBuf> {
     let mut paths: Vec<PathBuf> =
         models.iter().filter(|model| !model.starts_with("builtin:")).map(PathBuf::from).collect();
     paths.extend(beside.iter().cloned());

@@ -34,7 +34,7 @@ use crate::picture::Picture;
 use crate::scene::Size;
 
 /// The longest side of a texture, pixels: every OpenGL 2.1 driver in use supports it.
-pub const LARGEST_SIDE_PX: u32 = 4096;
+pub(crate) const LARGEST_SIDE_PX: u32 = 4096;
 
 /// The default size of textures.
 const DEFAULT_SIZE: Size = Size { width: 512, height: 512 };

@@ -229,7 +229,7 @@ impl Entries {
     }
 
     /// Number of entries of a job in its current form.
-    pub fn count_of(&self, job: &Job) -> usize {
+    pub(crate) fn count_of(&self, job: &Job) -> usize {
         key(&job.sha256).and_then(|key| self.found.get(&key)).map_or(0, |found| found.count as usize)
     }
 

@@ -32,7 +32,7 @@ impl Slice {
     }
 
     /// The slice of a file of this name.
-    pub fn of_file_name(name: &str) -> Option<Self> {
+    pub(crate) fn of_file_name(name: &str) -> Option<Self> {
         let (number, count) = name.strip_prefix("batch-")?.strip_suffix(".jsonl")?.split_once("-of-")?;
         let slice: Self = format!("{number}/{count}").parse().ok()?;
         (slice.file_name() == name).then_some(slice)

@@ -113,7 +113,7 @@ impl Summary {
     /// # Errors
     ///
     /// [`Error::File`] if the folder holds no batch, its files cannot be read, or the summary cannot be written.
-    pub fn put_together(folder: &Path) -> Result<Self> {
+    pub(crate) fn put_together(folder: &Path) -> Result<Self> {
         let list = List::kept(folder)?.ok_or_else(|| {
             Error::file(FileKind::Batch, folder.join(LIST_FILE), "there is no such file; name the folder of a batch")
         })?;
@@ -188,7 +188,7 @@ impl Summary {
     }
 
     /// Whether every job is done.
-    pub fn is_all_done(&self) -> bool {
+    pub(crate) fn is_all_done(&self) -> bool {
         self.done == self.jobs
     }
 }

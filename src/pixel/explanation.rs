@@ -104,7 +104,7 @@ impl Explanation {
     /// # Errors
     ///
     /// As [`Explanation::of`].
-    pub fn of_values(
+    pub(crate) fn of_values(
         style: &Style,
         scene: &Scene,
         (plan, values): (&Plan, &[StepValues]),

@@ -42,7 +42,7 @@ pub enum Value {
 
 impl Value {
     /// Returns the [`Value::TexelSize`] of a surface of this size.
-    pub fn texel_size(size: Size) -> Self {
+    pub(crate) fn texel_size(size: Size) -> Self {
         Self::TexelSize([1.0 / size.width as f32, 1.0 / size.height as f32])
     }
 }
@@ -67,7 +67,7 @@ pub enum Texture {
 
 impl Program {
     /// Whether this is one of its shaders.
-    pub fn has_shader(&self, path: &str) -> bool {
+    pub(crate) fn has_shader(&self, path: &str) -> bool {
         self.vertex == path || self.fragments.contains(&path)
     }
 }

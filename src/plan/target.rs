@@ -71,7 +71,7 @@ pub enum Format {
 
 impl Format {
     /// Whether it needs floating-point textures.
-    pub fn is_float(self) -> bool {
+    pub(crate) fn is_float(self) -> bool {
         self != Self::Unorm8
     }
 }

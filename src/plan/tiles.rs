@@ -58,7 +58,7 @@ impl Tile {
     }
 
     /// Returns the matrix from the picture's clip space to that of the tile's viewport; `None` if they are equal.
-    pub fn clip_from_picture(&self) -> Option<Mat4> {
+    pub(crate) fn clip_from_picture(&self) -> Option<Mat4> {
         let Rectangle { x, y, width, height } = self.viewport;
         if (width, height) == (self.whole.width, self.whole.height) {
             return None;
@@ -117,7 +117,7 @@ impl Plan {
     }
 
     /// Returns the largest surface that such a driver can draw in tiles; `None` for any.
-    pub fn largest_surface(&self, limits: TileLimits) -> Option<Size> {
+    pub(crate) fn largest_surface(&self, limits: TileLimits) -> Option<Size> {
         let reads_clip_place = |step: &Step| matches!(step, Step::Draw(draw) if draw.facts.reads_clip_place);
         match self.margin_px() {
             None => Some(limits.surface),

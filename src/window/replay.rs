@@ -97,7 +97,7 @@ impl Replay {
     }
 
     /// The number of the last frame.
-    pub fn last_frame(&self) -> u64 {
+    pub(in crate::window) fn last_frame(&self) -> u64 {
         self.lines.last().map_or(0, |(frame, _)| *frame)
     }
 

@@ -321,7 +321,7 @@ impl Error {
     }
 
     /// Whether an output cannot be written because the disk, or the user's share of it, is full.
-    pub fn is_disk_full(&self) -> bool {
+    pub(crate) fn is_disk_full(&self) -> bool {
         matches!(self.io_kind(), Some(io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded))
     }
 

@@ -56,7 +56,7 @@ pub use drawing::areas::Areas;
 pub use drawing::chain::{LinePath, chain};
 pub use drawing::curves::{Step, fitted};
 pub use drawing::drawn_layers::{DrawnLayer, GHOST_OPACITY, drawn_layers};
-pub use drawing::fills::{Fill, FillGroup, TRAP_PX, fills};
+pub use drawing::fills::{Fill, FillGroup, fills};
 pub use drawing::hatch::{Hatch, Hatching};
 pub use drawing::hatches::hatches;
 pub use drawing::key::{Key, KeyText};

@@ -14,52 +14,52 @@ pub const CRACK: f64 = 1e-4;
 
 /// Distance from a section's plane within which a vertex lies on it, a share of the bounding-box diagonal: a hundred thousand
 /// roundings of f64, and far less than a picture shows.
-pub const ON_PLANE: f64 = 1e-11;
+pub(crate) const ON_PLANE: f64 = 1e-11;
 
 /// Largest `--weld`: a tenth of the model would no longer be a model.
-pub const LARGEST_WELD: f64 = 0.1;
+pub(crate) const LARGEST_WELD: f64 = 0.1;
 
 /// Largest rounding error of a projection in the welding sweep, as a share of its size: a few of f64's last places.
-pub const SWEEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(crate) const SWEEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Largest coordinate of a model, eye or target, file units: fourth powers of lengths stay finite f64 numbers.
-pub const LARGEST_COORDINATE: f64 = 1e60;
+pub(crate) const LARGEST_COORDINATE: f64 = 1e60;
 
 /// Smallest and largest scene radius drawn, file units: fourth powers of lengths stay finite f64 numbers and above 0.
 pub const SCENE_RADIUS: std::ops::RangeInclusive<f64> = 1e-60..=2e60;
 
 /// Distance between eye and target, as a share of their coordinates, below which they count as the same point.
-pub const SAME_POINT: f64 = 1e-12;
+pub(crate) const SAME_POINT: f64 = 1e-12;
 
 /// Sine of the angle below which an up vector counts as being along the view: rounding then turns the picture.
-pub const CAMERA_ALIGNMENT: f64 = 1e-6;
+pub(crate) const CAMERA_ALIGNMENT: f64 = 1e-6;
 
 /// Share of the picture's half-width and half-height that the fitted scene fills; the rest is margin for ink.
 pub const FRAME_FILL: f64 = 0.92;
 
 /// Share of the picture's half-width and half-height that the visible part of a scene fills when it is centred: a margin of 6 %
 /// on each side, as on a page.
-pub const OUTLINE_FILL: f64 = 0.88;
+pub(crate) const OUTLINE_FILL: f64 = 0.88;
 
 /// Share of the scene's depth added before the nearest and behind the farthest point: the map's 8-bit depth (errata E8)
 /// has 255 steps for all of it, so the margin is kept small.
-pub const DEPTH_MARGIN: f64 = 0.01;
+pub(crate) const DEPTH_MARGIN: f64 = 0.01;
 
 /// Smallest near distance as a share of the far distance, and smallest extent as a share of the scene's radius: with the
 /// eye inside the scene the depth buffer's 24 bits then still separate thousandths of the radius.
-pub const NEAREST_FRACTION: f64 = 1e-3;
+pub(crate) const NEAREST_FRACTION: f64 = 1e-3;
 
 /// Largest distance of the eye from the scene's centre in a picture by GL, scene radii: beyond it f32 depth in eye space has fewer
 /// than a thousand steps for the whole scene.
-pub const LARGEST_DISTANCE: f64 = 2e4;
+pub(crate) const LARGEST_DISTANCE: f64 = 2e4;
 
 /// Largest distance of the eye for exact lines, scene radii: f64 then still places a point to a ten-thousandth of a pixel of
 /// 512.
-pub const LARGEST_EXACT_DISTANCE: f64 = 1e8;
+pub(crate) const LARGEST_EXACT_DISTANCE: f64 = 1e8;
 
 /// Least steps of a 24-bit depth buffer from the scene's nearest point to its farthest: with fewer, hidden surfaces show
 /// through nearer ones.
-pub const LEAST_DEPTH_STEPS: f64 = 256.0;
+pub(crate) const LEAST_DEPTH_STEPS: f64 = 256.0;
 
 /// Distance of the background square from the eye, scene radii: so far that light, view and normal are parallel on all of
 /// it and the article's highlight tone, 1, leaves its colour as given.
@@ -125,7 +125,7 @@ pub(crate) const MARGIN_PX: f64 = 1.0;
 pub const SHORTEST_LINE: f64 = 1e-7;
 
 /// Largest rounding error of a coordinate, as a share of the largest one in the scene: a few of f64's last places.
-pub const COORDINATE_NOISE: f64 = 16.0 * f64::EPSILON;
+pub(crate) const COORDINATE_NOISE: f64 = 16.0 * f64::EPSILON;
 
 /// Rounding of coordinates far from the origin, pixels, above which exact lines are not called exact: an end of a line may be off
 /// by as much elsewhere.
@@ -141,7 +141,7 @@ pub const FLAT: f64 = 1e-6;
 
 /// A face's side crosses a line when the sine of its angle to the line's perpendicular is below this: a point moved aside from
 /// the line then stays on that side, which hides both faces' points at it.
-pub const ACROSS: f64 = 1e-9;
+pub(crate) const ACROSS: f64 = 1e-9;
 
 /// Largest distance between a drawn line and a point it leaves out, pixels: one step of an SVG's numbers, which have three
 /// decimals.
@@ -149,11 +149,11 @@ pub const STRAIGHT_PX: f64 = 1e-3;
 
 /// Distance of a point beyond the picture or between the planes, as a share of its distance from the eye, above which f32
 /// matrices agree with f64: some hundred of f32's last places.
-pub const CLIP_ROUNDING: f64 = 1e-5;
+pub(crate) const CLIP_ROUNDING: f64 = 1e-5;
 
 /// Largest distance between a vertex as drawn and its coordinates, pixels: f32 in the largest pictures is off by a hundredth,
 /// and GL's own sub-pixels may be sixteenths.
-pub const WINDOW_ROUNDING_PX: f64 = 0.125;
+pub(crate) const WINDOW_ROUNDING_PX: f64 = 0.125;
 
 /// Light that no surface reaches: diffuse and specular values are cosines of unit vectors, which rounding leaves below it.
 pub const UNREACHED_LIGHT: f32 = 1.001;
@@ -163,41 +163,41 @@ pub const EIGHT_BIT_TIE: f64 = 0.02;
 
 /// Largest distance that GL moves a vertex sideways before it fills a face, in steps of its sub-pixel grid: half a step by
 /// rounding, as much again for safety and for f32.
-pub const SUBPIXEL_STEPS: f64 = 1.0;
+pub(crate) const SUBPIXEL_STEPS: f64 = 1.0;
 
 /// Length of a sum of unit normals up to which its direction is mere rounding: the error of a million of them is smaller.
-pub const CANCELLED_NORMALS: f64 = 1e-9;
+pub(crate) const CANCELLED_NORMALS: f64 = 1e-9;
 
 /// Cosine of the angle between a face and a file's normal at its corner above which the normal is averaged over sharp edges: 45
 /// degrees. At the corners of a cube such normals stand 55 off, on a ball of 20 triangles 37.
-pub const AVERAGED_NORMAL: f64 = std::f64::consts::FRAC_1_SQRT_2;
+pub(crate) const AVERAGED_NORMAL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// Share of the corners with averaged normals above which a file's normals are not to be believed. In strangers' models with
 /// melted edges it is 0.11 to 0.67.
-pub const AVERAGED_SHARE: f64 = 0.1;
+pub(crate) const AVERAGED_SHARE: f64 = 0.1;
 
 /// Largest distance between the end of a model and a place that touches the ground there, as a share of the model's length
 /// along that axis.
-pub const BASE_DEPTH: f64 = 0.02;
+pub(crate) const BASE_DEPTH: f64 = 0.02;
 
 /// Least height of a model above such an end, as a share of its largest extent: slabs and reliefs may well face z.
-pub const BASE_HEIGHT: f64 = 0.5;
+pub(crate) const BASE_HEIGHT: f64 = 0.5;
 
 /// Least share of the bounding box's side that touches the ground at a base. Among the tested models that stand on one end, the
 /// smallest shares are 0.13, a doll's shoes, and 0.19, a bust's foot; ends on which they would fall have up to 0.09.
-pub const BASE_SHARE: f64 = 0.1;
+pub(crate) const BASE_SHARE: f64 = 0.1;
 
 /// Least distance of a model's middle from the rim of its base, for the model to stand firmly, as a share of the side's
 /// geometric mean. The doll's is 0.03.
-pub const BASE_MARGIN: f64 = 0.02;
+pub(crate) const BASE_MARGIN: f64 = 0.02;
 
 /// Largest distance between corners of two faces that are the two sides of one thin part, as a share of the shortest side: a
 /// step or two of a Quake 2 model's byte coordinates, on a wing a quarter of the model's size. Bars and slats are thin, too, and
 /// lie farther apart than that.
-pub const DOUBLED: f64 = 1.0 / 12.0;
+pub(crate) const DOUBLED: f64 = 1.0 / 12.0;
 
 /// Least area of such a face, as a share of its model's: in a picture of 512 pixels a dozen or so.
-pub const DOUBLED_AREA: f64 = 5e-4;
+pub(crate) const DOUBLED_AREA: f64 = 5e-4;
 
 /// Distance between an end of a line and another line below which they touch in a drawing, pixels: some steps of an SVG's
 /// numbers.
@@ -205,18 +205,18 @@ pub const JOINED_PX: f64 = 5e-3;
 
 /// Area of a triangle, as a share of its longest side's square, below which its corners carry no information about the surface:
 /// a file's six digits can give a triangle of no area this much.
-pub const NEEDLE: f64 = 1e-6;
+pub(crate) const NEEDLE: f64 = 1e-6;
 
 /// The unit length of form lines' thresholds, as a share of a radius of curvature. One tenth of all principal curvatures is
 /// flatter than that radius, as in the viewer by the authors of suggestive contours.
-pub const FEATURE_SHARE: f64 = 0.01;
+pub(crate) const FEATURE_SHARE: f64 = 0.01;
 
 /// Largest unit length of form lines' thresholds, in the mesh's radii, for models that are mostly flat.
-pub const LARGEST_FEATURE: f64 = 0.05;
+pub(crate) const LARGEST_FEATURE: f64 = 0.05;
 
 /// Distance from an end of a face's side, as a share of the side, within which a form line across the side runs through that
 /// end: far less than the line may be off, far more than the shortest line.
-pub const THROUGH_VERTEX: f64 = 1e-4;
+pub(crate) const THROUGH_VERTEX: f64 = 1e-4;
 
 /// Least rate at which a curvature falls beside a crest, as a share of the curvature's third power. On pipes and balls the
 /// curvature is constant except for the mesh's error.

@@ -58,13 +58,13 @@ const MOST_POINTS: usize = 64;
 
 impl Costs {
     /// The view has changed: forgets everything and cancels the measurement in progress.
-    pub fn view_changed(&mut self) {
+    pub(in crate::window) fn view_changed(&mut self) {
         self.style_changed();
         self.history.clear();
     }
 
     /// Forgets the styles' measurements; the plot keeps this view's measurements.
-    pub fn style_changed(&mut self) {
+    pub(in crate::window) fn style_changed(&mut self) {
         self.sides.clear();
         self.number += 1;
         if let Some(progress) = self.measuring.take() {
@@ -73,7 +73,7 @@ impl Costs {
     }
 
     /// Whether a search for exact lines is running.
-    pub fn is_measuring(&self) -> bool {
+    pub(in crate::window) fn is_measuring(&self) -> bool {
         self.measuring.is_some()
     }
 

@@ -177,7 +177,7 @@ impl Drawer {
     /// # Errors
     ///
     /// As [`Renderer::render`].
-    pub fn draw_scene(&mut self, scene: &Scene, style: &Style, show: Show) -> Result<Picture> {
+    pub(in crate::window) fn draw_scene(&mut self, scene: &Scene, style: &Style, show: Show) -> Result<Picture> {
         Request::of_picture(style, show).picture_of(scene, &mut self.renderer)
     }
 

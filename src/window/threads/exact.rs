@@ -91,12 +91,12 @@ impl ExactLines {
     }
 
     /// Whether a search for lines is running.
-    pub fn is_finding(&self) -> bool {
+    pub(in crate::window) fn is_finding(&self) -> bool {
         self.finding.is_some()
     }
 
     /// Whether these lines are found, being found, or failed.
-    pub fn is_begun(&self, job: &LineJob) -> bool {
+    pub(in crate::window) fn is_begun(&self, job: &LineJob) -> bool {
         let found = self.found.as_ref().map(|found| &found.job);
         let finding = self.finding.as_ref().map(|(job, _)| job);
         let refused = self.refused.as_ref().map(|(job, _)| job);

@@ -18,7 +18,7 @@ pub struct PixelJob {
 
 impl PixelJob {
     /// Whether it is of the same picture as another.
-    pub fn is_of_same_picture(&self, other: &Self) -> bool {
+    pub(in crate::window) fn is_of_same_picture(&self, other: &Self) -> bool {
         self.style == other.style && self.view.is_of_same_picture(&other.view)
     }
 
@@ -42,7 +42,7 @@ impl Explained {
     }
 
     /// Whether a question is at work.
-    pub fn is_asking(&self) -> bool {
+    pub(in crate::window) fn is_asking(&self) -> bool {
         self.is_asking
     }
 

@@ -47,17 +47,17 @@ impl Job {
     }
 
     /// Whether the same models are drawn as in another, in pictures of the same size.
-    pub fn is_of_same_scene_and_size(&self, other: &Self) -> bool {
+    pub(in crate::window) fn is_of_same_scene_and_size(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene) && self.settings.size == other.settings.size
     }
 
     /// Whether they are seen from the same place, as another's are.
-    pub fn is_of_same_view(&self, other: &Self) -> bool {
+    pub(in crate::window) fn is_of_same_view(&self, other: &Self) -> bool {
         self.orbit == other.orbit && self.settings.camera == other.settings.camera
     }
 
     /// Whether it shows the same scene in the same view as another, whatever it draws.
-    pub fn is_of_same_picture(&self, other: &Self) -> bool {
+    pub(in crate::window) fn is_of_same_picture(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene) && self.orbit == other.orbit && self.settings == other.settings
     }
 
@@ -67,7 +67,7 @@ impl Job {
     }
 
     /// Whether its picture serves for another job: the same, or finer than needed.
-    pub fn does_for(&self, other: &Self) -> bool {
+    pub(in crate::window) fn does_for(&self, other: &Self) -> bool {
         self.is_same(&Self { is_coarse: self.is_coarse && other.is_coarse, ..other.clone() })
     }
 }

@@ -265,12 +265,12 @@ impl Viewer {
     }
 
     /// Whether a picture is being drawn.
-    pub fn is_drawing(&self) -> bool {
+    pub(in crate::window) fn is_drawing(&self) -> bool {
         self.render_threads.newest().is_some()
     }
 
     /// Whether the viewer is idle: no reading, drawing or measuring.
-    pub fn is_at_rest(&self) -> bool {
+    pub(in crate::window) fn is_at_rest(&self) -> bool {
         let is_working = self.is_drawing() || self.is_pricing || self.costs.is_measuring() || self.lines.is_finding();
         let is_working = is_working || self.explained.is_asking();
         self.loads_going_on == 0 && !is_working

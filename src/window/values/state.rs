@@ -135,7 +135,7 @@ impl ViewerState {
     }
 
     /// How a side shows exact lines.
-    pub fn lines_shown(&self, side: Side) -> LinesShown {
+    pub(in crate::window) fn lines_shown(&self, side: Side) -> LinesShown {
         match (self.style(side).lines(), self.has_lines_over[side as usize]) {
             (Some(_), _) => LinesShown::Alone,
             (None, true) => LinesShown::Over,
@@ -163,7 +163,7 @@ impl ViewerState {
     }
 
     /// The name of a side's picture: a style, lines, or a style and lines.
-    pub fn drawn_name(&self, side: Side) -> String {
+    pub(in crate::window) fn drawn_name(&self, side: Side) -> String {
         let name = self.style(side).name();
         match self.lines_shown(side) {
             LinesShown::Over => format!("{name}+{}", self.style_of_lines().name()),
@@ -242,12 +242,12 @@ impl ViewerState {
     }
 
     /// The size that each side's picture is drawn in.
-    pub fn picture_size(&self) -> Size {
+    pub(in crate::window) fn picture_size(&self) -> Size {
         self.panes().first().map_or(self.area, |pane| pane.size)
     }
 
     /// The scene settings without the user's moves and zoom.
-    pub fn scene_settings(&self) -> SceneSettings {
+    pub(in crate::window) fn scene_settings(&self) -> SceneSettings {
         let camera = self.orbit.fitted(&self.scene.camera);
         SceneSettings { size: self.picture_size(), camera, ..self.scene.clone() }
     }

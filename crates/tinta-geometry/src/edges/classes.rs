@@ -74,7 +74,7 @@ impl ClassSet {
     pub const EDGES: Self = Self(Self::ALL.0 & !(1 << Class::Intersection as u8) & !Self::FORMS.0 & !Self::FREE.0);
 
     /// The classes of form lines, which cross faces where the surface's curvature requires it.
-    pub const FORMS: Self = Self::of(&[Class::Suggestive, Class::Ridge, Class::Valley, Class::ApparentRidge]);
+    pub(crate) const FORMS: Self = Self::of(&[Class::Suggestive, Class::Ridge, Class::Valley, Class::ApparentRidge]);
 
     /// The classes that belong to no surface: the model's own curves and points. They hide nothing.
     pub const FREE: Self = Self::of(&[Class::Curve, Class::Point]);

@@ -153,26 +153,6 @@ impl Mesh {
         self.file_faces.get(triangle as usize).copied().unwrap_or(triangle)
     }
 
-    /// Returns the mesh's main memory, bytes, without materials' names.
-    pub fn memory_bytes(&self) -> usize {
-        bytes_of(&self.positions)
-            + bytes_of(&self.file_vertices)
-            + bytes_of(&self.position_colors)
-            + bytes_of(&self.triangles)
-            + bytes_of(&self.normals)
-            + bytes_of(&self.triangle_normals)
-            + bytes_of(&self.texture_coordinates)
-            + bytes_of(&self.triangle_texture_coordinates)
-            + bytes_of(&self.triangle_materials)
-            + bytes_of(&self.file_faces)
-            + bytes_of(&self.triangle_parts)
-            + bytes_of(&self.marked)
-            + bytes_of(&self.curves.positions)
-            + bytes_of(&self.curves.file_vertices)
-            + bytes_of(&self.curves.segments)
-            + bytes_of(&self.curves.points)
-    }
-
     /// Returns a triangle's corners; `None` if one does not exist.
     pub(crate) fn corners(&self, triangle: &[u32; 3]) -> Option<[DVec3; 3]> {
         let corner = |position: u32| self.positions.get(position as usize).copied();
@@ -205,11 +185,6 @@ pub(crate) fn triangle_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let scale = first.abs().max(second.abs()).max_element();
     let product = (first / scale).cross(second / scale);
     (product / product.abs().max_element()).try_normalize()
-}
-
-/// Returns a list's allocated bytes.
-pub(super) fn bytes_of<T>(list: &Vec<T>) -> usize {
-    list.capacity() * size_of::<T>()
 }
 
 /// Returns the smallest and largest corner of the points' bounding box; inverted infinities for no points.

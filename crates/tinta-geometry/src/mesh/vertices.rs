@@ -3,7 +3,6 @@
 use super::coincident::coincident;
 use super::hilbert::hilbert_code;
 use super::normals::Incidence;
-use super::triangle_mesh::bytes_of;
 use super::{Mesh, NONE};
 use crate::threads::{both, filled, sort_by, threads_for};
 use glam::DVec3;
@@ -57,16 +56,6 @@ impl VertexArrays {
             Self { vertices, texture_coordinates, colors, indices, position_vertices, order, parts, centre };
         arrays.number_by_first_use();
         arrays
-    }
-
-    /// Bytes of main memory the arrays take.
-    pub fn memory_bytes(&self) -> usize {
-        bytes_of(&self.vertices)
-            + bytes_of(&self.texture_coordinates)
-            + bytes_of(&self.colors)
-            + bytes_of(&self.indices)
-            + bytes_of(&self.position_vertices)
-            + bytes_of(&self.parts)
     }
 
     /// Renumbers the vertices in the order of drawing.
@@ -296,7 +285,16 @@ mod tests {
         let (mesh, arrays) = (grid(), VertexArrays::new(&grid(), 1.0));
         // Half a vertex a triangle: 14 bytes of position and 6 of normal; 24 of indices; 4 of its square's number,
         // which a mesh of triangles lacks; for GL 14 of vertex and 12 of indices.
-        let bytes = (mesh.memory_bytes() + arrays.memory_bytes()) as f64 / mesh.triangles.len() as f64;
+        fn held<T>(list: &Vec<T>) -> usize {
+            list.capacity() * size_of::<T>()
+        }
+        let of_vertices = held(&mesh.positions) + held(&mesh.file_vertices) + held(&mesh.normals);
+        let of_triangles = held(&mesh.triangles) + held(&mesh.triangle_normals) + held(&mesh.file_faces);
+        let for_gl = held(&arrays.vertices) + held(&arrays.indices) + held(&arrays.position_vertices);
+        let bytes = (of_vertices + of_triangles + for_gl) as f64 / mesh.triangles.len() as f64;
+        let others =
+            [held(&mesh.texture_coordinates), held(&mesh.triangle_materials), held(&mesh.marked), held(&arrays.colors)];
+        assert_eq!(others, [0; 4]);
         assert!((74.0..78.0).contains(&bytes), "{bytes} bytes a triangle");
     }
 

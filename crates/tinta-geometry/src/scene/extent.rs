@@ -26,12 +26,6 @@ impl Scene {
         all_beyond.contains(&true)
     }
 
-    /// Whether the whole object lies clearly between the near and far planes.
-    pub fn is_between_planes(&self, object: &Object) -> bool {
-        self.corners_in_clip_space(object)
-            .all(|corner| corner.w > 0.0 && corner.z.abs() < corner.w * (1.0 - CLIP_ROUNDING))
-    }
-
     /// The pixels of a surface of this size that faces of these objects can touch; `None` for none, the whole surface
     /// if a box reaches behind the eye.
     pub fn extent_px<'a>(&self, objects: impl Iterator<Item = &'a Object>, surface: Size) -> Option<Rectangle> {

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use std::collections::HashMap;
 
 /// The width of a trap, pixels: half of it is seen while the upper area is not painted.
-pub const TRAP_PX: f64 = 4.0;
+pub(crate) const TRAP_PX: f64 = 4.0;
 
 /// The areas of an object's material, or strokes below all areas.
 #[derive(Debug, Clone, PartialEq)]

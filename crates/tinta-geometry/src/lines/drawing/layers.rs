@@ -278,7 +278,7 @@ impl ClassColors {
     }
 
     /// The setting of a drawing's colours, which include layers as well as classes.
-    pub fn setting_of_drawing<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
+    pub(crate) fn setting_of_drawing<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let mut setting = Self::setting(field);
         setting.kind = Self::kind_of(&["outline", HIDDEN_LINES, HATCH]);
         setting
