@@ -50,7 +50,7 @@ fn check(count: u64) {
 }
 
 #[test]
-fn something_lies_in_front_of_hidden_lines_and_nothing_in_front_of_visible_ones() {
+fn something_lies_in_front_of_hidden_lines_and_nothing_in_front_of_visible_ones_briefly() {
     check(scenes_wanted().unwrap_or(40 * KINDS as u64));
 }
 
@@ -105,7 +105,7 @@ fn check_models<'a>(models: impl IntoIterator<Item = (&'a str, Mesh)>, views: &[
 }
 
 #[test]
-fn what_rays_see_of_a_box_and_a_gear_is_drawn() {
+fn what_rays_see_of_a_box_and_a_gear_is_drawn_briefly() {
     check_models(["open-box", "gear"].map(|name| (name, builtin(name))), &ALL_VIEWS);
 }
 

@@ -38,5 +38,5 @@ fn all_creases_of_parts_last_and_the_folds_of_a_bumpy_ball_do_not() {
         (0..2).for_each(|which| sums[which] += found[which]);
     }
     let [all, lasting] = sums;
-    assert!(all > 8000.0 && lasting < 0.1 * all, "bumpy balls: {all} {lasting}");
+    assert!(all > 8000.0 && lasting < 0.15 * all, "bumpy balls: {all} {lasting}");
 }
