@@ -94,7 +94,7 @@ const STEP: f64 = 1.0 / 24.0;
 /// Zoom factor of + and -.
 const ZOOM: f64 = 1.25;
 
-/// Move of the divider by [ and ], share of the width.
+/// Move of the divider by `[` and `]`, share of the width.
 const DIVIDE: f64 = 0.05;
 
 /// A placeholder for the styles' names.

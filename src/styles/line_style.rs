@@ -64,7 +64,7 @@ impl LineStyle {
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`](crate::Error::Setting) for settings that contradict each other.
+    /// [`Error::Setting`] for settings that contradict each other.
     pub fn check(&self) -> Result<()> {
         if self.is_of_areas_alone && self.areas.is_none() {
             let problem = "style lines draws nothing but lines; leave it out, or add --areas object";

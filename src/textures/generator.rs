@@ -90,7 +90,7 @@ impl Msvc {
     }
 }
 
-/// GNU's: r[i] = r[i - 3] + r[i - 31]; all bits except the lowest are the number.
+/// GNU's: `r[i] = r[i - 3] + r[i - 31]`; all bits except the lowest are the number.
 pub(super) struct Glibc {
     words: [u32; 31],
     /// The oldest word, which is replaced next.

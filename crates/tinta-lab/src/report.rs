@@ -43,7 +43,7 @@ use tinta::output::Staged;
 
 /// All rows with all their columns but the times of single frames, which `results.jsonl` has.
 ///
-/// The first line names the columns of [`columns`], in their order; values that a style lacks are empty.
+/// The first line names the columns of [`columns()`], in their order; values that a style lacks are empty.
 pub fn csv(rows: &[Row]) -> String {
     let columns = columns();
     let mut writer = csv::Writer::from_writer(Vec::new());

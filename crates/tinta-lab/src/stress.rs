@@ -1,6 +1,6 @@
 //! Extreme cases for numbers and input files, each with its expected outcome.
 //!
-//! Takes [`cases`], plain values that state an extreme, the required outcome and the number that shows it; returns a [`Row`] for
+//! Takes [`cases()`], plain values that state an extreme, the required outcome and the number that shows it; returns a [`Row`] for
 //! each case, style and backend with its verdict. docs/results/stability.md has the figures and their meaning.
 //!
 //! ```no_run

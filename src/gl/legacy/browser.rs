@@ -102,7 +102,7 @@ impl Legacy {
         if self.raw.is_context_lost() { glow::UNKNOWN_CONTEXT_RESET } else { glow::NO_ERROR }
     }
 
-    /// glMatrixMode and glLoadMatrixf: `mode` is [`MODELVIEW`] or [`PROJECTION`].
+    /// glMatrixMode and glLoadMatrixf: `mode` is [`MODELVIEW`](super::MODELVIEW) or [`PROJECTION`](super::PROJECTION).
     ///
     /// # Safety
     ///

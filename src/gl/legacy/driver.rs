@@ -164,7 +164,7 @@ impl Legacy {
         }
     }
 
-    /// glMatrixMode and glLoadMatrixf: `mode` is [`MODELVIEW`] or [`PROJECTION`].
+    /// glMatrixMode and glLoadMatrixf: `mode` is [`MODELVIEW`](super::MODELVIEW) or [`PROJECTION`](super::PROJECTION).
     ///
     /// # Safety
     ///

@@ -1,7 +1,7 @@
 //! The three texts' claims: every measurable sentence, with the measurement here.
 //!
 //! A claim is plain data: its place, its sentence, its rule, the command that shows it. The rule is a function of measured
-//! numbers; no verdict is written by hand. [`measure_claims`] measures, `page` shows, [`markdown`] writes claims.md.
+//! numbers; no verdict is written by hand. [`measure_claims`] measures, `page` shows, [`markdown()`] writes claims.md.
 
 mod claim;
 mod dachsbacher;

@@ -45,7 +45,7 @@ impl Kit {
     ///
     /// # Errors
     ///
-    /// Like [`load`], which does not fail for built-in models.
+    /// Like [`load()`], which does not fail for built-in models.
     pub(super) fn new() -> Result<Self> {
         let model = |name: &str| -> Result<Mesh> {
             Ok(of_one_size(load(&format!("builtin:{name}"), &LoadOptions::default())?.mesh))
