@@ -28,7 +28,7 @@ const FAR_EDGES: f64 = 4.0;
 /// Lines that come and go between two pictures, pixels of line.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Flicker {
-    /// Drawn length of both pictures.
+    /// DrawnView length of both pictures.
     pub drawn_px: f64,
     /// Length in only one picture, where a face or the border hides it in the other.
     pub explained_px: f64,
@@ -51,7 +51,7 @@ pub fn flicker(pictures: [(&Scene, &VisibleLines); 2], near_px: f64) -> Flicker 
 fn add(from: &VisibleLines, scene: &Scene, to: &VisibleLines, near_px: f64, all: &mut Flicker) {
     let picture = Picture::of(scene);
     let px = picture.size.max_element() / 512.0;
-    let drawn = Drawn::new(to, near_px * px);
+    let drawn = DrawnView::new(to, near_px * px);
     let mut open: Vec<(usize, DVec3, f64)> = Vec::new();
     for segment in from.segments.iter().filter(|segment| segment.is_visible) {
         let [a, b] = segment.ends_world;
@@ -198,7 +198,7 @@ fn mean_side(mesh: &Mesh) -> f64 {
 }
 
 /// Visible lines, indexed for proximity queries.
-struct Drawn<'a> {
+struct DrawnView<'a> {
     lines: &'a VisibleLines,
     near_px: f64,
     /// The segments that may be near, by square of the picture.
@@ -208,7 +208,7 @@ struct Drawn<'a> {
 /// Side of the squares, in multiples of the near distance.
 const SQUARE: f64 = 4.0;
 
-impl<'a> Drawn<'a> {
+impl<'a> DrawnView<'a> {
     fn new(lines: &'a VisibleLines, near_px: f64) -> Self {
         let mut squares: HashMap<[i32; 2], Vec<usize>> = HashMap::new();
         let side = SQUARE * near_px;

@@ -36,7 +36,7 @@ pub(super) struct Subject {
 }
 
 /// The results for a picture of one style by one backend.
-pub(super) struct Drawn {
+pub(super) struct CasePicture {
     pub picture: Picture,
     pub figures: Figures,
 }
@@ -91,7 +91,7 @@ impl Subject {
     }
 
     /// Draws it in a style; `is_first` for the backend that also measures the effect of a jitter or a turn.
-    pub(super) fn draw(&self, renderer: &mut Renderer, variant: &Variant, is_first: bool) -> Result<Drawn> {
+    pub(super) fn draw(&self, renderer: &mut Renderer, variant: &Variant, is_first: bool) -> Result<CasePicture> {
         let style = &variant.style;
         let plan = style.plan(&self.scene, Show::Final)?;
         let pruning = renderer.pruning();
@@ -114,7 +114,7 @@ impl Subject {
         if is_first {
             self.study(renderer, variant, &mut figures)?;
         }
-        Ok(Drawn { picture, figures })
+        Ok(CasePicture { picture, figures })
     }
 
     fn study(&self, renderer: &mut Renderer, variant: &Variant, figures: &mut Figures) -> Result<()> {

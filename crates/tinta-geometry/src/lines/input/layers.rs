@@ -10,7 +10,7 @@ use std::collections::HashMap;
 pub(super) type Side = ([u32; 2], i32);
 
 /// One layer of a region, while it is assembled.
-struct Layer<'a> {
+struct Covering<'a> {
     /// For each polygon its sides.
     sides: &'a [&'a [Side]],
     at_piece: HashMap<[u32; 2], Vec<(usize, i32)>>,
@@ -41,11 +41,11 @@ pub(super) fn one_layer(sides: &[&[Side]], flat: Vec<Vec<[DVec2; 3]>>, weld: f64
     let mut rim: Vec<Side> = at_piece.iter().map(|(piece, at_piece)| (*piece, balance(at_piece))).collect();
     rim.retain(|(_, side)| *side != 0);
     rim.sort_unstable();
-    let mut layer = Layer { sides, at_piece, flat, weld, kept: Vec::new(), tries: MOST_TRIES };
+    let mut layer = Covering { sides, at_piece, flat, weld, kept: Vec::new(), tries: MOST_TRIES };
     layer.fill(rim).then_some(layer.kept)
 }
 
-impl Layer<'_> {
+impl Covering<'_> {
     /// Adds polygons until each of these stretches has one on the given side, and each stretch of the added ones another on the
     /// other side. Adds nothing if there are no such polygons.
     fn fill(&mut self, mut open: Vec<Side>) -> bool {
