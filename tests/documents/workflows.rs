@@ -97,7 +97,7 @@ fn tests_that_are_left_out_by_name_run_at_night_or_have_an_exhaustive_twin() {
             assert_eq!(name.ends_with("_nightly"), is_nightly, "{name}");
             counts[0] += usize::from(is_nightly);
             if name.ends_with("_briefly") {
-                assert!(tests.iter().any(|test| is_exhaustive(test)), "{name} has no exhaustive twin in its file");
+                assert!(tests.iter().any(is_exhaustive), "{name} has no exhaustive twin in its file");
                 counts[1] += 1;
             }
         }
