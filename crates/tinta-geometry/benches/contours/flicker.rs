@@ -28,7 +28,7 @@ const FAR_EDGES: f64 = 4.0;
 /// Lines that come and go between two pictures, pixels of line.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Flicker {
-    /// DrawnView length of both pictures.
+    /// Drawn length of both pictures.
     pub drawn_px: f64,
     /// Length in only one picture, where a face or the border hides it in the other.
     pub explained_px: f64,
