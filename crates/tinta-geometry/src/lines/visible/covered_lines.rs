@@ -56,7 +56,7 @@ pub(in crate::lines) fn marked(
         }
         stretches.tree(progress)
     };
-    let lines = DrawnLines { segments: &segments, ranks: &ranks, images: &images, trees: [tree(true), tree(false)] };
+    let lines = LinesAbove { segments: &segments, ranks: &ranks, images: &images, trees: [tree(true), tree(false)] };
     let covered = in_chunks(segments.len(), CHUNK, cores(), |range| {
         let covered = |number: usize| match ranks[number] == Rank::Solid || progress.go_on_drawing().is_err() {
             true => Vec::new(),
@@ -94,14 +94,14 @@ fn image_of(space: &Space, segment: &LineSegment) -> Image {
 }
 
 /// Pieces with the trees of visible and of hidden ones.
-struct DrawnLines<'a> {
+struct LinesAbove<'a> {
     segments: &'a [LineSegment],
     ranks: &'a [Rank],
     images: &'a [Image],
     trees: [PieceTree; 2],
 }
 
-impl DrawnLines<'_> {
+impl LinesAbove<'_> {
     /// Returns the ranges of a line under lines that are drawn in its place, ascending.
     fn covered(&self, number: usize) -> Vec<[f64; 2]> {
         let image = &self.images[number];
