@@ -61,6 +61,7 @@ struct Pair<'a> {
     shared: Option<[usize; 2]>,
     /// The length of the shortest line.
     shortest: f64,
+    is_exact: bool,
     /// Each face's edge that lies in the other's plane.
     touching: [Option<[u32; 2]>; 2],
 }
@@ -127,6 +128,7 @@ impl FacePlane {
         let first = Sides::of(raw, shared.map(|[i, _]| i), contact * other.normal_length)?;
         // Where each only touches the other's plane, they have a line in common if both edges lie on one another.
         if let (Some(edge), Some(other_edge)) = (first.edge, second.edge)
+            && !self.is_exact
             && !lie_on_one_line(edge.map(|i| self.corners[i]), other_edge.map(|i| other.corners[i]), contact)
         {
             return None;
@@ -146,6 +148,7 @@ impl FacePlane {
             direction: face_planes[0].normal.cross(face_planes[1].normal),
             shared: if face_planes[0].place == self.place { shared } else { shared.map(|[i, j]| [j, i]) },
             shortest: contact,
+            is_exact: self.is_exact,
             touching,
         }
         .common()
@@ -166,6 +169,7 @@ impl FacePlane {
             direction: DVec3::ZERO,
             shared: None,
             shortest: contact,
+            is_exact: self.is_exact,
             touching: [None; 2],
         };
         let mut piercings = (0..3)
@@ -292,13 +296,16 @@ impl Pair<'_> {
     fn crossing(&self, face: usize, from: usize, to: usize) -> Option<Crossing> {
         let numbers = self.faces.triangles[self.places[face] as usize];
         // Two faces that share the side both get the same point, bit for bit.
-        let (from, to) = if numbers[from] < numbers[to] { (from, to) } else { (to, from) };
+        let (from, to) = if self.is_exact || numbers[from] < numbers[to] { (from, to) } else { (to, from) };
         let (start, end) = (self.distances[face][from], self.distances[face][to]);
         if (start < 0.0) == (end < 0.0) {
             return None;
         }
         let positions = [numbers[from], numbers[to]].map(|number| self.faces.positions[number as usize]);
-        let point = positions[0] + (positions[1] - positions[0]) * (start / (start - end));
+        let point = match self.is_exact && end == 0.0 {
+            true => positions[1],
+            false => positions[0] + (positions[1] - positions[0]) * (start / (start - end)),
+        };
         let piercing = Piercing { edge: [numbers[from], numbers[to]], point };
         Some(Crossing { along: point.dot(self.direction), piercing })
     }
