@@ -304,7 +304,8 @@ fn lines_tones_areas_and_sheets_are_saved_byte_for_byte_as_the_command_line_writ
                 shown(&mut viewer, []);
             }
             let message = saved(&mut viewer, ViewerEvent::SaveLines);
-            let (name, command) = message.strip_prefix("saved ").unwrap().split_once("; the same by ").unwrap();
+            let parts = message.strip_prefix("saved ").and_then(|message| message.split_once("; the same by "));
+            let (name, command) = parts.unwrap_or_else(|| panic!("{model} {number}: {message}"));
             let again = folder.path().join("again.svg");
             let command = command.replace(name, again.to_str().unwrap()).replace("tinta ", "exec \"$0\" ");
             let output = Command::new("sh").args(["-c", &command, env!("CARGO_BIN_EXE_tinta")]).output().unwrap();

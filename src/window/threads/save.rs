@@ -9,11 +9,11 @@ use crate::output::TextTarget;
 use crate::picture::{Picture, Target};
 use crate::preset::{OptionValue, Options, to_toml};
 use crate::recipe::{Driver, FileRecord};
-use crate::request::{DrawingFormat, Request, layers};
+use crate::request::{DrawingFormat, OptionLayer, Request};
 use crate::scene::{Scene, SceneSettings};
 use crate::settings::HasSettings;
 use crate::shell;
-use crate::styles::Show;
+use crate::styles::{Show, StyleName};
 use crate::window::threads::draw::Drawer;
 use crate::window::threads::exact;
 use crate::window::threads::job::Job;
@@ -67,12 +67,12 @@ pub(in crate::window) fn command(
 
 /// The request that draws what is shown of a side, into a file of this kind.
 fn request(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save, side: Side) -> Result<Request> {
-    let mut options = SceneSettings { camera: job.camera()?, ..job.settings.clone() }.to_options()?;
-    options.extend(surroundings.load.to_options()?);
-    match save {
-        Save::Lines => options.extend(state.style_of_drawing(side).to_options()?),
-        _ => options.extend(style_options(state, job, side)?),
-    }
+    let mut scene = SceneSettings { camera: job.camera()?, ..job.settings.clone() }.to_options()?;
+    scene.extend(surroundings.load.to_options()?);
+    let mut options = match save {
+        Save::Lines => state.style_of_drawing(side).to_options()?,
+        _ => style_options(state, job, side)?,
+    };
     if save == Save::Turn {
         options.insert("turntable".to_owned(), OptionValue::text(TURN.0.to_string()));
     }
@@ -81,7 +81,10 @@ fn request(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Sa
         // The file's name requests lines.
         options.remove("style");
     }
-    let (request, _) = Request::from_layers(&layers(None, Vec::new(), options, draws_lines))?;
+    let style = draws_lines.then_some(OptionLayer::Style(StyleName::Lines));
+    // A sheet has a framing of its own: the style's options beat the scene's.
+    let layers = style.into_iter().chain([OptionLayer::Given(scene), OptionLayer::Given(options)]);
+    let (request, _) = Request::from_layers(&layers.collect::<Vec<_>>())?;
     Ok(request.with_models(state.models.clone()))
 }
 
