@@ -176,7 +176,7 @@ const ROWS: &[Row] = &[
         &[("[", Nothing, Divide(-DIVIDE)), ("]", Nothing, Divide(DIVIDE))],
     ),
     row("Ctrl S", "save the picture that is shown (PNG)", &[("S", Ctrl, SavePicture)]),
-    row("Ctrl L", "save the drawing of this view (SVG)", &[("L", Ctrl, SaveLines)]),
+    row("Ctrl L", "save lines and tones of this view (SVG)", &[("L", Ctrl, SaveLines)]),
     window("Ctrl T", "save a turn around the model (GIF)", &[("T", Ctrl, SaveTurn)]),
     window("Ctrl P", "save style and settings (preset, TOML)", &[("P", Ctrl, SavePreset)]),
     window("drop a file", "show that model; a preset (.toml): its style and settings", &[]),

@@ -45,15 +45,6 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Returns a picture of GL's rows, bottom row first.
-    #[must_use]
-    pub fn from_bottom_up(size: Size, pixels: &[u8]) -> Self {
-        let row = size.width as usize * 4;
-        let mut rows = Vec::with_capacity(pixels.len());
-        pixels.chunks_exact(row).rev().for_each(|row| rows.extend_from_slice(row));
-        Self { size, pixels: rows }
-    }
-
     /// Returns the pixel in column `x` from the left and row `y` from the top, both clamped to the picture.
     pub fn pixel(&self, x: i64, y: i64) -> [u8; 4] {
         let x = x.clamp(0, i64::from(self.size.width) - 1) as usize;
@@ -377,12 +368,6 @@ mod tests {
     fn picture() -> Picture {
         let size = Size { width: 3, height: 2 };
         Picture { size, pixels: (0..24).collect() }
-    }
-
-    #[test]
-    fn gls_rows_are_turned_over() {
-        let bottom_up: Vec<u8> = (12..24).chain(0..12).collect();
-        assert_eq!(Picture::from_bottom_up(picture().size, &bottom_up), picture());
     }
 
     #[test]

@@ -27,7 +27,7 @@ fn drawn(context: &Context, scene: &Scene, plan: &Plan, has_pipeline: bool) -> P
     resources.read_framebuffer(Tile::whole(SIZE).drawn, &mut pixels);
     resources.check("a test").unwrap();
     resources.clear();
-    Picture::from_bottom_up(SIZE, &pixels)
+    Picture { size: SIZE, pixels }
 }
 
 /// The model, options, and how many pixels drawn in both ways differ by more than each of these many of 255.
