@@ -22,8 +22,8 @@ pub(crate) struct Lines {
     pub(crate) lines: Arc<VisibleLines>,
     pub scene: Arc<Scene>,
     pub asked: Asked,
-    /// All pieces, hidden ones and outlines too, on first access.
-    all: OnceLock<Arc<VisibleLines>>,
+    /// The drawing with all pieces, hidden ones and outlines too, on first access.
+    all: OnceLock<Arc<DrawnLines>>,
 }
 
 /// Finds the lines of meshes together.
@@ -81,13 +81,13 @@ impl Lines {
 
     /// All pieces, as arrays and JSON have them: hidden ones too, those of the outline marked; short ones unless the drawing has
     /// a least length.
-    fn everything(&self, py: Python<'_>) -> PyResult<Arc<VisibleLines>> {
+    fn everything(&self, py: Python<'_>) -> PyResult<Arc<DrawnLines>> {
         if let Some(all) = self.all.get() {
             return Ok(all.clone());
         }
         let wanted = DrawingFormat::Json.wanted(false);
         let all = self.with_lines(py, self.asked.clone(), wanted, move |Found { asked, scene, lines, progress }| {
-            asked.request.drawing((*scene).clone(), lines, wanted, progress).map(|drawn| drawn.lines)
+            asked.request.drawing((*scene).clone(), lines, wanted, progress).map(Arc::new)
         })?;
         // Another thread may have been here first: then both keep its result.
         Ok(self.all.get_or_init(|| all).clone())
@@ -165,7 +165,7 @@ impl Lines {
     /// Every column of the pieces as an array, under its name.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = self.everything(py)?;
-        let of = &all.segments;
+        let of = &all.lines.segments;
         let arrays = PyDict::new(py);
         let numbers: Vec<f64> = of.iter().flat_map(|piece| piece.ends_px).flat_map(|end| end.to_array()).collect();
         arrays.set_item("segments", shaped(py, numbers, &[of.len(), 2, 2])?)?;
@@ -200,24 +200,19 @@ impl Lines {
         title: Option<String>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let format = format_named(format);
-        if format == DrawingFormat::Picture && self.asked.request.vectors().map_err(raised)?.is_some() {
-            let problem = "pixels and layers are of lines alone; leave it out, or write a .svg";
-            return Err(raised(Error::setting("areas", problem)));
-        }
-        self.written(py, (given, title), format, |_| Ok(()))
+        self.written(py, (given, title), format, move |drawn| match format {
+            DrawingFormat::Picture if drawn.areas.is_some() => {
+                Err(Error::setting("areas", "pixels and layers are of lines alone; leave it out, or write a .svg"))
+            }
+            _ => Ok(()),
+        })
     }
 
     /// The JSON file's text: all pieces and the camera.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
         self.one_view()?;
-        let (all, scene, request) = (self.everything(py)?, self.scene.clone(), self.asked.request.clone());
-        let progress = Arc::new(Progress::default());
-        let watched = progress.clone();
-        let written = move || {
-            let drawn = request.drawing((*scene).clone(), all, DrawingFormat::Json.wanted(false), &watched)?;
-            drawn.written(DrawingFormat::Json, None, None)?.bytes()
-        };
-        let bytes = done(py, || progress.cancel(), written)?;
+        let all = self.everything(py)?;
+        let bytes = done(py, || (), move || all.written(DrawingFormat::Json, None, None)?.bytes())?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
@@ -279,7 +274,7 @@ impl Lines {
             described.set_item("object", label.object)?;
             Ok(described)
         };
-        self.everything(py)?.labels.iter().map(described).collect()
+        self.everything(py)?.lines.labels.iter().map(described).collect()
     }
 
     /// The camera: eye, target, up, and either fov in degrees or height in the mesh's units.
