@@ -26,11 +26,11 @@ mod layers;
 mod model_cache;
 mod session;
 
-pub use draw::{Drawn, DrawnPicture, ReadModels, Times};
+pub use draw::{Drawn, DrawnPicture, ReadModels, Times, drawn_under};
 pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
 pub use format::{DrawingFormat, Wanted};
-pub use layers::{OF_PAPER, OptionLayer, ignored_remark, layers, pixels_on_paper};
+pub use layers::{OF_PAPER, OF_PATHS, OptionLayer, ignored_remark, layers, pixels_on_paper};
 pub use model_cache::{Model, ModelCache};
 pub use session::Session;
 
@@ -63,6 +63,8 @@ pub struct Request {
     pub style: Style,
     /// The style's picture to draw. Default the finished one.
     pub show: Show,
+    /// Whether the view's exact lines are drawn over the picture, in place of the style's own borders. Default no.
+    pub exact_lines: bool,
     /// The views or frames to draw.
     pub animation: AnimationSettings,
     /// The way to OpenGL. Default the first that works.
@@ -170,6 +172,13 @@ fn settings() -> Vec<Setting<Request>> {
          charcoal and sand only final, diffuse, cem, cet, paper",
         |request: &mut Request| &mut request.show,
     );
+    let exact_lines = Setting::flag(
+        "exact-lines",
+        "Draw the view's exact visible lines over the picture, in place of the borders that --no-borders leaves out",
+        |request: &Request| request.exact_lines,
+        |request, is_on| request.exact_lines = is_on,
+    )
+    .labelled("exact lines");
     let scene = || within(SceneSettings::settings(), |request: &mut Request| Some(&mut request.scene));
     let of_camera = |setting: &Setting<Request>| setting.heading == camera::HEADING;
     let read = within(LoadOptions::settings(), |request: &mut Request| Some(&mut request.read));
@@ -178,7 +187,7 @@ fn settings() -> Vec<Setting<Request>> {
         .into_iter()
         .chain(scene().filter(|setting| !of_camera(setting)))
         .chain(scene().filter(of_camera))
-        .chain(under("All styles", vec![show]))
+        .chain(under("All styles", vec![show, exact_lines]))
         .chain(styles)
         .chain(read)
         .chain(under(ANIMATION, of_animation()))
@@ -284,6 +293,7 @@ impl Request {
             scene: SceneSettings::default(),
             style: Style::named(style),
             show: Show::default(),
+            exact_lines: false,
             animation: AnimationSettings::default(),
             backend: Backend::default(),
             glsl: None,

@@ -57,7 +57,7 @@ pub use charcoal::{
 };
 pub use coarse::coarse;
 pub use dietrich::Dietrich;
-pub use ignored::{is_ignored, is_of_lines_alone, is_of_vectors};
+pub use ignored::{is_ignored, is_of_exact_lines, is_of_lines_alone, is_of_vectors};
 pub use ink::{CreaseBy, Ink, Quality};
 pub use inking::{Inking, LightOn, PaintMode};
 pub use line_style::LineStyle;

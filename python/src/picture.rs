@@ -12,6 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::path::PathBuf;
 use std::str::FromStr;
+use tinta::lines::Progress;
 use tinta::picture::Note;
 use tinta::recipe::KEYWORD;
 use tinta::settings::Options;
@@ -45,8 +46,8 @@ pub(crate) fn render(
     warn(py, &ignored(given, asked.request.style.name())?)?;
     let scene = drawable(py, meshes, &asked.request.scene)?;
     let (picture, recipe, remarks) = drawn(py, asked.request.backend, move |renderer| {
-        let published = asked.request.style.plan(&scene, asked.request.show)?;
-        let drawn = asked.request.drawn_picture(scene, published, renderer)?;
+        let (published, strokes) = (asked.request.plan(&scene)?, asked.request.strokes_over(&scene, &Progress::default())?);
+        let drawn = asked.request.drawn_picture(scene, published, strokes, renderer)?;
         let recipe = asked.recipe(&drawn.scene, Some(renderer.context()));
         Ok((drawn.picture, recipe.as_ref().and_then(Recipe::json), drawn.remarks))
     })?;

@@ -196,7 +196,7 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
         }
     }
     let verdict = match run.verify {
-        true => prune::verify(output, renderer, scene, published, picture)?,
+        true => prune::verify(output, renderer, scene, (published, &drawn.strokes), picture)?,
         false => Verdict::Good,
     };
     if run.is_told() {
@@ -209,7 +209,7 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
 fn tell(rendering: &Rendering<'_>, drawn: DrawnPicture, renderer: &mut Renderer) -> Result<()> {
     let Rendering { request, run, .. } = *rendering;
     let DrawnPicture { scene, published, plan, omissions, kept, remarks, times: first, .. } = drawn;
-    let Times { load_ms, stages, arrays_ms, plan_ms, context_ms, warm_up_ms, first_frame_ms } = first;
+    let Times { load_ms, stages, arrays_ms, plan_ms, lines_ms, context_ms, warm_up_ms, first_frame_ms } = first;
     let frames = run.frames as usize;
     let times = Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, frames)?);
     let passes = renderer.time_passes(&scene, &plan, frames.min(PASS_FRAMES))?;
@@ -222,6 +222,7 @@ fn tell(rendering: &Rendering<'_>, drawn: DrawnPicture, renderer: &mut Renderer)
             stages.iter().map(|(stage, ms)| (stage.name(), *ms)).collect(),
             vec![
                 ("vertex arrays", arrays_ms),
+                ("exact lines", lines_ms),
                 ("context", context_ms),
                 ("shaders, meanwhile", warm_up_ms.unwrap_or_default()),
                 ("plan and pruning", plan_ms),

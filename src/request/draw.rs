@@ -6,7 +6,7 @@ use super::{ModelCache, Request, Session, Wanted, ignored_remark};
 use crate::clock::Instant;
 use crate::error::{Error, Result};
 use crate::glsl;
-use crate::lines::Progress;
+use crate::lines::{Progress, Strokes, lay_strokes};
 use crate::mesh::{LoadStage, Mesh};
 use crate::picture::Picture;
 use crate::plan::Plan;
@@ -44,6 +44,8 @@ pub struct DrawnPicture {
     pub kept: Vec<Kept>,
     /// Remarks for the user, a sentence each.
     pub remarks: Vec<String>,
+    /// The strokes of exact lines that lie over what the plan draws.
+    pub strokes: Vec<Strokes>,
     /// The picture.
     pub picture: Picture,
     /// How long it took.
@@ -61,6 +63,8 @@ pub struct Times {
     pub arrays_ms: f64,
     /// Plan and pruning.
     pub plan_ms: f64,
+    /// Exact lines over the picture.
+    pub lines_ms: f64,
     /// Opening the context; 0 if it was open.
     pub context_ms: f64,
     /// Drawing one triangle meanwhile; `None` where the models were read before.
@@ -82,11 +86,23 @@ pub struct ReadModels {
     pub ms: f64,
 }
 
-/// A scene ready to draw, with its plan.
+/// Carries out a plan, and lays strokes over its picture.
+///
+/// # Errors
+///
+/// As [`Renderer::draw`].
+pub fn drawn_under(strokes: &[Strokes], scene: &Scene, plan: &Plan, renderer: &mut Renderer) -> Result<Picture> {
+    let mut picture = renderer.draw(scene, plan)?;
+    lay_strokes(strokes, picture.size, &mut picture.pixels);
+    Ok(picture)
+}
+
+/// A scene ready to draw, with its plan and the exact lines over it.
 struct Planned {
     scene: Scene,
     files: Vec<PathBuf>,
     published: Plan,
+    strokes: Vec<Strokes>,
     times: Times,
 }
 
@@ -136,7 +152,7 @@ impl Request {
     ///
     /// Those of [`crate::Style::plan`] and [`Renderer::choose_context`].
     pub fn plans(&self, scene: &Scene, renderer: &mut Renderer) -> Result<(Plan, Pruned)> {
-        let published = self.style.plan(scene, self.show)?;
+        let published = self.plan(scene)?;
         let pruned = self.pruned(&published, scene, renderer)?;
         Ok((published, pruned))
     }
@@ -154,10 +170,11 @@ impl Request {
     ///
     /// # Errors
     ///
-    /// Those of [`Request::plans`] and [`Renderer::draw`].
+    /// Those of [`Request::plans`], [`Request::strokes_over`] and [`Renderer::draw`].
     pub fn picture_of(&self, scene: &Scene, renderer: &mut Renderer) -> Result<Picture> {
         let (_, Pruned { plan, .. }) = self.plans(scene, renderer)?;
-        renderer.draw(scene, &plan)
+        let strokes = self.strokes_over(scene, &Progress::default())?;
+        drawn_under(&strokes, scene, &plan, renderer)
     }
 
     /// The shaders to draw with instead of those built in, by their paths.
@@ -208,33 +225,44 @@ impl Request {
 
     fn picture(&self, session: &mut Session) -> Result<DrawnPicture> {
         let (mut times, loaded) = self.ready(session);
-        let Planned { scene, files, published, times: of_loading } = loaded?;
+        let Planned { scene, files, published, strokes, times: of_loading } = loaded?;
         let renderer = self.renderer(session)?;
-        let drawn = self.drawn_picture(scene, published, renderer)?;
-        let Times { load_ms, stages, arrays_ms, .. } = of_loading;
+        let drawn = self.drawn_picture(scene, published, strokes, renderer)?;
+        let Times { load_ms, stages, arrays_ms, lines_ms, .. } = of_loading;
         times.plan_ms = of_loading.plan_ms + drawn.times.plan_ms;
-        let times = Times { load_ms, stages, arrays_ms, first_frame_ms: drawn.times.first_frame_ms, ..times };
+        let times = Times { load_ms, stages, arrays_ms, lines_ms, first_frame_ms: drawn.times.first_frame_ms, ..times };
         Ok(DrawnPicture { files, times, ..drawn })
     }
 
-    /// Draws a scene's plan, pruned of everything that cannot change the picture.
+    /// Draws a scene's plan, pruned of everything that cannot change the picture, and strokes of exact lines over it.
     ///
     /// # Errors
     ///
     /// Those of [`Request::plans`] and [`Renderer::draw`].
-    pub fn drawn_picture(&self, scene: Scene, published: Plan, renderer: &mut Renderer) -> Result<DrawnPicture> {
+    pub fn drawn_picture(
+        &self,
+        scene: Scene,
+        published: Plan,
+        strokes: Vec<Strokes>,
+        renderer: &mut Renderer,
+    ) -> Result<DrawnPicture> {
         let mut times = Times::default();
         let start = Instant::now();
         let Pruned { plan, omissions, kept } = self.pruned(&published, &scene, renderer)?;
         times.plan_ms = milliseconds_since(start);
-        let of_vectors = self.options.keys().filter(|option| is_of_vectors(option, self.style.style_name()));
+        let has_no_effect = |option: &&String| {
+            let is_drawn = self.has_lines_over() || self.is_of_look(option);
+            !is_drawn && is_of_vectors(option, self.style.style_name())
+        };
+        let of_vectors = self.options.keys().filter(has_no_effect);
         let ignored = ignored_remark(of_vectors.map(String::as_str), &[self.style.name()]);
         let mut remarks = [self.style.remarks(&scene), renderer.remarks(&plan), ignored.into_iter().collect()].concat();
         let start = Instant::now();
-        let picture = renderer.draw(&scene, &plan)?;
+        let mut picture = renderer.draw(&scene, &plan)?;
         times.first_frame_ms = milliseconds_since(start);
         remarks.extend(empty_remark(&scene, &published, &picture, renderer)?);
-        Ok(DrawnPicture { scene, files: Vec::new(), published, plan, omissions, kept, remarks, picture, times })
+        lay_strokes(&strokes, picture.size, &mut picture.pixels);
+        Ok(DrawnPicture { scene, files: Vec::new(), published, plan, omissions, kept, remarks, strokes, picture, times })
     }
 
     /// Reads the models and gets a renderer ready meanwhile, unless the session has one.
@@ -278,7 +306,7 @@ impl Request {
         if !models_are_read() {
             let start = Instant::now();
             let pruning = self.pruning.pruning(&renderer);
-            renderer.warm_up(&self.scene, &self.style, self.show, pruning.as_ref())?;
+            renderer.warm_up(&self.scene, &self.style_in_passes()?, self.show, pruning.as_ref())?;
             times.warm_up_ms = Some(milliseconds_since(start));
         }
         Ok((renderer, times))
@@ -292,8 +320,12 @@ impl Request {
         scene.make_arrays();
         let arrays_ms = milliseconds_since(start);
         let start = Instant::now();
-        let published = Plan { submission, ..self.style.plan(&scene, self.show)? };
-        let times = Times { load_ms, stages, arrays_ms, plan_ms: milliseconds_since(start), ..Times::default() };
-        Ok(Planned { scene, files, published, times })
+        let published = Plan { submission, ..self.plan(&scene)? };
+        let plan_ms = milliseconds_since(start);
+        let start = Instant::now();
+        let strokes = self.strokes_over(&scene, &Progress::default())?;
+        let lines_ms = milliseconds_since(start);
+        let times = Times { load_ms, stages, arrays_ms, plan_ms, lines_ms, ..Times::default() };
+        Ok(Planned { scene, files, published, strokes, times })
     }
 }

@@ -7,16 +7,17 @@ use super::{DrawingFormat, Request, Wanted};
 use crate::edges::SilhouetteRule;
 use crate::error::{Error, Result};
 use crate::lines::{
-    DrawingSettings, Hidden, LinePath, LineSettings, Progress, Raster, VisibleLines, chain, dxf_of_paths,
-    raster_of_paths, svg_of_paths,
+    DrawingSettings, Hidden, LinePath, LineSettings, Progress, Raster, Strokes, VisibleLines, chain, dxf_of_paths,
+    raster_of_paths, strokes_of_paths, svg_of_paths,
 };
 use crate::output::TextTarget;
 use crate::picture::{Note, Picture, Target};
+use crate::plan::Plan;
 use crate::recipe::Recipe;
 use crate::record::drawing_json;
 use crate::scene::{Scene, Unseen};
-use crate::settings::HasSettings;
-use crate::styles::{LineStyle, Vectors, ViewAreas};
+use crate::settings::{HasSettings, OptionValue, Options};
+use crate::styles::{LineStyle, Show, Style, Vectors, ViewAreas};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -81,6 +82,15 @@ impl DrawnLines {
         let shows_hidden = |look: u32| self.lines.drawing(look, &self.style.drawing).hidden != Hidden::None;
         paths.retain(|path| path.is_visible || shows_hidden(path.look));
         paths
+    }
+
+    /// The strokes that lie over a picture of the same view.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`strokes_of_paths`].
+    pub fn strokes(&self) -> Result<Vec<Strokes>> {
+        strokes_of_paths(&self.lines, self.paths(), None, &self.style.drawing)
     }
 
     /// Writes these paths of the drawing, or its own, into a file of this format. The recipe's command has a fixed name for the
@@ -153,8 +163,49 @@ impl Request {
         Ok(vectors)
     }
 
+    /// Whether the view's exact lines lie over the picture that the style draws in passes. `--no-borders` leaves them out, too.
+    pub fn has_lines_over(&self) -> bool {
+        let leaves_lines_out = self.style.style_name().has_lines() && !self.style.has_lines();
+        self.exact_lines && self.show == Show::Final && self.style.lines().is_none() && !leaves_lines_out
+    }
+
+    /// The style that OpenGL draws: without its own borders, where it can leave them out, if exact lines replace them.
+    ///
+    /// # Errors
+    ///
+    /// Those of the settings.
+    pub fn style_in_passes(&self) -> Result<Style> {
+        let mut style = self.style.clone();
+        if self.has_lines_over() {
+            let without = Options::from([("no-borders".to_owned(), OptionValue::Switch(true))]);
+            Style::table().apply(&mut style, &without)?;
+        }
+        Ok(style)
+    }
+
+    /// The plan of the picture.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Style::plan`].
+    pub fn plan(&self, scene: &Scene) -> Result<Plan> {
+        self.style_in_passes()?.plan(scene, self.show)
+    }
+
+    /// The strokes of the exact lines over a picture of the scene; none without such lines.
+    ///
+    /// # Errors
+    ///
+    /// As [`Request::drawing`].
+    pub fn strokes_over(&self, scene: &Scene, progress: &Progress) -> Result<Vec<Strokes>> {
+        match self.has_lines_over() {
+            true => self.drawn_lines(scene.clone(), Wanted::default(), progress)?.strokes(),
+            false => Ok(Vec::new()),
+        }
+    }
+
     /// How lines are drawn: the style's way, on the scene's background, with the request's title. `None` for a style without
-    /// vectors.
+    /// vectors or exact lines over its picture.
     ///
     /// # Errors
     ///
@@ -167,12 +218,23 @@ impl Request {
         };
         let style = match self.style.lines() {
             Some(style) => Some(style),
-            None => self.vectors()?.map(of_vectors),
+            None => match self.vectors()? {
+                None if self.has_lines_over() => Some(self.lines_of_options()?),
+                vectors => vectors.map(of_vectors),
+            },
         };
         Ok(style.map(|mut style| {
             (style.drawing.title, style.drawing.background) = (self.title(), self.scene.background);
             style
         }))
+    }
+
+    /// Exact lines by the request's options alone, for a style that says nothing of them.
+    fn lines_of_options(&self) -> Result<LineStyle> {
+        let mut style = LineStyle::default();
+        LineSettings::table().apply(&mut style.lines, &self.options)?;
+        DrawingSettings::table().apply(&mut style.drawing, &self.options)?;
+        Ok(style)
     }
 
     /// The lines to find, and the style that they are drawn in.
@@ -241,7 +303,8 @@ impl Request {
         };
         let mut remarks = scene.crack_remarks();
         remarks.extend(scene.far_remark());
-        let vectors = self.vectors()?;
+        // Over a picture of pixels no areas are wanted.
+        let vectors = if wanted.areas || self.style.lines().is_some() { self.vectors()? } else { None };
         let areas = vectors.as_ref().map(|vectors| vectors.areas(&scene, &lines, progress)).transpose()?;
         remarks.extend(vectors.into_iter().flat_map(|vectors| vectors.remarks(&scene)));
         let has_areas = areas.as_ref().is_some_and(|areas| areas.drawn.corners_px.is_some());

@@ -8,7 +8,7 @@ use crate::lines::DrawingSettings;
 use crate::preset::{LOOKS, Look, Preset};
 use crate::scene::SceneSettings;
 use crate::settings::{EXCLUSIVE, HasSettings, OptionValue, Options, refuse_exclusive};
-use crate::styles::{StyleName, is_ignored, is_of_lines_alone, is_of_vectors};
+use crate::styles::{StyleName, is_ignored, is_of_exact_lines, is_of_lines_alone, is_of_vectors};
 
 /// Where options come from.
 #[derive(Debug, Clone)]
@@ -132,12 +132,15 @@ impl Request {
         let otherwise =
             layers.iter().find_map(|layer| if let OptionLayer::Style(style) = layer { Some(*style) } else { None });
         let style: StyleName = named.or(otherwise).unwrap_or(StyleName::ThreePass);
+        let exact_lines = read.iter().rev().find_map(|read| read.options.get("exact-lines"));
+        let has_exact_lines = exact_lines.is_some_and(|value| !is_off(value));
+        let is_of_lines = |name: &str| is_of_vectors(name, style) || has_exact_lines && is_of_exact_lines(name);
         let mut request = Self::of_style(style);
         let mut has_camera = false;
         for (layer, read) in layers.iter().zip(&read).rev() {
             let above = request.options.clone();
             for (name, value) in &read.options {
-                let is_of_another = read.is_look && is_ignored(name, &[style.name()]);
+                let is_of_another = read.is_look && is_ignored(name, &[style.name()]) && !is_of_lines(name);
                 let is_beaten =
                     above.contains_key(name) || is_excluded(name, &above) || has_camera && is_of_camera(name);
                 if is_beaten || is_of_another {
@@ -152,24 +155,25 @@ impl Request {
             has_camera |= matches!(layer, OptionLayer::Camera(_));
         }
         request.options.retain(|_, value| !is_off(value));
-        request.refuse_of_lines(|option| !is_of_vectors(option, style)).map_err(|error| request.attributed(error))?;
+        request.refuse_of_lines(|option| !is_of_lines(option)).map_err(|error| request.attributed(error))?;
         let options = request.options.clone();
         Self::table().apply(&mut request, &options).map_err(|error| request.attributed(error))?;
         let given = layers
             .iter()
             .filter_map(|layer| if let OptionLayer::Given(options) = layer { Some(options) } else { None });
         let given = given.flat_map(Options::keys).map(String::as_str);
-        let remark = ignored_remark(given.filter(|option| !is_of_vectors(option, style)), &[style.name()]);
+        let remark = ignored_remark(given.filter(|option| !is_of_lines(option)), &[style.name()]);
         Ok((request, remark.into_iter().collect()))
     }
 
-    /// Refuses the options that a style of passes has as vectors alone, for a picture.
+    /// Refuses the options, other than a look's, that a style of passes has as vectors alone, for a picture.
     ///
     /// # Errors
     ///
     /// [`Error::Setting`] with the option.
     pub fn refuse_vectors_options(&self) -> Result<()> {
-        self.refuse_of_lines(|_| true)
+        let is_drawn = |option: &str| self.has_lines_over() && is_of_exact_lines(option) && !is_of_files(option);
+        self.refuse_of_lines(|option| !self.is_of_look(option) && !is_drawn(option))
     }
 
     /// Refuses those of the options of exact lines alone that `is_refused` names, unless the style draws exact lines.
@@ -185,6 +189,9 @@ impl Request {
             false if has_vectors && !is_of_vectors(option, self.style.style_name()) => {
                 "drawings of lines alone have it; leave it out, or choose --look technical or --style lines".to_owned()
             }
+            false if is_of_exact_lines(option) && !is_of_files(option) => {
+                "exact lines have it; leave it out, add --exact-lines, or write a .svg or .pdf".to_owned()
+            }
             false => "a picture of pixels cannot have it; leave it out, or write a .svg or .pdf".to_owned(),
         };
         Err(Error::setting(option.clone(), problem))
@@ -199,6 +206,14 @@ impl Request {
         Ok(Self::from_layers(&[OptionLayer::Given(options.clone())])?.0)
     }
 }
+
+/// Whether an option of drawings is about paths in a file, of which pixels have none.
+fn is_of_files(option: &str) -> bool {
+    OF_PATHS.contains(&option) || OF_PAPER.contains(&option)
+}
+
+/// The options that are about paths in a file.
+pub const OF_PATHS: [&str; 5] = ["provenance", "pen", "fit-curves", "hatch", "hatch-angle"];
 
 /// The options that are about paper.
 pub const OF_PAPER: [&str; 4] = ["page", "width-mm", "dpi", "margin"];

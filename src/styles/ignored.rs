@@ -23,11 +23,15 @@ pub fn is_of_lines_alone(option: &str) -> bool {
     Style::table().has(option) && !of_passes
 }
 
+/// Whether this is an option of exact lines or of their drawing.
+pub fn is_of_exact_lines(option: &str) -> bool {
+    DrawingSettings::table().has(option) || LineSettings::table().has(option)
+}
+
 /// Whether this is an option of exact lines or of their drawing that the style, which OpenGL draws in passes, has as vectors too.
 pub fn is_of_vectors(option: &str, style: StyleName) -> bool {
     let has_vectors = || Style::named(style).vectors(SceneSettings::default().size).is_some();
-    let is_of_them = DrawingSettings::table().has(option) || LineSettings::table().has(option);
-    is_of_them && !style_has(style, option) && has_vectors()
+    is_of_exact_lines(option) && !style_has(style, option) && has_vectors()
 }
 
 fn style_has(style: StyleName, option: &str) -> bool {

@@ -100,7 +100,7 @@ impl Pane {
     /// Those of [`Pane::draw`].
     pub fn passes(&self, options: &str, show: &str) -> Result<String, JsError> {
         let request = picture_asked(options, show)?;
-        let plan = request.style.plan(&self.seen(&request)?, request.show).map_err(said)?;
+        let plan = request.plan(&self.seen(&request)?).map_err(said)?;
         let passes: Vec<_> = plan
             .passes
             .iter()

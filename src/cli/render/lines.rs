@@ -14,7 +14,7 @@ use tinta::lines::{chain, strokes_of_paths};
 use tinta::picture::PictureFormat;
 use tinta::record::{LineCounts, LinesMade, Made, Record};
 use tinta::renderer::milliseconds_since;
-use tinta::request::{DrawingFormat, Drawn, DrawnLines, OF_PAPER, Session, pixels_on_paper};
+use tinta::request::{DrawingFormat, Drawn, DrawnLines, OF_PAPER, OF_PATHS, Session, pixels_on_paper};
 use tinta::settings::HasSettings;
 use tinta::styles::is_of_lines_alone;
 use tinta::{DrawingSettings, Error, Result, Show, Target, TextTarget};
@@ -163,7 +163,7 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: DrawingFormat) 
         }
         DrawingFormat::Picture => {
             let problem = "a picture has pixels and no paths; leave it out, or write a .svg";
-            refuse(&["provenance", "pen", "fit-curves"], problem)?;
+            refuse(&OF_PATHS, problem)?;
             refuse(&["areas"], "a picture of exact lines has no areas; leave it out, or write a .svg")?;
             refuse(&OF_PAPER, &pixels_on_paper(&request.options))
         }

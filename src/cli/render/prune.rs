@@ -4,7 +4,9 @@ use super::super::Verdict;
 use std::path::{Path, PathBuf};
 use tinta::plan::Plan;
 use tinta::plan::prune::{Omission, Pruned, Pruning, prune};
+use tinta::lines::Strokes;
 use tinta::renderer::median;
+use tinta::request::drawn_under;
 use tinta::{Picture, Renderer, Result, Scene, Target};
 
 /// Least rounds that time an omission.
@@ -18,10 +20,10 @@ pub(super) fn verify(
     output: &str,
     renderer: &mut Renderer,
     scene: &Scene,
-    published: &Plan,
+    (published, strokes): (&Plan, &[Strokes]),
     picture: &Picture,
 ) -> Result<Verdict> {
-    let full = renderer.draw(scene, published)?;
+    let full = drawn_under(strokes, scene, published, renderer)?;
     let path = difference_path(output);
     if full.pixels == picture.pixels {
         // A file from an earlier run would be out of date.

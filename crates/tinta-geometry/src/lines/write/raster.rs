@@ -56,6 +56,12 @@ pub fn raster_of_strokes(strokes: &[Strokes], size: Size, background: Background
         Background::Transparent => [0; 4],
     };
     let mut pixels = pixel.repeat(size.pixel_count());
+    lay_strokes(strokes, size, &mut pixels);
+    Raster { size, pixels }
+}
+
+/// Lays strokes over a picture of this size, from the lowest layer to the highest.
+pub fn lay_strokes(strokes: &[Strokes], size: Size, pixels: &mut [u8]) {
     let mut cover = Cover::new(size);
     for layer in strokes {
         for Polyline { points_px, is_closed } in &layer.polylines {
@@ -63,9 +69,8 @@ pub fn raster_of_strokes(strokes: &[Strokes], size: Size, background: Background
             let pairs = points_px.windows(2).map(|pair| (&pair[0], &pair[1])).chain(closing);
             pairs.for_each(|(a, b)| cover.line([*a, *b], layer.width_px));
         }
-        cover.blend_into(&mut pixels, layer.color, layer.opacity);
+        cover.blend_into(pixels, layer.color, layer.opacity);
     }
-    Raster { size, pixels }
 }
 
 fn byte(channel: f32) -> u8 {
