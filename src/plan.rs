@@ -35,7 +35,7 @@ pub use check::Flaw;
 pub use facts::{Facts, Shorter, WhereEven};
 pub use program::{PlanPicture, Program, Sampling, Texture, Uniform, Value};
 pub use submission::Submission;
-pub(crate) use target::DEPTH_COPIES;
+pub(crate) use target::DEPTH_COPY;
 pub use target::{Attachment, Attachments, Format, SettingValue, Target, TextureName};
 pub use tiles::{Tile, TileLimits};
 

@@ -43,6 +43,9 @@ pub struct Record {
     pub triangles: usize,
     /// The style with every setting.
     pub style: Style,
+    /// The exact lines over its picture or areas, with every setting.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exact_lines: Option<Style>,
     /// The picture's size.
     pub size: Size,
     /// The background behind the objects.

@@ -30,7 +30,7 @@ pub use draw::{Drawn, DrawnPicture, ReadModels, Times, drawn_under};
 pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
 pub use format::{DrawingFormat, Wanted};
-pub use layers::{OF_PAPER, OF_PATHS, OptionLayer, ignored_remark, layers, pixels_on_paper};
+pub use layers::{OF_PAPER, OF_PATHS, OptionLayer, ignored_remark, layers, pixels_on_paper, unknown};
 pub use model_cache::{Model, ModelCache};
 pub use session::Session;
 
@@ -162,7 +162,7 @@ fn settings() -> Vec<Setting<Request>> {
             Ok(())
         },
     )
-    .said("three-pass; into .svg, .pdf, .dxf and .json: lines")
+    .said("three-pass; into .dxf and .json: lines")
     .common()
     .first();
     let show = Setting::field(
@@ -173,7 +173,7 @@ fn settings() -> Vec<Setting<Request>> {
         |request: &mut Request| &mut request.show,
     );
     let exact_lines = Setting::flag(
-        "exact-lines",
+        EXACT_LINES,
         "Draw the view's exact visible lines over the picture, in place of the borders that --no-borders leaves out",
         |request: &Request| request.exact_lines,
         |request, is_on| request.exact_lines = is_on,
@@ -195,6 +195,9 @@ fn settings() -> Vec<Setting<Request>> {
         .chain(under("Running", vec![backend(), glsl()]))
         .collect()
 }
+
+/// The option of exact lines over a picture.
+pub const EXACT_LINES: &str = "exact-lines";
 
 /// The help of `--style`.
 fn style_help() -> &'static str {

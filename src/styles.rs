@@ -58,7 +58,7 @@ pub use charcoal::{
 pub use coarse::coarse;
 pub use dietrich::Dietrich;
 pub use ignored::{is_ignored, is_of_exact_lines, is_of_lines_alone, is_of_vectors};
-pub use ink::{CreaseBy, Ink, Quality};
+pub use ink::{Ink, Quality};
 pub use inking::{Inking, LightOn, PaintMode};
 pub use line_style::LineStyle;
 pub use line_width::LineWidth;
@@ -252,6 +252,17 @@ impl Style {
         let mut style = Self::named(name);
         Self::table().apply(&mut style, options)?;
         Ok(style)
+    }
+
+    /// The style without the borders that it can leave out.
+    ///
+    /// # Errors
+    ///
+    /// Those of the settings.
+    pub fn without_borders(&self) -> Result<Self> {
+        let mut style = self.clone();
+        let without = Options::from([("no-borders".to_owned(), OptionValue::Switch(true))]);
+        Self::table().apply(&mut style, &without).map(|()| style)
     }
 
     /// Returns the options that make this style with these settings: its name, and every setting that differs from the default.

@@ -45,5 +45,4 @@ pub use values::compose::composed;
 pub use values::controls::SCENE_SETTINGS;
 pub use values::event::{Effect, Layout, Save, Side, ViewerEvent};
 pub use values::line_style::LinesShown;
-pub use values::paint::{over, painted};
 pub use values::state::{Content, Pane, ViewerState};

@@ -151,6 +151,7 @@ fn check_switches(at_once: usize, looks: usize) {
                 orbit: Orbit::default(),
                 settings: settings.clone(),
                 drawings: vec![(Side::Left, styles[number % styles.len()].clone(), Show::Final)],
+                lines_over: [None, None],
                 is_coarse: false,
             };
             drawer.draw(&job).unwrap();

@@ -8,9 +8,9 @@ use super::{Verdict, say};
 use crate::files::shown;
 use std::path::{Path, PathBuf};
 use tinta::limits::PICTURE_BYTES;
-use tinta::request::{DrawingFormat, OptionLayer, Request};
+use tinta::request::{OptionLayer, Request, unknown};
 use tinta::settings::HasSettings;
-use tinta::{Backend, Error, Picture, Recipe, Result, Size, StyleName};
+use tinta::{Backend, Error, Picture, Recipe, Result, Size};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -177,10 +177,13 @@ impl Redrawing<'_> {
             return Err(refuse("its recipe names no model; it is not drawn".to_owned()));
         }
         for name in recipe.options.keys() {
-            if is_of_one_run(name) || !Request::table().has(name) {
+            if is_of_one_run(name) {
                 return Err(refuse(format!(
                     "its recipe has the option {name}, which does not describe a picture; it is not drawn"
                 )));
+            }
+            if !Request::table().has(name) {
+                return Err(refuse(format!("its recipe is not drawn: {}", unknown(name))));
             }
             if name == NOT_GRANTED && !arguments.allow_external {
                 return Err(refuse(
@@ -190,8 +193,8 @@ impl Redrawing<'_> {
             }
         }
         let output = self.output.display().to_string();
-        let style = DrawingFormat::of_name(&output).map(|_| OptionLayer::Style(StyleName::Lines));
-        // The recipe has all options of the picture's look; a style not named is the published one.
+        // The recipe has all options of the picture's look.
+        let style = recipe.style.parse().ok().map(OptionLayer::Style);
         let layers: Vec<OptionLayer> = style.into_iter().chain([OptionLayer::Given(recipe.options.clone())]).collect();
         let (request, _) = Request::from_layers(&layers).map_err(|error| match error {
             Error::Setting { .. } | Error::Settings { .. } => {

@@ -129,7 +129,8 @@ mod tests {
             ("a.png --look published", [512, 512]),
             ("a.png --style ink", [512, 512]),
             ("a.png --preset paper:dachsbacher-inking", [512, 512]),
-            ("a.svg", [512, 512]),
+            ("a.svg", [1280, 960]),
+            ("a.dxf", [512, 512]),
             ("a.png --look print --size 64x32", [64, 32]),
         ] {
             let words = format!("tinta render builtin:bust -o {more}");

@@ -179,7 +179,7 @@ pub struct PresetFile {
 pub(super) struct NamedLook {
     #[arg(long, value_name = "LOOK", value_parser = Look::of_name, help = format!(
         "Appearance of the picture: {}; a preset and every other option override it [default: {}; published \
-         if a style or preset is given, and into .svg, .pdf, .dxf and .json]",
+         if a style or preset is given, and into .dxf and .json]",
         Look::list(), LOOKS[0].name
     ))]
     pub look: Option<Look>,

@@ -32,7 +32,7 @@ pub(super) const COMMAND: Command = Command {
         "tinta render cow.obj -o cow.png                 draw it into this file",
         "tinta render builtin:bust -o bust.png           draw a built-in model",
         "tinta render cow.obj -o cow.png --style ink     choose a style",
-        "tinta render cow.obj -o cow.svg                 write the exact visible lines",
+        "tinta render cow.obj -o cow.svg                 write exact lines and tones as vectors",
         "tinta render cow.obj -o cow.gif --turntable 60  turn the model once around",
         "tinta render cow.obj -o cow.png --preset a.toml read options from a file",
     ],
@@ -95,7 +95,10 @@ impl Arguments {
             look: self.look.look,
             preset: self.preset.preset.as_deref(),
             camera: self.camera.camera.as_deref(),
-            draws_lines: DrawingFormat::of_name(&self.output).is_some(),
+            draws_lines: DrawingFormat::of_name(&self.output).is_some_and(|format| {
+                // Areas are drawn from one view.
+                format.is_of_lines_alone() || self.options.options.contains_key("turntable")
+            }),
             has_looks: true,
             command: "render",
         };
@@ -278,7 +281,7 @@ fn after_help() -> String {
         BUILTINS.iter().map(|builtin| format!("  builtin:{:<10} {}", builtin.name, builtin.what)).collect();
     format!(
         "Built-in models:\n{}\n\nWhere two defaults are given, the first is that of the look print, which tinta draws unless you give \
-         --look, --style, --preset or a .svg, .pdf, .dxf or .json file. The second counts with --style, --preset or \
+         --look, --style, --preset or a .dxf or .json file. The second counts with --style, --preset or \
          --look published. `tinta looks` describes the looks.\n\nPublished borders are black and one or two pixels wide at any \
          size, and edges are not smoothed.\n\nIf facets show as thin lines, the file's normals are wrong: try --normals smooth.",
         names.join("\n")

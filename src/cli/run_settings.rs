@@ -178,9 +178,9 @@ impl RunSettings {
     /// Refuses options of pictures.
     pub(super) fn refuse_for_lines(&self) -> Result<()> {
         let problem =
-            "style lines has no passes and no model's frames; leave it out, or name a picture such as drawing.png";
+            "vectors have no passes and no model's frames; leave it out, or name a picture such as drawing.png";
         Self::refuse(&[("dump", self.dump.is_some()), ("frames", self.frames != 1)], problem)?;
-        let problem = "style lines is computed, not drawn by passes; leave it out here";
+        let problem = "vectors are computed, not drawn by passes; leave it out here";
         Self::refuse(&[("verify", self.verify)], problem)?;
         let problem = "it needs a time limit; add --within SECONDS, or leave it out";
         Self::refuse(&[("partial", self.partial && self.within.is_none())], problem)

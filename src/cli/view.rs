@@ -135,6 +135,7 @@ fn state(request: &Request, right: Option<StyleName>, is_coarse: bool) -> Result
         }
     }
     state.update(ViewerEvent::Style(Side::Left, left.name().to_owned()));
+    state.update(ViewerEvent::Overlay(Side::Left, request.has_lines_over()));
     if let Some(right) = right {
         state.update(ViewerEvent::Style(Side::Right, right.name().to_owned()));
         state.update(ViewerEvent::Layout(Layout::Split));

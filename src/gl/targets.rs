@@ -7,7 +7,7 @@ use super::context::ContextInfo;
 use super::objects::Texture;
 use super::{Gl, legacy};
 use crate::error::{Error, Result};
-use crate::plan::{Attachment, Attachments, DEPTH_COPIES, Format, Plan, Sampling, Step, Target, TextureName};
+use crate::plan::{Attachment, Attachments, DEPTH_COPY, Format, Plan, Sampling, Step, Target, TextureName};
 use crate::scene::{Rectangle, Size};
 pub(super) use framebuffer::clear_each;
 use framebuffer::{DepthBuffer, Framebuffer, Renderbuffer};
@@ -53,8 +53,8 @@ impl Targets {
 const SURFACE: Attachments = Attachments {
     colors: &[Attachment { name: TextureName("Framebuffer"), format: Format::Unorm8 }],
     has_depth: true,
-    asked_by: DEPTH_COPIES[0][0],
-    instead: DEPTH_COPIES[0][1],
+    asked_by: DEPTH_COPY[0],
+    instead: DEPTH_COPY[1],
     instead_draws: None,
 };
 
@@ -64,10 +64,10 @@ impl Targets {
         check(&gl.info, plan)?;
         let takes_depth = !self.copies_depth && plan.steps().any(|(_, step)| *step == Step::CopyDepth);
         if takes_depth && !gl.legacy.has_depth_textures() {
-            let said = DEPTH_COPIES
-                .map(|[asked_by, instead]| format!("--{} {} for {}", instead.setting, instead.value, asked_by.value));
-            let problem = format!("{} has no depth textures; use {}", gl.info.renderer, said.join(", "));
-            return Err(Error::settings(&DEPTH_COPIES.map(|[asked_by, _]| asked_by.setting), problem));
+            let [asked_by, instead] = DEPTH_COPY;
+            let problem =
+                format!("{} has no depth textures; use --{} {}", gl.info.renderer, instead.setting, instead.value);
+            return Err(Error::value(asked_by.setting, asked_by.value, problem));
         }
         self.takes_depth = takes_depth;
         if takes_depth {

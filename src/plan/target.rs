@@ -49,13 +49,10 @@ pub struct SettingValue {
     pub value: &'static str,
 }
 
-/// The settings that need a copy of the depth buffer, each with the alternative for drivers without one.
-pub(crate) const DEPTH_COPIES: [[SettingValue; 2]; 2] = [
-    [
-        SettingValue { setting: "map-encoding", value: "depth-texture" },
-        SettingValue { setting: "map-encoding", value: "float" },
-    ],
-    [SettingValue { setting: "crease-by", value: "normals" }, SettingValue { setting: "crease-by", value: "planes" }],
+/// The setting that needs a copy of the depth buffer, and the alternative for drivers without one.
+pub(crate) const DEPTH_COPY: [SettingValue; 2] = [
+    SettingValue { setting: "map-encoding", value: "depth-texture" },
+    SettingValue { setting: "map-encoding", value: "float" },
 ];
 
 /// The format of the channels of a texture that is drawn into.

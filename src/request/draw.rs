@@ -262,7 +262,18 @@ impl Request {
         times.first_frame_ms = milliseconds_since(start);
         remarks.extend(empty_remark(&scene, &published, &picture, renderer)?);
         lay_strokes(&strokes, picture.size, &mut picture.pixels);
-        Ok(DrawnPicture { scene, files: Vec::new(), published, plan, omissions, kept, remarks, strokes, picture, times })
+        Ok(DrawnPicture {
+            scene,
+            files: Vec::new(),
+            published,
+            plan,
+            omissions,
+            kept,
+            remarks,
+            strokes,
+            picture,
+            times,
+        })
     }
 
     /// Reads the models and gets a renderer ready meanwhile, unless the session has one.

@@ -16,7 +16,7 @@ use crate::plan::Plan;
 use crate::recipe::Recipe;
 use crate::record::drawing_json;
 use crate::scene::{Scene, Unseen};
-use crate::settings::{HasSettings, OptionValue, Options};
+use crate::settings::HasSettings;
 use crate::styles::{LineStyle, Show, Style, Vectors, ViewAreas};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -82,6 +82,16 @@ impl DrawnLines {
         let shows_hidden = |look: u32| self.lines.drawing(look, &self.style.drawing).hidden != Hidden::None;
         paths.retain(|path| path.is_visible || shows_hidden(path.look));
         paths
+    }
+
+    /// The drawing as pixels, without its areas.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`raster_of_paths`].
+    pub fn raster(&self) -> Result<Picture> {
+        let Raster { size, pixels } = raster_of_paths(&self.lines, self.paths(), &self.style.drawing)?;
+        Ok(Picture { size, pixels })
     }
 
     /// The strokes that lie over a picture of the same view.
@@ -154,6 +164,13 @@ impl Request {
     /// Those of the options of lines and of drawings.
     pub fn vectors(&self) -> Result<Option<Vectors>> {
         let mut vectors = self.style.vectors(self.scene.size);
+        if self.has_lines_over() {
+            let LineStyle { lines, drawing, .. } = self.lines_of_options()?;
+            if let Some(vectors) = &mut vectors {
+                (vectors.lines, vectors.drawing) = (Some(lines), drawing);
+            }
+            return Ok(vectors);
+        }
         if let (Some(vectors), None) = (&mut vectors, self.style.lines()) {
             DrawingSettings::table().apply(&mut vectors.drawing, &self.options)?;
             if let Some(lines) = &mut vectors.lines {
@@ -175,12 +192,12 @@ impl Request {
     ///
     /// Those of the settings.
     pub fn style_in_passes(&self) -> Result<Style> {
-        let mut style = self.style.clone();
-        if self.has_lines_over() {
-            let without = Options::from([("no-borders".to_owned(), OptionValue::Switch(true))]);
-            Style::table().apply(&mut style, &without)?;
-        }
-        Ok(style)
+        if self.has_lines_over() { self.style.without_borders() } else { Ok(self.style.clone()) }
+    }
+
+    /// The style that draws the exact lines over the picture alone; `None` without them.
+    pub fn exact_lines_style(&self) -> Option<Style> {
+        if self.has_lines_over() { self.lines_of_options().ok().map(Style::Lines) } else { None }
     }
 
     /// The plan of the picture.
@@ -218,10 +235,8 @@ impl Request {
         };
         let style = match self.style.lines() {
             Some(style) => Some(style),
-            None => match self.vectors()? {
-                None if self.has_lines_over() => Some(self.lines_of_options()?),
-                vectors => vectors.map(of_vectors),
-            },
+            None if self.has_lines_over() => Some(self.lines_of_options()?),
+            None => self.vectors()?.map(of_vectors),
         };
         Ok(style.map(|mut style| {
             (style.drawing.title, style.drawing.background) = (self.title(), self.scene.background);
@@ -229,7 +244,7 @@ impl Request {
         }))
     }
 
-    /// Exact lines by the request's options alone, for a style that says nothing of them.
+    /// Exact lines by the request's options alone: they are the same over every style.
     fn lines_of_options(&self) -> Result<LineStyle> {
         let mut style = LineStyle::default();
         LineSettings::table().apply(&mut style.lines, &self.options)?;

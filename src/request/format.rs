@@ -41,6 +41,11 @@ impl DrawingFormat {
         Wanted { all: self == Self::Json, hidden: is_told, areas: true }
     }
 
+    /// Whether files of this format hold lines and no tones, unless a style with tones is asked for.
+    pub fn is_of_lines_alone(self) -> bool {
+        matches!(self, Self::Dxf | Self::Json)
+    }
+
     /// The format of a file of this name, if it holds lines.
     pub fn of_name(output: &str) -> Option<Self> {
         match extension(output).map(str::to_ascii_lowercase).as_deref() {

@@ -1,6 +1,6 @@
 //! Layers of options, each beating those below it, as one request.
 
-use super::{Request, Source};
+use super::{EXACT_LINES, Request, Source};
 use crate::camera;
 use crate::choice::meant_or;
 use crate::error::{Error, Result};
@@ -26,12 +26,14 @@ pub enum OptionLayer {
 }
 
 /// Returns the layers of a drawing, the lowest first: the named look (or the first look if no style, look or lines are given),
-/// then files, then options given by hand.
+/// then files, then options given by hand. `draws_lines`: its file holds lines alone. An option that only drawings of lines alone
+/// have asks for them, too.
 ///
 /// # Errors
 ///
 /// As [`Look::preset`].
 pub fn layers(look: Option<Look>, files: Vec<Preset>, given: Options, draws_lines: bool) -> Vec<OptionLayer> {
+    let draws_lines = draws_lines || given.keys().any(|name| is_of_lines_alone(name) && !is_of_exact_lines(name));
     let is_said = !files.is_empty() || given.contains_key("style") || draws_lines;
     let look = look.or(if is_said { None } else { Some(LOOKS[0]) });
     // A look draws its own style into vectors, too.
@@ -91,9 +93,16 @@ impl Read {
     }
 }
 
+/// Options of earlier versions, and what took their place.
+const GONE: [(&str, &str); 1] =
+    [("crease-by", "--exact-lines draws the lines that print drew by it, with --lasting-creases those of scans")];
+
 /// The error for an unknown option.
-fn unknown(name: &str) -> Error {
+pub fn unknown(name: &str) -> Error {
     let names: Vec<&str> = Request::table().of(None).into_iter().map(|setting| setting.name).collect();
+    if let Some((_, instead)) = GONE.iter().find(|(gone, _)| *gone == name) {
+        return Error::setting(name, format!("this option is gone; {instead}"));
+    }
     let choice = meant_or(name, &names, "keys are long names of tinta render --help");
     Error::setting(name.chars().take(40).collect::<String>(), format!("there is no such option; {choice}"))
 }
@@ -132,7 +141,7 @@ impl Request {
         let otherwise =
             layers.iter().find_map(|layer| if let OptionLayer::Style(style) = layer { Some(*style) } else { None });
         let style: StyleName = named.or(otherwise).unwrap_or(StyleName::ThreePass);
-        let exact_lines = read.iter().rev().find_map(|read| read.options.get("exact-lines"));
+        let exact_lines = read.iter().rev().find_map(|read| read.options.get(EXACT_LINES));
         let has_exact_lines = exact_lines.is_some_and(|value| !is_off(value));
         let is_of_lines = |name: &str| is_of_vectors(name, style) || has_exact_lines && is_of_exact_lines(name);
         let mut request = Self::of_style(style);
@@ -327,7 +336,7 @@ mod tests {
         assert!(refused(&[file("eye = [1, 2, 3]\nview = \"top\"")]).contains("exclude each other"));
         assert_eq!(
             refused(&[given(&[("hidden", "dashed"), ("style", "phong")])]),
-            "hidden: a picture of pixels cannot have it; leave it out, or write a .svg or .pdf"
+            "hidden: exact lines have it; leave it out, add --exact-lines, or write a .svg or .pdf"
         );
         let late = Request::from_layers(&[file("tones = 4")]).unwrap().0;
         assert_eq!(late.attributed(Error::setting("tones", "no")).to_string(), "a.toml: line 1: tones: no");

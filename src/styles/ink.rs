@@ -32,8 +32,6 @@ pub struct Ink {
     pub is_inked: bool,
     /// Smallest angle between planes at a crease. Default 30 degrees; more draws fewer lines.
     pub crease_angle: CreaseAngle,
-    /// The property of a surface that changes at a crease. Default its planes.
-    pub crease_by: CreaseBy,
     /// Whether to remove isolated ink at most twice as long as a line is wide; `None`, the default, follows the quality. Testing
     /// the neighbours of all ink takes about half of the picture's time again with a software driver.
     pub removes_specks: Option<bool>,
@@ -55,19 +53,6 @@ pub struct Ink {
     pub cull_back_faces: bool,
     /// How the map gets from pass to pass. Default by a copy of the framebuffer; both ways give the same picture.
     pub map_target: MapTarget,
-}
-
-tinta_geometry::choices! {
-    /// The property that changes at a crease.
-    #[derive(Default)]
-    pub enum CreaseBy {
-        /// The planes of the triangles: every fold of a model, also the small ones of scans.
-        #[default]
-        Planes = "planes",
-        /// The model's split normals. If the file has none, normals are split along edges that exceed the smoothing angle and
-        /// continue from vertex to vertex.
-        Normals = "normals",
-    }
 }
 
 tinta_geometry::choices! {
@@ -99,7 +84,6 @@ impl Default for Ink {
             supersample: None,
             is_inked: true,
             crease_angle: CreaseAngle::of_drawings(),
-            crease_by: CreaseBy::Planes,
             removes_specks: None,
             least_gap_px: 1.5,
             gap_per_slope: 0.3,
@@ -147,14 +131,6 @@ impl Ink {
                 |ink: &mut Self| &mut ink.inner_width,
             )
             .ours("all lines are as wide"),
-            Setting::field(
-                "crease-by",
-                "WHAT",
-                "Where creases are: planes (between any two triangles at an angle, so at every fold of a scan) or \
-                 normals (only where they are split, see --smooth-angle)",
-                |ink: &mut Self| &mut ink.crease_by,
-            )
-            .ours("measured (measuring.md)"),
             Setting::open_field(
                 "remove-specks",
                 ON_OFF,
@@ -261,17 +237,10 @@ impl Ink {
 
     /// Each pixel's plane.
     fn map_pass(&self, scene: &Scene, surface: Size, is_read: bool) -> Pass {
-        let by_normals = self.crease_by == CreaseBy::Normals;
-        let (vertex, fragment) = match by_normals {
-            false => ("improved/plane-map.vert", "improved/plane-map.frag"),
-            true => ("improved/normal-map.vert", "improved/normal-map.frag"),
-        };
-        let depth = self.depth_range(scene);
-        let mut uniforms = vec![lens::footprint(scene, surface, depth)];
-        uniforms.extend((!by_normals).then(|| depth.of_distance(scene)));
-        let program = Program { vertex, fragments: vec![fragment] };
+        let depth = DepthRange::of_scene(scene);
+        let program = Program { vertex: "improved/plane-map.vert", fragments: vec!["improved/plane-map.frag"] };
         let objects = Draw {
-            uniforms,
+            uniforms: vec![lens::footprint(scene, surface, depth), depth.of_distance(scene)],
             cull_back_faces: self.cull_back_faces,
             culls_doubled_faces: has_doubled_faces(scene),
             facts: Facts::plain(),
@@ -283,18 +252,7 @@ impl Ink {
         if is_read && target == Target::Framebuffer {
             steps.push(Step::CopyFramebuffer);
         }
-        if is_read && by_normals {
-            steps.push(Step::CopyDepth);
-        }
         Pass { target, ..Pass::new("map", steps) }
-    }
-
-    /// Returns the range of the map's depths: that of the depth buffer, if it is the map.
-    fn depth_range(&self, scene: &Scene) -> DepthRange {
-        match self.crease_by {
-            CreaseBy::Planes => DepthRange::of_scene(scene),
-            CreaseBy::Normals => DepthRange::of_camera(scene),
-        }
     }
 
     /// The published tones; the background is cleared and needs no square.
@@ -334,36 +292,22 @@ impl Ink {
         let float = |name, value: f64| Uniform { name, value: Value::Float(value as f32) };
         let (scale, width) = (self.supersample().factor(), self.line_width.pixels(scene.size));
         let inner_width = self.inner_width.unwrap_or(self.line_width).pixels(scene.size);
-        let least_gap = match self.crease_by {
-            CreaseBy::Planes => self.least_gap_px,
-            CreaseBy::Normals => self.least_gap_px.max(LEAST_GAP_SHARE * inner_width as f32),
-        };
-        let gap = [least_gap * scale as f32, self.gap_per_slope];
+        let gap = [self.least_gap_px * scale as f32, self.gap_per_slope];
         let mut uniforms = vec![
             supersample::texture_unit(surface),
-            lens::footprint(scene, surface, self.depth_range(scene)),
+            lens::footprint(scene, surface, DepthRange::of_scene(scene)),
             Uniform { name: "gapThreshold", value: Value::Vec2(gap) },
             float("creaseCosine", self.crease_angle.cosine),
             reach("reach", Some(width), scale, false),
             reach("innerReach", Some(inner_width), scale, false),
         ];
         let [before, behind] = taps(Some(width.max(inner_width)), scale, false);
-        let mut textures = vec![("planeMap", map_texture(self.map_target.target()))];
-        let parts = match self.crease_by {
-            CreaseBy::Planes => {
-                uniforms.extend(lens::rays(scene, surface));
-                ["improved/ink-depth-map.frag", "improved/ink-turn-planes.frag"]
-            }
-            CreaseBy::Normals => {
-                textures.push(("depthMap", Texture::DepthMap));
-                ["improved/ink-depth-buffer.frag", "improved/ink-turn-normals.frag"]
-            }
-        };
-        let fragments = [&["improved/plane-ink.frag"], &parts[..]].concat();
+        uniforms.extend(lens::rays(scene, surface));
+        let fragments = vec!["improved/plane-ink.frag", "improved/ink-depth-map.frag", "improved/ink-turn-planes.frag"];
         let program = Program { vertex: "evangelista/border.vert", fragments };
         Draw {
             uniforms,
-            textures,
+            textures: vec![("planeMap", map_texture(self.map_target.target()))],
             depth: Depth::Ignore,
             facts: Facts {
                 reach_px: Some(before.max(behind) + 1),
@@ -403,10 +347,6 @@ impl Ink {
         (2 * self.line_width.pixels(scene.size) * self.supersample().factor()).min(LARGEST_SPECK)
     }
 }
-
-/// With normals, a step below this share of a line's width is no line: under a wide line, as print needs it, the facets of a
-/// round surface make such steps. It is the default step's share of the line of `print` at 1200 pixels.
-const LEAST_GAP_SHARE: f32 = 0.375;
 
 /// Largest speck, in drawn pixels. Larger marks are rarely specks, and a wider search costs time.
 const LARGEST_SPECK: u32 = 16;

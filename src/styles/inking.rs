@@ -12,7 +12,7 @@ use super::textured::textured;
 use super::{ALL_STYLES, INKING, Ramp, RampRow, Show, Supersample, cull, no_borders};
 use crate::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
 use crate::error::{Error, Result};
-use crate::lines::{ClassColors, line_width};
+use crate::lines::{ClassColors, Length, Units, line_width};
 use crate::plan::{
     Blend, Depth, Draw, EdgeRun, Facts, Geometry, LineDrawing, Mark, Paint, Pass, Plan, PlanPicture, Program, Sampling,
     Step, Texture,
@@ -33,8 +33,8 @@ pub struct Inking {
     pub crease_angle: CreaseAngle,
     /// The rule for silhouettes. Default the listing's.
     pub silhouette: SilhouetteRule,
-    /// Width of the lines and of the points at their ends, pixels. Default 2.
-    pub line_width_px: f32,
+    /// Width of the lines and of the points at their ends. Default 2 pixels.
+    pub line_width: Length,
     /// Whether lines are smoothed and blended, the text's optional part. Default yes.
     pub is_smooth: bool,
     /// Whether points at the lines' ends join them. Default yes, as in the text. Without them wide lines have notches where they
@@ -78,7 +78,7 @@ impl Default for Inking {
             classes: ClassSet::of(&[Class::Boundary, Class::Silhouette, Class::Crease]).or(ClassSet::FREE),
             crease_angle: CreaseAngle::default(),
             silhouette: SilhouetteRule::Published,
-            line_width_px: 2.0,
+            line_width: Length::Px(2.0),
             is_smooth: true,
             has_joints: true,
             back_edges: true,
@@ -110,7 +110,7 @@ impl Inking {
             SilhouetteRule::setting(|inking: &mut Self| &mut inking.silhouette),
             ClassSet::setting(CLASSES, |inking: &mut Self| &mut inking.classes),
             ClassColors::setting(|inking: &mut Self| &mut inking.colors),
-            line_width(|inking: &mut Self| &mut inking.line_width_px),
+            line_width(|inking: &mut Self| &mut inking.line_width),
             Setting::field(
                 "smooth",
                 ON_OFF,
@@ -252,7 +252,7 @@ impl Inking {
                 let geometry = Geometry::Edges {
                     runs,
                     mark,
-                    width_px: self.line_width_px * widths * self.scale(),
+                    width_px: self.line_width_px(scene) * widths * self.scale(),
                     is_smooth: self.is_smooth && self.line_drawing == LineDrawing::Gl,
                     line_drawing: self.line_drawing,
                 };
@@ -270,16 +270,23 @@ impl Inking {
         Ok(self.supersample.finish(Plan { pictures, ..Plan::new(passes) }, scene.size))
     }
 
+    /// The width of lines in pixels of the picture.
+    fn line_width_px(&self, scene: &Scene) -> f32 {
+        let units = Units { px_per_mm: None, height_px: f64::from(scene.size.height) };
+        self.line_width.px(units).map_or(f32::NAN, |px| px as f32)
+    }
+
     /// Drawn pixels per picture pixel, along a side.
     fn scale(&self) -> f32 {
         self.supersample.factor() as f32
     }
 
     fn check(&self, scene: &Scene, show: Show) -> Result<()> {
-        if !(self.line_width_px > 0.0 && self.line_width_px <= WIDEST_LINE) {
+        let width_px = self.line_width_px(scene);
+        if !(width_px > 0.0 && width_px <= WIDEST_LINE) {
             return Err(Error::value(
                 "line-width",
-                self.line_width_px,
+                self.line_width,
                 format!("a line's width is a number of pixels above 0 and at most {WIDEST_LINE}"),
             ));
         }

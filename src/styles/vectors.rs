@@ -1,7 +1,7 @@
 //! What a style draws into a file of vectors: exact areas, or strokes that stand for them, and exact lines above. No GL here.
 
 use super::surfaces::of_averaged_normals;
-use super::{Cartoon, CreaseBy, Ink, LineStyle, LineWidth, Mrt, Style, Tones};
+use super::{Cartoon, Ink, LineStyle, LineWidth, Mrt, Style, Tones};
 use crate::error::{Error, Result};
 use crate::lines::{
     Areas, DrawingSettings, Joined, LineSettings, Progress, Regions, Surface, ToneLight, ToneRule, TonedSurface,
@@ -69,9 +69,7 @@ impl Style {
 
 fn of_ink(ink: &Ink, size: Size) -> Vectors {
     let direction = |light: [f32; 3]| DVec3::from_array(light.map(f64::from)).normalize_or_zero();
-    let all = LineSettings { crease_angle: ink.crease_angle, ..LineSettings::default() };
-    // The pixels' creases are where the model's normals are split.
-    let settings = LineSettings { creases_by_normals: ink.crease_by == CreaseBy::Normals, ..all };
+    let settings = LineSettings { crease_angle: ink.crease_angle, ..LineSettings::default() };
     let widths = [ink.line_width, ink.inner_width.unwrap_or(ink.line_width)];
     let light = ink.tone_light.map_or(ToneLight::Near(LISTED_LIGHT), |light| ToneLight::Far(direction(light)));
     Vectors {

@@ -5,6 +5,5 @@ pub(super) mod compose;
 pub(super) mod controls;
 pub(super) mod event;
 pub(super) mod line_style;
-pub(super) mod paint;
 pub(super) mod shown;
 pub(super) mod state;

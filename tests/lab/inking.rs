@@ -1,6 +1,7 @@
 //! Where the style inking puts its ink, by masks of it.
 
 use crate::support::{BACKENDS, renderer, scene};
+use tinta::lines::Length;
 use tinta::plan::LineDrawing;
 use tinta::styles::Inking;
 use tinta::{Picture, Renderer, Scene, Show, Style};
@@ -17,7 +18,7 @@ fn quads_lie_where_gls_lines_do() {
         let mut renderer = renderer(backend);
         let scene = scene("builtin:gear", 240, 240);
         let ink = |renderer: &mut Renderer, line_drawing| {
-            let style = Inking { line_drawing, is_smooth: false, line_width_px: 3.0, ..Inking::default() };
+            let style = Inking { line_drawing, is_smooth: false, line_width: Length::Px(3.0), ..Inking::default() };
             InkMask::of(&draw(renderer, &scene, style, Show::Borders))
         };
         let (gl, quads) = (ink(&mut renderer, LineDrawing::Gl), ink(&mut renderer, LineDrawing::Quads));

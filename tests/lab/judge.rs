@@ -154,7 +154,7 @@ fn rows_of_drawings_are_added_to_a_folder_and_land_in_its_plot() {
         let words = ["render", "builtin:open-box", "-o", path, "--size", "128"];
         done(&[&words[..], more].concat());
     };
-    draw(&svg, &[]);
+    draw(&svg, &["--style", "lines"]);
     draw(&png, &["--style", "inking", "--show", "borders"]);
     let base = ["judge", &svg, &png, "--model", "builtin:open-box", "-o", &out];
     let output = done(&[&base[..], &["--names", "one,other", "--seconds", "0.5,1.5", "--machine", "here"]].concat());

@@ -6,6 +6,7 @@
 use crate::support::goldens::{DIFFERENT_SHARE, Goldens, compare, different_share, how_to_update, names};
 use crate::support::{BACKENDS, renderer, root, scene_with};
 use tinta::edges::SilhouetteRule;
+use tinta::lines::Length;
 use tinta::styles::{
     Border, Cartoon, Charcoal, CharcoalRecipe, ClassColors, Filter, Ink, Inking, LineWidth, MapEncoding, PaintMode,
     Quality, Tones,
@@ -170,8 +171,12 @@ fn ant_inking_exact_flat() {
 
 #[test]
 fn open_box_class_colors() {
-    let lines =
-        Inking { colors: ClassColors::figure_6(), paint: PaintMode::None, line_width_px: 3.0, ..Inking::default() };
+    let lines = Inking {
+        colors: ClassColors::figure_6(),
+        paint: PaintMode::None,
+        line_width: Length::Px(3.0),
+        ..Inking::default()
+    };
     golden("open-box-class-colors", OPEN_BOX, &Style::Inking(lines), Show::Final);
 }
 

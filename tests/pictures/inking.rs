@@ -6,6 +6,7 @@ use crate::support::{BACKENDS, renderer, root, scene, scene_with};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
+use tinta::lines::Length;
 use tinta::mesh::Normals;
 use tinta::picture::Difference;
 use tinta::plan::LineDrawing;
@@ -241,7 +242,7 @@ fn quads_have_their_width() {
         for width in [1.0, 4.0, 10.0, 40.0] {
             let style = Inking {
                 line_drawing: LineDrawing::Quads,
-                line_width_px: width,
+                line_width: Length::Px(width.into()),
                 is_smooth: false,
                 ..Inking::default()
             };
@@ -257,9 +258,11 @@ fn quads_have_their_width() {
 fn lines_wider_than_the_driver_draws_are_quads_and_said_so_once() {
     let mut renderer = renderer(BACKENDS[0]);
     let scene = scene("builtin:gear", 64, 64);
-    let widest = renderer.context().smooth_line_width[1];
-    let plan = |line_width_px, line_drawing| {
-        Style::Inking(Inking { line_width_px, line_drawing, ..Inking::default() }).plan(&scene, Show::Final).unwrap()
+    let widest = f64::from(renderer.context().smooth_line_width[1]);
+    let plan = |width, line_drawing| {
+        Style::Inking(Inking { line_width: Length::Px(width), line_drawing, ..Inking::default() })
+            .plan(&scene, Show::Final)
+            .unwrap()
     };
     assert!(renderer.remarks(&plan(2.0, LineDrawing::Gl)).is_empty());
     let wide = plan(widest + 1.0, LineDrawing::Gl);
@@ -401,8 +404,8 @@ fn nonsense_is_refused_by_the_options_name() {
     let scene = scene("builtin:gear", 9, 9);
     let refused = |style: Inking, show| Style::Inking(style).plan(&scene, show).unwrap_err().to_string();
     let base = Inking::default;
-    for line_width_px in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-        assert!(refused(Inking { line_width_px, ..base() }, Show::Final).starts_with("line-width"));
+    for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(refused(Inking { line_width: Length::Px(width), ..base() }, Show::Final).starts_with("line-width"));
     }
     assert!(refused(Inking { polygon_offset: [f32::NAN, 5.0], ..base() }, Show::Final).starts_with("polygon-offset"));
     assert!(refused(base(), Show::Map).starts_with("show"));

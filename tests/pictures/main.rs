@@ -9,7 +9,6 @@ mod examples;
 mod gltf;
 mod goldens;
 mod improved;
-mod ink_creases;
 mod inking;
 mod mrt;
 mod pipeline;

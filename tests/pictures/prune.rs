@@ -3,6 +3,7 @@
 use crate::support::{BACKENDS, renderer, scene, scene_with};
 use glam::DVec3;
 use std::sync::Arc;
+use tinta::lines::Length;
 use tinta::plan::prune::{Pruned, Pruning, Rule, prune};
 use tinta::plan::{Draw, Faces, Geometry, Plan, Step};
 use tinta::styles::{
@@ -294,7 +295,7 @@ pub fn many_styles() -> Vec<Style> {
         }));
     }
     styles.push(Style::Dietrich(Dietrich { cull_back_faces: true, ..Dietrich::default() }));
-    styles.push(Style::Inking(Inking { line_width_px: 7.0, ..Inking::default() }));
+    styles.push(Style::Inking(Inking { line_width: Length::Px(7.0), ..Inking::default() }));
     styles
 }
 

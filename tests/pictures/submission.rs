@@ -3,6 +3,7 @@
 use crate::support::{BACKENDS, Folder, renderer, scene, scene_with, styles, textured};
 use tinta::edges::SilhouetteRule;
 use tinta::gl::Fault;
+use tinta::lines::Length;
 use tinta::plan::prune::prune;
 use tinta::plan::{LineDrawing, Plan, Submission};
 use tinta::styles::{Inking, LightOn, PaintMode, RampRow};
@@ -28,7 +29,7 @@ fn ink_and_paint_are_the_same_bytes_by_every_way_to_hand_vertices_over() {
     let variants = [
         base(),
         Inking { is_smooth: false, silhouette: SilhouetteRule::Exact, writes_depth: false, ..base() },
-        Inking { paint: PaintMode::None, line_drawing: LineDrawing::Quads, line_width_px: 3.0, ..base() },
+        Inking { paint: PaintMode::None, line_drawing: LineDrawing::Quads, line_width: Length::Px(3.0), ..base() },
         Inking { paint: PaintMode::Flat, has_joints: false, ..base() },
         Inking { silhouette: SilhouetteRule::Smooth, ..base() },
         Inking { paint: PaintMode::FlatShaded, ramp_row: RampRow::Own, ..base() },

@@ -1,6 +1,7 @@
 //! Drawing larger and shrinking: the mean of the large picture, with the requested width of lines and grain.
 
 use crate::support::{BACKENDS, ball, renderer, scene};
+use tinta::lines::Length;
 use tinta::styles::{Cartoon, Charcoal, Dietrich, Improvements, Ink, Inking, LineWidth, Noise, Phong, Supersample};
 use tinta::{Picture, Scene, Show, Size, Style};
 
@@ -19,7 +20,11 @@ fn styles(supersample: Supersample) -> Vec<(&'static str, [Style; 2])> {
     let [steps, units] = inking.polygon_offset;
     let large_ink =
         Ink { line_width: LineWidth::Pixels(2 * factor), least_gap_px: ink.least_gap_px * scale, ..ink.clone() };
-    let large_inking = Inking { line_width_px: 2.0 * scale, polygon_offset: [steps * scale, units], ..inking.clone() };
+    let large_inking = Inking {
+        line_width: Length::Px(f64::from(2.0 * scale)),
+        polygon_offset: [steps * scale, units],
+        ..inking.clone()
+    };
     let one = Supersample::One;
     vec![
         ("three-pass", [one, supersample].map(|sampling| Style::ThreePass(cartoon(sampling)))),
@@ -65,8 +70,13 @@ fn lines_are_as_wide_as_without() {
     for width in [2.0, 5.0] {
         // Lines that do not hide each other: without joints, which only half of the samples may need.
         let mut ink = |supersample| {
-            let inking =
-                Inking { line_width_px: width, supersample, is_smooth: false, has_joints: false, ..Inking::default() };
+            let inking = Inking {
+                line_width: Length::Px(width.into()),
+                supersample,
+                is_smooth: false,
+                has_joints: false,
+                ..Inking::default()
+            };
             let plan = Style::Inking(inking).plan(&scene, Show::Borders).unwrap();
             let picture = renderer.draw(&scene, &plan).unwrap();
             picture.pixels.chunks_exact(4).map(|pixel| f64::from(255 - pixel[0]) / 255.0).sum::<f64>()

@@ -1,6 +1,7 @@
 //! Pictures in tiles against the same pictures in one piece.
 
 use crate::support::{BACKENDS, failure_folder, renderer, scene, side_by_side, styles};
+use tinta::lines::Length;
 use tinta::picture::write_rgba_png;
 use tinta::styles::{Cartoon, Charcoal, Improvements, Ink, Inking, LineWidth, MapTarget, Quality, Supersample};
 use tinta::{Picture, Renderer, Scene, Show, Size, Style, StyleName};
@@ -24,7 +25,7 @@ fn all() -> Vec<(&'static str, Style)> {
         ("ink best", Style::Ink(Ink { quality: Quality::Best, line_width: wide, ..Ink::default() })),
         ("ink by textures", Style::Ink(Ink { map_target: MapTarget::Texture, ..Ink::default() })),
         ("three-pass, 9 samples", three_pass(Supersample::Three)),
-        ("wide inking", Style::Inking(Inking { line_width_px: 30.0, ..Inking::default() })),
+        ("wide inking", Style::Inking(Inking { line_width: Length::Px(30.0), ..Inking::default() })),
         ("charcoal, improved", Style::Charcoal(Charcoal { improve: Improvements::ALL, ..Charcoal::default() })),
     ]);
     all

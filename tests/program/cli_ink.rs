@@ -36,7 +36,7 @@ fn a_record_of_lines_counts_every_class_by_the_name_that_the_lines_and_the_optio
         let output = tinta(arguments);
         serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {output:?}"))
     };
-    let drawn = record(&["render", &book, "-o", &svg, "--json"]);
+    let drawn = record(&["render", &book, "-o", &svg, "--style", "lines", "--json"]);
     assert_eq!((&drawn["edges"]["intersection"], &drawn["edges"]["non-manifold"]), (&0.into(), &1.into()), "{drawn}");
     let classes = drawn["style"]["classes"].as_array().unwrap();
     assert!(classes.contains(&"non-manifold".into()), "{classes:?}");

@@ -9,14 +9,18 @@ use std::path::Path;
 fn a_drawing_is_written_as_svg_with_the_command_that_made_it() {
     let folder = Folder::new();
     let out = folder.path("gear <&>.svg");
-    assert!(silent(&["render", "builtin:gear", "-o", &out, "--size", "96x64", "--hidden", "dashed"]).is_empty());
+    let options = ["--style", "lines", "--size", "96x64", "--hidden", "dashed"];
+    assert!(silent(&[&["render", "builtin:gear", "-o", &out][..], &options].concat()).is_empty());
     let text = std::fs::read_to_string(&out).unwrap();
     let document = roxmltree::Document::parse(&text).unwrap();
     assert_eq!(document.root_element().attribute("viewBox"), Some("0 0 96 64"));
     let said = document.descendants().find(|node| node.tag_name().name() == "description").unwrap();
-    assert_eq!(said.text(), Some("tinta render builtin:gear -o drawing.svg --hidden dashed --size 96x64"));
+    assert_eq!(
+        said.text(),
+        Some("tinta render builtin:gear -o drawing.svg --hidden dashed --size 96x64 --style lines")
+    );
     let again = folder.path("again.svg");
-    silent(&["render", "builtin:gear", "-o", &again, "--size", "96x64", "--hidden", "dashed"]);
+    silent(&[&["render", "builtin:gear", "-o", &again][..], &options].concat());
     assert_eq!(std::fs::read_to_string(&again).unwrap(), text);
     let piped = silent(&["render", "builtin:gear", "-o", "-", "--style", "lines", "--size", "96x64"]);
     assert!(piped.starts_with(b"<?xml") && piped.ends_with(b"</svg>\n"));
@@ -44,11 +48,10 @@ fn lines_are_written_as_json_and_their_record_is_printed() {
     let counted = |name: &str| counts[name].as_u64().unwrap();
     assert_eq!(segments, counted("visible_segments") + counted("hidden_segments"));
     let record = answer(&["render", "builtin:open-box", "-o", &folder.path("a.svg"), "--json", "--hidden", "ghost"]);
-    assert_eq!(
-        (&record["style"]["hidden"], &record["style"]["line-width"]),
-        (&"ghost".into(), &serde_json::Value::Null)
-    );
-    assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(9));
+    assert_eq!((&record["style"]["name"], &record["exact_lines"]["name"]), (&"ink".into(), &"lines".into()));
+    let lines = &record["exact_lines"];
+    assert_eq!((&lines["hidden"], &lines["line-width"]), (&"ghost".into(), &"0.2%/0.35mm".into()));
+    assert_eq!(lines["classes"].as_array().map(Vec::len), Some(9));
 }
 
 /// The JSON file of a drawing with these options.
@@ -170,13 +173,14 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
     refuse("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);
     for options in [&["--dump", "steps"][..], &["--frames", "3"], &["--animate"], &["--show", "borders"]] {
-        refuse(&svg, options, &[options[0], "style lines"]);
+        refuse(&svg, options, &[options[0], "vectors"]);
     }
     refuse(&folder.path("a-%d.svg"), &["--explain", "--turntable", "2"], &["--explain", "--turntable"]);
-    refuse(&svg, &["--no-borders"], &["--no-borders", "leave it out"]);
+    refuse(&svg, &["--no-borders", "--style", "lines"], &["--no-borders", "leave it out"]);
     refuse(&svg, &["--silhouette", "paper"], &["--silhouette paper", "exactly"]);
+    refuse(&png, &["--pen"], &["--pen", "a picture of pixels cannot have it"]);
     for options in [&["--hidden", "ghost"][..], &["--class-widths", "crease=1"], &["--pen"]] {
-        refuse(&png, options, &[options[0], "a picture of pixels cannot have it"]);
+        refuse(&png, &[options, &["--style", "phong"]].concat(), &[options[0], "leave it out"]);
         refuse(&json, options, &[options[0], ".json", ".svg"]);
     }
     assert!(!std::path::Path::new(&svg).exists());
@@ -274,8 +278,8 @@ fn what_pens_a_drawing_needs_is_explained() {
     assert_eq!((&words[0][..], words[1][0]), (&["pen", "1", "0.35", "mm"][..], "visible-crease"), "{pens}");
     let last = &words[words.len() - 2..];
     assert_eq!((&last[0][..], last[1][0]), (&["pen", "2", "0.70", "mm"][..], "visible-outline"), "{pens}");
-    assert!(explain(&["--class-colors", "crease=red"]).contains("pen 2"), "a colour is a pen");
-    assert!(!explain(&[]).contains("pen 2"));
+    assert!(explain(&["--style", "lines", "--class-colors", "crease=red"]).contains("pen 2"), "a colour is a pen");
+    assert!(!explain(&["--style", "lines"]).contains("pen 2"));
 }
 
 #[test]
@@ -310,7 +314,7 @@ fn a_model_is_not_written_over_and_an_empty_drawing_is_said() {
     let model = folder.file("model.svg", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     refused_in_one_line(&["render", &model, "-o", &model], &["model.svg", "this would overwrite the model;"]);
     assert!(std::fs::read_to_string(&model).unwrap().starts_with("v 0 0 0"));
-    let output = done(&["render", &model, "-o", &folder.path("empty.svg"), "--classes", "crease"]);
+    let output = done(&["render", &model, "-o", &folder.path("empty.svg"), "--style", "lines", "--classes", "crease"]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("no line of these classes is visible"));
     refused_in_one_line(
         &["render", &model, "-o", &folder.path("a.svgz")],
@@ -380,7 +384,13 @@ fn smooth_silhouettes_say_where_they_break_and_lines_are_written_as_curves() {
     let folder = Folder::new();
     let [polylines, curves, pdf] = ["a.svg", "b.svg", "c.pdf"].map(|name| folder.path(name));
     let drawn = |out: &str, options: &[&str]| {
-        silent(&[&["render", "builtin:bust", "-o", out, "--silhouette", "smooth", "--size", "128"], options].concat())
+        silent(
+            &[
+                &["render", "builtin:bust", "-o", out, "--style", "lines", "--silhouette", "smooth", "--size", "128"],
+                options,
+            ]
+            .concat(),
+        )
     };
     let record: serde_json::Value = serde_json::from_slice(&drawn(&polylines, &["--json"])).unwrap();
     assert_eq!(record["style"]["silhouette"], "smooth");
@@ -533,8 +543,8 @@ fn a_look_with_tones_takes_the_options_of_lines_into_vectors() {
         silent(&[&["render", "builtin:bust", "-o", &svg, "--look", "print", "--size", "400x300"], options].concat());
         std::fs::read_to_string(svg).unwrap().matches("<path").count()
     };
-    let all = paths(&[]);
-    let lasting = paths(&["--lasting-creases"]);
+    let lasting = paths(&[]);
+    let sharp = paths(&["--crease-angle", "60"]);
     let silhouettes = paths(&["--classes", "silhouette"]);
-    assert!(silhouettes < lasting && lasting < all, "{silhouettes} {lasting} {all}");
+    assert!(silhouettes < sharp && sharp < lasting, "{silhouettes} {sharp} {lasting}");
 }

@@ -124,8 +124,8 @@ const MISTAKES: [(&str, &str); 98] = [
         "--json and --explain: they exclude each other; leave one of them out",
     ),
     (
-        "render triangle.obj -o out.png --hidden dashed",
-        "--hidden: a picture of pixels cannot have it; leave it out, or write a .svg or .pdf",
+        "render triangle.obj -o out.png --pen",
+        "--pen: a picture of pixels cannot have it; leave it out, or write a .svg or .pdf",
     ),
     (
         "render triangle.obj -o out.png --style charcoal --show map",

@@ -24,7 +24,7 @@ fn boxes(folder: &Folder) -> String {
 
 fn drawn(folder: &Folder, model: &str, name: &str, options: &[&str]) -> String {
     let out = folder.path(name);
-    let all = [&["render", model, "-o", &out, "--view", "20,15", "--no-recipe"], options].concat();
+    let all = [&["render", model, "-o", &out, "--style", "lines", "--view", "20,15", "--no-recipe"], options].concat();
     done(&all);
     std::fs::read_to_string(out).unwrap()
 }

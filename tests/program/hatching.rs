@@ -129,7 +129,11 @@ fn nonsense_for_strokes_is_refused_by_the_options_name() {
         &["--look", "print", "--hatch", "auto", "--hatch-angle", "nan"],
         &["--hatch-angle NaN", "-360 to 360"],
     );
-    refuse("a.svg", &["--hatch", "auto"], &["--hatch", "lines alone have no tones", "--look print"]);
+    refuse(
+        "a.svg",
+        &["--style", "lines", "--hatch", "auto"],
+        &["--hatch", "lines alone have no tones", "--look print"],
+    );
     refuse("a.png", &["--look", "print", "--hatch", "auto"], &["--hatch", "write a .svg"]);
     refuse("a.svg", &["--look", "charcoal", "--hatch", "auto"], &["--hatch", "write a .svg"]);
     refuse("a.svg", &["--look", "print", "--hatch", "auto", "--tones", "1"], &["--hatch", "--tones", "2 or 3 tones"]);

@@ -54,7 +54,7 @@ fn pictures_of_every_kind_are_made_again_byte_for_byte() {
                 first,
             ],
         ),
-        ("svg", &["--hidden", "dashed", "--class-colors", "silhouette=red", "--provenance"]),
+        ("svg", &["--style", "lines", "--hidden", "dashed", "--class-colors", "silhouette=red", "--provenance"]),
         ("svg", &["--style", "lines", "--pen", "--dpi", "96.5", "--transparent"]),
     ] {
         let [first, second] = ["first", "second"].map(|name| folder.path(&format!("{name}.{kind}")));
@@ -92,7 +92,7 @@ fn a_recipe_says_what_was_drawn_with_which_files_by_whom() {
     render(&other, &["--look", "published"]);
     assert_eq!(read(&other).files.len(), 2);
     assert_eq!(read(&other).style, "three-pass");
-    render(&svg, &[]);
+    render(&svg, &["--style", "lines"]);
     assert_eq!((read(&svg).gl, read(&svg).style.as_str()), (None, "lines"));
     // The same drawing is the same bytes wherever it is written.
     render(&other, &["--style", "inking", "--texture", "on"]);

@@ -312,7 +312,7 @@ fn lines_tones_areas_and_sheets_are_saved_byte_for_byte_as_the_command_line_writ
             assert!(output.status.success(), "{command}: {}", said(&output));
             let [saved, again] = [Path::new(name), &again].map(|path| std::fs::read_to_string(path).unwrap());
             assert!(saved.contains("<path"), "{model} {number}");
-            assert_eq!(saved.contains("id=\"fill-"), [0, 1, 5].contains(&number), "{model} {number}");
+            assert_eq!(saved.contains("id=\"fill-"), [0, 1, 2, 5].contains(&number), "{model} {number}");
             assert!(saved == again, "{model} {number}: {command}");
         }
     }
@@ -346,7 +346,10 @@ fn lines_in_the_window_are_the_files_lines_as_another_program_draws_them() {
 #[test]
 fn lines_over_a_picture_darken_it_where_they_are_and_go_when_they_are_taken_away() {
     let mut viewer = viewer(&["builtin:gear"], Backend::Auto, None);
-    let plain = viewer.shown().unwrap();
+    // Exact lines take the place of the style's own.
+    let plain = shown(&mut viewer, [set("--no-borders", "true")]);
+    let with_borders = shown(&mut viewer, [set("--no-borders", "false")]);
+    assert_ne!(plain, with_borders);
     let over = shown(&mut viewer, [ViewerEvent::Overlay(Side::Left, true)]);
     let alone = shown(&mut viewer, [style("lines")]);
     let is_white = |pixel: &[u8]| pixel == [255; 4];
@@ -359,7 +362,7 @@ fn lines_over_a_picture_darken_it_where_they_are_and_go_when_they_are_taken_away
         inked += usize::from(plain != over);
     }
     assert!(inked > 300, "{inked}");
-    assert_eq!(shown(&mut viewer, [style("three-pass")]), plain);
+    assert_eq!(shown(&mut viewer, [style("three-pass")]), with_borders);
     // On one side of a split alone.
     let split = shown(&mut viewer, [ViewerEvent::Layout(Layout::Difference), style("lines")]);
     assert_ne!(split, alone);

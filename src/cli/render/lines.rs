@@ -132,9 +132,8 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: DrawingFormat) 
         None => Ok(()),
     };
     run.refuse_for_lines()?;
-    refuse(&["full", "keep"], "style lines is computed, not drawn by passes; leave it out here")?;
-    let problem =
-        "style lines has no passes and no model's frames; leave it out, or name a picture such as drawing.png";
+    refuse(&["full", "keep"], "vectors are computed, not drawn by passes; leave it out here")?;
+    let problem = "vectors have no passes and no model's frames; leave it out, or name a picture such as drawing.png";
     if request.show != Show::Final {
         return Err(Error::setting("show", problem));
     }

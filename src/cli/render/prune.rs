@@ -2,9 +2,9 @@
 
 use super::super::Verdict;
 use std::path::{Path, PathBuf};
+use tinta::lines::Strokes;
 use tinta::plan::Plan;
 use tinta::plan::prune::{Omission, Pruned, Pruning, prune};
-use tinta::lines::Strokes;
 use tinta::renderer::median;
 use tinta::request::drawn_under;
 use tinta::{Picture, Renderer, Result, Scene, Target};

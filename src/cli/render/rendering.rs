@@ -31,6 +31,7 @@ impl Rendering<'_> {
             copies: self.request.scene.copies,
             triangles: scene.triangle_count(),
             style: self.request.style.clone(),
+            exact_lines: self.request.exact_lines_style(),
             size: scene.size,
             background: scene.background,
             camera: CameraRecord::new(scene),

@@ -5,7 +5,7 @@ use crate::mesh::Mesh;
 use crate::plan::{Attachment, SettingValue};
 use crate::renderer::Renderer;
 use crate::scene::{Scene, SceneSettings};
-use crate::styles::{Cartoon, CreaseBy, Ink, MapEncoding, MapTarget, Show, Style, StyleName};
+use crate::styles::{Cartoon, Ink, MapEncoding, MapTarget, Show, Style, StyleName};
 use std::sync::Arc;
 
 fn plan(style: &Style) -> Plan {
@@ -74,36 +74,31 @@ fn depth_that_is_taken_draws_the_picture_of_depth_that_is_copied() {
         let size = Size { width: 300, height: 220 };
         let scene = Scene::new(vec![mesh], &SceneSettings { size, ..SceneSettings::default() }).unwrap();
         for map_target in [MapTarget::Copy, MapTarget::Texture] {
-            let ink = Ink { crease_by: CreaseBy::Normals, map_target, ..Ink::default() };
-            for style in [Style::Ink(ink), cartoon(MapEncoding::DepthTexture, map_target)] {
-                for tile in [None, Some(Size { width: 160, height: 160 })] {
-                    let draw = |copies_depth| {
-                        let mut renderer = Renderer::new(Backend::Auto).unwrap_or_else(|error| panic!("{error}"));
-                        renderer.confine(tile);
-                        renderer.copy_depth(copies_depth);
-                        // Twice: the second picture takes the depth texture that the first left.
-                        [style.clone(), Style::named(StyleName::ThreePass), style.clone()]
-                            .map(|style| renderer.render(&scene, &style).unwrap())
-                    };
-                    let (copied, taken) = (draw(true), draw(false));
-                    assert!(
-                        copied.iter().all(|picture| picture.pixels.iter().any(|byte| *byte < 64)),
-                        "{name} is drawn"
-                    );
-                    // The copied map and the taken one are drawn into different framebuffers, which may round an interpolated
-                    // normal the other way; the filter enlarges that.
-                    let bytes = |pictures: &[crate::Picture]| -> Vec<u8> {
-                        pictures.iter().flat_map(|picture| picture.pixels.iter().copied()).collect()
-                    };
-                    let (copied, taken) = (bytes(&copied), bytes(&taken));
-                    assert_eq!(copied.len(), taken.len());
-                    let differing = copied.iter().zip(&taken).filter(|(a, b)| a != b).count();
-                    println!("{name} {map_target:?} {tile:?} {}: {differing} of {}", style.name(), copied.len());
-                    assert!(differing * 1000 < copied.len(), "{name} {map_target:?} {tile:?}: {differing}");
-                    compared += 1;
-                }
+            let style = cartoon(MapEncoding::DepthTexture, map_target);
+            for tile in [None, Some(Size { width: 160, height: 160 })] {
+                let draw = |copies_depth| {
+                    let mut renderer = Renderer::new(Backend::Auto).unwrap_or_else(|error| panic!("{error}"));
+                    renderer.confine(tile);
+                    renderer.copy_depth(copies_depth);
+                    // Twice: the second picture takes the depth texture that the first left.
+                    [style.clone(), Style::named(StyleName::ThreePass), style.clone()]
+                        .map(|style| renderer.render(&scene, &style).unwrap())
+                };
+                let (copied, taken) = (draw(true), draw(false));
+                assert!(copied.iter().all(|picture| picture.pixels.iter().any(|byte| *byte < 64)), "{name} is drawn");
+                // The copied map and the taken one are drawn into different framebuffers, which may round an interpolated
+                // normal the other way; the filter enlarges that.
+                let bytes = |pictures: &[crate::Picture]| -> Vec<u8> {
+                    pictures.iter().flat_map(|picture| picture.pixels.iter().copied()).collect()
+                };
+                let (copied, taken) = (bytes(&copied), bytes(&taken));
+                assert_eq!(copied.len(), taken.len());
+                let differing = copied.iter().zip(&taken).filter(|(a, b)| a != b).count();
+                println!("{name} {map_target:?} {tile:?} {}: {differing} of {}", style.name(), copied.len());
+                assert!(differing * 1000 < copied.len(), "{name} {map_target:?} {tile:?}: {differing}");
+                compared += 1;
             }
         }
     }
-    assert_eq!(compared, 24);
+    assert_eq!(compared, 12);
 }

@@ -5,14 +5,16 @@
 
 use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
+use crate::lines::{Progress, lay_strokes};
 use crate::picture::Picture;
 use crate::pixel::{Explanation, around};
 use crate::plan::Plan;
 use crate::renderer::{Renderer, StepValues, median, milliseconds_since};
-use crate::request::Request;
+use crate::request::{Request, Wanted};
 use crate::scene::{Rectangle, Scene};
 use crate::styles::{Show, Style, StyleName};
 use crate::window::threads::coarse;
+use crate::window::threads::exact;
 use crate::window::threads::explain::PixelJob;
 use crate::window::threads::job::{Cost, Drawing, Job};
 use crate::window::threads::line_measure::LineMeasure;
@@ -155,7 +157,12 @@ impl Drawer {
                 self.draw_scene(&scene, drawn, *show)?;
             }
             let start = Instant::now();
-            let picture = self.draw_scene(&scene, drawn, *show)?;
+            let mut picture = self.draw_scene(&scene, drawn, *show)?;
+            if let Some(style) = &job.lines_over[*side as usize] {
+                let drawn =
+                    exact::request(style).drawn_lines(scene.clone(), Wanted::default(), &Progress::default())?;
+                lay_strokes(&drawn.strokes()?, picture.size, &mut picture.pixels);
+            }
             let picture = if job.is_coarse { coarse::enlarged(&picture, job.settings.size) } else { picture };
             Ok(Drawing { side: *side, picture, frame_ms: milliseconds_since(start) })
         };
@@ -285,8 +292,14 @@ mod tests {
         let scene = || Arc::new(Scene::new(vec![mesh.clone()], &settings).unwrap());
         let style = Style::named(StyleName::Phong);
         let drawings = vec![(Side::Left, style.clone(), Show::Final)];
-        let job =
-            Job { scene: scene(), orbit: Orbit::default(), settings: settings.clone(), drawings, is_coarse: false };
+        let job = Job {
+            scene: scene(),
+            orbit: Orbit::default(),
+            settings: settings.clone(),
+            drawings,
+            lines_over: [None, None],
+            is_coarse: false,
+        };
         let mut drawer = Drawer::new(Backend::Auto).unwrap();
         drawer.draw(&job).unwrap();
         assert!(!drawer.is_first(&job, StyleName::Phong, Show::Final));

@@ -1,29 +1,28 @@
 //! Finds and paints the exact lines of the view on a separate thread.
 //!
-//! Takes a [`LineJob`], all values, and returns ink to lay over a picture of the same view. It searches one view's lines at a
+//! Takes a [`LineJob`], all values, and returns strokes to lay over a picture of the same view. It searches one view's lines at a
 //! time. If the view changes meanwhile, the search stops where only a picture of the same view can use the lines. Lines drawn
 //! alone are finished and shown, then the search for the newest view starts. Strokes keep their ids from view to view, to count
 //! how many stayed.
 
 use crate::error::Result;
-use crate::lines::{LineSettings, Progress, StrokeIds, VisibleLines, chain, strokes_of_paths};
-use crate::picture::Picture;
+use crate::lines::{LineSettings, Progress, StrokeIds, Strokes};
 use crate::renderer::milliseconds_since;
 use crate::request::{Request, Wanted};
 use crate::scene::Scene;
 use crate::styles::{LineStyle, Show, Style};
 use crate::window::threads::line_job::{Found, LineJob, Stayed};
 use crate::window::threads::report::{Report, Reporter};
-use crate::window::values::paint::painted;
 use std::collections::HashSet;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 impl LineJob {
-    /// The lines on a transparent ground, and how many of their strokes belong to the view before.
-    fn find(&self, ids: &Mutex<Option<Kept>>, progress: &Progress) -> Result<(Picture, Stayed)> {
-        let (scene, drawing) = (self.view.scene()?, &self.style.drawing);
-        let lines = found(&scene, &self.style, progress)?;
+    /// The lines, and how many of their strokes belong to the view before.
+    fn find(&self, ids: &Mutex<Option<Kept>>, progress: &Progress) -> Result<(Vec<Strokes>, Stayed)> {
+        let scene = self.view.scene()?;
+        let drawn = request(&self.style).drawn_lines(scene, Wanted::default(), progress)?;
+        let (scene, lines) = (&drawn.scene, &drawn.lines);
         let mut kept = ids.lock().unwrap_or_else(PoisonError::into_inner);
         let is_same = |kept: &Kept| Arc::ptr_eq(&kept.scene, &self.view.scene) && kept.settings == self.style.wanted();
         if !kept.as_ref().is_some_and(is_same) {
@@ -32,16 +31,15 @@ impl LineJob {
         let kept = kept.get_or_insert_with(|| Kept {
             scene: self.view.scene.clone(),
             settings: self.style.wanted(),
-            ids: StrokeIds::new(&scene, &self.style.wanted()),
+            ids: StrokeIds::new(scene, &self.style.wanted()),
             strokes: HashSet::new(),
         });
-        let strokes: HashSet<u32> = kept.ids.next(&scene, &lines).iter().filter_map(|path| path.stroke).collect();
+        let strokes: HashSet<u32> = kept.ids.next(scene, lines).iter().filter_map(|path| path.stroke).collect();
         let stayed = strokes.intersection(&kept.strokes).count();
         let stayed = Stayed { count: strokes.len(), new: strokes.len() - stayed, gone: kept.strokes.len() - stayed };
         kept.strokes = strokes;
         // As in the file: a path that ends where a stroke does would restart its dashes.
-        let drawn = strokes_of_paths(&lines, chain(&lines.segments), None, drawing)?;
-        Ok((painted(&drawn, scene.size), stayed))
+        Ok((drawn.strokes()?, stayed))
     }
 }
 
@@ -54,20 +52,9 @@ struct Kept {
     strokes: HashSet<u32>,
 }
 
-/// A scene's lines on a transparent ground.
-///
-/// # Errors
-///
-/// As [`Request::all_lines`] and [`strokes_of_paths`].
-pub(in crate::window) fn ink(scene: &Scene, style: &LineStyle, progress: &Progress) -> Result<Picture> {
-    let lines = found(scene, style, progress)?;
-    Ok(painted(&strokes_of_paths(&lines, chain(&lines.segments), None, &style.drawing)?, scene.size))
-}
-
-/// The lines that the command line's drawing of a scene has.
-fn found(scene: &Scene, style: &LineStyle, progress: &Progress) -> Result<VisibleLines> {
-    let request = Request::of_picture(&Style::Lines(style.clone()), Show::Final);
-    request.all_lines(scene, Wanted::default(), progress)?.without_specks(&style.drawing)
+/// The request of the command line's drawing of these lines.
+pub(in crate::window) fn request(style: &LineStyle) -> Request {
+    Request::of_picture(&Style::Lines(LineStyle { areas: None, ..style.clone() }), Show::Final)
 }
 
 /// The lines of the view that is shown.
@@ -135,7 +122,7 @@ impl ExactLines {
         let work = move || {
             let start = Instant::now();
             let found = job.find(&kept, &progress);
-            let found = found.map(|(ink, stayed)| Found { ms: milliseconds_since(start), ink, stayed, job });
+            let found = found.map(|(strokes, stayed)| Found { ms: milliseconds_since(start), strokes, stayed, job });
             reporter.say(Report::Lines(Box::new(found)));
         };
         if let Err(error) = std::thread::Builder::new().name("lines".to_owned()).spawn(work) {
@@ -180,7 +167,7 @@ mod tests {
         let (mut orbit, kept) = (Orbit::default(), Mutex::new(None));
         let find = |orbit: &Orbit, style: LineStyle| {
             let (scene, orbit, settings) = (scene.clone(), orbit.clone(), settings.clone());
-            let view = Job { scene, orbit, settings, drawings: Vec::new(), is_coarse: false };
+            let view = Job { scene, orbit, settings, drawings: Vec::new(), lines_over: [None, None], is_coarse: false };
             LineJob { view, style }.find(&kept, &Progress::default()).unwrap().1
         };
         let first = find(&orbit, LineStyle::default());

@@ -6,7 +6,7 @@ use crate::orbit::Orbit;
 use crate::picture::Picture;
 use crate::renderer::PassTime;
 use crate::scene::{Scene, SceneSettings};
-use crate::styles::{Show, Style};
+use crate::styles::{LineStyle, Show, Style};
 use crate::window::threads::coarse;
 use crate::window::values::event::Side;
 use std::sync::Arc;
@@ -22,6 +22,8 @@ pub struct Job {
     pub settings: SceneSettings,
     /// The style and picture to show for each visible side.
     pub drawings: Vec<(Side, Style, Show)>,
+    /// The exact lines to draw at once over each side's picture.
+    pub lines_over: [Option<LineStyle>; 2],
     /// Whether it may be coarser: the view is on its way to another.
     pub is_coarse: bool,
 }
@@ -63,7 +65,10 @@ impl Job {
 
     /// Whether it would draw the same as another.
     pub fn is_same(&self, other: &Self) -> bool {
-        self.is_of_same_picture(other) && self.drawings == other.drawings && self.is_coarse == other.is_coarse
+        self.is_of_same_picture(other)
+            && self.drawings == other.drawings
+            && self.lines_over == other.lines_over
+            && self.is_coarse == other.is_coarse
     }
 
     /// Whether its picture serves for another job: the same, or finer than needed.

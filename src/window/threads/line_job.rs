@@ -1,10 +1,9 @@
 //! The requested exact lines and the found ones: values that the viewer and its line thread exchange.
 
+use crate::lines::{Raster, Strokes, raster_of_strokes};
 use crate::picture::Picture;
-use crate::scene::{SceneSettings, Size};
 use crate::styles::LineStyle;
 use crate::window::threads::job::Job;
-use crate::window::values::paint::over;
 
 /// The requested lines and how to draw them.
 #[derive(Debug, Clone)]
@@ -39,8 +38,8 @@ impl Stayed {
 pub struct Found {
     /// The job that they belong to.
     pub job: LineJob,
-    /// The lines on a transparent ground.
-    pub ink: Picture,
+    /// The lines.
+    pub strokes: Vec<Strokes>,
     /// How many of their strokes are those of the view before.
     pub stayed: Stayed,
     /// Time taken, milliseconds.
@@ -50,14 +49,10 @@ pub struct Found {
 impl Found {
     /// The lines alone as a picture.
     pub fn alone(&self) -> Picture {
-        over(&self.ink, &ground(self.ink.size, &self.job.view.settings))
+        let settings = &self.job.view.settings;
+        let Raster { size, pixels } = raster_of_strokes(&self.strokes, settings.size, settings.background);
+        Picture { size, pixels }
     }
-}
-
-/// The background of lines drawn alone.
-pub(in crate::window) fn ground(size: Size, settings: &SceneSettings) -> Picture {
-    let pixel = settings.background.clear_color().map(|channel| (channel * 255.0).round() as u8);
-    Picture { size, pixels: pixel.repeat(size.pixel_count()) }
 }
 
 impl LineJob {

@@ -9,19 +9,15 @@ use crate::output::TextTarget;
 use crate::picture::{Picture, Target};
 use crate::preset::{OptionValue, Options, to_toml};
 use crate::recipe::{Driver, FileRecord};
-use crate::request::{DrawingFormat, OptionLayer, Request};
+use crate::renderer::Renderer;
+use crate::request::{DrawingFormat, OptionLayer, Request, Wanted};
 use crate::scene::{Scene, SceneSettings};
 use crate::settings::HasSettings;
 use crate::shell;
-use crate::styles::{Show, StyleName};
-use crate::window::threads::draw::Drawer;
-use crate::window::threads::exact;
 use crate::window::threads::job::Job;
-use crate::window::threads::line_job;
 use crate::window::values::controls;
 use crate::window::values::event::{Save, Side};
 use crate::window::values::line_style::LinesShown;
-use crate::window::values::paint::over;
 use crate::window::values::state::ViewerState;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -71,20 +67,14 @@ fn request(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Sa
     scene.extend(surroundings.load.to_options()?);
     let mut options = match save {
         Save::Lines => state.style_of_drawing(side).to_options()?,
-        _ => style_options(state, job, side)?,
+        _ => style_options(state, side)?,
     };
+    state.add_lines_over(side, &mut options)?;
     if save == Save::Turn {
         options.insert("turntable".to_owned(), OptionValue::text(TURN.0.to_string()));
     }
-    let draws_lines = save == Save::Lines && state.style_of_drawing(side).style_name().draws_lines();
-    if draws_lines {
-        // The file's name requests lines.
-        options.remove("style");
-    }
-    let style = draws_lines.then_some(OptionLayer::Style(StyleName::Lines));
     // A sheet has a framing of its own: the style's options beat the scene's.
-    let layers = style.into_iter().chain([OptionLayer::Given(scene), OptionLayer::Given(options)]);
-    let (request, _) = Request::from_layers(&layers.collect::<Vec<_>>())?;
+    let (request, _) = Request::from_layers(&[OptionLayer::Given(scene), OptionLayer::Given(options)])?;
     Ok(request.with_models(state.models.clone()))
 }
 
@@ -94,9 +84,8 @@ fn context(surroundings: &Surroundings) -> Option<Driver> {
 }
 
 /// The options of a side's picture.
-fn style_options(state: &ViewerState, job: &Job, side: Side) -> Result<Options> {
-    let drawn = job.drawings.iter().find(|(drawn, ..)| *drawn == side);
-    let (style, show) = drawn.map_or((state.style(side), Show::Final), |(_, style, show)| (style, *show));
+fn style_options(state: &ViewerState, side: Side) -> Result<Options> {
+    let (style, show) = state.buffer.drawn(state.style(side));
     let mut options = style.to_options()?;
     options.extend(show.to_options());
     Ok(options)
@@ -142,13 +131,6 @@ fn save_of(
         Save::Picture => {
             let Some(shown) = shown else { return Ok("there is no picture yet".to_owned()) };
             let target = Target::check(&name, false)?;
-            let has_lines = state.sides().iter().any(|side| state.lines_shown(*side) != LinesShown::None);
-            if has_lines {
-                target.write(shown)?;
-                let lines = self::command(state, job, surroundings, Save::Lines, side, "drawing.svg");
-                let lines = lines.unwrap_or_else(|error| error.to_string());
-                return Ok(format!("{name}; its lines as vectors: {lines}"));
-            }
             if state.sides().len() == 1 {
                 let recipe = request(state, job, surroundings, save, side);
                 let recipe = recipe.map(|request| request.recipe(&job.scene, files, context(surroundings), record));
@@ -168,16 +150,17 @@ fn save_of(
             drawn.written(DrawingFormat::Svg, None, Some(&recipe))?.write(&name, request.is_transparent())?;
         }
         Save::Turn => {
-            turn(state, job, side, surroundings.backend, &name)?;
-            if state.lines_shown(side) != LinesShown::None {
-                return Ok(format!("{name}; no command draws exact lines as pixels"));
+            turn(&request(state, job, surroundings, Save::Picture, side)?, job, surroundings.backend, &name)?;
+            if state.lines_shown(side) == LinesShown::Alone {
+                return Ok(format!("{name}; no command turns lines alone as pixels"));
             }
         }
         Save::Preset => {
             // Without the view: a preset is for any model.
             let mut options = controls::of_scene_in(&job.settings.to_options()?);
             options.remove("view");
-            options.extend(style_options(state, job, side)?);
+            options.extend(style_options(state, side)?);
+            state.add_lines_over(side, &mut options)?;
             TextTarget::check(&name)?.write(&to_toml(&options, "Saved by tinta view."))?;
             let use_it = shell::quoted(&name);
             return Ok(format!("{name}; render, compare and measure take it: --preset {use_it}"));
@@ -189,24 +172,18 @@ fn save_of(
     })
 }
 
-/// A turn around a side's scene, in a separate renderer.
-fn turn(state: &ViewerState, job: &Job, side: Side, backend: Backend, name: &str) -> Result<()> {
+/// A turn of a request around a scene, in a separate renderer.
+fn turn(request: &Request, job: &Job, backend: Backend, name: &str) -> Result<()> {
     let target = AnimationTarget::check(name, false)?;
-    let mut drawer = Drawer::new(backend)?;
+    let mut renderer = Renderer::new(backend)?;
     let scene = job.scene()?;
-    let drawn = job.drawings.iter().find(|(drawn, ..)| *drawn == side);
-    let has_lines = state.lines_shown(side) != LinesShown::None;
     let mut writer = AnimationWriter::new(target, TURN.0, TURN.1)?;
     for camera in scene.turntable(&job.camera()?, TURN.0)? {
         let scene = Scene { camera, ..scene.clone() };
-        let mut picture = match drawn {
-            Some((_, style, show)) => drawer.draw_scene(&scene, style, *show)?,
-            None => line_job::ground(scene.size, &job.settings),
-        };
-        if has_lines {
-            picture = over(&exact::ink(&scene, &state.line_style(), &Progress::default())?, &picture);
-        }
-        writer.add(picture)?;
+        writer.add(match request.style.lines() {
+            None => request.picture_of(&scene, &mut renderer)?,
+            Some(_) => request.drawn_lines(scene, Wanted::default(), &Progress::default())?.raster()?,
+        })?;
     }
     writer.finish().map(drop)
 }

@@ -6,6 +6,7 @@
 
 use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
+use crate::lines::lay_strokes;
 use crate::mesh::LoadOptions;
 use crate::picture::Picture;
 use crate::scene::Scene;
@@ -24,12 +25,14 @@ use crate::window::threads::watch;
 use crate::window::values::compose::composed;
 use crate::window::values::event::{Effect, Save, Side, ViewerEvent};
 use crate::window::values::line_style::LinesShown;
-use crate::window::values::paint::over;
 use crate::window::values::state::ViewerState;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
+
+/// Exact lines that take less time than this are drawn at once with each picture, milliseconds.
+const AT_ONCE_MS: f64 = 30.0;
 
 /// How the viewer is started.
 #[derive(Debug, Clone)]
@@ -303,17 +306,28 @@ impl Viewer {
 
     /// The drawing job of the state.
     pub fn job(&self) -> Option<Job> {
-        let drawing = |side: &Side| {
-            let (style, show) = self.state.buffer.drawn(self.state.style(*side));
-            (self.state.lines_shown(*side) != LinesShown::Alone).then_some((*side, style, show))
-        };
-        Some(Job {
+        let mut job = Job {
             scene: self.scene.clone()?,
             orbit: self.state.orbit.clone(),
             settings: self.state.scene_settings(),
-            drawings: self.state.sides().iter().filter_map(drawing).collect(),
+            drawings: Vec::new(),
+            lines_over: [None, None],
             is_coarse: self.is_moving && self.state.is_coarse_while_moving,
-        })
+        };
+        let found = self.lines.found().filter(|found| found.job.style == self.state.line_style());
+        let is_fast =
+            found.is_some_and(|found| found.ms < AT_ONCE_MS && Arc::ptr_eq(&found.job.view.scene, &job.scene));
+        let is_found = found.is_some_and(|found| found.job.view.is_of_same_picture(&job));
+        for side in self.state.sides() {
+            let (style, show) = self.state.buffer.drawn(self.state.style(*side));
+            let shown = self.state.lines_shown(*side);
+            // Until exact lines are found the style's own borders stand for them.
+            let is_replaced = shown == LinesShown::Over && (is_fast || is_found);
+            let style = if is_replaced { style.without_borders().unwrap_or(style) } else { style };
+            job.drawings.extend((shown != LinesShown::Alone).then_some((*side, style, show)));
+            job.lines_over[*side as usize] = (shown == LinesShown::Over && is_fast).then(|| self.state.line_style());
+        }
+        Some(job)
     }
 
     /// The pixel to explain: a side's finished picture of the style that it shows, if that has shaders.
@@ -328,8 +342,10 @@ impl Viewer {
 
     /// The exact lines to find, if a visible side shows them.
     fn line_job(&self, job: &Job) -> Option<LineJob> {
-        let is_wanted = self.shows(LinesShown::Over) || self.shows(LinesShown::Alone);
-        let view = Job { drawings: Vec::new(), is_coarse: false, ..job.clone() };
+        // Lines that are drawn at once with the picture need no search of their own while the model moves.
+        let is_drawn = self.is_moving && job.lines_over.iter().any(Option::is_some);
+        let is_wanted = self.shows(LinesShown::Over) && !is_drawn || self.shows(LinesShown::Alone);
+        let view = Job { drawings: Vec::new(), lines_over: [None, None], is_coarse: false, ..job.clone() };
         is_wanted.then(|| LineJob { view, style: self.state.line_style() })
     }
 
@@ -351,7 +367,11 @@ impl Viewer {
         let found = self.lines.found();
         self.inked = [Side::Left, Side::Right].map(|side| match lines[side as usize] {
             LinesShown::None => None,
-            LinesShown::Over => found.zip(self.drawing(side)).map(|(found, under)| over(&found.ink, &under.picture)),
+            LinesShown::Over => found.zip(self.drawing(side)).map(|(found, under)| {
+                let mut picture = under.picture.clone();
+                lay_strokes(&found.strokes, picture.size, &mut picture.pixels);
+                picture
+            }),
             LinesShown::Alone => found.map(|found| found.alone()),
         });
         self.inked_of = of;
@@ -362,7 +382,8 @@ impl Viewer {
     fn has_ink_over(&self, side: Side) -> bool {
         let Some((found, drawn)) = self.lines.found().zip(self.drawn.as_ref()) else { return false };
         let is_of_it = found.job.style == self.state.line_style() && found.job.view.is_of_same_picture(drawn);
-        is_of_it && self.drawing(side).is_some()
+        let is_under = |drawing: &Drawing| drawing.picture.size == found.job.view.settings.size;
+        is_of_it && drawn.lines_over[side as usize].is_none() && self.drawing(side).is_some_and(is_under)
     }
 
     /// The command lines that draw the active side: its style's picture, its exact lines.

@@ -5,7 +5,8 @@
 
 use crate::error::Result;
 use crate::mesh::LoadOptions;
-use crate::preset::{LOOKS, Look};
+use crate::preset::{LOOKS, Look, Preset};
+use crate::request::EXACT_LINES;
 use crate::scene::SceneSettings;
 use crate::settings::{HasSettings, Kind, Options, Setting, Table};
 use crate::styles::{Style, StyleName};
@@ -50,6 +51,12 @@ pub(in crate::window) fn of_load(load: &LoadOptions) -> Vec<Control<LoadOptions>
 pub(in crate::window) fn sibling(look: Look, name: StyleName) -> Style {
     let options = look.preset().map(|preset| preset.options);
     options.and_then(|options| Style::with_options(name, &options)).unwrap_or_else(|_| Style::named(name))
+}
+
+/// The exact lines over the pictures of a look, if it has them.
+pub(in crate::window) fn lines_of_look(look: Look) -> Option<Style> {
+    let has_them = |preset: &Preset| preset.options.contains_key(EXACT_LINES);
+    look.preset().is_ok_and(|preset| has_them(&preset)).then(|| sibling(look, StyleName::Lines))
 }
 
 /// The look whose sibling a style is; the published one if it has only its own settings.

@@ -2,12 +2,14 @@
 
 use crate::camera::CameraSettings;
 use crate::camera::View;
+use crate::error::Error;
 use crate::mesh::LoadOptions;
 use crate::orbit::Orbit;
 use crate::preset::{LOOKS, Look, Preset};
-use crate::request::{OptionLayer, Request};
+use crate::request::{EXACT_LINES, OptionLayer, Request};
 use crate::scene::{SceneSettings, Size};
-use crate::styles::{LineStyle, Style, StyleName};
+use crate::settings::{OptionValue, Options};
+use crate::styles::{LineStyle, Style, StyleName, is_of_exact_lines};
 use crate::window::values::buffer::{Buffer, buffers};
 use crate::window::values::controls;
 use crate::window::values::event::{Effect, Layout, Save, Side, ViewerEvent};
@@ -136,7 +138,8 @@ impl ViewerState {
 
     /// How a side shows exact lines.
     pub(in crate::window) fn lines_shown(&self, side: Side) -> LinesShown {
-        match (self.style(side).lines(), self.has_lines_over[side as usize]) {
+        let is_over = self.has_lines_over[side as usize] && self.buffer == Buffer::default();
+        match (self.style(side).lines(), is_over) {
             (Some(_), _) => LinesShown::Alone,
             (None, true) => LinesShown::Over,
             (None, false) => LinesShown::None,
@@ -148,12 +151,21 @@ impl ViewerState {
         &self.styles[0][StyleName::Lines as usize]
     }
 
-    /// The style whose vectors a side's drawing has: its own if it has areas of tone and no exact lines over them, else that of
-    /// exact lines.
+    /// The style whose vectors a side's drawing has: its own if it has areas of tone, else that of exact lines.
     pub(in crate::window) fn style_of_drawing(&self, side: Side) -> &Style {
         let style = self.style(side);
-        let has_vectors = self.lines_shown(side) == LinesShown::None && style.vectors(self.scene.size).is_some();
-        if has_vectors { style } else { self.style_of_lines() }
+        if style.vectors(self.scene.size).is_some() { style } else { self.style_of_lines() }
+    }
+
+    /// Adds the options of the exact lines over a side's picture, which beat its style's.
+    pub(in crate::window) fn add_lines_over(&self, side: Side, options: &mut Options) -> Result<(), Error> {
+        if self.lines_shown(side) == LinesShown::Over {
+            options.retain(|name, _| !is_of_exact_lines(name));
+            let of_lines = self.style_of_lines().to_options()?;
+            options.extend(of_lines.into_iter().filter(|(name, _)| is_of_exact_lines(name)));
+            options.insert(EXACT_LINES.to_owned(), OptionValue::Switch(true));
+        }
+        Ok(())
     }
 
     /// The style of exact lines: of a side that shows them alone, or else of those over pictures.
@@ -171,10 +183,13 @@ impl ViewerState {
         }
     }
 
-    /// Shows this style on a side, without lines over it.
-    fn put_drawn(&mut self, side: Side, style: Style) {
+    /// Shows this style on a side, with these exact lines over it or none.
+    fn put_drawn(&mut self, side: Side, style: Style, lines_over: Option<Style>) {
         self.put_style(side, style);
-        self.has_lines_over[side as usize] = false;
+        self.has_lines_over[side as usize] = lines_over.is_some();
+        if let Some(lines) = lines_over {
+            self.prepare_style(&lines);
+        }
     }
 
     /// Shows this style on a side.
@@ -408,7 +423,7 @@ impl ViewerState {
     fn choose_look(&mut self, look: Look) -> Result<(), String> {
         let (style, scene) = controls::of_look(look, self.style(self.active), &self.scene_settings())
             .map_err(|error| error.to_string())?;
-        self.put_drawn(self.active, style);
+        self.put_drawn(self.active, style, controls::lines_of_look(look));
         self.put_scene(scene);
         // A side still unseen and unchanged starts with settings that fit the look.
         let other = if self.active == Side::Left { Side::Right } else { Side::Left };
@@ -425,14 +440,12 @@ impl ViewerState {
 
     /// The look that a side has, from wherever it is seen.
     pub(in crate::window) fn look_of(&self, side: Side) -> Option<Look> {
-        if self.lines_shown(side) == LinesShown::Over {
-            return None;
-        }
         let (shown, seen) = (self.style(side), self.scene_settings());
+        let lines = (self.lines_shown(side) == LinesShown::Over).then(|| self.style_of_lines().clone());
         let has = |look: &Look| {
             controls::of_look(*look, shown, &seen).is_ok_and(|(style, mut scene)| {
                 scene.camera.view = seen.camera.view;
-                style == *shown && scene == seen
+                style == *shown && scene == seen && controls::lines_of_look(*look) == lines
             })
         };
         LOOKS.into_iter().find(has)
@@ -446,7 +459,8 @@ impl ViewerState {
         let (request, _) = Request::from_layers(&layers).map_err(said)?;
         let mut scene = self.scene_settings();
         controls::apply_to_scene(&mut scene, &request.options).map_err(|error| said(request.attributed(error)))?;
-        self.put_drawn(self.active, request.style);
+        let lines = request.has_lines_over().then(|| request.in_style(StyleName::Lines)).transpose().map_err(said)?;
+        self.put_drawn(self.active, request.style, lines.map(|request| request.style));
         self.put_scene(scene);
         Ok(())
     }

@@ -206,8 +206,13 @@ fn a_look_of_vectors_shows_exact_lines_and_the_next_takes_them_back() {
     assert!(technical.scene_settings().camera.parallel);
     assert_eq!(technical.look().map(|look| look.name), Some("technical"));
     let print = after([look("technical"), look("print")]);
-    assert_eq!((print.lines_shown(Side::Left), print.scene_settings().camera.parallel), (LinesShown::None, false));
-    assert_eq!(print.style(Side::Left).name(), "ink");
+    assert_eq!((print.lines_shown(Side::Left), print.scene_settings().camera.parallel), (LinesShown::Over, false));
+    assert_eq!((print.style(Side::Left).name(), print.look().map(|look| look.name)), ("ink", Some("print")));
+    let published = after([look("print"), look("published")]);
+    assert_eq!(
+        (published.lines_shown(Side::Left), published.look().map(|look| look.name)),
+        (LinesShown::None, Some("published"))
+    );
 }
 
 #[test]

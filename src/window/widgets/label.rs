@@ -80,7 +80,7 @@ mod tests {
         assert_eq!(labels(&[split, look("print")]), ["look print", "inking, as published, 2001"], "what is seen stays");
         let width = ViewerEvent::Set(Side::Right, "--line-width".to_owned(), "5".to_owned());
         assert_eq!(labels(&[width, look("print")]), ["look print", "inking, changed settings"], "what was set stays");
-        assert_eq!(labels(&[look("technical")])[1], "inking, as published, 2001", "whose widths are not inking's");
+        assert_eq!(labels(&[look("technical")])[1], "inking, settings of technical");
         assert_eq!(labels(&[look("print"), look("published")])[1], "inking, as published, 2001");
         assert_eq!(labels(&[look("technical"), ViewerEvent::Turn([0.3, 0.1])])[0], "look technical");
         assert_eq!(labels(&[style(Side::Right, "mrt")])[1], "mrt, default settings");

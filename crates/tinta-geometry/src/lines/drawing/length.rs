@@ -165,8 +165,8 @@ impl Value for Millimetres {
 pub(in crate::lines) const LINE_WIDTH: (&str, &str, &str) = (
     "line-width",
     "PIXELS",
-    "Width of the lines in pixels, up to 16384; in style lines also millimetres on paper (0.35mm), a share of the \
-     height (0.3%), or a share on the screen and millimetres on paper (0.3%/0.35mm)",
+    "Width of the lines in pixels, up to 16384, or a share of the height (0.3%); of exact lines also millimetres on paper \
+     (0.35mm), or a share on the screen and millimetres on paper (0.3%/0.35mm)",
 );
 
 /// The default as the help gives it.
@@ -175,21 +175,21 @@ pub(in crate::lines) const LINE_WIDTH_SAID: &str = "2; style lines with --page: 
 /// The range that a panel offers.
 pub(in crate::lines) const LINE_WIDTH_RANGE: (f64, f64, usize) = (0.5, 40.0, 1);
 
-/// The setting of the line width for drawings by GL, in pixels.
-pub fn line_width<T: Clone + 'static>(field: fn(&mut T) -> &mut f32) -> Setting<T> {
+/// The setting of the line width for drawings by GL, which have no paper.
+pub fn line_width<T: Clone + 'static>(field: fn(&mut T) -> &mut Length) -> Setting<T> {
     let (name, value_name, help) = LINE_WIDTH;
     let (low, high, decimals) = LINE_WIDTH_RANGE;
     let get = move |of: &T| field(&mut of.clone()).text();
     let set = move |of: &mut T, text: &str| {
-        if !matches!(Length::parse(text)?, Length::Px(_)) {
-            let problem =
-                "only a drawing by style lines has millimetres and shares; give pixels, or write a .svg or .pdf";
+        let length = Length::parse(text)?;
+        if matches!(length, Length::Mm(_) | Length::Times(_)) {
+            let problem = "a picture of pixels has no millimetres; give pixels, or write a .svg or .pdf";
             return Err(Error::value(name, text, problem).into());
         }
-        *field(of) = f32::parse(text)?;
+        *field(of) = length;
         Ok(())
     };
-    Setting::of(name, value_name, f32::kind(), help, get, set)
+    Setting::of(name, value_name, Length::kind(), help, get, set)
         .printed("D, Inking: glLineWidth( 2 )")
         .range(low, high, decimals)
         .said(LINE_WIDTH_SAID)

@@ -5,7 +5,7 @@ use crate::stress::{Shape, Variant};
 use glam::DVec3;
 use tinta::camera::CameraSettings;
 use tinta::edges::CreaseAngle;
-use tinta::lines::LineSettings;
+use tinta::lines::{Length, LineSettings};
 use tinta::styles::{Border, Cartoon, Charcoal, Dietrich, Inking, Phong, Style, Tones};
 
 pub(super) fn cases() -> Vec<Case> {
@@ -107,7 +107,7 @@ fn borders() -> Vec<Case> {
         all.push(rendered(name, Drawing { variants: vec![Variant::new("inking", inking)], ..Drawing::default() }));
     }
     for (name, width) in [("a line width of 1e-6", 1e-6), ("a line width of 1e3", 1e3)] {
-        let inking = Style::Inking(Inking { line_width_px: width, ..Inking::default() });
+        let inking = Style::Inking(Inking { line_width: Length::Px(width.into()), ..Inking::default() });
         let drawing = Drawing { variants: vec![Variant::new("inking", inking)], ..Drawing::default() };
         all.push(Case { expected: super::Expected::Either(&["setting"]), ..rendered(name, drawing) });
     }
