@@ -32,7 +32,7 @@ pub(super) const COMMAND: Command = Command {
         "tinta render cow.obj -o cow.png                 draw it into this file",
         "tinta render builtin:bust -o bust.png           draw a built-in model",
         "tinta render cow.obj -o cow.png --style ink     choose a style",
-        "tinta render cow.obj -o cow.svg                 write exact lines and tones as vectors",
+        "tinta render cow.obj -o cow.svg                 write it as vectors",
         "tinta render cow.obj -o cow.gif --turntable 60  turn the model once around",
         "tinta render cow.obj -o cow.png --preset a.toml read options from a file",
     ],

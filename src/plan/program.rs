@@ -83,6 +83,9 @@ pub struct PlanPicture {
     pub sampling: Sampling,
 }
 
+/// The name of a plan's picture of the paper's height: lines that are laid over the plan's picture are rubbed off by it.
+pub const TOOTH: &str = "tooth";
+
 /// The reading of a texture between and beyond its texels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sampling {

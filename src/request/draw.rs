@@ -6,11 +6,11 @@ use super::{ModelCache, Request, Session, Wanted, ignored_remark};
 use crate::clock::Instant;
 use crate::error::{Error, Result};
 use crate::glsl;
-use crate::lines::{Progress, Strokes, lay_strokes};
+use crate::lines::{Progress, Strokes, lay_strokes, lay_strokes_by};
 use crate::mesh::{LoadStage, Mesh};
 use crate::picture::Picture;
-use crate::plan::Plan;
 use crate::plan::prune::{Kept, Omission, Pruned, prune};
+use crate::plan::{Plan, TOOTH};
 use crate::renderer::{Renderer, milliseconds_since};
 use crate::scene::Scene;
 use crate::styles::is_of_vectors;
@@ -93,8 +93,36 @@ pub struct ReadModels {
 /// As [`Renderer::draw`].
 pub fn drawn_under(strokes: &[Strokes], scene: &Scene, plan: &Plan, renderer: &mut Renderer) -> Result<Picture> {
     let mut picture = renderer.draw(scene, plan)?;
-    lay_strokes(strokes, picture.size, &mut picture.pixels);
+    lay(strokes, plan, &mut picture);
     Ok(picture)
+}
+
+/// Lays strokes over the picture of a plan: as ink, or as charcoal where the plan has the paper's tooth.
+fn lay(strokes: &[Strokes], plan: &Plan, picture: &mut Picture) {
+    /// Share of black on paper of middling height, and how much a height of 1 adds to it. Charcoal leaves hollows bare.
+    const CHARCOAL: f32 = 0.6;
+    const PER_HEIGHT: f32 = 0.8;
+    let Picture { size, pixels } = picture;
+    let Some(tooth) = plan.pictures.iter().find(|picture| picture.name == TOOTH).map(|tooth| &tooth.picture) else {
+        return lay_strokes(strokes, *size, pixels);
+    };
+    // The paper covers the longer side, as under the drawing.
+    let scale = tooth.size.width as f32 / size.width.max(size.height) as f32;
+    lay_strokes_by(strokes, *size, pixels, |pixel| {
+        let [x, y] = [pixel % size.width as usize, pixel / size.width as usize].map(|at| at as f32 * scale);
+        let height = tooth_at(tooth, [x, y]) / 127.5 - 1.0;
+        (CHARCOAL + PER_HEIGHT * height).clamp(0.0, 1.0)
+    });
+}
+
+/// A paper's height between its texels, 0 to 255.
+fn tooth_at(tooth: &Picture, place: [f32; 2]) -> f32 {
+    let ([x, y], [right, down]) = (place.map(|at| at as i64), place.map(f32::fract));
+    let row = |y: i64| {
+        let [left, beside] = [x, x + 1].map(|x| f32::from(tooth.pixel(x, y)[0]));
+        left + (beside - left) * right
+    };
+    row(y) + (row(y + 1) - row(y)) * down
 }
 
 /// A scene ready to draw, with its plan and the exact lines over it.
@@ -261,7 +289,7 @@ impl Request {
         let mut picture = renderer.draw(&scene, &plan)?;
         times.first_frame_ms = milliseconds_since(start);
         remarks.extend(empty_remark(&scene, &published, &picture, renderer)?);
-        lay_strokes(&strokes, picture.size, &mut picture.pixels);
+        lay(&strokes, &plan, &mut picture);
         Ok(DrawnPicture {
             scene,
             files: Vec::new(),

@@ -234,7 +234,7 @@ impl Charcoal {
             picture("cet", made.cet, cet),
             picture("paper", made.paper, linear),
         ];
-        pictures.extend(made.tooth.map(|tooth| picture("tooth", tooth, linear)));
+        pictures.extend(made.tooth.map(|tooth| picture(crate::plan::TOOTH, tooth, linear)));
         let has_paper = matches!(show, Show::Final | Show::Paper) && scene.background != Background::Transparent;
         let color = match show {
             Show::Final | Show::Paper => scene.background.clear_color(),

@@ -182,7 +182,7 @@ const MISTAKES: [(&str, &str); 98] = [
         "out.json: look charcoal draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture such as drawing.png",
     ),
     (
-        "render triangle.obj -o out.svg --no-borders",
+        "render triangle.obj -o out.svg --style lines --no-borders",
         "--no-borders: style lines draws nothing but lines; leave it out, or add --areas object",
     ),
     (

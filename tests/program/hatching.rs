@@ -135,7 +135,7 @@ fn nonsense_for_strokes_is_refused_by_the_options_name() {
         &["--hatch", "lines alone have no tones", "--look print"],
     );
     refuse("a.png", &["--look", "print", "--hatch", "auto"], &["--hatch", "write a .svg"]);
-    refuse("a.svg", &["--look", "charcoal", "--hatch", "auto"], &["--hatch", "write a .svg"]);
+    refuse("a.svg", &["--look", "charcoal", "--hatch", "auto"], &["look charcoal draws pixels", "--look print"]);
     refuse("a.svg", &["--look", "print", "--hatch", "auto", "--tones", "1"], &["--hatch", "--tones", "2 or 3 tones"]);
 }
 

@@ -16,6 +16,7 @@ mod gltf_refused;
 mod goldens_looks;
 mod hatching;
 mod hostile;
+mod one_drawing;
 mod output;
 mod output_killed;
 mod page_file;

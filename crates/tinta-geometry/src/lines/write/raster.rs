@@ -1,7 +1,8 @@
 //! Draws lines as pixels: the same picture as the SVG, at any size, without an external rasteriser.
 //!
 //! Input: [`VisibleLines`] and [`DrawingSettings`], or [`Strokes`]. Output: [`Raster`]. All lines have round ends and corners, so the
-//! distance of a pixel's centre from the nearest line gives its coverage. Within a layer the nearest line counts,
+//! distance of a pixel's centre from the nearest line, and its direction, give the pixel's share on the line's side of each border.
+//! Within a layer the nearest line counts,
 //! because crossing lines of one colour do not add up in the SVG. Layers are composited over one another.
 
 use crate::error::{Error, Result};
@@ -12,6 +13,7 @@ use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::write::strokes::{Polyline, Strokes, strokes_of};
 use crate::scene::{Background, Color, Size};
 use glam::DVec2;
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// The pixels of a drawing.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -62,6 +64,12 @@ pub fn raster_of_strokes(strokes: &[Strokes], size: Size, background: Background
 
 /// Lays strokes over a picture of this size, from the lowest layer to the highest.
 pub fn lay_strokes(strokes: &[Strokes], size: Size, pixels: &mut [u8]) {
+    lay_strokes_by(strokes, size, pixels, |_| 1.0);
+}
+
+/// Lays strokes over a picture as [`lay_strokes`] does, each pixel with a share of its ink: `share` is given the pixel's number,
+/// row by row from the top, and returns 0 to 1.
+pub fn lay_strokes_by(strokes: &[Strokes], size: Size, pixels: &mut [u8], share: impl Fn(usize) -> f32) {
     let mut cover = Cover::new(size);
     for layer in strokes {
         for Polyline { points_px, is_closed } in &layer.polylines {
@@ -69,7 +77,7 @@ pub fn lay_strokes(strokes: &[Strokes], size: Size, pixels: &mut [u8]) {
             let pairs = points_px.windows(2).map(|pair| (&pair[0], &pair[1])).chain(closing);
             pairs.for_each(|(a, b)| cover.line([*a, *b], layer.width_px));
         }
-        cover.blend_into(pixels, layer.color, layer.opacity);
+        cover.blend_into(pixels, layer.color, |pixel| layer.opacity * share(pixel));
     }
 }
 
@@ -87,6 +95,19 @@ fn lay_over(pixel: &mut [u8], Color(color): Color, opacity: f32) {
     pixel[3] = byte(alpha);
 }
 
+/// The share of a pixel on the near side of a straight border with this unit normal, `depth` pixels behind it.
+fn share_inside(depth: f64, normal: DVec2) -> f64 {
+    let (long, short) = (normal.abs().max_element(), normal.abs().min_element());
+    let beyond = (long + short) * 0.5 - depth.abs();
+    let outside = match beyond {
+        ..=0.0 => 0.0,
+        // A corner is cut off.
+        beyond if beyond < short => beyond * beyond / (2.0 * long * short),
+        beyond => (beyond - short * 0.5) / long,
+    };
+    if depth < 0.0 { outside } else { 1.0 - outside }
+}
+
 /// How much of each pixel a layer covers.
 struct Cover {
     size: Size,
@@ -102,9 +123,10 @@ impl Cover {
 
     /// Raises each pixel's coverage to that of a line with round ends, where that is more.
     fn line(&mut self, [a, b]: [DVec2; 2], width_px: f64) {
-        // Coverage ends half a pixel beyond the line's border.
-        let (radius, reach) = (width_px * 0.5, width_px * 0.5 + 0.5);
+        // Coverage ends half a pixel's diagonal beyond the line's border.
+        let (radius, reach) = (width_px * 0.5, width_px * 0.5 + FRAC_1_SQRT_2);
         let along = b - a;
+        let across = along.perp().try_normalize().unwrap_or(DVec2::X);
         let squared = along.length_squared();
         let pixels = |low: f64, high: f64, side: u32| {
             let first = (low - 0.5).ceil().max(0.0) as usize;
@@ -121,8 +143,14 @@ impl Cover {
             for column in pixels(ends[0].min(ends[1]) - reach, ends[0].max(ends[1]) + reach, self.size.width) {
                 let from_a = DVec2::new(column as f64 + 0.5, y) - a;
                 let share = if squared > 0.0 { (from_a.dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-                let distance = (from_a - along * share).length();
-                let covered = (reach - distance).min(2.0 * radius).clamp(0.0, 1.0) as f32;
+                let from_line = from_a - along * share;
+                let distance = from_line.length();
+                if distance >= reach {
+                    continue;
+                }
+                let direction = if distance > 0.0 { from_line / distance } else { across };
+                let covered =
+                    (share_inside(radius - distance, direction) - share_inside(-radius - distance, direction)) as f32;
                 let before = &mut self.shares[row * self.size.width as usize + column];
                 *before = before.max(covered);
             }
@@ -131,14 +159,14 @@ impl Cover {
     }
 
     /// Lays the layer over the pixels, and empties it.
-    fn blend_into(&mut self, pixels: &mut [u8], color: Color, opacity: f32) {
+    fn blend_into(&mut self, pixels: &mut [u8], color: Color, opacity: impl Fn(usize) -> f32) {
         let width = self.size.width as usize;
-        let rows = pixels.chunks_exact_mut(width * 4).zip(self.shares.chunks_exact_mut(width));
-        for ((row, shares), _) in rows.zip(&mut self.is_used).filter(|(_, is_used)| **is_used) {
-            for (pixel, share) in row.chunks_exact_mut(4).zip(shares) {
+        let rows = pixels.chunks_exact_mut(width * 4).zip(self.shares.chunks_exact_mut(width)).enumerate();
+        for ((number, (row, shares)), _) in rows.zip(&mut self.is_used).filter(|(_, is_used)| **is_used) {
+            for (column, (pixel, share)) in row.chunks_exact_mut(4).zip(shares).enumerate() {
                 let share = std::mem::take(share);
                 if share > 0.0 {
-                    lay_over(pixel, color, share * opacity);
+                    lay_over(pixel, color, share * opacity(number * width + column));
                 }
             }
         }
@@ -169,6 +197,24 @@ mod tests {
                 let area = length * width_px + std::f64::consts::PI * width_px * width_px / 4.0;
                 let sum: f64 = covered(ends, width_px).iter().map(|cover| f64::from(*cover)).sum();
                 assert!((sum / area - 1.0).abs() < 0.06, "{ends:?} {width_px}: {sum} {area}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_pixels_share_is_the_area_on_one_side_of_a_border() {
+        let samples = |depth: f64, normal: DVec2| {
+            let steps = 400;
+            let at = |step: i32| (f64::from(step) + 0.5) / f64::from(steps) - 0.5;
+            let inside = |x: i32, y: i32| DVec2::new(at(x), at(y)).dot(normal) < depth;
+            let count = (0..steps * steps).filter(|place| inside(place % steps, place / steps)).count();
+            count as f64 / f64::from(steps * steps)
+        };
+        for angle in [0.0, 10.0, 45.0, 80.0, 90.0, 200.0f64] {
+            let normal = DVec2::from_angle(angle.to_radians());
+            for depth in [-0.8, -0.6, -0.3, 0.0, 0.2, 0.55, 0.9] {
+                let (share, area) = (share_inside(depth, normal), samples(depth, normal));
+                assert!((share - area).abs() < 0.004, "{angle} {depth}: {share} {area}");
             }
         }
     }
