@@ -427,9 +427,14 @@ fn explained_lines_are_a_text_of_what_there_is() {
     let edges = record["edges"]["crease"].as_u64().unwrap().to_string();
     let crease = said.lines().find(|line| line.starts_with("crease")).unwrap();
     assert_eq!(crease.split_whitespace().nth(1), Some(edges.as_str()));
-    for part in ["seen px", "read", "edges, hierarchy", "silhouettes", "visibility", "join and write"] {
+    for part in ["seen px", "read", "preparing lines", "finding lines", "leaving out specks", "join and write"] {
         assert!(said.contains(part), "{part}: {said}");
     }
+    assert!(!said.contains("finding areas"), "{said}");
+    let toned = ["render", "builtin:bust", "-o", &out, "--look", "print", "--size", "160", "--explain"];
+    let said = String::from_utf8(silent(&toned)).unwrap();
+    let place = |part: &str| said.find(part).unwrap_or_else(|| panic!("{part}: {said}"));
+    assert!(place("leaving out specks") < place("finding areas"), "{said}");
 }
 
 /// A model with slow lines, as an OBJ file's text.

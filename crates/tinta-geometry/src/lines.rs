@@ -122,6 +122,7 @@ impl VisibleLines {
     /// [`Progress::within_or_part`] while no line is decided.
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
         let clock = Instant::now();
+        progress.begin(Phase::Preparing, 0);
         let input = LineInput::of(scene, settings)?;
         let topology_ms = milliseconds_since(clock);
         progress.go_on()?;

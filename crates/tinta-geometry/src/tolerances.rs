@@ -34,6 +34,9 @@ pub(crate) const SAME_POINT: f64 = 1e-12;
 /// Sine of the angle below which an up vector counts as being along the view: rounding then turns the picture.
 pub(crate) const CAMERA_ALIGNMENT: f64 = 1e-6;
 
+/// By how much rounding moves an angle whose cosine is compared, radians: the root of a cosine's rounding near 1, thirtyfold.
+pub(crate) const ANGLE_OF_COSINE: f64 = 1e-6;
+
 /// Share of the picture's half-width and half-height that the fitted scene fills; the rest is margin for ink.
 pub const FRAME_FILL: f64 = 0.92;
 

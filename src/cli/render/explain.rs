@@ -1,7 +1,7 @@
 //! The text of `--explain`: a plan's times, the preparation before the first frame, and exact lines.
 
 use tinta::edges::Class;
-use tinta::lines::{InconsistencyKind, Polyline, Strokes, VisibleLines};
+use tinta::lines::{InconsistencyKind, Phase, Polyline, Strokes, VisibleLines};
 use tinta::plan::Plan;
 use tinta::record::{LineCounts, Summary};
 use tinta::renderer::PassTime;
@@ -51,8 +51,14 @@ pub(super) fn pens(layers: &[Strokes]) -> String {
     text
 }
 
+/// The parts of a drawing's work and their milliseconds, in order.
+pub(super) fn parts(load_ms: f64, phases: &[(Phase, f64)], written_ms: f64) -> Vec<(&'static str, f64)> {
+    let phases = phases.iter().map(|(phase, ms)| (phase.words(), *ms));
+    [("read", load_ms)].into_iter().chain(phases).chain([("join and write", written_ms)]).collect()
+}
+
 /// Explains a drawing's lines: their counts, the time of each part, and where visible smooth silhouettes end without a reason.
-pub(super) fn lines(lines: &VisibleLines, counts: &LineCounts, load_ms: f64, written_ms: f64) -> String {
+pub(super) fn lines(lines: &VisibleLines, counts: &LineCounts, parts: &[(&str, f64)]) -> String {
     let mut text = format!("{:<20}{:>10}{:>12}{:>12}\n", "class", "lines", "seen px", "hidden px");
     let mut edges = lines.edges;
     for (name, class) in Class::ALL {
@@ -83,14 +89,7 @@ pub(super) fn lines(lines: &VisibleLines, counts: &LineCounts, load_ms: f64, wri
             text.push_str(&format!("  at {:.1},{:.1} px: {why}\n", place.px[0], place.px[1]));
         }
     }
-    let times = [
-        ("read", load_ms),
-        ("edges, hierarchy", lines.times.topology_ms),
-        ("silhouettes", lines.times.silhouette_ms),
-        ("visibility", lines.times.visibility_ms),
-        ("join and write", written_ms),
-    ];
-    text.push_str(&format!("\n{:<20}{:>10}\n", "part", "ms"));
-    times.iter().for_each(|(name, ms)| text.push_str(&format!("{name:<20}{ms:>10.3}\n")));
+    text.push_str(&format!("\n{:<28}{:>10}\n", "part", "ms"));
+    parts.iter().for_each(|(name, ms)| text.push_str(&format!("{name:<28}{ms:>10.3}\n")));
     text
 }

@@ -49,6 +49,7 @@ fn one_view(
         Err(Error::Cancelled) => return Ok(stopped(stop)),
         drawn => drawn?,
     };
+    let phases = progress.times();
     let Drawn::Lines(drawn) = drawn else { return Ok(Verdict::Good) };
     drawn.remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
 
@@ -83,7 +84,7 @@ fn one_view(
     drawn.written(format, Some(paths), recipe.as_ref())?.write(output, request.is_transparent())?;
     let lines_ms = milliseconds_since(start);
     if run.explain {
-        super::super::print(&(explain::lines(lines, &counts, *load_ms, lines_ms) + &pens))?;
+        super::super::print(&(explain::lines(lines, &counts, &explain::parts(*load_ms, &phases, lines_ms)) + &pens))?;
     }
     if !run.json {
         return Ok(Verdict::Good);

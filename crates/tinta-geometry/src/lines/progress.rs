@@ -3,6 +3,7 @@
 use crate::clock::Instant;
 use crate::error::{Error, Result};
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 /// The progress of long work, for another thread to watch or cancel.
@@ -31,6 +32,8 @@ pub struct Progress {
     total: AtomicUsize,
     compared: AtomicU64,
     is_cancelled: AtomicBool,
+    /// When each phase began, in order.
+    begins: Mutex<Vec<(Phase, Instant)>>,
     deadline: Option<Deadline>,
     keeps_part: bool,
     /// Extra time for drawing a partial result.
@@ -50,6 +53,22 @@ pub enum Phase {
     Contours,
     /// Removes lines that are too short; counts possible sides of slivers.
     TooShort,
+    /// Cuts the view into areas; not counted.
+    Areas,
+}
+
+impl Phase {
+    /// What the work does, for people.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Preparing => "preparing lines",
+            Self::Intersections => "finding intersections",
+            Self::Lines => "finding lines",
+            Self::Contours => "finding smooth silhouettes",
+            Self::TooShort => "leaving out specks",
+            Self::Areas => "finding areas",
+        }
+    }
 }
 
 #[derive(Debug)]
@@ -90,7 +109,8 @@ impl Progress {
             1 => Phase::Intersections,
             2 => Phase::Lines,
             3 => Phase::Contours,
-            _ => Phase::TooShort,
+            4 => Phase::TooShort,
+            _ => Phase::Areas,
         }
     }
 
@@ -156,7 +176,27 @@ impl Progress {
         }
     }
 
+    /// How long each phase took until now, milliseconds, in the order of their first beginnings.
+    pub fn times(&self) -> Vec<(Phase, f64)> {
+        let begins = self.begins.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let ends = begins.iter().skip(1).map(|(_, begin)| *begin).chain([Instant::now()]);
+        let mut times: Vec<(Phase, f64)> = Vec::new();
+        for ((phase, begin), end) in begins.iter().zip(ends) {
+            let ms = end.duration_since(*begin).as_secs_f64() * 1e3;
+            match times.iter_mut().find(|(known, _)| known == phase) {
+                Some((_, sum)) => *sum += ms,
+                None => times.push((*phase, ms)),
+            }
+        }
+        times
+    }
+
     pub(crate) fn begin(&self, phase: Phase, total: usize) {
+        let mut begins = self.begins.lock().unwrap_or_else(PoisonError::into_inner);
+        if begins.last().is_none_or(|(last, _)| *last != phase) {
+            begins.push((phase, Instant::now()));
+        }
+        drop(begins);
         self.total.store(0, Ordering::Relaxed);
         self.done.store(0, Ordering::Relaxed);
         self.compared.store(0, Ordering::Relaxed);
@@ -168,5 +208,22 @@ impl Progress {
     pub(crate) fn advance(&self, count: usize, compared: u64) {
         self.compared.fetch_add(compared, Ordering::Relaxed);
         self.done.fetch_add(count, Ordering::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn phases_are_listed_once_in_the_order_of_their_beginnings() {
+        let progress = Progress::default();
+        assert_eq!(progress.times(), []);
+        for phase in [Phase::Preparing, Phase::Lines, Phase::TooShort, Phase::TooShort, Phase::Lines, Phase::Areas] {
+            progress.begin(phase, 0);
+            assert_eq!(progress.phase(), phase);
+        }
+        let phases: Vec<Phase> = progress.times().into_iter().map(|(phase, _)| phase).collect();
+        assert_eq!(phases, [Phase::Preparing, Phase::Lines, Phase::TooShort, Phase::Areas]);
     }
 }

@@ -35,6 +35,7 @@ mod region;
 mod sheets;
 mod snap;
 mod surface;
+mod tone_borders;
 mod tones;
 mod view;
 

@@ -36,7 +36,7 @@ pub(super) fn watched<T>(progress: &LineProgress, stop: Option<&Stop>, work: imp
                 // The time left in a phase is computed from its own steps.
                 let (_, bar) = match bar.take().filter(|(known, _)| *known == phase) {
                     Some(known) => bar.insert(known),
-                    None => bar.insert((phase, Progress::new(word(phase), 0))),
+                    None => bar.insert((phase, Progress::new(phase.words(), 0))),
                 };
                 if total == 0 { bar.wait() } else { bar.set(done as u64, total as u64) }
             }
@@ -47,15 +47,4 @@ pub(super) fn watched<T>(progress: &LineProgress, stop: Option<&Stop>, work: imp
         let _done = done;
         work()
     })
-}
-
-/// The name of a phase's work.
-fn word(phase: Phase) -> &'static str {
-    match phase {
-        Phase::Preparing => "preparing lines",
-        Phase::Intersections => "finding intersections",
-        Phase::Lines => "finding lines",
-        Phase::Contours => "finding smooth silhouettes",
-        Phase::TooShort => "leaving out specks",
-    }
 }

@@ -7,13 +7,16 @@
 use super::cut::cut;
 use super::region::{Regions, SeenFace};
 use super::snap::Segment;
+use super::tone_borders::{Tone, add_borders};
 use super::view::{Sides, View};
 use crate::error::Result;
 use crate::lines::progress::Progress;
 use crate::mesh::NONE;
 use crate::scene::Scene;
 use crate::threads::{cores, in_chunks};
+use crate::tolerances::ANGLE_OF_COSINE;
 use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
 
 /// How light becomes tones.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,9 +79,6 @@ const CHUNK: usize = 512;
 /// Most parts into which a face's side is divided to follow a curve.
 const MOST_PARTS: usize = 512;
 
-/// Halvings of a side that find where a curve crosses it.
-const HALVINGS: usize = 40;
-
 struct Shading<'a> {
     view: &'a View<'a>,
     rule: &'a ToneRule,
@@ -136,8 +136,7 @@ impl Shading<'_> {
 
     /// How far the specular light is above its threshold.
     fn specular(&self, corners: &[Light; 3], weights: [f64; 3]) -> f64 {
-        let mixed = |of: fn(&Light) -> DVec3| corners.iter().zip(weights).map(|(it, weight)| of(it) * weight).sum();
-        let (mirrored, to_eye): (DVec3, DVec3) = (mixed(|light| light.mirrored), mixed(|light| light.to_eye));
+        let [mirrored, to_eye] = directions(corners, weights);
         let lengths = mirrored.length() * to_eye.length();
         let cosine = if lengths > 0.0 { mirrored.dot(to_eye) / lengths } else { 0.0 };
         cosine.max(0.0) - self.rule.thresholds[1]
@@ -153,63 +152,16 @@ impl Shading<'_> {
         let corners = self.corners(seen);
         let points = self.view.faces.corners(place);
         let mut lines = Vec::new();
-        self.add_borders(points, 1, |weights| self.diffuse(&corners, weights) >= 0.0, &mut lines);
+        add_borders(points, 1, &Diffuse { shading: self, corners: &corners }, &mut lines);
         if self.rule.thresholds[1] < 1.0 {
             let [low, high] = self.view.faces.tree.boxes()[place as usize].corners();
             let longest_px = (high - low).truncate().min(self.view.space.size).max_element();
             let parts = (longest_px.ceil() as usize).clamp(1, MOST_PARTS);
-            self.add_borders(points, parts, |weights| self.specular(&corners, weights) > 0.0, &mut lines);
+            add_borders(points, parts, &Specular { shading: self, corners: &corners }, &mut lines);
         }
         match lines.is_empty() {
             true => (Some(self.surface(seen, self.tone(&corners, [1.0 / 3.0; 3]))), Vec::new()),
             false => (None, lines.into_iter().flat_map(|line| self.view.across(line)).collect()),
-        }
-    }
-
-    /// Adds the lines between the inside and the outside of a tone in a triangle, whose sides are divided into so many parts.
-    fn add_borders(
-        &self,
-        corners: [DVec3; 3],
-        parts: usize,
-        is_inside: impl Fn([f64; 3]) -> bool,
-        lines: &mut Vec<[DVec3; 2]>,
-    ) {
-        let weights = |[i, j]: [usize; 2]| {
-            let [a, b] = [i, j].map(|steps| steps as f64 / parts as f64);
-            [(1.0 - a - b).max(0.0), a, b]
-        };
-        let rows: Vec<Vec<bool>> =
-            (0..=parts).map(|i| (0..=parts - i).map(|j| is_inside(weights([i, j]))).collect()).collect();
-        let point = |weights: [f64; 3]| corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
-        let between = |inside: [usize; 2], outside: [usize; 2]| {
-            let (mut inside, mut outside) = (weights(inside), weights(outside));
-            for _ in 0..HALVINGS {
-                let middle = [0, 1, 2].map(|corner| (inside[corner] + outside[corner]) * 0.5);
-                *(if is_inside(middle) { &mut inside } else { &mut outside }) = middle;
-            }
-            point(inside)
-        };
-        let mut add = |triangle: [[usize; 2]; 3]| {
-            let is_in = triangle.map(|[i, j]| rows[i][j]);
-            let Some(single) = (0..3).find(|corner| {
-                let others = [is_in[(corner + 1) % 3], is_in[(corner + 2) % 3]];
-                others == [!is_in[*corner]; 2]
-            }) else {
-                return;
-            };
-            let ends = [1, 2].map(|step| {
-                let (one, other) = (triangle[single], triangle[(single + step) % 3]);
-                if is_in[single] { between(one, other) } else { between(other, one) }
-            });
-            lines.push(ends);
-        };
-        for i in 0..parts {
-            for j in 0..parts - i {
-                add([[i, j], [i + 1, j], [i, j + 1]]);
-                if i + j + 1 < parts {
-                    add([[i + 1, j], [i + 1, j + 1], [i, j + 1]]);
-                }
-            }
         }
     }
 
@@ -219,4 +171,59 @@ impl Shading<'_> {
         let [one, other] = [first, second].map(|place| surfaces[place as usize]);
         one.is_none() || one != other || !self.view.goes_on(sides)
     }
+}
+
+/// The diffuse tone of a face.
+struct Diffuse<'a> {
+    shading: &'a Shading<'a>,
+    corners: &'a [Light; 3],
+}
+
+impl Tone for Diffuse<'_> {
+    fn is_inside(&self, weights: [f64; 3]) -> bool {
+        self.shading.diffuse(self.corners, weights) >= 0.0
+    }
+
+    // Its border is straight: the triangle is not divided.
+    fn is_even(&self, _: &[[f64; 3]; 4]) -> bool {
+        false
+    }
+}
+
+/// The specular tone of a face.
+struct Specular<'a> {
+    shading: &'a Shading<'a>,
+    corners: &'a [Light; 3],
+}
+
+impl Tone for Specular<'_> {
+    fn is_inside(&self, weights: [f64; 3]) -> bool {
+        self.shading.specular(self.corners, weights) > 0.0
+    }
+
+    /// Whether the angle between the two directions stays on one side of the threshold's, as far as both turn.
+    fn is_even(&self, corners: &[[f64; 3]; 4]) -> bool {
+        let around = corners.map(|weights| directions(self.corners, weights));
+        let cone = |which: usize| {
+            let middle: DVec3 = around.iter().map(|directions| directions[which]).sum();
+            (middle, around.iter().map(|directions| angle(middle, directions[which])).fold(0.0, f64::max))
+        };
+        let ((mirrored, turn), (to_eye, turn_to_eye)) = (cone(0), cone(1));
+        let limit = self.shading.rule.thresholds[1].clamp(0.0, 1.0).acos();
+        // Directions in a cone wider than half a space may turn farther, or vanish.
+        let is_narrow = turn.max(turn_to_eye) < 1.5;
+        is_narrow && (angle(mirrored, to_eye) - limit).abs() > turn + turn_to_eye + ANGLE_OF_COSINE
+    }
+}
+
+/// The mirrored direction of the light and the direction to the eye at a place of a face.
+fn directions([a, b, c]: &[Light; 3], [of_a, of_b, of_c]: [f64; 3]) -> [DVec3; 2] {
+    let mirrored = a.mirrored * of_a + b.mirrored * of_b + c.mirrored * of_c;
+    [mirrored, a.to_eye * of_a + b.to_eye * of_b + c.to_eye * of_c]
+}
+
+/// The angle between two vectors, radians; that of no direction to any is half a turn.
+fn angle(one: DVec3, other: DVec3) -> f64 {
+    let is_none = one == DVec3::ZERO || other == DVec3::ZERO;
+    if is_none { PI } else { one.cross(other).length().atan2(one.dot(other)) }
 }

@@ -10,7 +10,7 @@ use crate::lines::eye::faces::Faces;
 use crate::lines::eye::image::Image;
 use crate::lines::eye::pyramid::{Pyramid, is_crowded};
 use crate::lines::eye::space::{Space, at_depth};
-use crate::lines::progress::Progress;
+use crate::lines::progress::{Phase, Progress};
 use crate::scene::Scene;
 use crate::threads::{cores, in_chunks, sort_by};
 use glam::{DVec2, DVec3};
@@ -39,6 +39,7 @@ impl<'a> View<'a> {
     ///
     /// Those of [`Progress::go_on`].
     pub(super) fn of(scene: &'a Scene, progress: &Progress) -> Result<Self> {
+        progress.begin(Phase::Areas, 0);
         let space = Space::of(scene);
         let faces = Faces::of(&space, scene);
         progress.go_on()?;
