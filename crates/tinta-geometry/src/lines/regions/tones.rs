@@ -138,17 +138,17 @@ impl Shading<'_> {
         let mesh = &object.mesh;
         let normal = |normal: u32| space.direction(mesh.normals[normal as usize].as_dvec3());
         let normals = mesh.triangle_normals[face as usize].map(normal);
-        let points = mesh.triangles[face as usize]
-            .map(|position| space.view(mesh.positions[position as usize] + object.offset));
+        let points =
+            mesh.triangles[face as usize].map(|position| space.view(mesh.positions[position as usize] + object.offset));
         match self.rule.light {
             ToneLight::Far(direction) => {
                 let [a, b, c] = points;
                 let side = if space.turn(a, b, c).0 < 0.0 { -1.0 } else { 1.0 };
                 Lights::Far(normals.map(|normal| direction.dot(normal) * side))
             }
-            ToneLight::Near(light) => Lights::Near([0, 1, 2].map(|corner| {
-                NearLight::of(light, points[corner] / self.view.scene.radius, normals[corner])
-            })),
+            ToneLight::Near(light) => Lights::Near(
+                [0, 1, 2].map(|corner| NearLight::of(light, points[corner] / self.view.scene.radius, normals[corner])),
+            ),
         }
     }
 
