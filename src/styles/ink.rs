@@ -8,6 +8,7 @@ use super::lens::DepthRange;
 use super::map::map_texture;
 use super::surfaces::has_doubled_faces;
 use super::textured::textured;
+use super::tones::ToneLookup;
 use super::{
     ALL_STYLES, IMAGE_SPACE, INK, INKING, LineWidth, MapTarget, Show, Supersample, Tones, cull, lens, no_borders,
     supersample,
@@ -232,6 +233,12 @@ impl Ink {
         if self.tone_light.is_some_and(|light| !light.iter().all(|x| x.is_finite()) || light == [0.0; 3]) {
             return Err(Error::setting("tone-light", "a direction is three finite numbers, not all 0"));
         }
+        if self.tone_light.is_some() && self.tones.lookup == ToneLookup::Texture {
+            return Err(Error::settings(
+                &["tone-lookup", "tone-light"],
+                "tones by a light from a direction are compared; leave out one of the two",
+            ));
+        }
         self.tones.check()
     }
 
@@ -257,25 +264,21 @@ impl Ink {
 
     /// The published tones; the background is cleared and needs no square.
     pub(super) fn tone_pass(&self, scene: &Scene) -> Pass {
-        let published = self.tones.are_published() && self.tone_light.is_none();
-        let fragments = match published {
-            true => vec!["evangelista/toon.frag"],
-            false => vec!["evangelista/toon-settings.frag", self.tones.shader()],
-        };
-        let mut uniforms = if published { Vec::new() } else { self.tones.uniforms(false) };
-        let vertex = match self.tone_light {
-            None => "evangelista/toon.vert",
-            Some(light) => {
-                // In f64 the length of any three f32 numbers is finite.
-                let direction = DVec3::from_array(light.map(f64::from)).normalize().as_vec3();
-                uniforms.push(Uniform { name: "lightDirection", value: Value::Vec3(direction.to_array()) });
-                "improved/toon-far.vert"
+        let (program, uniforms, textures) = match self.tone_light {
+            Some(light) => self.far_tones(light),
+            None if self.tones.are_published() => {
+                let program = Program { vertex: "evangelista/toon.vert", fragments: vec!["evangelista/toon.frag"] };
+                (program, Vec::new(), Vec::new())
+            }
+            None => {
+                let fragments = vec!["evangelista/toon-settings.frag", self.tones.shader()];
+                let program = Program { vertex: "evangelista/toon.vert", fragments };
+                (program, self.tones.uniforms(false), self.tones.textures())
             }
         };
-        let program = Program { vertex, fragments };
         let objects = Draw {
             uniforms,
-            textures: if published { Vec::new() } else { self.tones.textures() },
+            textures,
             cull_back_faces: self.cull_back_faces,
             culls_doubled_faces: has_doubled_faces(scene),
             facts: Facts { shorter: self.tones.shorter(&program), ..Facts::plain() },
@@ -285,6 +288,19 @@ impl Ink {
         let mut steps = vec![Step::clear(scene.background.clear_color()), Step::Draw(objects)];
         steps.extend(texture);
         Pass::new("tones", steps)
+    }
+
+    /// Tones by a light from a direction.
+    fn far_tones(&self, light: [f32; 3]) -> (Program, Vec<Uniform>, Vec<(&'static str, Texture)>) {
+        let program = Program { vertex: "improved/tones-far.vert", fragments: vec!["improved/tones-far.frag"] };
+        // In f64 the length of any three f32 numbers is finite.
+        let direction = DVec3::from_array(light.map(f64::from)).normalize().as_vec3();
+        let uniforms = vec![
+            Uniform { name: "lightDirection", value: Value::Vec3(direction.to_array()) },
+            Uniform { name: "toneThresholds", value: Value::Vec2(self.tones.far_thresholds()) },
+            Uniform { name: "toneLevels", value: Value::Vec3(self.tones.levels) },
+        ];
+        (program, uniforms, Vec::new())
     }
 
     /// The filter over the whole picture.

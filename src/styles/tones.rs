@@ -38,7 +38,8 @@ impl Tones {
             "tone-thresholds",
             "D,S",
             Kind::Numbers { count: 2, range: [0.0, 1.0], decimals: 3 },
-            "Diffuse and specular light at which the second and third tone begin; more makes these tones smaller",
+            "Diffuse and specular light at which the second and third tone begin; more makes these tones smaller. With \
+             --tone-light both are cosines of the angle to the light",
             |tones: &Self| [tones.diffuse_threshold, tones.specular_threshold].text(),
             |tones, text| {
                 [tones.diffuse_threshold, tones.specular_threshold] = <[f32; 2]>::parse(text)?;
@@ -120,6 +121,14 @@ impl Tones {
     pub(super) fn thresholds(&self) -> [f32; 2] {
         let with = |used: bool, threshold: f32| if used { threshold } else { NEVER };
         [with(self.count >= 2, self.diffuse_threshold), with(self.count >= 3, self.specular_threshold)]
+    }
+
+    /// Returns the cosines with a light from a direction at which the second and the third tone begin: the thresholds in
+    /// ascending order, for there both compare the same light.
+    pub(super) fn far_thresholds(&self) -> [f32; 2] {
+        let [low, high] = [self.diffuse_threshold, self.specular_threshold];
+        let [low, high] = [low.min(high), low.max(high)];
+        [if self.count >= 2 { low } else { NEVER }, if self.count >= 3 { high } else { NEVER }]
     }
 
     /// The tone of light on a surface: the same decision the shaders make.

@@ -175,7 +175,11 @@ impl Vectors {
 }
 
 fn tone_rule(tones: &Tones, light: ToneLight) -> ToneRule {
-    ToneRule { light, thresholds: tones.thresholds().map(f64::from) }
+    let thresholds = match light {
+        ToneLight::Near(_) => tones.thresholds(),
+        ToneLight::Far(_) => tones.far_thresholds(),
+    };
+    ToneRule { light, thresholds: thresholds.map(f64::from) }
 }
 
 /// Refuses regions with borders that do not close.

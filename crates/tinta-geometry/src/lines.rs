@@ -73,7 +73,9 @@ pub use parts::rules::{PartRule, PartRules};
 pub use parts::scene_parts::ScenePart;
 pub use parts::style::{PartRole, PartStyle};
 pub use progress::{Phase, Progress};
-pub use regions::{Joined, Region, Regions, SeenFace, Surface, ToneLight, ToneRule, TonedSurface};
+pub use regions::{
+    Joined, Region, Regions, SeenFace, Surface, ToneLight, ToneRule, TonedSurface, chosen_light, lit_scene,
+};
 pub use segment::LineSegment;
 pub use settings::LineSettings;
 pub use sheet::ProjectionAngle;

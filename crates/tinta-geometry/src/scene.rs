@@ -88,6 +88,9 @@ pub struct Scene {
     pub recolor: bool,
     /// The surfaces' colours.
     pub surface: Surface,
+    /// The direction towards the far light that was chosen for tones, a unit vector in the eye's space; `None` before one is
+    /// chosen. A style that leaves the light open takes it.
+    pub tone_light: Option<DVec3>,
 }
 
 crate::choices! {
@@ -269,7 +272,8 @@ impl Scene {
     /// Those of [`Scene::new`].
     pub fn seen_with(&self, settings: &SceneSettings) -> Result<Self> {
         check_size(settings.size)?;
-        Self::seen(self.objects.clone(), self.centre, self.radius, settings)
+        let seen = Self::seen(self.objects.clone(), self.centre, self.radius, settings)?;
+        Ok(Self { tone_light: self.tone_light, ..seen })
     }
 
     /// Objects with the given centre and radius, under these settings.
@@ -285,6 +289,7 @@ impl Scene {
             color: settings.color.unwrap_or(settings.bare_color),
             recolor: settings.color.is_some(),
             surface: settings.surface,
+            tone_light: None,
         };
         scene.check_distance()?;
         Ok(scene)
@@ -438,6 +443,12 @@ fn length_of_any(vector: DVec3) -> f64 {
 }
 
 impl Object {
+    /// Returns the object with other normals. Its edges and curvatures stay those of the mesh that it has now.
+    pub(crate) fn with_normals(&self, normals: Vec<Vec3>, triangle_normals: Vec<[u32; 3]>) -> Self {
+        let mesh = Arc::new(Mesh { normals, triangle_normals, ..(*self.mesh).clone() });
+        Self { mesh, arrays: Arc::default(), ..self.clone() }
+    }
+
     /// A mesh at its own coordinates.
     fn at_home(mesh: Arc<Mesh>) -> Self {
         Self {

@@ -143,7 +143,8 @@ impl<'a> File<'a> {
         let limits = json!({ "min": low.to_array(), "max": high.to_array() });
         let mut attributes = json!({ "POSITION": self.put_vectors(positions.into_iter(), Some(VERTICES), limits) });
         if !self.mesh.normals.is_empty() {
-            let normals = vertices.keys.iter().map(|[_, normal]| self.mesh.normals[*normal as usize].as_dvec3());
+            let normal = |[_, normal]: &[u32; 2]| self.mesh.normals[*normal as usize].as_dvec3().normalize_or_zero();
+            let normals = vertices.keys.iter().map(normal);
             attributes["NORMAL"] = json!(self.put_vectors(normals, Some(VERTICES), json!({})));
         }
         let mut primitives = Vec::new();

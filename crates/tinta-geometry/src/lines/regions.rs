@@ -30,15 +30,18 @@
 mod crossings;
 mod cut;
 mod grid;
+mod lit;
 mod planar_map;
 mod region;
 mod sheets;
 mod snap;
+mod seen_normals;
 mod surface;
 mod tone_borders;
 mod tones;
 mod view;
 
+pub use lit::{chosen_light, lit_scene};
 pub use region::{Region, Regions, SeenFace};
 pub use surface::{Joined, Surface};
 pub use tones::{ToneLight, ToneRule, TonedSurface};

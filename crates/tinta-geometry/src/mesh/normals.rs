@@ -6,21 +6,19 @@
 //! index. A group contains the faces connected around the vertex over shared edges whose faces differ by at most the angle. A
 //! face's weight is the sine of its angle at the vertex over the lengths of its sides there (Max 1999: exact on a sphere). This
 //! needs no arc cosine and, on a square, does not depend on the diagonal. If only persistent creases are split
-//! (`persistent_creases.rs`), all other vertices are smooth, flat faces are weighted by area, and normals of curved surfaces
-//! move closer to their neighbours' (`calm.rs`).
+//! (`persistent_creases.rs`), all other vertices are smooth, flat faces are weighted by area, and normals of curved surfaces are
+//! averaged over a share of the model's size (`average.rs`), those of the file too.
 
-mod calm;
+mod average;
 mod curved;
-mod denoise_normals;
 mod incidence;
-mod persistent_creases;
-mod noise;
 mod patches;
+mod persistent_creases;
 
 use super::NONE;
 use crate::threads::{in_parallel, threads_for};
 use crate::tolerances::CANCELLED_NORMALS;
-use calm::calm;
+use average::average;
 use glam::{DVec3, Vec3};
 pub(super) use incidence::Incidence;
 use incidence::angle_at;
@@ -47,13 +45,13 @@ pub(super) fn fill_missing(
     normals: &mut Vec<Vec3>,
     triangle_normals: &mut [[u32; 3]],
 ) {
-    if !triangle_normals.as_flattened().contains(&NONE) {
+    if cos_beside.is_none() && !triangle_normals.as_flattened().contains(&NONE) {
         return;
     }
     let incidence = Incidence::new(positions.len(), triangles);
     let lasting =
         cos_beside.map(|cos| PersistentCreases::find(positions, triangles, face_normals, &incidence, cos_smooth, cos));
-    let face_normals = lasting.as_ref().map_or(face_normals, |lasting| &lasting.face_normals);
+    let cos_smooth = lasting.as_ref().map_or(cos_smooth, |lasting| lasting.cos_smooth);
     let is_smooth = |vertex: usize| lasting.as_ref().is_some_and(|lasting| !lasting.vertices[vertex]);
     let weighted = |corner: u32| match &lasting {
         None => weighted_normal(positions, triangles, corner),
@@ -125,7 +123,7 @@ pub(super) fn fill_missing(
         }
     }
     if let Some(lasting) = &lasting {
-        calm(triangles, &incidence, lasting, cos_smooth, first, normals, triangle_normals);
+        average(positions, triangles, &incidence, lasting, first, normals, triangle_normals);
     }
 }
 

@@ -59,6 +59,9 @@ impl Mesh {
             file_normals = &[];
         }
         self.take_from_file(file_normals, options);
+        if options.normals == Normals::Lasting {
+            self.turn_inward(face_normals);
+        }
         self.compute_missing(face_normals, splitting, options.normals != Normals::File);
     }
 
@@ -75,6 +78,19 @@ impl Mesh {
                 *slot = self.normals.len() as u32;
                 number[file_index] = *slot;
                 self.normals.push(options.up_axis.to_y_up(normal.as_dvec3()).as_vec3());
+            }
+        }
+    }
+
+    /// Turns the normals of triangles round whose normals all point to their inner sides: files may run round faces the wrong way, and
+    /// a style that lights the side that is seen goes by that.
+    fn turn_inward(&mut self, face_normals: &[DVec3]) {
+        let (normals, triangle_normals) = (&mut self.normals, &mut self.triangle_normals);
+        let mut turned = Turned { triangles: &self.triangles, normals, triangle_normals, opposites: HashMap::new() };
+        for (triangle, face) in face_normals.iter().enumerate() {
+            if turned.points_inward(triangle, *face) {
+                let corners = turned.triangle_normals[triangle];
+                turned.triangle_normals[triangle] = corners.map(|normal| turned.opposite(normal));
             }
         }
     }
@@ -138,12 +154,24 @@ struct Turned<'a> {
 impl Turned<'_> {
     /// Leaves out the normals of a triangle if all three point to its inner side.
     fn drop_inward(&mut self, triangle: u32, face_normals: &[DVec3]) {
-        let (corners, face) = (&mut self.triangle_normals[triangle as usize], face_normals[triangle as usize]);
-        let points_inward =
-            |corner: &u32| self.normals.get(*corner as usize).is_some_and(|normal| normal.as_dvec3().dot(face) < 0.0);
-        if corners.iter().all(points_inward) {
-            *corners = [NONE; 3];
+        if self.points_inward(triangle as usize, face_normals[triangle as usize]) {
+            self.triangle_normals[triangle as usize] = [NONE; 3];
         }
+    }
+
+    /// Whether all normals of a triangle point to its inner side.
+    fn points_inward(&self, triangle: usize, face: DVec3) -> bool {
+        self.triangle_normals[triangle]
+            .iter()
+            .all(|corner| self.normals.get(*corner as usize).is_some_and(|normal| normal.as_dvec3().dot(face) < 0.0))
+    }
+
+    /// The number of a normal's opposite.
+    fn opposite(&mut self, normal: u32) -> u32 {
+        *self.opposites.entry(normal).or_insert_with(|| {
+            self.normals.push(-self.normals[normal as usize]);
+            self.normals.len() as u32 - 1
+        })
     }
 
     /// Gives a triangle's corners without a normal the opposite of the other side's.
@@ -156,10 +184,7 @@ impl Turned<'_> {
             if self.triangle_normals[triangle][corner] != NONE || normal == NONE {
                 continue;
             }
-            self.triangle_normals[triangle][corner] = *self.opposites.entry(normal).or_insert_with(|| {
-                self.normals.push(-self.normals[normal as usize]);
-                self.normals.len() as u32 - 1
-            });
+            self.triangle_normals[triangle][corner] = self.opposite(normal);
         }
     }
 }

@@ -23,7 +23,7 @@ pub struct Mesh {
     pub position_colors: Vec<[f32; 3]>,
     /// Each triangle's three positions, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// Unit normals, world space.
+    /// Normals, world space: unit vectors, or shorter ones where [`Normals::Lasting`](super::Normals::Lasting) averages them.
     pub normals: Vec<Vec3>,
     /// Each triangle corner's normal; as long as `triangles`.
     pub triangle_normals: Vec<[u32; 3]>,

@@ -238,19 +238,29 @@ fn tone(scene: &Scene, rule: &ToneRule, hit: &Hit) -> u8 {
     let object = &scene.objects[hit.object as usize];
     let mesh = &object.mesh;
     let (mut diffuse, mut mirrored, mut to_eye) = (0.0, DVec3::ZERO, DVec3::ZERO);
+    let mut points = Vec::new();
     for corner in 0..3 {
         let position = mesh.positions[mesh.triangles[hit.face as usize][corner] as usize] + object.offset;
         let normal = mesh.normals[mesh.triangle_normals[hit.face as usize][corner] as usize].as_dvec3();
-        let normal = view.transform_vector3(normal).normalize();
         let point = view.transform_point3(position) / scene.radius;
-        let (light, eye) = match rule.light {
-            ToneLight::Near(light) => ((light - point).normalize(), -point.normalize()),
-            ToneLight::Far(direction) => (direction, DVec3::Z),
-        };
+        points.push(point);
+        if let ToneLight::Far(light) = rule.light {
+            diffuse += hit.weights[corner] * light.dot(view.transform_vector3(normal));
+            continue;
+        }
+        let ToneLight::Near(light) = rule.light else { continue };
+        let (light, eye) = ((light - point).normalize(), -point.normalize());
+        let normal = view.transform_vector3(normal).normalize();
         diffuse += hit.weights[corner] * (light.dot(normal) + 1.0) * 0.5;
         // GLSL's reflect(-light, normal).
         mirrored += hit.weights[corner] * (-light - 2.0 * normal.dot(-light) * normal);
         to_eye += hit.weights[corner] * eye;
+    }
+    if matches!(rule.light, ToneLight::Far(_)) {
+        // The eye of these scenes is a point.
+        let is_front = (points[1] - points[0]).cross(points[2] - points[0]).dot(points[0]) < 0.0;
+        let light = if is_front { diffuse } else { -diffuse };
+        return rule.thresholds.iter().map(|threshold| u8::from(light >= *threshold)).sum();
     }
     let specular = mirrored.normalize().dot(to_eye.normalize());
     if specular > rule.thresholds[1] { 2 } else { u8::from(diffuse >= rule.thresholds[0]) }
@@ -260,7 +270,7 @@ fn tone(scene: &Scene, rule: &ToneRule, hit: &Hit) -> u8 {
 fn rules() -> [ToneRule; 3] {
     [
         ToneRule { light: ToneLight::Near(DVec3::ONE), thresholds: [0.8, 0.65] },
-        ToneRule { light: ToneLight::Far(DVec3::new(-0.4, 1.0, 0.6).normalize()), thresholds: [0.56, 0.2] },
+        ToneRule { light: ToneLight::Far(DVec3::new(-0.4, 1.0, 0.6).normalize()), thresholds: [0.2, 0.56] },
         ToneRule { light: ToneLight::Near(DVec3::ONE), thresholds: [0.6, 2.0] },
     ]
 }

@@ -43,12 +43,12 @@ pub(super) type Sand = Vec<Vec<Option<Arc<Picture>>>>;
 
 impl<'a> Shading<'a> {
     /// A style's shading; `None` for a style not computed here: charcoal read through mipmaps, with noise on the object, another
-    /// contrast operator or improvements beyond the text's flaws, and styles without shading.
+    /// contrast operator or improvements beyond the text's flaws, tones by a far light, and styles without shading.
     pub(super) fn of(style: &'a Style, scene: &Scene) -> Result<Option<Self>> {
         Ok(match style {
             Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => Some(Self::Tones(&cartoon.tones)),
             Style::Mrt(mrt) => Some(Self::Tones(&mrt.tones)),
-            Style::Ink(ink) => Some(Self::Tones(&ink.tones)),
+            Style::Ink(ink) => ink.tone_light.is_none().then_some(Self::Tones(&ink.tones)),
             Style::Phong(phong) => Some(Self::Phong(phong)),
             Style::Charcoal(charcoal) | Style::Sand(charcoal) => {
                 let is_computed = charcoal.operator == ContrastOperator::Power

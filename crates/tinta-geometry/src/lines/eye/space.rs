@@ -107,6 +107,11 @@ impl Space {
         self.rotation * world
     }
 
+    /// A direction of the eye's space in the world.
+    pub(in crate::lines) fn world_direction(&self, view: DVec3) -> DVec3 {
+        self.rotation.transpose() * view
+    }
+
     /// The direction of a point's image as the point moves in a direction, of any length.
     pub(in crate::lines) fn image_direction(&self, view: DVec3, direction: DVec3) -> DVec2 {
         let flipped = DVec2::new(direction.x, -direction.y);

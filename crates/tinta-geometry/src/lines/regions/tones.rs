@@ -2,7 +2,7 @@
 //!
 //! The article computes light at vertices and interpolates it with perspective. So the border of the diffuse tone is a straight line
 //! in each face. The border of the specular tone is a curve; it is followed from side to side of a fine division of the face, at
-//! most a pixel apart, with each point on the curve.
+//! most a pixel apart, with each point on the curve. Of a light from a direction all tones have straight borders.
 
 use super::cut::cut;
 use super::region::{Regions, SeenFace};
@@ -23,8 +23,9 @@ use std::f64::consts::PI;
 pub struct ToneRule {
     /// The light.
     pub light: ToneLight,
-    /// The diffuse value from which the second tone begins, and the specular value above which the third does, in [0, 1]; larger
-    /// ones are never reached.
+    /// With a near light, the diffuse value from which the second tone begins, and the specular value above which the third does,
+    /// in [0, 1]. With a far one, the cosines from which the second and the third begin, ascending. Values above 1 are never
+    /// reached.
     pub thresholds: [f64; 2],
 }
 
@@ -33,7 +34,7 @@ pub struct ToneRule {
 pub enum ToneLight {
     /// At a point, in the scene's radii from the eye.
     Near(DVec3),
-    /// So far away, as the eye, that its direction, a unit vector, is the same everywhere.
+    /// So far away that its direction, a unit vector, is the same everywhere. It lights the side of a face that is seen.
     Far(DVec3),
 }
 
@@ -84,13 +85,37 @@ struct Shading<'a> {
     rule: &'a ToneRule,
 }
 
-/// What a vertex shader hands to the interpolation.
+/// What a vertex shader hands to the interpolation, at a face's corners.
 #[derive(Debug, Clone, Copy)]
-struct Light {
+enum Lights {
+    Near([NearLight; 3]),
+    /// The light on the side that is seen.
+    Far([f64; 3]),
+}
+
+#[derive(Debug, Clone, Copy)]
+struct NearLight {
     diffuse: f64,
     /// The mirrored direction of the light, and the direction to the eye.
     mirrored: DVec3,
     to_eye: DVec3,
+}
+
+impl NearLight {
+    fn of(light: DVec3, point: DVec3, normal: DVec3) -> Self {
+        let (to_light, to_eye) = ((light - point).normalize_or_zero(), (-point).normalize_or_zero());
+        let normal = normal.normalize_or_zero();
+        let cosine = to_light.dot(normal);
+        Self { diffuse: ((cosine + 1.0) * 0.5).max(0.0), mirrored: normal * (2.0 * cosine) - to_light, to_eye }
+    }
+}
+
+fn mixed<T, U: std::ops::Mul<f64, Output = U> + std::iter::Sum>(
+    corners: &[T; 3],
+    weights: [f64; 3],
+    of: impl Fn(&T) -> U,
+) -> U {
+    corners.iter().zip(weights).map(|(corner, weight)| of(corner) * weight).sum()
 }
 
 impl Shading<'_> {
@@ -103,64 +128,79 @@ impl Shading<'_> {
     fn at(&self, px: DVec2) -> Option<TonedSurface> {
         let hit = self.view.first_hit(px)?;
         let seen = SeenFace { object: hit.object, face: hit.face };
-        Some(self.surface(seen, self.tone(&self.corners(seen), hit.weights)))
+        Some(self.surface(seen, self.tone(&self.lights(seen), hit.weights)))
     }
 
     /// The light at a face's corners.
-    fn corners(&self, SeenFace { object, face }: SeenFace) -> [Light; 3] {
+    fn lights(&self, SeenFace { object, face }: SeenFace) -> Lights {
         let space = &self.view.space;
         let object = &self.view.scene.objects[object as usize];
         let mesh = &object.mesh;
-        let positions = mesh.triangles[face as usize];
-        let normals = mesh.triangle_normals[face as usize];
-        [0, 1, 2].map(|corner| {
-            let normal = space.direction(mesh.normals[normals[corner] as usize].as_dvec3()).normalize_or_zero();
-            let (to_light, to_eye) = match self.rule.light {
-                ToneLight::Far(direction) => (direction, DVec3::Z),
-                ToneLight::Near(light) => {
-                    let world = mesh.positions[positions[corner] as usize] + object.offset;
-                    let point = space.view(world) / self.view.scene.radius;
-                    ((light - point).normalize_or_zero(), (-point).normalize_or_zero())
-                }
-            };
-            let cosine = to_light.dot(normal);
-            Light { diffuse: ((cosine + 1.0) * 0.5).max(0.0), mirrored: normal * (2.0 * cosine) - to_light, to_eye }
-        })
+        let normal = |normal: u32| space.direction(mesh.normals[normal as usize].as_dvec3());
+        let normals = mesh.triangle_normals[face as usize].map(normal);
+        let points =
+            mesh.triangles[face as usize].map(|position| space.view(mesh.positions[position as usize] + object.offset));
+        match self.rule.light {
+            ToneLight::Far(direction) => {
+                let [a, b, c] = points;
+                let side = if space.turn(a, b, c).0 < 0.0 { -1.0 } else { 1.0 };
+                Lights::Far(normals.map(|normal| direction.dot(normal) * side))
+            }
+            ToneLight::Near(light) => Lights::Near(
+                [0, 1, 2].map(|corner| NearLight::of(light, points[corner] / self.view.scene.radius, normals[corner])),
+            ),
+        }
     }
 
     /// How far the diffuse light is above its threshold.
-    fn diffuse(&self, corners: &[Light; 3], weights: [f64; 3]) -> f64 {
-        let light: f64 = corners.iter().zip(weights).map(|(corner, weight)| corner.diffuse * weight).sum();
-        light - self.rule.thresholds[0]
+    fn diffuse(&self, corners: &[NearLight; 3], weights: [f64; 3]) -> f64 {
+        mixed(corners, weights, |light| light.diffuse) - self.rule.thresholds[0]
     }
 
     /// How far the specular light is above its threshold.
-    fn specular(&self, corners: &[Light; 3], weights: [f64; 3]) -> f64 {
+    fn specular(&self, corners: &[NearLight; 3], weights: [f64; 3]) -> f64 {
         let [mirrored, to_eye] = directions(corners, weights);
         let lengths = mirrored.length() * to_eye.length();
         let cosine = if lengths > 0.0 { mirrored.dot(to_eye) / lengths } else { 0.0 };
         cosine.max(0.0) - self.rule.thresholds[1]
     }
 
-    fn tone(&self, corners: &[Light; 3], weights: [f64; 3]) -> u8 {
-        if self.specular(corners, weights) > 0.0 { 2 } else { u8::from(self.diffuse(corners, weights) >= 0.0) }
+    fn tone(&self, lights: &Lights, weights: [f64; 3]) -> u8 {
+        match lights {
+            Lights::Near(corners) if self.specular(corners, weights) > 0.0 => 2,
+            Lights::Near(corners) => u8::from(self.diffuse(corners, weights) >= 0.0),
+            Lights::Far(corners) => {
+                let light = mixed(corners, weights, |light| *light);
+                self.rule.thresholds.iter().map(|threshold| u8::from(light >= *threshold)).sum()
+            }
+        }
     }
 
     /// The surface of a face, `None` where it has several tones, and the borders between these.
     fn face(&self, place: u32) -> (Option<TonedSurface>, Vec<Segment>) {
         let seen = self.view.face(place);
-        let corners = self.corners(seen);
+        let lights = self.lights(seen);
         let points = self.view.faces.corners(place);
         let mut lines = Vec::new();
-        add_borders(points, 1, &Diffuse { shading: self, corners: &corners }, &mut lines);
-        if self.rule.thresholds[1] < 1.0 {
-            let [low, high] = self.view.faces.tree.boxes()[place as usize].corners();
-            let longest_px = (high - low).truncate().min(self.view.space.size).max_element();
-            let parts = (longest_px.ceil() as usize).clamp(1, MOST_PARTS);
-            add_borders(points, parts, &Specular { shading: self, corners: &corners }, &mut lines);
+        match &lights {
+            Lights::Far(lights) => {
+                for threshold in self.rule.thresholds {
+                    add_borders(points, 1, &Linear { lights: *lights, threshold }, &mut lines);
+                }
+            }
+            Lights::Near(corners) => {
+                let lights = corners.map(|corner| corner.diffuse);
+                add_borders(points, 1, &Linear { lights, threshold: self.rule.thresholds[0] }, &mut lines);
+                if self.rule.thresholds[1] < 1.0 {
+                    let [low, high] = self.view.faces.tree.boxes()[place as usize].corners();
+                    let longest_px = (high - low).truncate().min(self.view.space.size).max_element();
+                    let parts = (longest_px.ceil() as usize).clamp(1, MOST_PARTS);
+                    add_borders(points, parts, &Specular { shading: self, corners }, &mut lines);
+                }
+            }
         }
         match lines.is_empty() {
-            true => (Some(self.surface(seen, self.tone(&corners, [1.0 / 3.0; 3]))), Vec::new()),
+            true => (Some(self.surface(seen, self.tone(&lights, [1.0 / 3.0; 3]))), Vec::new()),
             false => (None, lines.into_iter().flat_map(|line| self.view.across(line)).collect()),
         }
     }
@@ -173,15 +213,15 @@ impl Shading<'_> {
     }
 }
 
-/// The diffuse tone of a face.
-struct Diffuse<'a> {
-    shading: &'a Shading<'a>,
-    corners: &'a [Light; 3],
+/// The tone of a face where a light that is interpolated between its corners reaches a threshold.
+struct Linear {
+    lights: [f64; 3],
+    threshold: f64,
 }
 
-impl Tone for Diffuse<'_> {
+impl Tone for Linear {
     fn is_inside(&self, weights: [f64; 3]) -> bool {
-        self.shading.diffuse(self.corners, weights) >= 0.0
+        mixed(&self.lights, weights, |light| *light) >= self.threshold
     }
 
     // Its border is straight: the triangle is not divided.
@@ -193,7 +233,7 @@ impl Tone for Diffuse<'_> {
 /// The specular tone of a face.
 struct Specular<'a> {
     shading: &'a Shading<'a>,
-    corners: &'a [Light; 3],
+    corners: &'a [NearLight; 3],
 }
 
 impl Tone for Specular<'_> {
@@ -217,7 +257,7 @@ impl Tone for Specular<'_> {
 }
 
 /// The mirrored direction of the light and the direction to the eye at a place of a face.
-fn directions([a, b, c]: &[Light; 3], [of_a, of_b, of_c]: [f64; 3]) -> [DVec3; 2] {
+fn directions([a, b, c]: &[NearLight; 3], [of_a, of_b, of_c]: [f64; 3]) -> [DVec3; 2] {
     let mirrored = a.mirrored * of_a + b.mirrored * of_b + c.mirrored * of_c;
     [mirrored, a.to_eye * of_a + b.to_eye * of_b + c.to_eye * of_c]
 }

@@ -113,30 +113,4 @@ impl Patches {
         let neighbours = neighbours.of_patches(&of, areas.len());
         Self { of, areas, neighbours }
     }
-
-    /// Each patch's members.
-    pub(super) fn members(&self) -> Members {
-        let mut starts = vec![0u32; self.areas.len() + 1];
-        self.of.iter().for_each(|patch| starts[*patch as usize + 1] += 1);
-        (0..self.areas.len()).for_each(|patch| starts[patch + 1] += starts[patch]);
-        let (mut next, mut list) = (starts.clone(), vec![0; self.of.len()]);
-        for (member, patch) in self.of.iter().enumerate() {
-            list[next[*patch as usize] as usize] = member as u32;
-            next[*patch as usize] += 1;
-        }
-        Members { starts, list }
-    }
-}
-
-/// The members of the patches.
-pub(super) struct Members {
-    starts: Vec<u32>,
-    list: Vec<u32>,
-}
-
-impl Members {
-    /// One patch's members, at least one.
-    pub(super) fn of(&self, patch: usize) -> &[u32] {
-        &self.list[self.starts[patch] as usize..self.starts[patch + 1] as usize]
-    }
 }

@@ -2,12 +2,11 @@
 //! On scans and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks. Around a
 //! flat face of a part a smaller angle is enough, because chamfers of nuts and shafts have 30 degrees.
 //!
-//! In: welded triangles and the angle's cosine. Out: the vertices where normals may be split, the faces' normals without a scan's
-//! noise (`denoise_normals.rs`), and for each triangle the area of the flat face it is part of. By it a face counts more than the chamfer beside
-//! it, which so bends from face to face and leaves them flat.
+//! In: welded triangles and the angle's cosine. Out: the vertices where normals may be split, and for each triangle the area of the
+//! flat face it is part of. By it a face counts more than the chamfer beside it, which so bends from face to face and leaves them
+//! flat.
 
-use super::curved::{Edge, curved};
-use super::denoise_normals::{DenoisedNormals, Faces, denoised};
+use super::curved::{Edge, Faces, curved};
 use super::incidence::Incidence;
 use super::patches::{Neighbours, gathered};
 use crate::disjoint_sets::DisjointSets;
@@ -18,9 +17,6 @@ use glam::DVec3;
 /// models looked at, less far than the edges of their shortest chamfers.
 const LEAST_REACH: f64 = 0.04;
 
-/// The same for a chain where there is noise only: scans have folds that lead nowhere and are longer.
-const LEAST_REACH_IN_NOISE: f64 = 0.15;
-
 /// The least cosine between triangles of one flat face: half a degree, as exported planes keep.
 const FLAT: f64 = 0.99996;
 
@@ -30,6 +26,14 @@ const LEAST_TRIANGLES: usize = 4;
 /// How much larger such a face is than the one beside it. Facets around a round shape are as large as one another.
 const LARGER: f64 = 4.0;
 
+/// The largest share of its surface that a figure has in flat faces of several triangles. Figures and scans that were looked at have
+/// up to 0.26, parts and turned shapes 0.84 and more.
+const MOST_FLAT: f64 = 0.5;
+
+/// The cosine of the angle above which an edge of a figure is sharp, if it is not larger: facets of low models stand at up to 50
+/// degrees to one another where the form is round.
+const COS_OF_FIGURES: f64 = 0.5;
+
 /// Where normals may be split, and how much faces weigh in.
 pub(super) struct PersistentCreases {
     /// For each vertex whether it lies on a crease that lasts.
@@ -38,10 +42,14 @@ pub(super) struct PersistentCreases {
     pub borders: Vec<bool>,
     /// For each triangle the area of its flat face, in units of the model's own.
     pub areas: Vec<f64>,
+    /// Each triangle's own area.
+    pub own_areas: Vec<f64>,
     /// For each triangle whether its facets stand for a surface that bends both ways.
     pub is_curved: Vec<bool>,
-    /// Each triangle's unit normal, evened out with its neighbours' where there is noise.
-    pub face_normals: Vec<DVec3>,
+    /// The cosine of the angle above which an edge is sharp.
+    pub cos_smooth: f64,
+    /// The diagonal of the model's box.
+    pub diagonal: f64,
 }
 
 impl PersistentCreases {
@@ -72,8 +80,8 @@ impl PersistentCreases {
             edges
         });
         let edges = || found.iter().flatten();
-        let cosine = |normals: &[DVec3], edge: &Edge| {
-            let [face, other] = edge.faces.map(|face| normals[face as usize]);
+        let cosine = |edge: &Edge| {
+            let [face, other] = edge.faces.map(|face| given[face as usize]);
             face.dot(other)
         };
         let neighbours = Neighbours::new(triangles.len(), edges().map(|edge| edge.faces));
@@ -92,18 +100,16 @@ impl PersistentCreases {
             },
         );
         let areas: Vec<f64> = flat.iter().map(|face| flat_areas[*face as usize]).collect();
+        let several = filled(triangles.len(), threads, false, |face| {
+            neighbours.of(face).iter().any(|other| flat[*other as usize] == flat[face])
+        });
+        let in_flat: f64 =
+            own_areas.iter().zip(&several).map(|(area, several)| if *several { *area } else { 0.0 }).sum();
+        let is_figure = in_flat < MOST_FLAT * own_areas.iter().sum::<f64>();
+        let cos_smooth = if is_figure { cos_smooth.min(COS_OF_FIGURES) } else { cos_smooth };
         let mut whole = Span::NONE;
         positions.iter().for_each(|position| whole.take(*position));
-        let faces = Faces {
-            positions,
-            triangles,
-            normals: given,
-            areas: &own_areas,
-            flat: &flat,
-            flat_areas: &flat_areas,
-            neighbours: &neighbours,
-        };
-        let DenoisedNormals { normals: face_normals, is_noisy } = denoised(&faces, whole.diagonal(), cos_smooth);
+        let faces = Faces { positions, triangles, normals: given, areas: &own_areas };
         let mut flat_counts = vec![0; triangles.len()];
         flat.iter().for_each(|face| flat_counts[*face as usize] += 1);
         let is_border = |edge: &Edge| {
@@ -114,33 +120,28 @@ impl PersistentCreases {
             };
             is_larger(face, other) || is_larger(other, face)
         };
-        // Evening out also sharpens rounded rims, in zigzags: a crease is one before and after it.
-        let is_sharp = |edge: &Edge, cos: f64| [&face_normals, given].iter().all(|of| cosine(of, edge) < cos);
-        let is_crease = |edge: &&Edge| is_sharp(edge, cos_smooth) || is_border(edge) && is_sharp(edge, cos_beside);
+        let is_crease = |edge: &&Edge| cosine(edge) < cos_smooth || is_border(edge) && cosine(edge) < cos_beside;
         let sharp: Vec<&Edge> = edges().filter(is_crease).collect();
         let mut chains = DisjointSets::new(positions.len());
         sharp.iter().for_each(|edge| chains.join(edge.ends));
         let mut boxes = vec![Span::NONE; positions.len()];
-        let mut least = vec![LEAST_REACH_IN_NOISE; positions.len()];
         for edge in &sharp {
             let chain = chains.root(edge.ends[0]) as usize;
             edge.ends.iter().for_each(|end| boxes[chain].take(positions[*end as usize]));
-            if edge.faces.iter().any(|face| !is_noisy[*face as usize]) {
-                least[chain] = LEAST_REACH;
-            }
         }
         let (mut vertices, mut borders) = (vec![false; positions.len()], vec![false; positions.len()]);
         for edge in &sharp {
             let chain = chains.root(edge.ends[0]) as usize;
-            let lasts = boxes[chain].diagonal() >= least[chain] * whole.diagonal();
+            let lasts = boxes[chain].diagonal() >= LEAST_REACH * whole.diagonal();
             let is_border = is_border(edge);
             for end in edge.ends {
                 vertices[end as usize] = lasts;
                 borders[end as usize] |= lasts && is_border;
             }
         }
-        let is_curved = curved(&faces, edges, incidence, whole.diagonal(), cos_smooth);
-        Self { vertices, borders, areas, is_curved, face_normals }
+        let is_curved =
+            if is_figure { vec![true; triangles.len()] } else { curved(&faces, edges, incidence, cos_smooth) };
+        Self { vertices, borders, areas, own_areas, is_curved, diagonal: whole.diagonal(), cos_smooth }
     }
 }
 

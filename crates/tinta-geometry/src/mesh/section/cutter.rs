@@ -130,7 +130,9 @@ impl Cutter {
         } else {
             *self.normals_on_edges.entry([position, low[1], high[1]]).or_insert_with(|| {
                 let [a, b] = [low, high].map(|corner| mesh.normals[corner[1] as usize]);
-                mesh.normals.push(a.lerp(b, share as f32).try_normalize().unwrap_or(a));
+                // Averaged normals are shorter than 1.
+                let length = a.length() + (b.length() - a.length()) * share as f32;
+                mesh.normals.push(a.lerp(b, share as f32).try_normalize().map_or(a, |normal| normal * length));
                 mesh.normals.len() as u32 - 1
             })
         };

@@ -1,0 +1,254 @@
+//! The light of tones, and the patches of a tone that are too small to draw.
+//!
+//! In: a scene and thresholds of a far light. Out: a light from above under which a fair share of what is seen is dark and hangs
+//! together; the scene with corners' normals changed so that no tone has a patch below [`LEAST_PATCH`] of what is seen. Light is
+//! linear in each triangle, so pixels and exact areas lose a patch alike.
+
+use super::seen_normals::{Sample, SeenNormals};
+use crate::disjoint_sets::DisjointSets;
+use crate::lines::eye::space::Space;
+use crate::mesh::{Mesh, NONE};
+use crate::scene::{Object, Scene};
+use glam::{DVec3, Vec3};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// The lights to choose from, the preferred first: directions in the eye's space, from above, from the left or the right.
+const LIGHTS: [[f64; 3]; 8] = [
+    [-0.4, 1.0, 0.6],
+    [-0.45, 0.8, 0.8],
+    [-0.5, 0.65, 1.0],
+    [-0.9, 0.8, 0.8],
+    [0.45, 0.8, 0.8],
+    [0.5, 0.65, 1.0],
+    [0.9, 0.8, 0.8],
+    [-0.3, 0.5, 1.3],
+];
+
+/// The share of what is seen that an illustrator keeps dark.
+const DARK: [f64; 2] = [0.15, 0.25];
+
+/// What it costs a light if no part of the dark hangs together with another, in shares of what is seen.
+const APART: f64 = 0.15;
+
+/// The least share of the middle tone, and what each missing share costs.
+const LEAST_MIDDLE: f64 = 0.1;
+const FLAT: f64 = 0.5;
+
+/// What each place in the list costs.
+const LATER: f64 = 0.004;
+
+/// The least share of what is seen that a patch of a tone has.
+const LEAST_PATCH: f64 = 0.002;
+
+/// How far beyond a threshold a patch is moved that gets the tone beside it: more than light changes within a pixel, so that no pixel there
+/// is mixed.
+const CLEARANCE: f64 = 0.02;
+
+/// Returns the direction of the light that suits a scene best, a unit vector in the eye's space. `thresholds` are the cosines at
+/// which the second and the third tone begin.
+pub fn chosen_light(scene: &Scene, thresholds: [f64; 2]) -> DVec3 {
+    best_light(&SeenNormals::of(scene), thresholds)
+}
+
+/// Returns the scene under a light, or under the one that suits it, without patches of a tone too small to draw; the light is
+/// [`Scene::tone_light`]. Objects that share their mesh keep it as it is.
+pub fn lit_scene(scene: Scene, light: Option<DVec3>, thresholds: [f64; 2]) -> Scene {
+    let seen = SeenNormals::of(&scene);
+    let light = light.unwrap_or_else(|| best_light(&seen, thresholds));
+    let least = LEAST_PATCH * seen.samples.iter().flatten().count() as f64;
+    let space = Space::of(&scene);
+    let mut samples: Vec<Vec<Sample>> = vec![Vec::new(); scene.objects.len()];
+    seen.samples.iter().flatten().for_each(|sample| samples[sample.object as usize].push(*sample));
+    let is_shared = |mesh: &Arc<Mesh>| scene.objects.iter().filter(|other| Arc::ptr_eq(mesh, &other.mesh)).count() > 1;
+    let lit = |(object, samples): (&Object, Vec<Sample>)| {
+        if samples.is_empty() || is_shared(&object.mesh) {
+            return object.clone();
+        }
+        let mut corners = LitCorners::of(object, &space, light);
+        for threshold in thresholds.into_iter().filter(|threshold| *threshold <= 1.0) {
+            // First what is dark, then what is light: each may lie within the other.
+            for is_above in [false, true] {
+                corners.flatten(&samples, threshold, is_above, least);
+            }
+        }
+        corners.applied(object, space.world_direction(light))
+    };
+    let objects = scene.objects.iter().zip(samples).map(lit).collect();
+    Scene { objects, tone_light: Some(light), ..scene }
+}
+
+fn best_light(seen: &SeenNormals, thresholds: [f64; 2]) -> DVec3 {
+    let lights = LIGHTS.map(|light| DVec3::from_array(light).normalize());
+    let cost = |(place, light): (usize, &DVec3)| cost(seen, *light, thresholds) + LATER * place as f64;
+    let costs: Vec<f64> = lights.iter().enumerate().map(cost).collect();
+    let best = (0..lights.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b]));
+    lights[best.unwrap_or(0)]
+}
+
+/// How far a light is from one that an illustrator would choose, in shares of what is seen.
+fn cost(seen: &SeenNormals, light: DVec3, [dark, middle]: [f64; 2]) -> f64 {
+    let light = light.as_vec3();
+    let cosine = |sample: &Option<Sample>| sample.map(|sample| f64::from(sample.normal.dot(light)));
+    let cosines: Vec<Option<f64>> = seen.samples.iter().map(cosine).collect();
+    let all = cosines.iter().flatten().count().max(1) as f64;
+    let is_dark: Vec<bool> = cosines.iter().map(|cosine| cosine.is_some_and(|cosine| cosine < dark)).collect();
+    let dark_count = is_dark.iter().filter(|is_dark| **is_dark).count();
+    let share = dark_count as f64 / all;
+    let in_middle = cosines.iter().flatten().filter(|cosine| (dark..middle).contains(*cosine)).count() as f64 / all;
+    let apart = 1.0 - largest(&is_dark, seen.width) as f64 / dark_count.max(1) as f64;
+    (DARK[0] - share).max(share - DARK[1]).max(0.0) + APART * apart + FLAT * (LEAST_MIDDLE - in_middle).max(0.0)
+}
+
+/// The size of the largest connected set of marked pixels.
+fn largest(is_marked: &[bool], width: usize) -> usize {
+    let mut sets = DisjointSets::new(is_marked.len());
+    for pixel in (0..is_marked.len()).filter(|pixel| is_marked[*pixel]) {
+        if pixel % width > 0 && is_marked[pixel - 1] {
+            sets.join([pixel as u32, pixel as u32 - 1]);
+        }
+        if pixel >= width && is_marked[pixel - width] {
+            sets.join([pixel as u32, (pixel - width) as u32]);
+        }
+    }
+    let mut sizes = vec![0; is_marked.len()];
+    (0..is_marked.len())
+        .filter(|pixel| is_marked[*pixel])
+        .for_each(|pixel| sizes[sets.root(pixel as u32) as usize] += 1);
+    sizes.into_iter().max().unwrap_or(0)
+}
+
+/// The light at the corners of an object's faces. Corners that share a position, a normal and the side that is seen are one.
+struct LitCorners {
+    /// Each corner's number.
+    of_corners: Vec<[u32; 3]>,
+    /// The light on the side that is seen.
+    light: Vec<f64>,
+    /// How much was added to it.
+    added: Vec<f64>,
+    /// Whether the side that is seen is the back.
+    is_back: Vec<bool>,
+    /// The area of each face in the small picture, pixels.
+    areas: Vec<f64>,
+}
+
+impl LitCorners {
+    fn of(object: &Object, space: &Space, light: DVec3) -> Self {
+        let mesh = &object.mesh;
+        let of_normals: Vec<f64> =
+            mesh.normals.iter().map(|normal| space.direction(normal.as_dvec3()).dot(light)).collect();
+        let points: Vec<DVec3> = mesh.positions.iter().map(|position| space.view(*position + object.offset)).collect();
+        let scale = SeenNormals::scale(space);
+        let mut lit = Self {
+            of_corners: vec![[0; 3]; mesh.triangles.len()],
+            light: Vec::new(),
+            added: Vec::new(),
+            is_back: Vec::new(),
+            areas: Vec::with_capacity(mesh.triangles.len()),
+        };
+        // For each normal and side the position that it first comes with, and its number there.
+        let mut firsts = vec![[NONE; 2]; 2 * mesh.normals.len()];
+        let mut others: HashMap<[u32; 2], u32> = HashMap::new();
+        for (face, (triangle, normals)) in mesh.triangles.iter().zip(&mesh.triangle_normals).enumerate() {
+            let [a, b, c] = triangle.map(|position| points[position as usize]);
+            let is_back = space.turn(a, b, c).0 < 0.0;
+            let is_in_front = [a, b, c].iter().all(|point| -point.z > space.near);
+            let [a, b, c] = [a, b, c].map(|point| space.project(point).0 * scale);
+            lit.areas.push(if is_in_front { (b - a).perp_dot(c - a).abs() * 0.5 } else { 0.0 });
+            for corner in 0..3 {
+                let (position, normal) = (triangle[corner], normals[corner]);
+                let slot = 2 * normal + u32::from(is_back);
+                let mut number = || {
+                    let light = of_normals[normal as usize];
+                    lit.light.push(if is_back { -light } else { light });
+                    lit.is_back.push(is_back);
+                    lit.light.len() as u32 - 1
+                };
+                let first = &mut firsts[slot as usize];
+                if first[0] == NONE {
+                    *first = [position, number()];
+                }
+                let known = if first[0] == position {
+                    first[1]
+                } else {
+                    *others.entry([slot, position]).or_insert_with(number)
+                };
+                lit.of_corners[face][corner] = known;
+            }
+        }
+        lit.added = vec![0.0; lit.light.len()];
+        lit
+    }
+
+    /// Moves the patches above a threshold, or below it, to the other side if they are smaller than `least` pixels of the small picture and
+    /// another tone lies beside them on the same surface.
+    fn flatten(&mut self, samples: &[Sample], threshold: f64, is_above: bool, least: f64) {
+        let is_in = |light: f64| (light >= threshold) == is_above;
+        let mut patches = DisjointSets::new(self.light.len());
+        for corners in &self.of_corners {
+            let is_in = corners.map(|corner| is_in(self.light[corner as usize]));
+            for [one, other] in [[0, 1], [1, 2], [2, 0]] {
+                if is_in[one] && is_in[other] {
+                    patches.join([corners[one], corners[other]]);
+                }
+            }
+        }
+        // What is seen of each patch; what might be seen if nothing hid it; whether another tone lies beside it.
+        let (mut seen, mut whole) = (vec![0.0; self.light.len()], vec![0.0; self.light.len()]);
+        let mut has_border = vec![false; self.light.len()];
+        for (corners, area) in self.of_corners.iter().zip(&self.areas) {
+            let inside = corners.map(|corner| is_in(self.light[corner as usize]));
+            let is_mixed = inside.contains(&true) && inside.contains(&false);
+            for (corner, _) in corners.iter().zip(inside).filter(|(_, is_in)| *is_in) {
+                let patch = patches.root(*corner) as usize;
+                whole[patch] += area / 3.0;
+                has_border[patch] |= is_mixed;
+            }
+        }
+        for sample in samples {
+            let corners = self.of_corners[sample.face as usize];
+            let lights = corners.map(|corner| self.light[corner as usize]);
+            let light: f64 = lights.iter().zip(sample.weights).map(|(light, weight)| light * f64::from(weight)).sum();
+            let corner = (0..3).find(|corner| is_in(lights[*corner]));
+            if let (true, Some(corner)) = (is_in(light), corner) {
+                seen[patches.root(corners[corner]) as usize] += 1.0;
+            }
+        }
+        let moved = threshold + if is_above { -CLEARANCE } else { CLEARANCE };
+        for corner in 0..self.light.len() {
+            if !is_in(self.light[corner]) {
+                continue;
+            }
+            let patch = patches.root(corner as u32) as usize;
+            let is_small = seen[patch] < least && (seen[patch] > 0.0 || whole[patch] < least);
+            if is_small && has_border[patch] {
+                self.added[corner] += moved - self.light[corner];
+                self.light[corner] = moved;
+            }
+        }
+    }
+
+    /// The object with normals that give this light, whose direction in the world is `light`.
+    fn applied(&self, object: &Object, light: DVec3) -> Object {
+        if self.added.iter().all(|added| *added == 0.0) {
+            return object.clone();
+        }
+        let mesh = &object.mesh;
+        let (mut normals, mut triangle_normals) = (mesh.normals.clone(), mesh.triangle_normals.clone());
+        let mut numbers = vec![NONE; self.light.len()];
+        for (corner, normal) in self.of_corners.as_flattened().iter().zip(triangle_normals.as_flattened_mut()) {
+            let corner = *corner as usize;
+            if self.added[corner] == 0.0 {
+                continue;
+            }
+            if numbers[corner] == NONE {
+                let side = if self.is_back[corner] { -1.0 } else { 1.0 };
+                let changed: Vec3 = normals[*normal as usize] + (light * (side * self.added[corner])).as_vec3();
+                normals.push(changed);
+                numbers[corner] = normals.len() as u32 - 1;
+            }
+            *normal = numbers[corner];
+        }
+        object.with_normals(normals, triangle_normals)
+    }
+}
