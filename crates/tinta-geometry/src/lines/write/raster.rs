@@ -2,8 +2,7 @@
 //!
 //! Input: [`VisibleLines`] and [`DrawingSettings`], or [`Strokes`]. Output: [`Raster`]. All lines have round ends and corners, so the
 //! distance of a pixel's centre from the nearest line, and its direction, give the pixel's share on the line's side of each border.
-//! Within a layer the nearest line counts,
-//! because crossing lines of one colour do not add up in the SVG. Layers are composited over one another.
+//! Within a layer lines of one colour that cross do not add up, as in the SVG. Layers are composited over one another.
 
 use crate::error::{Error, Result};
 use crate::lines::VisibleLines;
@@ -12,7 +11,7 @@ use crate::lines::drawing::drawn_layers::Drawing;
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::write::strokes::{Polyline, Strokes, strokes_of};
 use crate::scene::{Background, Color, Size};
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// The pixels of a drawing.
@@ -108,17 +107,34 @@ fn share_inside(depth: f64, normal: DVec2) -> f64 {
     if depth < 0.0 { outside } else { 1.0 - outside }
 }
 
+/// The share of a pixel that two lines cover, given each one's share and the direction away from it. Of lines on one side of the
+/// pixel the larger share counts; those of lines on opposite sides add up.
+fn united((one, from_one): (f32, Vec2), (other, from_other): (f32, Vec2)) -> f32 {
+    if one == 0.0 || one == 1.0 || other == 1.0 {
+        return one.max(other);
+    }
+    let apart = one + other - one * other;
+    let (along, limit) = match from_one.dot(from_other) {
+        along if along > 0.0 => (along, one.max(other)),
+        along => (-along, (one + other).min(1.0)),
+    };
+    apart + (limit - apart) * along.min(1.0)
+}
+
 /// How much of each pixel a layer covers.
 struct Cover {
     size: Size,
     shares: Vec<f32>,
+    /// The direction away from the last line that covered a part of the pixel, a unit vector.
+    directions: Vec<Vec2>,
     /// Rows with lines in them.
     is_used: Vec<bool>,
 }
 
 impl Cover {
     fn new(size: Size) -> Self {
-        Self { size, shares: vec![0.0; size.pixel_count()], is_used: vec![false; size.height as usize] }
+        let (shares, directions) = (vec![0.0; size.pixel_count()], vec![Vec2::ZERO; size.pixel_count()]);
+        Self { size, shares, directions, is_used: vec![false; size.height as usize] }
     }
 
     /// Raises each pixel's coverage to that of a line with round ends, where that is more.
@@ -149,10 +165,11 @@ impl Cover {
                     continue;
                 }
                 let direction = if distance > 0.0 { from_line / distance } else { across };
-                let covered =
-                    (share_inside(radius - distance, direction) - share_inside(-radius - distance, direction)) as f32;
-                let before = &mut self.shares[row * self.size.width as usize + column];
-                *before = before.max(covered);
+                let covered = share_inside(radius - distance, direction) - share_inside(-radius - distance, direction);
+                let place = row * self.size.width as usize + column;
+                let direction = direction.as_vec2();
+                self.shares[place] = united((self.shares[place], self.directions[place]), (covered as f32, direction));
+                self.directions[place] = direction;
             }
             self.is_used[row] = true;
         }
