@@ -82,8 +82,9 @@ pub struct PictureMade {
     pub recolor: bool,
     /// The context.
     pub gl: ContextInfo,
-    /// Each pass's median times.
-    pub passes: Vec<PassTime>,
+    /// Each pass's median times, where frames are timed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub passes: Option<Vec<PassTime>>,
     /// How vertices were passed to GL.
     pub submission: Submission,
     /// The parts of the published plan that were left out, with reasons.
@@ -99,8 +100,9 @@ pub struct PictureMade {
     pub warm_up_ms: Option<f64>,
     /// Time of the first frame, including uploads, and the driver's compiling unless it was warmed up.
     pub first_frame_ms: f64,
-    /// The frames after warm-up, read-back included.
-    pub frame_ms: Summary,
+    /// The frames after warm-up, read-back included, where frames are timed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame_ms: Option<Summary>,
 }
 
 /// One model.

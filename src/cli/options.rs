@@ -217,14 +217,15 @@ impl<S: Selection<Of = Request>> Chosen<S> {
         self.request_of(layers, models, below)
     }
 
-    /// The request that these options make over a layer.
+    /// The request that these options make over layers.
     pub fn request_over(
         &self,
-        layer: OptionLayer,
+        mut layers: Vec<OptionLayer>,
         models: &[String],
         below: &Below<'_>,
     ) -> Result<(Request, Vec<String>)> {
-        self.request_of(vec![layer, OptionLayer::Given(self.options.clone())], models, below)
+        layers.push(OptionLayer::Given(self.options.clone()));
+        self.request_of(layers, models, below)
     }
 
     fn request_of(

@@ -208,16 +208,21 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
     Ok(verdict)
 }
 
-/// Draws again, timed, and says how the picture was made: as text, or as JSON.
+/// Says how the picture was made: as text, or as JSON. Draws again where frames are to be timed.
 fn tell(rendering: &Rendering<'_>, drawn: DrawnPicture, renderer: &mut Renderer) -> Result<()> {
     let Rendering { request, run, .. } = *rendering;
     let DrawnPicture { scene, published, plan, omissions, kept, remarks, times: first, .. } = drawn;
     let Times { load_ms, stages, arrays_ms, plan_ms, lines_ms, context_ms, warm_up_ms, first_frame_ms } = first;
-    let frames = run.frames as usize;
-    let times = Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, frames)?);
-    let passes = renderer.time_passes(&scene, &plan, frames.min(PASS_FRAMES))?;
-    if run.explain {
-        let mut text = explain::frames(&plan, &passes, &times, frames);
+    let frames = run.frames.unwrap_or(u32::from(run.explain)) as usize;
+    let timed = match frames {
+        0 => None,
+        _ => Some((
+            Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, frames)?),
+            renderer.time_passes(&scene, &plan, frames.min(PASS_FRAMES))?,
+        )),
+    };
+    if let (true, Some((times, passes))) = (run.explain, &timed) {
+        let mut text = explain::frames(&plan, passes, times, frames);
         if let Some(pruning) = request.pruning.pruning(renderer) {
             text.push_str(&prune::explanation(renderer, &scene, &published, &pruning, frames)?);
         }
@@ -235,6 +240,7 @@ fn tell(rendering: &Rendering<'_>, drawn: DrawnPicture, renderer: &mut Renderer)
         text.push_str(&explain::start(&start.concat()));
         return super::print(&text);
     }
+    let (frame_ms, passes) = timed.unzip();
     let made = Made::Picture(Box::new(PictureMade {
         show: request.show,
         color: scene.color,
@@ -248,7 +254,7 @@ fn tell(rendering: &Rendering<'_>, drawn: DrawnPicture, renderer: &mut Renderer)
         context_ms,
         warm_up_ms,
         first_frame_ms,
-        frame_ms: times,
+        frame_ms,
     }));
     super::print_json(&rendering.record(&scene, load_ms, remarks, made))
 }

@@ -11,7 +11,8 @@ use tinta::{Error, Result};
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::cli) struct RunSettings {
     pub submission: Submission,
-    pub frames: u32,
+    /// Frames to time; `None` times one to explain it, and none for a record.
+    pub frames: Option<u32>,
     pub json: bool,
     pub explain: bool,
     /// Seconds that exact lines may take.
@@ -27,7 +28,7 @@ impl Default for RunSettings {
     fn default() -> Self {
         Self {
             submission: Submission::default(),
-            frames: 1,
+            frames: None,
             json: false,
             explain: false,
             within: None,
@@ -64,14 +65,16 @@ impl HasSettings for RunSettings {
 }
 
 fn settings() -> Vec<Setting<RunSettings>> {
-    let frames = Setting::field(
+    let frames = Setting::open_field(
         "frames",
         "N",
+        OFF,
         "Frames to draw and time after warm-up, with --json or --explain",
         |run: &mut RunSettings| &mut run.frames,
     )
     .whole(1..=1_000_000)
-    .range(1.0, 101.0, 0);
+    .range(1.0, 101.0, 0)
+    .said("off; 1 with --explain");
     let within = Setting::of(
         "within",
         "SECONDS",
@@ -171,7 +174,7 @@ impl RunSettings {
 
     /// Refuses options for single pictures.
     pub(super) fn refuse_for_animations(&self) -> Result<()> {
-        let given = [("explain", self.explain), ("dump", self.dump.is_some()), ("frames", self.frames != 1)];
+        let given = [("explain", self.explain), ("dump", self.dump.is_some()), ("frames", self.frames.is_some())];
         Self::refuse(&given, "this is for one picture; leave it out, or name a picture such as drawing.png")
     }
 
@@ -179,7 +182,7 @@ impl RunSettings {
     pub(super) fn refuse_for_lines(&self) -> Result<()> {
         let problem =
             "vectors have no passes and no model's frames; leave it out, or name a picture such as drawing.png";
-        Self::refuse(&[("dump", self.dump.is_some()), ("frames", self.frames != 1)], problem)?;
+        Self::refuse(&[("dump", self.dump.is_some()), ("frames", self.frames.is_some())], problem)?;
         let problem = "vectors are computed, not drawn by passes; leave it out here";
         Self::refuse(&[("verify", self.verify)], problem)?;
         let problem = "it needs a time limit; add --within SECONDS, or leave it out";

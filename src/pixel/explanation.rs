@@ -57,7 +57,7 @@ impl Explanation {
     /// [`Explainer`].
     pub fn of(style: &Style, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<Self> {
         let mut explained = Self::without_lines(style, scene, renderer, place)?;
-        if !style.style_name().has_lines() {
+        if !style.has_lines() {
             return Ok(explained);
         }
         let (at, plan) = (explained.place_in_textures, style.plan(scene, Show::Borders)?);

@@ -189,7 +189,7 @@ impl Ink {
         let sampling = if show == Show::Map { Supersample::One } else { self.supersample() };
         let surface = sampling.surface(scene.size);
         let mut passes = Vec::new();
-        if show != Show::Tones {
+        if show != Show::Tones && (self.is_inked || show == Show::Map) {
             passes.push(self.map_pass(scene, surface, show != Show::Map));
         }
         let has_ink = matches!(show, Show::Final | Show::Borders) && self.is_inked;

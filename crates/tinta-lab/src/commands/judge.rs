@@ -2,7 +2,7 @@
 
 use super::measure::errors::{error_page, known_picture};
 use crate::judge::{Entry, InkColor, JudgeSettings, Judgement, OneToOne, drawing, judge};
-use crate::measure::{INK_FROM, MeasureSettings, Reference, Row, error_picture};
+use crate::measure::{INK_FROM, Ink, MeasureSettings, Reference, Row, error_picture};
 use crate::report::{ReportInfo, ReportPicture, RowLog};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, Selection};
 use tinta::cli::{Command, Verdict, given};
 use tinta::glam::DVec2;
 use tinta::recipe::{Recipe, option_words};
-use tinta::request::Request;
+use tinta::request::{Request, Session};
 use tinta::settings::{HasSettings as _, Setting};
 use tinta::styles::Inking;
 use tinta::{Camera, Error, LineSettings, Mesh, Picture, Result, Scene, SceneSettings, Size, Style, StyleName};
@@ -24,7 +24,7 @@ pub(super) const COMMAND: Command = Command {
     examples: &["tinta judge cow.png --model cow.obj             judge any program's drawing"],
     offers: |option| if option == "ink" { vec!["dark", "light", "alpha"] } else { Vec::new() },
     ..Command::new("judge", <Arguments as clap::Args>::augment_args, |matches, call| {
-        run(&given::<Arguments>(matches)?, call.words)
+        run(&given::<Arguments>(matches)?, call.words, call.session)
     })
 };
 
@@ -111,14 +111,17 @@ struct Record<'a> {
 const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 
 /// Judges the drawings; exit code 1 if one looks like something other than lines of this view.
-pub(super) fn run(arguments: &Arguments, command: &str) -> Result<Verdict> {
+pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -> Result<Verdict> {
     let mut verdict = Verdict::Good;
     let names = names(arguments)?;
     let settings = JudgeSettings { tolerance_px: arguments.tolerance, fits: arguments.fit };
     settings.check()?;
     let drawings = arguments.drawings.iter().map(|path| drawing::read(path, arguments.size));
     let drawings = drawings.collect::<Result<Vec<_>>>()?;
-    let camera = arguments.camera.camera.as_deref();
+    // A picture by tinta is judged from where it was drawn.
+    let has_recipe = |path: &&PathBuf| Recipe::read(path).is_ok();
+    let by_tinta = arguments.drawings.first().filter(has_recipe).map(PathBuf::as_path);
+    let camera = arguments.camera.camera.as_deref().or(by_tinta);
     let below = Below { camera, ..Below::default() };
     let (request, _) = arguments.subject.request(std::slice::from_ref(&arguments.model), &below)?;
     let meshes = load_meshes(&request.models, &request.read)?;
@@ -130,7 +133,11 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<Verdict> {
         }
         let Some(Subject { scene, reference }) = &subject else { continue };
         let is_said = say_other_camera(&arguments.drawings[index], scene);
-        let ink = arguments.ink.of(picture);
+        let ink = match arguments.ink {
+            InkColor::Dark => lines_over(&arguments.drawings[index], picture, session)?,
+            _ => None,
+        };
+        let ink = ink.unwrap_or_else(|| arguments.ink.of(picture));
         let judgement = judge(&ink, reference, &settings)?;
         if arguments.json {
             let version = env!("CARGO_PKG_VERSION");
@@ -224,6 +231,21 @@ impl Subject {
         let reference = Reference::with_hidden(&scene, &lines)?;
         Ok(Self { scene, reference })
     }
+}
+
+/// The ink of exact lines over a picture by tinta: what darkens the picture that its recipe draws without them. `None` for other
+/// pictures.
+fn lines_over(path: &Path, picture: &Picture, session: &mut Session) -> Result<Option<Ink>> {
+    let Ok(Recipe { models, options, .. }) = Recipe::read(path) else { return Ok(None) };
+    let mut request = Request::from_given(&options)?.with_models(models);
+    if !request.has_lines_over() || !request.animation.is_still() {
+        return Ok(None);
+    }
+    request.style = request.style_in_passes()?;
+    request.exact_lines = false;
+    let (scene, renderer) = request.scene_and_renderer(session)?;
+    let below = request.picture_of(&scene, renderer)?;
+    Ok((below.size == picture.size).then(|| Ink::over(&below, picture)))
 }
 
 /// Warns if the recipe of a picture by tinta has another view than the judge; returns whether it does.

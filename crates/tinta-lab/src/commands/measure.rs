@@ -144,7 +144,7 @@ pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -
         None => (OptionLayer::Given(Options::new()), None),
         Some(preset) => of_preset_file(preset)?,
     };
-    let (request, _) = arguments.subject.request_over(with_preset, &arguments.models, &below)?;
+    let (request, _) = arguments.subject.request_over(vec![with_preset], &arguments.models, &below)?;
     let files: Vec<&str> = preset.into_iter().chain(camera.and_then(Path::to_str)).collect();
     Inputs::new(&request.models, &request.options, &files).keep_in(&arguments.output, WRITTEN)?;
     // A preset's options for the measuring itself.

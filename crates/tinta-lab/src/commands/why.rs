@@ -4,13 +4,16 @@
 mod line;
 mod sheet;
 
+use serde::Serialize;
 use std::path::Path;
 use tinta::cli::inputs::Inputs;
 use tinta::cli::models::load_meshes;
 use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, Selection};
 use tinta::cli::{Command, Verdict, given, print, print_json, say};
 use tinta::glam::DVec2;
+use tinta::lines::Why;
 use tinta::pixel::{Explanation, Variable};
+use tinta::recipe::Recipe;
 use tinta::request::{OptionLayer, Request, Session};
 use tinta::settings::{HasSettings, Setting};
 use tinta::styles::is_of_lines_alone;
@@ -21,6 +24,7 @@ pub(super) const COMMAND: Command = Command {
     examples: &[
         "tinta why cow.obj 240,310                       explain why a line is hidden",
         "tinta why cow.obj 240,310 --style three-pass    explain a pixel",
+        "tinta why cow.png 640,480                       explain a pixel of a picture by tinta",
     ],
     ..Command::new("why", <Arguments as clap::Args>::augment_args, |matches, call| {
         run(&given::<Arguments>(matches)?, call.session).map(|()| Verdict::Good)
@@ -30,10 +34,11 @@ pub(super) const COMMAND: Command = Command {
 /// Explain a pixel of a style, or why a line is visible or hidden
 ///
 /// Without --style, or with --style lines, the line nearest to the place is explained. In other styles every pass is recomputed for
-/// the pixel: each statement of its shaders with its value, beside what the driver drew.
+/// the pixel: each statement of its shaders with its value, beside what the driver drew. A picture by tinta is explained as it was
+/// drawn: its recipe gives model, view, style and size, and of exact lines over it the nearest is explained, too.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Model file (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in model, or - for standard input
+    /// Model file (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in model, - for standard input, or a picture by tinta
     #[arg(value_name = "MODEL")]
     model: String,
 
@@ -86,9 +91,9 @@ fn place(text: &str) -> std::result::Result<DVec2, String> {
 /// Explains a pixel, a variable or a line.
 pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let camera = arguments.camera.camera.as_deref();
-    let style = OptionLayer::Style(StyleName::Lines);
     let below = Below { camera, ..Below::default() };
-    let (mut request, _) = arguments.drawing.request_over(style, std::slice::from_ref(&arguments.model), &below)?;
+    let (models, layers) = subject(&arguments.model)?;
+    let (mut request, _) = arguments.drawing.request_over(layers, &models, &below)?;
     if request.style.lines().is_some() {
         let needed = [("variable", arguments.variable.is_some()), ("output", arguments.output.is_some())];
         if let Some((option, _)) = needed.iter().find(|(_, is_given)| *is_given) {
@@ -108,28 +113,53 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     explain(arguments, &request, output, session).map_err(|error| request.attributed(error))
 }
 
+/// The models and the options below those given: a picture's by its recipe, else of lines.
+fn subject(model: &str) -> Result<(Vec<String>, Vec<OptionLayer>)> {
+    let is_picture = Path::new(model).extension().is_some_and(|ending| ending == "png" || ending == "svg");
+    if !is_picture {
+        return Ok((vec![model.to_owned()], vec![OptionLayer::Style(StyleName::Lines)]));
+    }
+    let Recipe { models, options, style, .. } = Recipe::read(Path::new(model))?;
+    let style = style.parse().map(OptionLayer::Style).ok();
+    Ok((models, style.into_iter().chain([OptionLayer::Given(options)]).collect()))
+}
+
 /// Explains a pixel or a variable of the request's style.
 fn explain(arguments: &Arguments, request: &Request, output: Option<Output>, session: &mut Session) -> Result<()> {
     let (scene, renderer) = request.scene_and_renderer(session)?;
     if request.glsl.is_some() {
-        let remarks = renderer.remarks(&request.style.plan(&scene, request.show)?);
+        let remarks = renderer.remarks(&request.plan(&scene)?);
         remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
     }
+    let style = &request.style_in_passes()?;
     match (&arguments.variable, arguments.place) {
         (Some(name), _) => {
-            let variable = Variable::of(&request.style, &scene, renderer, name)?;
+            let variable = Variable::of(style, &scene, renderer, name)?;
             variable_out(&variable, output.as_ref(), arguments.json)
         }
         (None, place) => {
             let place = place.unwrap_or_default();
-            let why = Explanation::of(&request.style, &scene, renderer, place)?;
+            let line = match request.line_style()?.filter(|_| request.has_lines_over()) {
+                Some(lines) => Some(nearest_line(&scene, &lines.lines, place)?),
+                None => None,
+            };
+            let why = match (Explanation::of(style, &scene, renderer, place), &line) {
+                // Beside the model there is only a line to explain.
+                (Err(Error::CommandLine { .. }), Some(line)) if output.is_none() => {
+                    return line_said(line, arguments.json);
+                }
+                (why, _) => why?,
+            };
             if let Some(Output::Picture(target)) = &output {
-                target.write(&sheet::sheet(&why, &request.style, &scene, renderer)?)?;
+                target.write(&sheet::sheet(&why, style, &scene, renderer)?)?;
             }
             match (arguments.json, output) {
-                (true, _) => print_json(&why),
+                (true, _) => print_json(&Both { why: &why, line: line.as_ref() }),
                 (false, Some(_)) => Ok(()),
-                (false, None) => print(&why.to_string()),
+                (false, None) => {
+                    let line = line.map_or(String::new(), |line| line::in_words(&line) + "\nBelow the lines:\n\n");
+                    print(&(line + &why.to_string()))
+                }
             }
         }
     }
@@ -179,15 +209,31 @@ fn variable_out(variable: &Variable, output: Option<&Output>, is_json: bool) -> 
     Ok(())
 }
 
+/// A pixel explained, with the exact line nearest to it.
+#[derive(Serialize)]
+struct Both<'a> {
+    #[serde(flatten)]
+    why: &'a Explanation,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<&'a Why>,
+}
+
 /// Explains the line nearest to a place.
 fn line_out(scene: &Scene, request: &Request, place: DVec2, is_json: bool) -> Result<()> {
     let lines = request.style.lines().map_or_else(LineSettings::default, |style| style.lines);
-    let why = VisibleLines::why(scene, &lines, place).map_err(|error| match error {
+    line_said(&nearest_line(scene, &lines, place)?, is_json)
+}
+
+fn line_said(why: &Why, is_json: bool) -> Result<()> {
+    if is_json { print_json(why) } else { print(&line::in_words(why)) }
+}
+
+fn nearest_line(scene: &Scene, lines: &LineSettings, place: DVec2) -> Result<Why> {
+    VisibleLines::why(scene, lines, place).map_err(|error| match error {
         // The place is no option.
         Error::Setting { name, value: Some(place), problem } if name == "place" => {
             Error::CommandLine { problem: format!("{place}: {problem}") }
         }
         error => error,
-    })?;
-    if is_json { print_json(&why) } else { print(&line::in_words(&why)) }
+    })
 }
