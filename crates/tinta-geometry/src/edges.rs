@@ -26,10 +26,11 @@ mod mesh_edges;
 mod orientation;
 mod silhouette;
 mod smooth;
+mod usual_angles;
 #[cfg(feature = "gltf")]
 mod write_glb;
 
-pub(crate) use lasting_creases::lasting_creases;
+pub(crate) use lasting_creases::LastingCreases;
 
 pub use classes::{Class, ClassCounts, ClassSet, Classes, CreaseAngle};
 pub use cracks::cracks;

@@ -432,7 +432,7 @@ struct Judge<'a> {
 }
 
 /// The classes that depend on the angle between an edge's two faces.
-const CREASES: ClassSet = ClassSet::of(&[Class::Crease, Class::ConvexCrease, Class::ConcaveCrease]);
+pub(crate) const CREASES: ClassSet = ClassSet::of(&[Class::Crease, Class::ConvexCrease, Class::ConcaveCrease]);
 
 /// The crease classes that depend on the side of the outside.
 const TURNS: ClassSet = ClassSet::of(&[Class::ConvexCrease, Class::ConcaveCrease]);

@@ -1,6 +1,8 @@
 //! A mesh's edges with the data kept between views: the list, its classes, the faces' planes.
 
-use super::{Class, ClassSet, Classes, CreaseAngle, EdgeList, Eye, SilhouetteRule, Silhouettes, SmoothSurface};
+use super::{
+    Class, ClassSet, Classes, CreaseAngle, EdgeList, Eye, LastingCreases, SilhouetteRule, Silhouettes, SmoothSurface,
+};
 use crate::mesh::Mesh;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -12,6 +14,8 @@ pub struct MeshEdges {
     silhouettes: OnceLock<Silhouettes>,
     /// For the latest settings.
     classes: Mutex<Option<(ClassSet, Arc<Classes>)>>,
+    /// For the latest settings.
+    lasting: Mutex<Option<Arc<LastingCreases>>>,
     /// For the latest angle.
     smooth: Mutex<Option<Arc<SmoothSurface>>>,
 }
@@ -25,7 +29,8 @@ impl MeshEdges {
 
     /// Takes a list built from the mesh.
     pub(crate) fn with_list(mesh: Arc<Mesh>, list: EdgeList) -> Self {
-        Self { mesh, list, silhouettes: OnceLock::new(), classes: Mutex::new(None), smooth: Mutex::new(None) }
+        let (classes, lasting, smooth) = (Mutex::new(None), Mutex::new(None), Mutex::new(None));
+        Self { mesh, list, silhouettes: OnceLock::new(), classes, lasting, smooth }
     }
 
     /// The mesh.
@@ -61,6 +66,21 @@ impl MeshEdges {
                 let classes = Arc::new(Classes::new(&self.mesh, &self.list, crease_angle, wanted));
                 *kept = Some((wanted, classes.clone()));
                 classes
+            }
+        }
+    }
+
+    /// Returns the lasting creases; keeps those of the latest settings.
+    pub(crate) fn lasting(&self, angle: CreaseAngle, wanted: ClassSet, by_normals: bool) -> Arc<LastingCreases> {
+        let mut kept = self.lasting.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*kept {
+            Some(known) if (known.angle, known.wanted, known.by_normals) == (angle, wanted, by_normals) => {
+                known.clone()
+            }
+            _ => {
+                let found = Arc::new(LastingCreases::find(&self.mesh, &self.list, angle, wanted, by_normals));
+                *kept = Some(found.clone());
+                found
             }
         }
     }

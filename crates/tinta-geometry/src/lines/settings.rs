@@ -16,8 +16,9 @@ pub struct LineSettings {
     /// Angle between two faces above which their edge is a crease. Default 30 degrees; a larger angle finds fewer
     /// lines.
     pub crease_angle: CreaseAngle,
-    /// Whether to keep only lasting creases: closed ones, long ones, and those at the end of a flat face of several
-    /// triangles. Default false, which also draws single folds of scans.
+    /// Whether to draw only lasting creases: closed ones and long ones that stand out from the edges around them, and those at the
+    /// end of a flat face of several triangles. They continue along edges of two thirds of the crease angle. Default false, which
+    /// draws each crease by itself, also single folds of scans.
     pub lasting_creases: bool,
     /// Whether a crease lies where the mesh's normals on both sides of an edge differ by the crease angle, instead of its faces: where
     /// shading breaks. It ends within the edge where they approach each other. Default false.
@@ -108,7 +109,8 @@ impl LineSettings {
             CreaseAngle::setting(|lines: &mut Self| &mut lines.crease_angle),
             Setting::flag(
                 "lasting-creases",
-                "Leave out the folds of scans: draw only creases that are long, closed, or at the end of a flat face",
+                "Draw creases as whole lines, without the folds of scans and the facets of coarse figures: only long and closed ones, \
+                 and those at the end of a flat face",
                 |lines: &Self| lines.lasting_creases,
                 |lines, is_on| lines.lasting_creases = is_on,
             ),

@@ -1,6 +1,6 @@
 //! The classes of a mesh's edges, each by the crease angle of its part.
 
-use crate::edges::{Class, ClassSet, Classes, CreaseAngle, MeshEdges, lasting_creases};
+use crate::edges::{Class, ClassSet, Classes, CreaseAngle, LastingCreases, MeshEdges};
 use crate::lines::LineSettings;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -18,9 +18,24 @@ pub(super) struct EdgeClasses {
 /// The classes for one crease angle.
 struct OfAngle {
     angle: CreaseAngle,
-    classes: Arc<Classes>,
-    /// For each edge whether it is a lasting crease; `None` if all creases are drawn.
-    lasting: Option<Vec<bool>>,
+    found: Found,
+}
+
+/// Edges with classes, and which of them are creases.
+enum Found {
+    /// Each edge by itself.
+    Each(Arc<Classes>),
+    /// Creases only where they last.
+    Lasting(Arc<LastingCreases>),
+}
+
+impl Found {
+    fn classes(&self) -> &Classes {
+        match self {
+            Self::Each(classes) => classes,
+            Self::Lasting(lasting) => &lasting.classes,
+        }
+    }
 }
 
 impl EdgeClasses {
@@ -30,15 +45,18 @@ impl EdgeClasses {
         for angle in angles {
             let known = all.of_angles.iter().position(|known| known.angle == *angle);
             all.of_looks.push(known.unwrap_or(all.of_angles.len()));
-            if known.is_none() {
-                let classes = match *angle == settings.crease_angle {
-                    true => edges.classes(*angle, wanted),
-                    // The mesh keeps those of one angle.
-                    false => Arc::new(Classes::new(edges.mesh(), edges.list(), *angle, wanted)),
-                };
-                let lasting = lasting(edges, &classes, settings);
-                all.of_angles.push(OfAngle { angle: *angle, classes, lasting });
+            if known.is_some() {
+                continue;
             }
+            let found = match *angle == settings.crease_angle {
+                _ if settings.lasting_creases => {
+                    Found::Lasting(edges.lasting(*angle, wanted, settings.creases_by_normals))
+                }
+                true => Found::Each(edges.classes(*angle, wanted)),
+                // The mesh keeps those of one angle.
+                false => Found::Each(Arc::new(Classes::new(edges.mesh(), edges.list(), *angle, wanted))),
+            };
+            all.of_angles.push(OfAngle { angle: *angle, found });
         }
         all
     }
@@ -46,10 +64,10 @@ impl EdgeClasses {
     /// The edges with any class, ascending.
     pub(super) fn marked(&self) -> Cow<'_, [u32]> {
         match self.of_angles.as_slice() {
-            [one] => Cow::Borrowed(&one.classes.marked),
+            [one] => Cow::Borrowed(&one.found.classes().marked),
             several => {
                 let mut marked: Vec<u32> =
-                    several.iter().flat_map(|of_angle| &of_angle.classes.marked).copied().collect();
+                    several.iter().flat_map(|of_angle| &of_angle.found.classes().marked).copied().collect();
                 marked.sort_unstable();
                 marked.dedup();
                 Cow::Owned(marked)
@@ -59,20 +77,11 @@ impl EdgeClasses {
 
     /// The classes of an edge whose part has a style, and whether it may be drawn as a crease.
     pub(super) fn of(&self, edge: u32, look: u32) -> (ClassSet, bool) {
-        let OfAngle { classes, lasting, .. } = &self.of_angles[self.of_looks[look as usize]];
-        let of_edge = classes.of_edges[edge as usize];
-        match lasting.as_ref().is_none_or(|lasting| lasting[edge as usize]) {
-            true => (of_edge, true),
-            false => (of_edge.without(&CREASES), false),
+        let OfAngle { found, .. } = &self.of_angles[self.of_looks[look as usize]];
+        let of_edge = found.classes().of_edges[edge as usize];
+        match found {
+            Found::Lasting(lasting) if !lasting.lasts[edge as usize] => (of_edge.without(&CREASES), false),
+            _ => (of_edge, true),
         }
     }
-}
-
-fn lasting(edges: &MeshEdges, classes: &Classes, settings: &LineSettings) -> Option<Vec<bool>> {
-    let creases = match settings.creases_by_normals {
-        true => ClassSet::of(&[Class::Normal]),
-        false => ClassSet::of(&CREASES),
-    };
-    let is_crease = |edge: u32| !classes.of_edges[edge as usize].and(creases).is_empty();
-    settings.lasting_creases.then(|| lasting_creases(edges.mesh(), edges.list(), is_crease))
 }
