@@ -5,7 +5,7 @@ use crate::rendered::rendered;
 use crate::support::{BACKENDS, public_meshes, renderer, scene_with};
 use std::sync::Arc;
 use tinta::lines::{Areas, FillGroup, Joined, Progress, Regions, first_hits, painted, svg_of_paths};
-use tinta::styles::{Cartoon, Ink, LineStyle, Tones};
+use tinta::styles::{Cartoon, FarLight, Ink, LineStyle, Tones};
 use tinta::{
     Background, CameraSettings, Color, DrawingSettings, Picture, Scene, SceneSettings, Size, Style, VisibleLines,
 };
@@ -59,7 +59,12 @@ fn tones_alone() -> [(&'static str, Style); 4] {
         ..Tones::default()
     };
     let cartoon = Cartoon { border: None, ..Cartoon::default() };
-    let ink = Ink { is_inked: false, tones: of_print, tone_light: Some([-0.4, 1.0, 0.6]), ..Ink::default() };
+    let ink = Ink {
+        is_inked: false,
+        tones: of_print,
+        tone_light: Some(FarLight::Towards([-0.4, 1.0, 0.6])),
+        ..Ink::default()
+    };
     [
         ("three-pass", Style::ThreePass(cartoon.clone())),
         ("two-pass in two tones", Style::TwoPass(Cartoon { tones: two, ..cartoon })),
