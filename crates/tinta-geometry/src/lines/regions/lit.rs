@@ -4,11 +4,12 @@
 //! together; the scene with corners' normals changed so that no tone has a patch below [`LEAST_PATCH`] of what is seen. Light is
 //! linear in each triangle, so pixels and exact areas lose a patch alike.
 
-use super::seen_normals::{Sample, SeenNormals};
+use super::seen_normals::{Sample, SeenNormals, is_back, places};
 use crate::disjoint_sets::DisjointSets;
 use crate::lines::eye::space::Space;
 use crate::mesh::{Mesh, NONE};
 use crate::scene::{Object, Scene};
+use crate::threads::{cores, filled};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
@@ -81,7 +82,7 @@ pub fn lit_scene(scene: Scene, light: Option<[f32; 3]>, thresholds: [f64; 2]) ->
 
 fn best_light(seen: &SeenNormals, thresholds: [f64; 2]) -> [f32; 3] {
     let cost = |place: usize| cost(seen, unit(LIGHTS[place]), thresholds) + LATER * place as f64;
-    let costs: [f64; LIGHTS.len()] = std::array::from_fn(cost);
+    let costs = filled(LIGHTS.len(), cores(), 0.0, cost);
     let best = (0..LIGHTS.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b]));
     LIGHTS[best.unwrap_or(0)]
 }
@@ -142,8 +143,7 @@ impl LitCorners {
         let mesh = &object.mesh;
         let of_normals: Vec<f64> =
             mesh.normals.iter().map(|normal| space.direction(normal.as_dvec3()).dot(light)).collect();
-        let points: Vec<DVec3> = mesh.positions.iter().map(|position| space.view(*position + object.offset)).collect();
-        let scale = SeenNormals::scale(space);
+        let places = places(object, space);
         let mut lit = Self {
             of_corners: vec![[0; 3]; mesh.triangles.len()],
             light: Vec::new(),
@@ -155,11 +155,10 @@ impl LitCorners {
         let mut firsts = vec![[NONE; 2]; 2 * mesh.normals.len()];
         let mut others: HashMap<[u32; 2], u32> = HashMap::new();
         for (face, (triangle, normals)) in mesh.triangles.iter().zip(&mesh.triangle_normals).enumerate() {
-            let [a, b, c] = triangle.map(|position| points[position as usize]);
-            let is_back = space.turn(a, b, c).0 < 0.0;
-            let is_in_front = [a, b, c].iter().all(|point| -point.z > space.near);
-            let [a, b, c] = [a, b, c].map(|point| space.project(point).0 * scale);
-            lit.areas.push(if is_in_front { (b - a).perp_dot(c - a).abs() * 0.5 } else { 0.0 });
+            let [a, b, c] = triangle.map(|position| places[position as usize].0);
+            let double_area = (b - a).perp_dot(c - a);
+            let is_back = is_back(double_area);
+            lit.areas.push(if double_area.is_nan() { 0.0 } else { double_area.abs() * 0.5 });
             for corner in 0..3 {
                 let (position, normal) = (triangle[corner], normals[corner]);
                 let slot = 2 * normal + u32::from(is_back);
