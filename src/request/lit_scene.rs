@@ -40,3 +40,50 @@ impl Request {
         options
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::request::{ModelCache, OptionLayer};
+    use crate::styles::StyleName;
+
+    fn request(light: &str) -> Request {
+        let options =
+            [("tone-light", light), ("tone-thresholds", "0.2,0.56"), ("normals", "lasting"), ("view", "30,23")];
+        let options = options.map(|(name, value)| (name.to_owned(), OptionValue::text(value)));
+        let layers = [OptionLayer::Style(StyleName::Ink), OptionLayer::Given(options.into_iter().collect())];
+        Request::from_layers(&layers).unwrap().0.with_models(vec!["builtin:bust".to_owned()])
+    }
+
+    fn scene(request: &Request) -> Scene {
+        request.scene(request.models(&ModelCache::default()).unwrap().meshes).unwrap()
+    }
+
+    #[test]
+    fn a_recipe_names_the_light_that_was_chosen_and_drawing_again_gives_the_same_scene() {
+        let automatic = request("auto");
+        let first = scene(&automatic);
+        let options = automatic.options_for(&first);
+        let Some(OptionValue::Text(light)) = options.get("tone-light") else { panic!("{options:?}") };
+        assert_eq!(light.split(',').count(), 3, "{light}");
+        let again = request(light);
+        let second = scene(&again);
+        assert_eq!(again.options_for(&second), again.options);
+        assert_eq!(first.objects[0].mesh.normals, second.objects[0].mesh.normals);
+        let plan = |request: &Request, scene: &Scene| request.style.plan(scene, request.show).unwrap();
+        assert_eq!(plan(&automatic, &first).passes, plan(&again, &second).passes);
+    }
+
+    #[test]
+    fn a_turn_keeps_the_light_of_its_first_view_and_another_picture_chooses_its_own() {
+        let automatic = request("auto");
+        let meshes = automatic.models(&ModelCache::default()).unwrap().meshes;
+        let first = Scene::new(meshes, &automatic.scene).unwrap();
+        let cameras = first.turntable(&automatic.scene.camera, 6).unwrap();
+        let views: Vec<Scene> = cameras.into_iter().map(|camera| Scene { camera, ..first.clone() }).collect();
+        let (light, thresholds) = automatic.style.far_tones().unwrap();
+        let lights: Vec<[f32; 3]> = views.iter().map(|view| light.towards(view, thresholds)).collect();
+        assert!(lights.iter().all(|light| *light == lights[0]), "{lights:?}");
+        assert_eq!(first.tone_light.get(), Some(&lights[0]));
+    }
+}
