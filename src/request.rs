@@ -23,6 +23,7 @@ mod drawing;
 mod emptiness;
 mod format;
 mod layers;
+mod lit_scene;
 mod model_cache;
 mod session;
 
@@ -349,7 +350,7 @@ impl Request {
             style: self.style.name().to_owned(),
             size: [width, height],
             models: self.models.clone(),
-            options: self.options.clone(),
+            options: self.options_for(scene),
             files: paths.iter().filter_map(|path| record(path)).collect(),
             gl,
         }

@@ -26,6 +26,7 @@ mod cartoon;
 mod charcoal;
 mod coarse;
 mod dietrich;
+mod far_light;
 mod gradients;
 mod headings;
 mod ignored;
@@ -57,6 +58,7 @@ pub use charcoal::{
 };
 pub use coarse::coarse;
 pub use dietrich::Dietrich;
+pub use far_light::FarLight;
 pub use ignored::{is_ignored, is_of_exact_lines, is_of_lines_alone, is_of_vectors};
 pub use ink::{Ink, Quality};
 pub use inking::{Inking, LightOn, PaintMode};

@@ -43,7 +43,7 @@ pub(crate) fn lines(
         py,
         || progress.cancel(),
         move || {
-            let scene = scene(&meshes, &request.scene)?;
+            let scene = request.lit(scene(&meshes, &request.scene)?);
             let lines = request.all_lines(&scene, Wanted::default(), &watched)?;
             Ok((lines, scene))
         },

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 use tinta::glam::{DVec3, Vec3};
 use tinta::settings::{HasSettings, Options};
-use tinta::{LoadOptions, Result, Scene, SceneSettings, load};
+use tinta::{LoadOptions, Request, Result, Scene, SceneSettings, load};
 
 /// A mesh, read and checked, with the results cached when it was drawn.
 #[pyclass(frozen, module = "tinta_npr._native")]
@@ -392,14 +392,14 @@ pub(crate) fn is_read(name: &str) -> bool {
     tinta::mesh::is_read(name)
 }
 
-/// Combines meshes under the settings into a drawable scene, while Python's other threads run.
-pub(crate) fn drawable(py: Python<'_>, meshes: Vec<Py<Mesh>>, settings: &SceneSettings) -> PyResult<Scene> {
-    let settings = settings.clone();
+/// Combines meshes into a request's drawable scene, while Python's other threads run.
+pub(crate) fn drawable(py: Python<'_>, meshes: Vec<Py<Mesh>>, request: &Request) -> PyResult<Scene> {
+    let request = request.clone();
     done(
         py,
         || (),
         move || {
-            let scene = scene(&meshes, &settings)?;
+            let scene = request.lit(scene(&meshes, &request.scene)?);
             scene.make_arrays();
             Ok(scene)
         },

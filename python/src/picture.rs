@@ -44,7 +44,7 @@ pub(crate) fn render(
 ) -> PyResult<Picture> {
     let asked = Asked::new("render", &meshes, given, &Basis { style, look, preset, show, backend })?;
     warn(py, &ignored(given, asked.request.style.name())?)?;
-    let scene = drawable(py, meshes, &asked.request.scene)?;
+    let scene = drawable(py, meshes, &asked.request)?;
     let (picture, recipe, remarks) = drawn(py, asked.request.backend, move |renderer| {
         let (published, strokes) =
             (asked.request.plan(&scene)?, asked.request.strokes_over(&scene, &Progress::default())?);

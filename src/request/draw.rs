@@ -147,7 +147,7 @@ impl Request {
             return self.picture(session).map(|picture| Drawn::Picture(Box::new(picture)));
         }
         let ReadModels { meshes, files, ms: load_ms, .. } = self.models(&session.models)?;
-        let drawn = self.drawn_lines(Scene::new(meshes, &self.scene)?, wanted, progress)?;
+        let drawn = self.drawn_lines(self.scene(meshes)?, wanted, progress)?;
         Ok(Drawn::Lines(Box::new(DrawnLines { files, load_ms, ..drawn })))
     }
 
@@ -354,7 +354,7 @@ impl Request {
     /// Reads the models, puts the scene together and plans it, which finds its edges where the style draws them.
     fn planned(&self, cache: &ModelCache, submission: crate::plan::Submission) -> Result<Planned> {
         let ReadModels { meshes, files, stages, ms: load_ms } = self.models(cache)?;
-        let scene = Scene::new(meshes, &self.scene)?;
+        let scene = self.scene(meshes)?;
         let start = Instant::now();
         scene.make_arrays();
         let arrays_ms = milliseconds_since(start);

@@ -4,6 +4,7 @@
 //! whether neighbouring planes meet. `docs/results/measuring.md` has its measurements.
 
 use super::border::{reach, taps};
+use super::far_light::{FarLight, unit};
 use super::lens::DepthRange;
 use super::map::map_texture;
 use super::surfaces::has_doubled_faces;
@@ -20,7 +21,6 @@ use crate::plan::{
 };
 use crate::scene::{Background, Scene, Size};
 use crate::settings::{ON_OFF, Setting, Value as _, under, within};
-use glam::DVec3;
 
 /// Settings of `ink`.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,9 +45,8 @@ pub struct Ink {
     /// Added to it per unit of a surface's slope towards the eye, because the map is less exact on steep surfaces. Default 0.3;
     /// more draws fewer lines near outlines.
     pub gap_per_slope: f32,
-    /// The direction towards a distant light, eye space, of any length; `None`, the default, is the listing's near light at (1,
-    /// 1, 1).
-    pub tone_light: Option<[f32; 3]>,
+    /// A distant light; `None`, the default, is the listing's near light at (1, 1, 1).
+    pub tone_light: Option<FarLight>,
     /// The tones below. Default those of the three passes.
     pub tones: Tones,
     /// Whether to skip faces turned away from the eye. Default no.
@@ -152,8 +151,8 @@ impl Ink {
                 "tone-light",
                 "X,Y,Z",
                 "listing",
-                "Direction towards a distant light, in eye space, which gives a flat face one tone; or listing (the \
-                 near light of three-pass)",
+                "Direction towards a distant light, in eye space, which gives a flat face one tone; auto (chosen so that \
+                 about a fifth of the model is dark) or listing (the near light of three-pass)",
                 |ink: &mut Self| &mut ink.tone_light,
             )
             .ours("the three passes' light"),
@@ -230,9 +229,7 @@ impl Ink {
         }
         self.line_width.check("border-width")?;
         self.inner_width.map_or(Ok(()), |width| width.check("inner-width"))?;
-        if self.tone_light.is_some_and(|light| !light.iter().all(|x| x.is_finite()) || light == [0.0; 3]) {
-            return Err(Error::setting("tone-light", "a direction is three finite numbers, not all 0"));
-        }
+        self.tone_light.map_or(Ok(()), FarLight::check)?;
         if self.tone_light.is_some() && self.tones.lookup == ToneLookup::Texture {
             return Err(Error::settings(
                 &["tone-lookup", "tone-light"],
@@ -265,7 +262,7 @@ impl Ink {
     /// The published tones; the background is cleared and needs no square.
     pub(super) fn tone_pass(&self, scene: &Scene) -> Pass {
         let (program, uniforms, textures) = match self.tone_light {
-            Some(light) => self.far_tones(light),
+            Some(light) => self.far_tones(light.towards(scene, self.tones.far_thresholds())),
             None if self.tones.are_published() => {
                 let program = Program { vertex: "evangelista/toon.vert", fragments: vec!["evangelista/toon.frag"] };
                 (program, Vec::new(), Vec::new())
@@ -293,10 +290,8 @@ impl Ink {
     /// Tones by a light from a direction.
     fn far_tones(&self, light: [f32; 3]) -> (Program, Vec<Uniform>, Vec<(&'static str, Texture)>) {
         let program = Program { vertex: "improved/tones-far.vert", fragments: vec!["improved/tones-far.frag"] };
-        // In f64 the length of any three f32 numbers is finite.
-        let direction = DVec3::from_array(light.map(f64::from)).normalize().as_vec3();
         let uniforms = vec![
-            Uniform { name: "lightDirection", value: Value::Vec3(direction.to_array()) },
+            Uniform { name: "lightDirection", value: Value::Vec3(unit(light).as_vec3().to_array()) },
             Uniform { name: "toneThresholds", value: Value::Vec2(self.tones.far_thresholds()) },
             Uniform { name: "toneLevels", value: Value::Vec3(self.tones.levels) },
         ];

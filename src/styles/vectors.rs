@@ -1,5 +1,6 @@
 //! What a style draws into a file of vectors: exact areas, or strokes that stand for them, and exact lines above. No GL here.
 
+use super::far_light::{FarLight, unit};
 use super::surfaces::of_averaged_normals;
 use super::{Cartoon, Ink, LineStyle, LineWidth, Mrt, Style, Tones};
 use crate::error::{Error, Result};
@@ -26,8 +27,8 @@ pub struct Vectors {
 /// What an area is.
 #[derive(Debug, Clone, PartialEq)]
 enum AreaRule {
-    /// A tone of an object's material.
-    Tones(Tones, ToneLight),
+    /// A tone of an object's material, under a far light or the listing's.
+    Tones(Tones, Option<FarLight>),
     /// A face, a material or an object.
     Joined(Joined),
 }
@@ -48,10 +49,18 @@ const LISTED_LIGHT: DVec3 = DVec3::ONE;
 const LISTED_WIDTH: LineWidth = LineWidth::Pixels(2);
 
 impl Style {
+    /// The far light of this style's tones and the cosines at which they begin; `None` for a style without.
+    pub(crate) fn far_tones(&self) -> Option<(FarLight, [f32; 2])> {
+        match self {
+            Self::Ink(ink) => ink.tone_light.map(|light| (light, ink.tones.far_thresholds())),
+            _ => None,
+        }
+    }
+
     /// What this style draws into a file of vectors of this size; `None` for a style without areas.
     pub fn vectors(&self, size: Size) -> Option<Vectors> {
         let of_cartoon = |tones: &Tones, border: Option<Option<LineWidth>>| Vectors {
-            rule: AreaRule::Tones(tones.clone(), ToneLight::Near(LISTED_LIGHT)),
+            rule: AreaRule::Tones(tones.clone(), None),
             // The listing's filter compares normals.
             lines: border.map(|_| LineSettings { creases_by_normals: true, ..LineSettings::default() }),
             drawing: drawing([border.flatten().unwrap_or(LISTED_WIDTH); 2], size),
@@ -68,12 +77,10 @@ impl Style {
 }
 
 fn of_ink(ink: &Ink, size: Size) -> Vectors {
-    let direction = |light: [f32; 3]| DVec3::from_array(light.map(f64::from)).normalize_or_zero();
     let settings = LineSettings { crease_angle: ink.crease_angle, ..LineSettings::default() };
     let widths = [ink.line_width, ink.inner_width.unwrap_or(ink.line_width)];
-    let light = ink.tone_light.map_or(ToneLight::Near(LISTED_LIGHT), |light| ToneLight::Far(direction(light)));
     Vectors {
-        rule: AreaRule::Tones(ink.tones.clone(), light),
+        rule: AreaRule::Tones(ink.tones.clone(), ink.tone_light),
         lines: ink.is_inked.then_some(settings),
         drawing: drawing(widths, size),
     }
@@ -114,7 +121,7 @@ impl Vectors {
             )),
             AreaRule::Tones(tones, light) => {
                 tones.check()?;
-                let regions = whole(Regions::toned(scene, &tone_rule(tones, *light), progress)?)?;
+                let regions = whole(Regions::toned(scene, &tone_rule(scene, tones, *light), progress)?)?;
                 let color = |TonedSurface { object, material, tone }| {
                     let Color(color) = own_color(scene, object, material);
                     Color(color.map(|channel| channel * tones.levels[usize::from(tone)]))
@@ -147,10 +154,10 @@ impl Vectors {
         }
     }
 
-    /// How light becomes tones; `None` for areas of faces, materials and objects.
-    pub fn rule(&self) -> Option<ToneRule> {
+    /// How light becomes tones in a scene; `None` for areas of faces, materials and objects.
+    pub fn rule(&self, scene: &Scene) -> Option<ToneRule> {
         match &self.rule {
-            AreaRule::Tones(tones, light) => Some(tone_rule(tones, *light)),
+            AreaRule::Tones(tones, light) => Some(tone_rule(scene, tones, *light)),
             AreaRule::Joined(_) => None,
         }
     }
@@ -174,10 +181,13 @@ impl Vectors {
     }
 }
 
-fn tone_rule(tones: &Tones, light: ToneLight) -> ToneRule {
-    let thresholds = match light {
-        ToneLight::Near(_) => tones.thresholds(),
-        ToneLight::Far(_) => tones.far_thresholds(),
+fn tone_rule(scene: &Scene, tones: &Tones, light: Option<FarLight>) -> ToneRule {
+    let (light, thresholds) = match light {
+        None => (ToneLight::Near(LISTED_LIGHT), tones.thresholds()),
+        Some(light) => {
+            let thresholds = tones.far_thresholds();
+            (ToneLight::Far(unit(light.towards(scene, thresholds))), thresholds)
+        }
     };
     ToneRule { light, thresholds: thresholds.map(f64::from) }
 }

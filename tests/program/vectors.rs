@@ -4,10 +4,12 @@ use crate::program::done;
 use crate::rendered::rendered;
 use crate::support::{BACKENDS, public_meshes, renderer, scene_with};
 use std::sync::Arc;
-use tinta::lines::{Areas, FillGroup, Joined, Progress, Regions, first_hits, painted, svg_of_paths};
-use tinta::styles::{Cartoon, Ink, LineStyle, Tones};
+use tinta::lines::{Areas, FillGroup, Joined, Progress, Regions, first_hits, lit_scene, painted, svg_of_paths};
+use tinta::mesh::Normals;
+use tinta::styles::{Cartoon, FarLight, Ink, LineStyle, Tones};
 use tinta::{
-    Background, CameraSettings, Color, DrawingSettings, Picture, Scene, SceneSettings, Size, Style, VisibleLines,
+    Background, CameraSettings, Color, DrawingSettings, LoadOptions, Picture, Scene, SceneSettings, Size, Style,
+    VisibleLines, load,
 };
 
 /// The areas of a style as SVG.
@@ -49,7 +51,7 @@ fn beside_no_border(picture: &Picture, mut at: impl FnMut(usize, [u8; 3])) {
 }
 
 /// The styles whose tones are compared, without lines.
-fn tones_alone() -> [(&'static str, Style); 4] {
+fn tones_alone() -> [(&'static str, Style); 5] {
     let two = Tones { count: 2, ..Tones::default() };
     let of_print = Tones {
         count: 3,
@@ -59,12 +61,19 @@ fn tones_alone() -> [(&'static str, Style); 4] {
         ..Tones::default()
     };
     let cartoon = Cartoon { border: None, ..Cartoon::default() };
-    let ink = Ink { is_inked: false, tones: of_print, tone_light: Some([-0.4, 1.0, 0.6]), ..Ink::default() };
+    let ink = Ink {
+        is_inked: false,
+        tones: of_print,
+        tone_light: Some(FarLight::Towards([-0.4, 1.0, 0.6])),
+        ..Ink::default()
+    };
+    let chosen = Ink { tone_light: Some(FarLight::Auto), ..ink.clone() };
     [
         ("three-pass", Style::ThreePass(cartoon.clone())),
         ("two-pass in two tones", Style::TwoPass(Cartoon { tones: two, ..cartoon })),
         ("ink", Style::Ink(Ink { is_inked: false, ..Ink::default() })),
-        ("ink as printed", Style::Ink(ink)),
+        ("ink by a far light", Style::Ink(ink)),
+        ("ink as printed", Style::Ink(chosen)),
     ]
 }
 
@@ -91,6 +100,17 @@ fn check(name: &str, scene: &Scene, styles: &[(&str, Style)]) {
 fn areas_of_tone_are_the_pixels_of_the_style_briefly() {
     check("builtin:gear", &scene_with("builtin:gear", SceneSettings::default()), &tones_alone());
     check("builtin:bust", &scene_with("builtin:bust", SceneSettings::default()), &tones_alone()[3..]);
+}
+
+#[test]
+fn areas_and_pixels_are_the_same_where_normals_are_averaged_and_patches_flattened() {
+    let options = LoadOptions { normals: Normals::Lasting, smooth_angle_degrees: 34.0, ..LoadOptions::default() };
+    let camera = CameraSettings { view: "30,23".parse().unwrap(), ..CameraSettings::default() };
+    let settings = SceneSettings { camera, ..SceneSettings::default() };
+    for model in ["builtin:bust", "builtin:soldier", "builtin:gear"] {
+        let scene = Scene::new([load(model, &options).unwrap().mesh], &settings).unwrap();
+        check(model, &lit_scene(scene, None, [0.2, 0.56]), &tones_alone()[4..]);
+    }
 }
 
 #[test]

@@ -90,7 +90,7 @@ impl Model {
     /// Those of the options and of the lines.
     pub fn svg(&self, options: &str, has_recipe: bool) -> Result<String, JsError> {
         let request = self.request(StyleName::Lines, options)?;
-        let scene = self.scene(&request.scene)?;
+        let scene = request.lit(self.scene(&request.scene)?);
         let recipe = has_recipe.then(|| self.recipe(&request, &scene, None));
         let drawn = request.drawn_lines(scene, DrawingFormat::Svg.wanted(false), &Progress::default()).map_err(said)?;
         let bytes =

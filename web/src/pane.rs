@@ -89,7 +89,7 @@ impl Pane {
         let picture = self.drawn.as_ref().ok_or_else(|| JsError::new("nothing was drawn yet"))?;
         let driver = Driver::new(self.renderer.context());
         let request = model.request(StyleName::ThreePass, options)?;
-        let recipe = model.recipe(&request, &model.scene(&request.scene)?, Some(driver));
+        let recipe = model.recipe(&request, &self.seen(&request)?, Some(driver));
         picture.png_bytes(recipe.note().as_ref()).map_err(said)
     }
 

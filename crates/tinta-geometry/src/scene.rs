@@ -88,9 +88,9 @@ pub struct Scene {
     pub recolor: bool,
     /// The surfaces' colours.
     pub surface: Surface,
-    /// The direction towards the far light that was chosen for tones, a unit vector in the eye's space; `None` before one is
-    /// chosen. A style that leaves the light open takes it.
-    pub tone_light: Option<DVec3>,
+    /// The direction towards the far light of tones that was chosen for this scene, in the eye's space, of any length. Copies in other
+    /// views share it, so a light that was chosen once does not move.
+    pub tone_light: Arc<OnceLock<[f32; 3]>>,
 }
 
 crate::choices! {
@@ -273,7 +273,7 @@ impl Scene {
     pub fn seen_with(&self, settings: &SceneSettings) -> Result<Self> {
         check_size(settings.size)?;
         let seen = Self::seen(self.objects.clone(), self.centre, self.radius, settings)?;
-        Ok(Self { tone_light: self.tone_light, ..seen })
+        Ok(Self { tone_light: self.tone_light.clone(), ..seen })
     }
 
     /// Objects with the given centre and radius, under these settings.
@@ -289,7 +289,7 @@ impl Scene {
             color: settings.color.unwrap_or(settings.bare_color),
             recolor: settings.color.is_some(),
             surface: settings.surface,
-            tone_light: None,
+            tone_light: Arc::default(),
         };
         scene.check_distance()?;
         Ok(scene)

@@ -123,7 +123,7 @@ pub(super) fn fill_missing(
         }
     }
     if let Some(lasting) = &lasting {
-        average(positions, triangles, &incidence, lasting, first, normals, triangle_normals);
+        average(positions, triangles, lasting, first, normals, triangle_normals);
     }
 }
 

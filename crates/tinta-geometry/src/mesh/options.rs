@@ -84,8 +84,8 @@ impl LoadOptions {
                 "WHERE",
                 "Normals: file (the file's; if it has none, as smooth), smooth (computed, see --smooth-angle), \
                  checked (the file's, unless many stand far off their faces), \
-                 lasting (as checked; if the file has none, computed without the noise of scans, with sharp edges only at \
-                 long creases), flat (one for each face), dachsbacher (one for each vertex, as in his text)",
+                 lasting (as checked; if the file has none, computed with sharp edges only at long creases; averaged \
+                 over 2 % of the model where it bends both ways), flat (one for each face), dachsbacher (one for each vertex, as in his text)",
                 |load: &mut Self| &mut load.normals,
             ),
             Setting::field(
@@ -154,8 +154,9 @@ crate::choices! {
         Checked = "checked",
         /// Computed: smooth up to the smoothing angle.
         Smooth = "smooth",
-        /// Checked as well. Where the file has none, or only repeats those of the faces, smooth, and split only along creases that extend over a share of the model: single
-        /// sharp edges of scans and of models with few triangles are smoothed, and so is a scan's noise.
+        /// Checked as well. Where the file has none, or only repeats those of the faces, smooth, and split only along creases that
+        /// extend over a share of the model. On surfaces that bend both ways they are averaged over a share of the model and not made
+        /// unit again, which takes the noise of scans and the facets of figures out of tones.
         Lasting = "lasting",
         /// Computed: one normal per face.
         Flat = "flat",

@@ -3,6 +3,7 @@
 extern crate tinta_geometry as tinta;
 
 mod dxf;
+mod lit;
 mod part_styles;
 #[cfg(feature = "pdf")]
 mod pdf;

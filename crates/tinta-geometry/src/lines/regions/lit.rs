@@ -4,17 +4,18 @@
 //! together; the scene with corners' normals changed so that no tone has a patch below [`LEAST_PATCH`] of what is seen. Light is
 //! linear in each triangle, so pixels and exact areas lose a patch alike.
 
-use super::seen_normals::{Sample, SeenNormals};
+use super::seen_normals::{Sample, SeenNormals, is_back, places};
 use crate::disjoint_sets::DisjointSets;
 use crate::lines::eye::space::Space;
 use crate::mesh::{Mesh, NONE};
 use crate::scene::{Object, Scene};
+use crate::threads::{cores, filled};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The lights to choose from, the preferred first: directions in the eye's space, from above, from the left or the right.
-const LIGHTS: [[f64; 3]; 8] = [
+const LIGHTS: [[f32; 3]; 8] = [
     [-0.4, 1.0, 0.6],
     [-0.45, 0.8, 0.8],
     [-0.5, 0.65, 1.0],
@@ -45,17 +46,18 @@ const LEAST_PATCH: f64 = 0.002;
 /// is mixed.
 const CLEARANCE: f64 = 0.02;
 
-/// Returns the direction of the light that suits a scene best, a unit vector in the eye's space. `thresholds` are the cosines at
-/// which the second and the third tone begin.
-pub fn chosen_light(scene: &Scene, thresholds: [f64; 2]) -> DVec3 {
+/// Returns the direction of the light that suits a scene best, in the eye's space, of any length. `thresholds` are the cosines at which
+/// the second and the third tone begin.
+pub fn chosen_light(scene: &Scene, thresholds: [f64; 2]) -> [f32; 3] {
     best_light(&SeenNormals::of(scene), thresholds)
 }
 
 /// Returns the scene under a light, or under the one that suits it, without patches of a tone too small to draw; the light is
 /// [`Scene::tone_light`]. Objects that share their mesh keep it as it is.
-pub fn lit_scene(scene: Scene, light: Option<DVec3>, thresholds: [f64; 2]) -> Scene {
+pub fn lit_scene(scene: Scene, light: Option<[f32; 3]>, thresholds: [f64; 2]) -> Scene {
     let seen = SeenNormals::of(&scene);
-    let light = light.unwrap_or_else(|| best_light(&seen, thresholds));
+    let towards = light.unwrap_or_else(|| best_light(&seen, thresholds));
+    let light = unit(towards);
     let least = LEAST_PATCH * seen.samples.iter().flatten().count() as f64;
     let space = Space::of(&scene);
     let mut samples: Vec<Vec<Sample>> = vec![Vec::new(); scene.objects.len()];
@@ -75,15 +77,19 @@ pub fn lit_scene(scene: Scene, light: Option<DVec3>, thresholds: [f64; 2]) -> Sc
         corners.applied(object, space.world_direction(light))
     };
     let objects = scene.objects.iter().zip(samples).map(lit).collect();
-    Scene { objects, tone_light: Some(light), ..scene }
+    Scene { objects, tone_light: Arc::new(OnceLock::from(towards)), ..scene }
 }
 
-fn best_light(seen: &SeenNormals, thresholds: [f64; 2]) -> DVec3 {
-    let lights = LIGHTS.map(|light| DVec3::from_array(light).normalize());
-    let cost = |(place, light): (usize, &DVec3)| cost(seen, *light, thresholds) + LATER * place as f64;
-    let costs: Vec<f64> = lights.iter().enumerate().map(cost).collect();
-    let best = (0..lights.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b]));
-    lights[best.unwrap_or(0)]
+fn best_light(seen: &SeenNormals, thresholds: [f64; 2]) -> [f32; 3] {
+    let cost = |place: usize| cost(seen, unit(LIGHTS[place]), thresholds) + LATER * place as f64;
+    let costs = filled(LIGHTS.len(), cores(), 0.0, cost);
+    let best = (0..LIGHTS.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b]));
+    LIGHTS[best.unwrap_or(0)]
+}
+
+/// The unit vector in a direction.
+fn unit(direction: [f32; 3]) -> DVec3 {
+    DVec3::from_array(direction.map(f64::from)).normalize_or_zero()
 }
 
 /// How far a light is from one that an illustrator would choose, in shares of what is seen.
@@ -137,8 +143,7 @@ impl LitCorners {
         let mesh = &object.mesh;
         let of_normals: Vec<f64> =
             mesh.normals.iter().map(|normal| space.direction(normal.as_dvec3()).dot(light)).collect();
-        let points: Vec<DVec3> = mesh.positions.iter().map(|position| space.view(*position + object.offset)).collect();
-        let scale = SeenNormals::scale(space);
+        let places = places(object, space);
         let mut lit = Self {
             of_corners: vec![[0; 3]; mesh.triangles.len()],
             light: Vec::new(),
@@ -150,11 +155,10 @@ impl LitCorners {
         let mut firsts = vec![[NONE; 2]; 2 * mesh.normals.len()];
         let mut others: HashMap<[u32; 2], u32> = HashMap::new();
         for (face, (triangle, normals)) in mesh.triangles.iter().zip(&mesh.triangle_normals).enumerate() {
-            let [a, b, c] = triangle.map(|position| points[position as usize]);
-            let is_back = space.turn(a, b, c).0 < 0.0;
-            let is_in_front = [a, b, c].iter().all(|point| -point.z > space.near);
-            let [a, b, c] = [a, b, c].map(|point| space.project(point).0 * scale);
-            lit.areas.push(if is_in_front { (b - a).perp_dot(c - a).abs() * 0.5 } else { 0.0 });
+            let [a, b, c] = triangle.map(|position| places[position as usize].0);
+            let double_area = (b - a).perp_dot(c - a);
+            let is_back = is_back(double_area);
+            lit.areas.push(if double_area.is_nan() { 0.0 } else { double_area.abs() * 0.5 });
             for corner in 0..3 {
                 let (position, normal) = (triangle[corner], normals[corner]);
                 let slot = 2 * normal + u32::from(is_back);

@@ -4,11 +4,12 @@
 //! In: a scene. Out: samples, as exact as a share of a picture must be. Faces that reach through the near plane are left out.
 
 use crate::lines::eye::space::Space;
-use crate::scene::Scene;
-use glam::{DVec2, DVec3, Vec3};
+use crate::scene::{Object, Scene};
+use crate::threads::{filled, threads_for_items};
+use glam::{DVec2, Vec3};
 
 /// The longest side of the picture, pixels.
-const LONGEST: f64 = 320.0;
+const LONGEST: f64 = 256.0;
 
 /// What a pixel shows.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +30,7 @@ pub(super) struct SeenNormals {
     pub samples: Vec<Option<Sample>>,
 }
 
-/// The corner of a face: its place in the small picture, its key, and its normal.
+/// The corner of a face: its place in the small picture, NaN before the near plane; its key, and its normal.
 #[derive(Clone, Copy)]
 struct Corner {
     px: DVec2,
@@ -40,32 +41,22 @@ struct Corner {
 impl SeenNormals {
     pub(super) fn of(scene: &Scene) -> Self {
         let space = Space::of(scene);
-        let scale = Self::scale(&space);
-        let [width, height] = (space.size * scale).ceil().max(DVec2::ONE).to_array().map(|side| side as usize);
+        let size = (space.size * scale(&space)).ceil().max(DVec2::ONE);
+        let [width, height] = size.to_array().map(|side| side as usize);
         let mut seen = Self { width, samples: vec![None; width * height] };
         let mut keys = vec![f64::INFINITY; width * height];
         for (number, object) in (0..).zip(&scene.objects) {
             let mesh = &object.mesh;
-            let view = |position: &DVec3| space.view(*position + object.offset);
-            let points: Vec<DVec3> = mesh.positions.iter().map(view).collect();
+            let places = places(object, &space);
             for (face, (triangle, normals)) in (0..).zip(mesh.triangles.iter().zip(&mesh.triangle_normals)) {
-                let at = triangle.map(|position| points[position as usize]);
-                if at.iter().any(|point| -point.z <= space.near) {
-                    continue;
-                }
                 let corners = [0, 1, 2].map(|corner| {
-                    let (px, key) = space.project(at[corner]);
-                    Corner { px: px * scale, key, normal: mesh.normals[normals[corner] as usize] }
+                    let (px, key) = places[triangle[corner] as usize];
+                    Corner { px, key, normal: mesh.normals[normals[corner] as usize] }
                 });
                 seen.draw(&mut keys, [number, face], corners, &space);
             }
         }
         seen
-    }
-
-    /// How large this picture is beside the scene's.
-    pub(super) fn scale(space: &Space) -> f64 {
-        (LONGEST / space.size.max_element()).min(1.0)
     }
 
     /// Draws a face where it is nearer than what is there.
@@ -75,11 +66,9 @@ impl SeenNormals {
         let low = (a.px.min(b.px).min(c.px) - 0.5).ceil().max(DVec2::ZERO);
         let high = (a.px.max(b.px).max(c.px) - 0.5).floor().min(size - 1.0);
         // Most faces of a fine mesh have no pixel's middle in them.
-        if double_area == 0.0 || high.x < low.x || high.y < low.y {
+        if double_area.is_nan() || double_area == 0.0 || high.x < low.x || high.y < low.y {
             return;
         }
-        // The picture's y points down.
-        let side = if double_area < 0.0 { 1.0 } else { -1.0 };
         for y in low.y as usize..=high.y as usize {
             for x in low.x as usize..=high.x as usize {
                 let middle = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
@@ -91,11 +80,36 @@ impl SeenNormals {
                     continue;
                 }
                 keys[pixel] = key;
-                let normal = a.normal * weights[0] as f32 + b.normal * weights[1] as f32 + c.normal * weights[2] as f32;
-                let normal = space.direction(normal.as_dvec3()).as_vec3() * side;
-                self.samples[pixel] =
-                    Some(Sample { object, face, weights: weights.map(|weight| weight as f32), normal });
+                let weights = weights.map(|weight| weight as f32);
+                let normal = a.normal * weights[0] + b.normal * weights[1] + c.normal * weights[2];
+                let normal =
+                    space.direction(normal.as_dvec3()).as_vec3() * if is_back(double_area) { -1.0 } else { 1.0 };
+                self.samples[pixel] = Some(Sample { object, face, weights, normal });
             }
         }
     }
+}
+
+/// The places of an object's positions in the small picture, and their keys; NaN before the near plane.
+pub(super) fn places(object: &Object, space: &Space) -> Vec<(DVec2, f64)> {
+    let positions = &object.mesh.positions;
+    let scale = scale(space);
+    filled(positions.len(), threads_for_items(positions.len()), (DVec2::ZERO, 0.0), |position| {
+        let point = space.view(positions[position] + object.offset);
+        if -point.z <= space.near {
+            return (DVec2::NAN, f64::NAN);
+        }
+        let (px, key) = space.project(point);
+        (px * scale, key)
+    })
+}
+
+/// Whether a face is seen from behind, by twice its area in the picture, whose y points down.
+pub(super) fn is_back(double_area: f64) -> bool {
+    double_area > 0.0
+}
+
+/// How large the small picture is beside the scene's.
+fn scale(space: &Space) -> f64 {
+    (LONGEST / space.size.max_element()).min(1.0)
 }

@@ -7,7 +7,6 @@
 //!
 //! Averaging is diffusion over patches of about one area (`patches.rs`), so a finer mesh takes hardly more time.
 
-use super::incidence::Incidence;
 use super::patches::{Neighbours, Patches};
 use super::persistent_creases::PersistentCreases;
 use crate::mesh::NONE;
@@ -45,7 +44,6 @@ const SAME: f32 = 0.999_999;
 pub(super) fn average(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
-    incidence: &Incidence,
     lasting: &PersistentCreases,
     first: u32,
     normals: &mut Vec<Vec3>,
@@ -54,7 +52,7 @@ pub(super) fn average(
     if !lasting.is_curved.contains(&true) {
         return;
     }
-    let nodes = Nodes::of(positions, triangles, incidence, lasting, normals, triangle_normals);
+    let nodes = Nodes::of(positions, triangles, lasting, normals, triangle_normals);
     let place = |(number, normal): (&u32, Vec3)| {
         if *number >= first {
             normals[*number as usize] = normal;
@@ -87,32 +85,35 @@ impl Nodes {
     fn of(
         positions: &[DVec3],
         triangles: &[[u32; 3]],
-        incidence: &Incidence,
         lasting: &PersistentCreases,
         normals: &[Vec3],
         triangle_normals: &[[u32; 3]],
     ) -> Self {
         let mut of_corners = vec![[NONE; 3]; triangles.len()];
         let (mut places, mut numbers, mut areas) = (Vec::new(), Vec::new(), Vec::new());
-        for (vertex, place) in positions.iter().enumerate() {
-            let before = numbers.len();
-            for corner in incidence.corners(vertex) {
-                let [face, side] = [*corner as usize / 3, *corner as usize % 3];
-                if !lasting.is_curved[face] {
-                    continue;
-                }
+        // The nodes at each position, as a list: its first, and for each the one after it.
+        let (mut firsts, mut nexts) = (vec![NONE; positions.len()], Vec::new());
+        for face in (0..triangles.len()).filter(|face| lasting.is_curved[*face]) {
+            for (side, position) in triangles[face].iter().enumerate() {
                 let number: u32 = triangle_normals[face][side];
-                let is_same =
-                    |other: u32| other == number || normals[other as usize].dot(normals[number as usize]) > SAME;
-                let known = (before..numbers.len()).find(|node| is_same(numbers[*node]));
-                let node = known.unwrap_or_else(|| {
+                let is_same = |node: u32| {
+                    let other: u32 = numbers[node as usize];
+                    other == number || normals[other as usize].dot(normals[number as usize]) > SAME
+                };
+                let first = &mut firsts[*position as usize];
+                let mut node = *first;
+                while node != NONE && !is_same(node) {
+                    node = nexts[node as usize];
+                }
+                if node == NONE {
+                    node = numbers.len() as u32;
                     numbers.push(number);
-                    places.push(place.as_vec3());
+                    places.push(positions[*position as usize].as_vec3());
                     areas.push(0.0);
-                    numbers.len() - 1
-                });
-                areas[node] += lasting.own_areas[face] / 3.0;
-                of_corners[face][side] = node as u32;
+                    nexts.push(std::mem::replace(first, node));
+                }
+                areas[node as usize] += lasting.own_areas[face] / 3.0;
+                of_corners[face][side] = node;
             }
         }
         let curved = of_corners.iter().filter(|[first, ..]| *first != NONE);
@@ -155,24 +156,28 @@ fn spread(neighbours: &Neighbours, areas: &[f64], places: &[Vec3], normals: &mut
 
 /// Spreads normals by the mean square distance `spread`.
 fn diffuse(neighbours: &Neighbours, places: &[Vec3], normals: &mut Vec<Vec3>, spread: f32, rounds: usize) {
-    let count = normals.len();
+    let (count, threads) = (normals.len(), threads_for_items(normals.len()));
+    let lengths = |part: usize| {
+        let beside = neighbours.of(part).iter();
+        beside.map(move |other| places[*other as usize].distance(places[part]).max(f32::MIN_POSITIVE))
+    };
+    // How far each moves to the mean of its neighbours' in a round, over the sum of these weights: one over the distance. The mean
+    // square distance, weighted likewise, is the sum of the distances over that of the weights.
+    let steps = filled(count, threads, 0.0, |part| {
+        let (sum, weights) =
+            lengths(part).fold((0.0, 0.0), |(sum, weights), length| (sum + length, weights + length.recip()));
+        if weights == 0.0 {
+            return 0.0;
+        }
+        let wanted = (spread * weights / sum).max(REACH_IN_EDGES * REACH_IN_EDGES);
+        (wanted / rounds as f32).min(MOST) / weights
+    });
+    let weights: Vec<f32> = (0..count).flat_map(|part| lengths(part).map(f32::recip)).collect();
     for _ in 0..rounds {
-        let mixed = filled(count, threads_for_items(count), Vec3::ZERO, |part| {
-            let own = normals[part];
-            let (mut sum, mut weights, mut lengths) = (Vec3::ZERO, 0.0, 0.0);
-            for other in neighbours.of(part) {
-                let length = places[*other as usize].distance(places[part]).max(f32::MIN_POSITIVE);
-                let weight = length.recip();
-                (sum, weights, lengths) = (sum + normals[*other as usize] * weight, weights + weight, lengths + length);
-            }
-            if weights == 0.0 {
-                return own;
-            }
-            // The mean square distance of the neighbours, weighted likewise, is the lengths over the weights.
-            let in_edges = REACH_IN_EDGES * REACH_IN_EDGES;
-            let share = ((spread * weights / lengths).max(in_edges) / rounds as f32).min(MOST);
-            own.lerp(sum / weights, share)
+        *normals = filled(count, threads, Vec3::ZERO, |part| {
+            let (own, step) = (normals[part], steps[part]);
+            let beside = neighbours.of(part).iter().zip(&weights[neighbours.range(part)]);
+            own + beside.map(|(other, weight)| (normals[*other as usize] - own) * (*weight * step)).sum::<Vec3>()
         });
-        *normals = mixed;
     }
 }

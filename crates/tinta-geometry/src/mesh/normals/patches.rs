@@ -2,6 +2,8 @@
 //!
 //! In: the neighbours among faces (or patches), their areas, and the pairs that may share a patch. Out: each one's patch.
 
+use std::ops::Range;
+
 /// Which faces, or patches of them, lie beside which.
 pub(super) struct Neighbours {
     starts: Vec<u32>,
@@ -25,7 +27,12 @@ impl Neighbours {
     }
 
     pub(super) fn of(&self, face: usize) -> &[u32] {
-        &self.faces[self.starts[face] as usize..self.starts[face + 1] as usize]
+        &self.faces[self.range(face)]
+    }
+
+    /// The places of a face's neighbours in the list of all faces' neighbours, face by face.
+    pub(super) fn range(&self, face: usize) -> Range<usize> {
+        self.starts[face] as usize..self.starts[face + 1] as usize
     }
 
     /// Which of so many patches lie beside which, each pair once.

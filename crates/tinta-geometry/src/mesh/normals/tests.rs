@@ -1,6 +1,7 @@
 use super::*;
 use crate::mesh::triangle_normal;
 use std::collections::HashSet;
+use std::f64::consts::TAU;
 
 fn computed(positions: &[DVec3], triangles: &[[u32; 3]], angle: f64) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     split(positions, triangles, Splitting { cos_smooth: angle.to_radians().cos(), cos_beside: None })
@@ -380,5 +381,54 @@ fn a_chamfer_of_thirty_degrees_ends_at_the_flat_face_and_facets_stay_round() {
             corners.filter(|(corner, _)| **corner == vertex).map(|(_, normal)| *normal).collect::<HashSet<u32>>()
         };
         assert_eq!(normals_at(7 * sides).len(), 1, "{sides} sides");
+    }
+}
+
+/// A height over a square: a wave of this length, in cells.
+fn wavy(length: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    grid(60, |x, y| 0.6 * ((x as f64 * TAU / length).sin() + (y as f64 * TAU / length).cos()))
+}
+
+#[test]
+fn averaged_normals_are_shorter_where_a_surface_bends_within_the_reach_and_hardly_where_it_does_not() {
+    let least = |(positions, triangles): (Vec<DVec3>, Vec<[u32; 3]>)| {
+        let (normals, indices) = lasting(&positions, &triangles);
+        let lengths = indices.as_flattened().iter().map(|index| normals[*index as usize].length());
+        assert!(lengths.clone().all(|length| length <= 1.0 + 1e-5));
+        f64::from(lengths.fold(1.0, f32::min))
+    };
+    // The reach is 0.021 of the diagonal, 1.8 cells.
+    let [short, long] = [least(wavy(6.0)), least(wavy(60.0))];
+    assert!(short < 0.93 && long > 0.99, "{short}, {long}");
+}
+
+#[test]
+fn a_finer_mesh_of_the_same_form_has_the_same_averages() {
+    let form = |x: f64, y: f64| 0.02 * ((x * 14.0).sin() + (y * 11.0).cos());
+    let at_middle = |cells: usize| {
+        let (positions, triangles) =
+            grid(cells, |x, y| cells as f64 * form(x as f64 / cells as f64, y as f64 / cells as f64));
+        let (normals, indices) = lasting(&positions, &triangles);
+        let side = cells as u32 + 1;
+        [1u32, 2, 3].map(|part| {
+            let vertex = (side / 2) * side + cells as u32 * part / 4;
+            let corner = triangles.as_flattened().iter().position(|corner| *corner == vertex).unwrap();
+            normals[indices.as_flattened()[corner] as usize]
+        })
+    };
+    // Patches are made of corners, then of patches: the coarsest mesh has one corner in each, the finest hundreds.
+    let [coarse, fine, finest] = [48, 160, 480].map(at_middle);
+    for (one, other) in coarse.iter().zip(fine).chain(fine.iter().zip(finest)) {
+        assert!(one.distance(other) < 0.03, "{one} and {other}");
+    }
+}
+
+#[test]
+fn a_box_keeps_its_normals_exactly() {
+    let (positions, triangles) = cube();
+    let (normals, indices) = lasting(&positions, &triangles);
+    for (triangle, corners) in triangles.iter().zip(&indices) {
+        let face = triangle_normal(triangle.map(|index| positions[index as usize])).unwrap().as_vec3();
+        assert!(corners.iter().all(|corner| normals[*corner as usize] == face));
     }
 }

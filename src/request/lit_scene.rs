@@ -1,0 +1,89 @@
+//! The scene of a still picture, with the light of its tones: the one place where pixels, lines and areas get both.
+
+use super::Request;
+use crate::error::Result;
+use crate::lines::lit_scene;
+use crate::mesh::Mesh;
+use crate::scene::Scene;
+use crate::settings::{OptionValue, Options, Value as _};
+use crate::styles::FarLight;
+use std::sync::Arc;
+
+impl Request {
+    /// Puts the scene of a still picture together, as [`Request::lit`] has it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Scene::new`].
+    pub fn scene(&self, meshes: Vec<Arc<Mesh>>) -> Result<Scene> {
+        Scene::new(meshes, &self.scene).map(|scene| self.lit(scene))
+    }
+
+    /// Returns a scene for a still picture: if the style has tones by a far light, with that light, and without patches of a tone that
+    /// are too small to draw.
+    #[must_use]
+    pub fn lit(&self, scene: Scene) -> Scene {
+        let Some((light, thresholds)) = self.style.far_tones() else { return scene };
+        let known = match light {
+            FarLight::Auto => scene.tone_light.get().copied(),
+            FarLight::Towards(direction) => Some(direction),
+        };
+        lit_scene(scene, known, thresholds.map(f64::from))
+    }
+
+    /// The options of a recipe: those given, with the light that was chosen for a scene.
+    pub(super) fn options_for(&self, scene: &Scene) -> Options {
+        let mut options = self.options.clone();
+        if let (Some((FarLight::Auto, _)), Some(light)) = (self.style.far_tones(), scene.tone_light.get()) {
+            options.insert("tone-light".to_owned(), OptionValue::text(light.text()));
+        }
+        options
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::request::{ModelCache, OptionLayer};
+    use crate::styles::StyleName;
+
+    fn request(light: &str) -> Request {
+        let options =
+            [("tone-light", light), ("tone-thresholds", "0.2,0.56"), ("normals", "lasting"), ("view", "30,23")];
+        let options = options.map(|(name, value)| (name.to_owned(), OptionValue::text(value)));
+        let layers = [OptionLayer::Style(StyleName::Ink), OptionLayer::Given(options.into_iter().collect())];
+        Request::from_layers(&layers).unwrap().0.with_models(vec!["builtin:bust".to_owned()])
+    }
+
+    fn scene(request: &Request) -> Scene {
+        request.scene(request.models(&ModelCache::default()).unwrap().meshes).unwrap()
+    }
+
+    #[test]
+    fn a_recipe_names_the_light_that_was_chosen_and_drawing_again_gives_the_same_scene() {
+        let automatic = request("auto");
+        let first = scene(&automatic);
+        let options = automatic.options_for(&first);
+        let Some(OptionValue::Text(light)) = options.get("tone-light") else { panic!("{options:?}") };
+        assert_eq!(light.split(',').count(), 3, "{light}");
+        let again = request(light);
+        let second = scene(&again);
+        assert_eq!(again.options_for(&second), again.options);
+        assert_eq!(first.objects[0].mesh.normals, second.objects[0].mesh.normals);
+        let plan = |request: &Request, scene: &Scene| request.style.plan(scene, request.show).unwrap();
+        assert_eq!(plan(&automatic, &first).passes, plan(&again, &second).passes);
+    }
+
+    #[test]
+    fn a_turn_keeps_the_light_of_its_first_view_and_another_picture_chooses_its_own() {
+        let automatic = request("auto");
+        let meshes = automatic.models(&ModelCache::default()).unwrap().meshes;
+        let first = Scene::new(meshes, &automatic.scene).unwrap();
+        let cameras = first.turntable(&automatic.scene.camera, 6).unwrap();
+        let views: Vec<Scene> = cameras.into_iter().map(|camera| Scene { camera, ..first.clone() }).collect();
+        let (light, thresholds) = automatic.style.far_tones().unwrap();
+        let lights: Vec<[f32; 3]> = views.iter().map(|view| light.towards(view, thresholds)).collect();
+        assert!(lights.iter().all(|light| *light == lights[0]), "{lights:?}");
+        assert_eq!(first.tone_light.get(), Some(&lights[0]));
+    }
+}

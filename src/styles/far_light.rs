@@ -1,0 +1,57 @@
+//! A light so far away that it has a direction alone.
+
+use crate::error::{Error, Result};
+use crate::lines::chosen_light;
+use crate::scene::Scene;
+use crate::settings::{Kind, Problem, Value};
+use glam::DVec3;
+
+/// The direction of a far light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FarLight {
+    /// Chosen for the scene's first view, from above, so that a fair share is dark and hangs together.
+    Auto,
+    /// Towards it, eye space, of any length.
+    Towards([f32; 3]),
+}
+
+impl FarLight {
+    /// Its direction for a scene, of any length. A scene and its copies keep the one that was chosen first.
+    pub(crate) fn towards(self, scene: &Scene, thresholds: [f32; 2]) -> [f32; 3] {
+        match self {
+            Self::Auto => *scene.tone_light.get_or_init(|| chosen_light(scene, thresholds.map(f64::from))),
+            Self::Towards(direction) => direction,
+        }
+    }
+
+    pub(super) fn check(self) -> Result<()> {
+        match self {
+            Self::Towards(light) if !light.iter().all(|x| x.is_finite()) || light == [0.0; 3] => {
+                Err(Error::setting("tone-light", "a direction is three finite numbers, not all 0"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The unit vector in a direction, which is finite and not 0; in f64 the length of any three f32 numbers is finite.
+pub(super) fn unit(direction: [f32; 3]) -> DVec3 {
+    DVec3::from_array(direction.map(f64::from)).normalize_or_zero()
+}
+
+impl Value for FarLight {
+    fn kind() -> Kind {
+        Kind::Text { offered: &["auto"], example: "-0.4,1,0.6" }
+    }
+
+    fn text(&self) -> String {
+        match self {
+            Self::Auto => "auto".to_owned(),
+            Self::Towards(direction) => direction.text(),
+        }
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        if text == "auto" { Ok(Self::Auto) } else { <[f32; 3]>::parse(text).map(Self::Towards) }
+    }
+}
