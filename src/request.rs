@@ -19,6 +19,7 @@
 //! ```
 
 mod draw;
+mod around;
 mod drawing;
 mod emptiness;
 mod format;
@@ -27,7 +28,8 @@ mod lit_scene;
 mod model_cache;
 mod session;
 
-pub use draw::{Drawn, DrawnPicture, ReadModels, Times, drawn_under};
+pub use around::Around;
+pub use draw::{Drawn, DrawnPicture, ReadModels, Times};
 pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
 pub use format::{DrawingFormat, Wanted};
@@ -66,6 +68,8 @@ pub struct Request {
     pub show: Show,
     /// Whether the view's exact lines are drawn over the picture, in place of the style's own borders. Default no.
     pub exact_lines: bool,
+    /// What the models stand on. Default nothing.
+    pub ground: Ground,
     /// The views or frames to draw.
     pub animation: AnimationSettings,
     /// The way to OpenGL. Default the first that works.
@@ -82,6 +86,18 @@ pub struct Request {
     sources: BTreeMap<String, Source>,
     /// Files of options whose paths are not valid text.
     paths: Vec<(String, PathBuf)>,
+}
+
+tinta_geometry::choices! {
+    /// What models stand on.
+    #[derive(Default)]
+    pub enum Ground {
+        /// Nothing.
+        #[default]
+        None = "none",
+        /// A plane below the lowest point, of which only the models' shadow is seen.
+        Shadow = "shadow",
+    }
 }
 
 /// The source of an option.
@@ -180,6 +196,12 @@ fn settings() -> Vec<Setting<Request>> {
         |request, is_on| request.exact_lines = is_on,
     )
     .labelled("exact lines");
+    let ground = Setting::field(
+        "ground",
+        "GROUND",
+        "Ground below the models: none, or shadow (the shadow that they cast on it, one grey area)",
+        |request: &mut Request| &mut request.ground,
+    );
     let scene = || within(SceneSettings::settings(), |request: &mut Request| Some(&mut request.scene));
     let of_camera = |setting: &Setting<Request>| setting.heading == camera::HEADING;
     let read = within(LoadOptions::settings(), |request: &mut Request| Some(&mut request.read));
@@ -188,7 +210,7 @@ fn settings() -> Vec<Setting<Request>> {
         .into_iter()
         .chain(scene().filter(|setting| !of_camera(setting)))
         .chain(scene().filter(of_camera))
-        .chain(under("All styles", vec![show, exact_lines]))
+        .chain(under("All styles", vec![show, exact_lines, ground]))
         .chain(styles)
         .chain(read)
         .chain(under(ANIMATION, of_animation()))
@@ -298,6 +320,7 @@ impl Request {
             style: Style::named(style),
             show: Show::default(),
             exact_lines: false,
+            ground: Ground::None,
             animation: AnimationSettings::default(),
             backend: Backend::default(),
             glsl: None,

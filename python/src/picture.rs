@@ -46,9 +46,8 @@ pub(crate) fn render(
     warn(py, &ignored(given, asked.request.style.name())?)?;
     let scene = drawable(py, meshes, &asked.request)?;
     let (picture, recipe, remarks) = drawn(py, asked.request.backend, move |renderer| {
-        let (published, strokes) =
-            (asked.request.plan(&scene)?, asked.request.strokes_over(&scene, &Progress::default())?);
-        let drawn = asked.request.drawn_picture(scene, published, strokes, renderer)?;
+        let (published, around) = (asked.request.plan(&scene)?, asked.request.around(&scene, &Progress::default())?);
+        let drawn = asked.request.drawn_picture(scene, published, around, renderer)?;
         let recipe = asked.recipe(&drawn.scene, Some(renderer.context()));
         Ok((drawn.picture, recipe.as_ref().and_then(Recipe::json), drawn.remarks))
     })?;

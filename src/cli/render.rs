@@ -199,7 +199,7 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
         }
     }
     let verdict = match run.verify {
-        true => prune::verify(output, renderer, scene, (published, &drawn.strokes), picture)?,
+        true => prune::verify(output, renderer, scene, (published, &drawn.around), picture)?,
         false => Verdict::Good,
     };
     if run.is_told() {

@@ -1,16 +1,17 @@
 //! From a request to a picture or lines.
 
+use super::around::Around;
 use super::drawing::DrawnLines;
 use super::emptiness::empty_remark;
 use super::{ModelCache, Request, Session, Wanted, ignored_remark};
 use crate::clock::Instant;
 use crate::error::{Error, Result};
 use crate::glsl;
-use crate::lines::{Progress, Strokes, lay_strokes, lay_strokes_by};
+use crate::lines::Progress;
 use crate::mesh::{LoadStage, Mesh};
 use crate::picture::Picture;
+use crate::plan::Plan;
 use crate::plan::prune::{Kept, Omission, Pruned, prune};
-use crate::plan::{Plan, TOOTH};
 use crate::renderer::{Renderer, milliseconds_since};
 use crate::scene::Scene;
 use crate::styles::is_of_vectors;
@@ -44,8 +45,8 @@ pub struct DrawnPicture {
     pub kept: Vec<Kept>,
     /// Remarks for the user, a sentence each.
     pub remarks: Vec<String>,
-    /// The strokes of exact lines that lie over what the plan draws.
-    pub strokes: Vec<Strokes>,
+    /// What lies below and above what the plan draws.
+    pub around: Around,
     /// The picture.
     pub picture: Picture,
     /// How long it took.
@@ -86,51 +87,12 @@ pub struct ReadModels {
     pub ms: f64,
 }
 
-/// Carries out a plan, and lays strokes over its picture.
-///
-/// # Errors
-///
-/// As [`Renderer::draw`].
-pub fn drawn_under(strokes: &[Strokes], scene: &Scene, plan: &Plan, renderer: &mut Renderer) -> Result<Picture> {
-    let mut picture = renderer.draw(scene, plan)?;
-    lay(strokes, plan, &mut picture);
-    Ok(picture)
-}
-
-/// Lays strokes over the picture of a plan: as ink, or as charcoal where the plan has the paper's tooth.
-fn lay(strokes: &[Strokes], plan: &Plan, picture: &mut Picture) {
-    /// Share of black on paper of middling height, and how much a height of 1 adds to it. Charcoal leaves hollows bare.
-    const CHARCOAL: f32 = 0.6;
-    const PER_HEIGHT: f32 = 0.8;
-    let Picture { size, pixels } = picture;
-    let Some(tooth) = plan.pictures.iter().find(|picture| picture.name == TOOTH).map(|tooth| &tooth.picture) else {
-        return lay_strokes(strokes, *size, pixels);
-    };
-    // The paper covers the longer side, as under the drawing.
-    let scale = tooth.size.width as f32 / size.width.max(size.height) as f32;
-    lay_strokes_by(strokes, *size, pixels, |pixel| {
-        let [x, y] = [pixel % size.width as usize, pixel / size.width as usize].map(|at| at as f32 * scale);
-        let height = tooth_at(tooth, [x, y]) / 127.5 - 1.0;
-        (CHARCOAL + PER_HEIGHT * height).clamp(0.0, 1.0)
-    });
-}
-
-/// A paper's height between its texels, 0 to 255.
-fn tooth_at(tooth: &Picture, place: [f32; 2]) -> f32 {
-    let ([x, y], [right, down]) = (place.map(|at| at as i64), place.map(f32::fract));
-    let row = |y: i64| {
-        let [left, beside] = [x, x + 1].map(|x| f32::from(tooth.pixel(x, y)[0]));
-        left + (beside - left) * right
-    };
-    row(y) + (row(y + 1) - row(y)) * down
-}
-
 /// A scene ready to draw, with its plan and the exact lines over it.
 struct Planned {
     scene: Scene,
     files: Vec<PathBuf>,
     published: Plan,
-    strokes: Vec<Strokes>,
+    around: Around,
     times: Times,
 }
 
@@ -198,11 +160,10 @@ impl Request {
     ///
     /// # Errors
     ///
-    /// Those of [`Request::plans`], [`Request::strokes_over`] and [`Renderer::draw`].
+    /// Those of [`Request::plans`], [`Request::around`] and [`Renderer::draw`].
     pub fn picture_of(&self, scene: &Scene, renderer: &mut Renderer) -> Result<Picture> {
         let (_, Pruned { plan, .. }) = self.plans(scene, renderer)?;
-        let strokes = self.strokes_over(scene, &Progress::default())?;
-        drawn_under(&strokes, scene, &plan, renderer)
+        self.around(scene, &Progress::default())?.drawn(scene, &plan, renderer)
     }
 
     /// The shaders to draw with instead of those built in, by their paths.
@@ -253,16 +214,16 @@ impl Request {
 
     fn picture(&self, session: &mut Session) -> Result<DrawnPicture> {
         let (mut times, loaded) = self.ready(session);
-        let Planned { scene, files, published, strokes, times: of_loading } = loaded?;
+        let Planned { scene, files, published, around, times: of_loading } = loaded?;
         let renderer = self.renderer(session)?;
-        let drawn = self.drawn_picture(scene, published, strokes, renderer)?;
+        let drawn = self.drawn_picture(scene, published, around, renderer)?;
         let Times { load_ms, stages, arrays_ms, lines_ms, .. } = of_loading;
         times.plan_ms = of_loading.plan_ms + drawn.times.plan_ms;
         let times = Times { load_ms, stages, arrays_ms, lines_ms, first_frame_ms: drawn.times.first_frame_ms, ..times };
         Ok(DrawnPicture { files, times, ..drawn })
     }
 
-    /// Draws a scene's plan, pruned of everything that cannot change the picture, and strokes of exact lines over it.
+    /// Draws a scene's plan, pruned of everything that cannot change the picture, between the ground and exact lines.
     ///
     /// # Errors
     ///
@@ -271,7 +232,7 @@ impl Request {
         &self,
         scene: Scene,
         published: Plan,
-        strokes: Vec<Strokes>,
+        around: Around,
         renderer: &mut Renderer,
     ) -> Result<DrawnPicture> {
         let mut times = Times::default();
@@ -289,19 +250,8 @@ impl Request {
         let mut picture = renderer.draw(&scene, &plan)?;
         times.first_frame_ms = milliseconds_since(start);
         remarks.extend(empty_remark(&scene, &published, &picture, renderer)?);
-        lay(&strokes, &plan, &mut picture);
-        Ok(DrawnPicture {
-            scene,
-            files: Vec::new(),
-            published,
-            plan,
-            omissions,
-            kept,
-            remarks,
-            strokes,
-            picture,
-            times,
-        })
+        around.put(&plan, &mut picture);
+        Ok(DrawnPicture { scene, files: Vec::new(), published, plan, omissions, kept, remarks, around, picture, times })
     }
 
     /// Reads the models and gets a renderer ready meanwhile, unless the session has one.
@@ -362,9 +312,9 @@ impl Request {
         let published = Plan { submission, ..self.plan(&scene)? };
         let plan_ms = milliseconds_since(start);
         let start = Instant::now();
-        let strokes = self.strokes_over(&scene, &Progress::default())?;
+        let around = self.around(&scene, &Progress::default())?;
         let lines_ms = milliseconds_since(start);
         let times = Times { load_ms, stages, arrays_ms, plan_ms, lines_ms, ..Times::default() };
-        Ok(Planned { scene, files, published, strokes, times })
+        Ok(Planned { scene, files, published, around, times })
     }
 }

@@ -206,19 +206,7 @@ impl Request {
     ///
     /// Those of [`Style::plan`].
     pub fn plan(&self, scene: &Scene) -> Result<Plan> {
-        self.style_in_passes()?.plan(scene, self.show)
-    }
-
-    /// The strokes of the exact lines over a picture of the scene; none without such lines.
-    ///
-    /// # Errors
-    ///
-    /// As [`Request::drawing`].
-    pub fn strokes_over(&self, scene: &Scene, progress: &Progress) -> Result<Vec<Strokes>> {
-        match self.has_lines_over() {
-            true => self.drawn_lines(scene.clone(), Wanted::default(), progress)?.strokes(),
-            false => Ok(Vec::new()),
-        }
+        self.style_in_passes()?.plan(&self.on_ground(scene), self.show)
     }
 
     /// How lines are drawn: the style's way, on the scene's background, with the request's title. `None` for a style without
@@ -322,6 +310,12 @@ impl Request {
         let vectors = if wanted.areas || self.style.lines().is_some() { self.vectors()? } else { None };
         let areas = vectors.as_ref().map(|vectors| vectors.areas(&scene, &lines, progress)).transpose()?;
         remarks.extend(vectors.into_iter().flat_map(|vectors| vectors.remarks(&scene)));
+        let mut areas = areas;
+        if let Some(areas) = areas.as_mut().filter(|_| !style.drawing.is_for_pen)
+            && let Some((shadow, color)) = self.shadow(&scene, progress)?
+        {
+            areas.drawn.add_ground(&shadow, color);
+        }
         let has_areas = areas.as_ref().is_some_and(|areas| areas.drawn.corners_px.is_some());
         if !has_areas && !lines.segments.iter().any(|segment| segment.is_visible) {
             remarks.push(no_line(&scene));

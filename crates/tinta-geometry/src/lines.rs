@@ -74,7 +74,8 @@ pub use parts::scene_parts::ScenePart;
 pub use parts::style::{PartRole, PartStyle};
 pub use progress::{Phase, Progress};
 pub use regions::{
-    Joined, Region, Regions, SeenFace, Surface, ToneLight, ToneRule, TonedSurface, chosen_light, lit_scene,
+    Joined, Region, Regions, SeenFace, Surface, ToneLight, ToneRule, TonedSurface, chosen_light, ground_light,
+    ground_shadow, lit_scene,
 };
 pub use segment::LineSegment;
 pub use settings::LineSettings;
@@ -88,7 +89,7 @@ pub use why::{Hider, Why, WhyLine, WhyPiece};
 pub use write::dxf::{dxf, dxf_of_paths};
 #[cfg(feature = "pdf")]
 pub use write::pdf::{pdf, pdf_of_paths};
-pub use write::raster::{Raster, lay_strokes, lay_strokes_by, raster, raster_of_paths, raster_of_strokes};
+pub use write::raster::{Raster, lay_area, lay_strokes, lay_strokes_by, raster, raster_of_paths, raster_of_strokes};
 pub use write::strokes::{Polyline, Strokes, strokes, strokes_of_paths};
 pub use write::svg::{svg, svg_of_paths};
 pub use write::turn_svg::TurnSvg;

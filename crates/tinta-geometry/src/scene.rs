@@ -276,6 +276,27 @@ impl Scene {
         Ok(Self { tone_light: self.tone_light.clone(), ..seen })
     }
 
+    /// Returns the scene with a camera that is fitted to the objects and to their shadow on the ground, by a light in this direction,
+    /// world space.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Scene::new`].
+    pub fn with_shadow_in_view(self, settings: &SceneSettings, light: DVec3) -> Result<Self> {
+        let ground = self.lowest();
+        let corners: Vec<DVec3> =
+            self.objects.iter().flat_map(|o| o.mesh.all_positions().map(|point| point + o.offset)).collect();
+        let shadow = corners.iter().map(|point| point - light * ((point.y - ground) / light.y));
+        let points = corners.iter().copied().chain(shadow);
+        let camera = settings.camera.fit(self.centre, self.radius, settings.size.aspect(), points)?;
+        Ok(Self { camera, ..self })
+    }
+
+    /// The height of the lowest point, y up.
+    pub fn lowest(&self) -> f64 {
+        self.objects.iter().flat_map(Object::box_corners).map(|corner| corner.y).fold(f64::INFINITY, f64::min)
+    }
+
     /// Objects with the given centre and radius, under these settings.
     fn seen(objects: Vec<Object>, centre: DVec3, radius: f64, settings: &SceneSettings) -> Result<Self> {
         let camera = fitted_camera(&objects, centre, radius, settings)?;

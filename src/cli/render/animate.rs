@@ -13,7 +13,7 @@ use tinta::mesh::ModelFrame;
 use tinta::plan::prune::Pruned;
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
-use tinta::request::{AnimationSettings, ModelCache, ReadModels, Request, Session, drawn_under, empty_remark};
+use tinta::request::{AnimationSettings, ModelCache, ReadModels, Request, Session, empty_remark};
 use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings};
 
 /// Default time of a turn, milliseconds; each of a few views is shown for at most 200.
@@ -72,12 +72,12 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
             remarks = [request.style.remarks(scene), renderer.remarks(&plan)].concat();
             remarks.iter().for_each(|remark| super::super::say(&format!("tinta: {remark}")));
         }
-        let strokes = request.strokes_over(scene, &LineProgress::default())?;
-        let picture = drawn_under(&strokes, scene, &plan, renderer)?;
+        let around = request.around(scene, &LineProgress::default())?;
+        let picture = around.drawn(scene, &plan, renderer)?;
         frame_ms.push(milliseconds_since(frame));
         empty.extend(empty_remark(scene, &published, &picture, renderer)?);
         if run.verify && verdict == Verdict::Good {
-            verdict = prune::verify(output, renderer, scene, (&published, &strokes), &picture)?;
+            verdict = prune::verify(output, renderer, scene, (&published, &around), &picture)?;
         }
         writer.add(picture)?;
         progress.step();

@@ -2,11 +2,10 @@
 
 use super::super::Verdict;
 use std::path::{Path, PathBuf};
-use tinta::lines::Strokes;
 use tinta::plan::Plan;
 use tinta::plan::prune::{Omission, Pruned, Pruning, prune};
 use tinta::renderer::median;
-use tinta::request::drawn_under;
+use tinta::request::Around;
 use tinta::{Picture, Renderer, Result, Scene, Target};
 
 /// Least rounds that time an omission.
@@ -20,10 +19,10 @@ pub(super) fn verify(
     output: &str,
     renderer: &mut Renderer,
     scene: &Scene,
-    (published, strokes): (&Plan, &[Strokes]),
+    (published, around): (&Plan, &Around),
     picture: &Picture,
 ) -> Result<Verdict> {
-    let full = drawn_under(strokes, scene, published, renderer)?;
+    let full = around.drawn(scene, published, renderer)?;
     let path = difference_path(output);
     if full.pixels == picture.pixels {
         // A file from an earlier run would be out of date.

@@ -30,6 +30,7 @@
 mod crossings;
 mod cut;
 mod grid;
+mod ground;
 mod lit;
 mod planar_map;
 mod region;
@@ -41,6 +42,7 @@ mod tone_borders;
 mod tones;
 mod view;
 
+pub use ground::{ground_light, ground_shadow};
 pub use lit::{chosen_light, lit_scene};
 pub use region::{Region, Regions, SeenFace};
 pub use surface::{Joined, Surface};

@@ -1,9 +1,11 @@
 //! The areas of tone below a drawing's lines, as they are drawn.
 
-use crate::lines::drawing::fills::FillGroup;
+use crate::lines::drawing::fills::{Fill, FillGroup, GROUND};
 use crate::lines::drawing::hatch::Hatch;
 use crate::lines::drawing::key::Key;
-use crate::lines::regions::Regions;
+use crate::lines::regions::{Regions, Surface};
+use crate::mesh::NONE;
+use crate::scene::Color;
 use glam::DVec2;
 
 /// The areas of tone below a drawing's lines.
@@ -20,6 +22,26 @@ pub struct Areas {
 }
 
 impl Areas {
+    /// Adds the shadow on the ground, below all other areas.
+    pub fn add_ground(&mut self, shadow: &Regions<()>, color: Color) {
+        let loops: Vec<Vec<DVec2>> = shadow.regions.iter().flat_map(|region| region.loops.iter().cloned()).collect();
+        for point in loops.iter().flatten() {
+            let [low, high] = self.corners_px.unwrap_or([*point; 2]);
+            self.corners_px = Some([low.min(*point), high.max(*point)]);
+        }
+        let surface = Surface { object: NONE, material: None, tone: None, face: None };
+        let fill = Fill { surface, color, loops, trap: Vec::new() };
+        let group = FillGroup {
+            object: NONE,
+            material: GROUND,
+            opacity: 1.0,
+            is_crisp: false,
+            clip: Vec::new(),
+            fills: vec![fill],
+        };
+        self.fills.insert(0, group);
+    }
+
     /// Returns the corners around regions, and neither fills nor strokes.
     pub fn around<T>(regions: &Regions<Option<T>>) -> Self {
         let seen = regions.regions.iter().filter(|region| region.seen.is_some());

@@ -7,6 +7,7 @@
 
 use crate::lines::drawing::simplify::simplified;
 use crate::lines::regions::{Regions, Surface, TonedSurface};
+use crate::mesh::NONE;
 use crate::scene::Color;
 use glam::{DVec2, I64Vec2};
 use std::collections::BTreeSet;
@@ -14,6 +15,9 @@ use std::collections::HashMap;
 
 /// The width of a trap, pixels: half of it is seen while the upper area is not painted.
 pub(crate) const TRAP_PX: f64 = 4.0;
+
+/// The material of the shadow on the ground, which belongs to no object.
+pub(crate) const GROUND: u32 = NONE - 1;
 
 /// The areas of an object's material, or strokes below all areas.
 #[derive(Debug, Clone, PartialEq)]

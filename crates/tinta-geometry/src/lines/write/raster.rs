@@ -80,6 +80,53 @@ pub fn lay_strokes_by(strokes: &[Strokes], size: Size, pixels: &mut [u8], share:
     }
 }
 
+/// Lays an area over a picture of this size: closed polygons, and their holes, which run the other way.
+pub fn lay_area(loops: &[Vec<DVec2>], color: Color, size: Size, pixels: &mut [u8]) {
+    let width = size.width as usize;
+    // What each pixel covers more than the one to its left.
+    let mut steps = vec![0.0f32; (width + 2) * size.height as usize];
+    for corners in loops {
+        for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            add_side([*from, *to], size, &mut steps);
+        }
+    }
+    for (row, steps) in pixels.chunks_exact_mut(width * 4).zip(steps.chunks_exact(width + 2)) {
+        let mut covered = 0.0;
+        for (pixel, step) in row.chunks_exact_mut(4).zip(steps) {
+            covered += step;
+            if covered.abs() > 1e-4 {
+                lay_over(pixel, color, covered.abs().min(1.0));
+            }
+        }
+    }
+}
+
+/// Adds the area between a side and the picture's right edge.
+fn add_side([from, to]: [DVec2; 2], size: Size, steps: &mut [f32]) {
+    let sign = if from.y < to.y { 1.0 } else { -1.0 };
+    let [low, high] = if from.y < to.y { [from, to] } else { [to, from] };
+    let slope = (high.x - low.x) / (high.y - low.y);
+    let width = f64::from(size.width);
+    let [first, last] = [low.y, high.y].map(|y| y.clamp(0.0, f64::from(size.height)));
+    for row in first.floor() as usize..last.ceil() as usize {
+        let [top, bottom] = [first.max(row as f64), last.min(row as f64 + 1.0)];
+        let at = |y: f64| (low.x + (y - low.y) * slope).clamp(0.0, width);
+        let [left, right] = [at(top).min(at(bottom)), at(top).max(at(bottom))];
+        let (mut passed, mut last_share) = (0.0, 0.0);
+        let place = |column: usize| row * (size.width as usize + 2) + column;
+        let height = sign * (bottom - top);
+        for column in left.floor() as usize..=right.floor() as usize {
+            let [enter, leave] = [left.max(column as f64), right.min(column as f64 + 1.0)];
+            let here = if right > left { (leave - enter) / (right - left) } else { 1.0 };
+            // Of the pixel, all is to the right of what the side passed before.
+            let share = passed + here * (column as f64 + 1.0 - (enter + leave) * 0.5);
+            steps[place(column)] += (height * (share - last_share)) as f32;
+            (passed, last_share) = (passed + here, share);
+        }
+        steps[place(right.floor() as usize + 1)] += (height * (1.0 - last_share)) as f32;
+    }
+}
+
 fn byte(channel: f32) -> u8 {
     (channel * 255.0).round() as u8
 }
@@ -216,6 +263,35 @@ mod tests {
                 assert!((sum / area - 1.0).abs() < 0.06, "{ends:?} {width_px}: {sum} {area}");
             }
         }
+    }
+
+    #[test]
+    fn an_area_covers_what_it_has_of_each_pixel() {
+        let area = |loops: &[&[[f64; 2]]]| {
+            let loops: Vec<Vec<DVec2>> =
+                loops.iter().map(|ring| ring.iter().map(|c| DVec2::from_array(*c)).collect()).collect();
+            let mut pixels = vec![0; SIZE.pixel_count() * 4];
+            lay_area(&loops, Color([0.0; 3]), SIZE, &mut pixels);
+            pixels.chunks_exact(4).map(|pixel| f64::from(pixel[3]) / 255.0).collect::<Vec<_>>()
+        };
+        let slanted: &[[f64; 2]] = &[[3.2, 4.7], [30.4, 9.1], [21.0, 25.3]];
+        let sum: f64 = area(&[slanted]).iter().sum();
+        let exact = DVec2::new(27.2, 4.4).perp_dot(DVec2::new(17.8, 20.6)) * 0.5;
+        assert!((sum - exact).abs() < 0.3, "{sum} {exact}");
+        let square = area(&[&[[2.5, 3.25], [6.0, 3.25], [6.0, 8.0], [2.5, 8.0]]]);
+        let at = |x: usize, y: usize| square[y * SIZE.width as usize + x];
+        let near = |a: f64, b: f64| (a - b).abs() < 0.005;
+        assert!(
+            near(at(2, 5), 0.5) && near(at(4, 3), 0.75) && near(at(5, 7), 1.0) && at(6, 5) == 0.0 && at(4, 8) == 0.0
+        );
+        // A hole, and a part beyond the picture.
+        let holed: f64 = area(&[
+            &[[-9.0, -9.0], [99.0, -9.0], [99.0, 99.0], [-9.0, 99.0]],
+            &[[5.0, 5.0], [5.0, 9.0], [9.0, 9.0], [9.0, 5.0]],
+        ])
+        .iter()
+        .sum();
+        assert!(near(holed, 40.0 * 30.0 - 16.0), "{holed}");
     }
 
     #[test]

@@ -12,7 +12,7 @@ use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::fitted;
 use crate::lines::drawing::drawn_labels::height_px;
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
-use crate::lines::drawing::fills::{FillGroup, TRAP_PX};
+use crate::lines::drawing::fills::{FillGroup, GROUND, TRAP_PX};
 use crate::lines::drawing::key::Key;
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::page::PAGE_DECIMALS;
@@ -146,6 +146,7 @@ fn write_fills(group: &FillGroup, out: &mut String) {
         polylines.iter().map(|points| path_data(points, is_closed, false)).collect::<String>()
     };
     let (name, label) = match group.material {
+        GROUND if object == NONE => ("fill-ground".to_owned(), "shadow on the ground".to_owned()),
         NONE if object == NONE => ("fill-seams".to_owned(), "below seams".to_owned()),
         view if object == NONE => (format!("fill-seams-{view}"), format!("below seams of view {view}")),
         NONE => (format!("fill-{object}"), format!("object {object}")),

@@ -1,0 +1,134 @@
+//! What a picture of passes has below and above it: the shadow on the ground, and exact lines.
+
+use super::{Ground, Request};
+use crate::error::Result;
+use crate::lines::{Progress, Regions, Strokes, ground_light, ground_shadow, lay_area, lay_strokes, lay_strokes_by};
+use crate::picture::Picture;
+use crate::plan::{Plan, TOOTH};
+use crate::renderer::Renderer;
+use crate::scene::{Background, Color, Scene};
+use glam::DVec3;
+use std::borrow::Cow;
+
+/// What lies below and above the picture of a scene's plan.
+#[derive(Debug, Clone)]
+pub struct Around {
+    background: Background,
+    /// The shadow on the ground, and its colour.
+    shadow: Option<(Regions<()>, Color)>,
+    /// The strokes of exact lines.
+    strokes: Vec<Strokes>,
+}
+
+/// The light that shadows follow where a style's tones have none: from the left, eye space.
+const LIGHT: [f32; 3] = [-0.4, 1.0, 0.6];
+
+/// The share of the background's red, green and blue in a shadow: a warm grey.
+const SHADE: [f32; 3] = [0.85, 0.835, 0.81];
+
+impl Request {
+    /// What lies below and above the picture of a scene.
+    ///
+    /// # Errors
+    ///
+    /// As [`Request::drawing`].
+    pub fn around(&self, scene: &Scene, progress: &Progress) -> Result<Around> {
+        let strokes = match self.has_lines_over() {
+            true => self.drawn_lines(scene.clone(), Default::default(), progress)?.strokes()?,
+            false => Vec::new(),
+        };
+        Ok(Around { background: scene.background, shadow: self.shadow(scene, progress)?, strokes })
+    }
+
+    /// The shadow on the ground of a scene, and its colour.
+    pub(super) fn shadow(&self, scene: &Scene, progress: &Progress) -> Result<Option<(Regions<()>, Color)>> {
+        let Some(light) = self.shadow_light(scene) else { return Ok(None) };
+        let ground = match scene.background {
+            Background::Color(Color(channels)) => channels,
+            Background::Transparent => [1.0; 3],
+        };
+        let shadow = ground_shadow(scene, light, progress)?;
+        Ok(Some((shadow, Color([0, 1, 2].map(|channel| ground[channel] * SHADE[channel])))))
+    }
+
+    /// The direction towards the light of the shadow, world space; `None` without a shadow.
+    pub(super) fn shadow_light(&self, scene: &Scene) -> Option<DVec3> {
+        let towards = self.style.far_tones().map_or(LIGHT, |(light, thresholds)| light.towards(scene, thresholds));
+        (self.ground == Ground::Shadow).then(|| ground_light(scene, towards))
+    }
+
+    /// The scene that is planned: on a ground it has no background of its own.
+    pub(super) fn on_ground<'a>(&self, scene: &'a Scene) -> Cow<'a, Scene> {
+        match self.ground {
+            Ground::None => Cow::Borrowed(scene),
+            Ground::Shadow => Cow::Owned(Scene { background: Background::Transparent, ..scene.clone() }),
+        }
+    }
+}
+
+impl Around {
+    /// Carries out a plan, and puts its picture between ground and lines.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::draw`].
+    pub fn drawn(&self, scene: &Scene, plan: &Plan, renderer: &mut Renderer) -> Result<Picture> {
+        let mut picture = renderer.draw(scene, plan)?;
+        self.put(plan, &mut picture);
+        Ok(picture)
+    }
+
+    /// Puts the picture of a plan between ground and lines.
+    pub(super) fn put(&self, plan: &Plan, picture: &mut Picture) {
+        if let Some((shadow, color)) = &self.shadow {
+            self.put_on(shadow, *color, picture);
+        }
+        lay(&self.strokes, plan, picture);
+    }
+
+    /// Puts a picture without a background on the ground.
+    fn put_on(&self, shadow: &Regions<()>, color: Color, picture: &mut Picture) {
+        let background = self.background.clear_color().map(|channel| (channel * 255.0).round() as u8);
+        let mut ground = background.repeat(picture.size.pixel_count());
+        shadow.regions.iter().for_each(|region| lay_area(&region.loops, color, picture.size, &mut ground));
+        for (pixel, below) in picture.pixels.chunks_exact_mut(4).zip(ground.chunks_exact(4)) {
+            let [opacity, rest] = [f32::from(pixel[3]) / 255.0, f32::from(below[3]) / 255.0];
+            let rest = rest * (1.0 - opacity);
+            let alpha = opacity + rest;
+            if alpha > 0.0 {
+                for (channel, below) in pixel.iter_mut().zip(&below[..3]) {
+                    *channel = ((f32::from(*channel) * opacity + f32::from(*below) * rest) / alpha).round() as u8;
+                }
+                pixel[3] = (alpha * 255.0).round() as u8;
+            }
+        }
+    }
+}
+
+/// Lays strokes over the picture of a plan: as ink, or as charcoal where the plan has the paper's tooth.
+fn lay(strokes: &[Strokes], plan: &Plan, picture: &mut Picture) {
+    /// Share of black on paper of middling height, and how much a height of 1 adds to it. Charcoal leaves hollows bare.
+    const CHARCOAL: f32 = 0.6;
+    const PER_HEIGHT: f32 = 0.8;
+    let Picture { size, pixels } = picture;
+    let Some(tooth) = plan.pictures.iter().find(|picture| picture.name == TOOTH).map(|tooth| &tooth.picture) else {
+        return lay_strokes(strokes, *size, pixels);
+    };
+    // The paper covers the longer side, as under the drawing.
+    let scale = tooth.size.width as f32 / size.width.max(size.height) as f32;
+    lay_strokes_by(strokes, *size, pixels, |pixel| {
+        let [x, y] = [pixel % size.width as usize, pixel / size.width as usize].map(|at| at as f32 * scale);
+        let height = tooth_at(tooth, [x, y]) / 127.5 - 1.0;
+        (CHARCOAL + PER_HEIGHT * height).clamp(0.0, 1.0)
+    });
+}
+
+/// A paper's height between its texels, 0 to 255.
+fn tooth_at(tooth: &Picture, place: [f32; 2]) -> f32 {
+    let ([x, y], [right, down]) = (place.map(|at| at as i64), place.map(f32::fract));
+    let row = |y: i64| {
+        let [left, beside] = [x, x + 1].map(|x| f32::from(tooth.pixel(x, y)[0]));
+        left + (beside - left) * right
+    };
+    row(y) + (row(y + 1) - row(y)) * down
+}
