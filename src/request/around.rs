@@ -1,6 +1,7 @@
 //! What a picture of passes has below and above it: the shadow on the ground, and exact lines.
 
 use super::{Ground, Request};
+use crate::clock::{Instant, milliseconds_since};
 use crate::error::Result;
 use crate::lines::{Progress, Regions, Strokes, ground_light, ground_shadow, lay_area, lay_strokes, lay_strokes_by};
 use crate::picture::Picture;
@@ -18,6 +19,8 @@ pub struct Around {
     shadow: Option<(Regions<()>, Color)>,
     /// The strokes of exact lines.
     strokes: Vec<Strokes>,
+    /// How long finding all of it took, milliseconds.
+    pub found_ms: f64,
 }
 
 /// The light that shadows follow where a style's tones have none: from the left, eye space.
@@ -33,11 +36,13 @@ impl Request {
     ///
     /// As [`Request::drawing`].
     pub fn around(&self, scene: &Scene, progress: &Progress) -> Result<Around> {
+        let start = Instant::now();
         let strokes = match self.has_lines_over() {
             true => self.drawn_lines(scene.clone(), Default::default(), progress)?.strokes()?,
             false => Vec::new(),
         };
-        Ok(Around { background: scene.background, shadow: self.shadow(scene, progress)?, strokes })
+        let shadow = self.shadow(scene, progress)?;
+        Ok(Around { background: scene.background, shadow, strokes, found_ms: milliseconds_since(start) })
     }
 
     /// The shadow on the ground of a scene, and its colour.

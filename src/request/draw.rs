@@ -311,10 +311,8 @@ impl Request {
         let start = Instant::now();
         let published = Plan { submission, ..self.plan(&scene)? };
         let plan_ms = milliseconds_since(start);
-        let start = Instant::now();
         let around = self.around(&scene, &Progress::default())?;
-        let lines_ms = milliseconds_since(start);
-        let times = Times { load_ms, stages, arrays_ms, plan_ms, lines_ms, ..Times::default() };
+        let times = Times { load_ms, stages, arrays_ms, plan_ms, lines_ms: around.found_ms, ..Times::default() };
         Ok(Planned { scene, files, published, around, times })
     }
 }

@@ -94,8 +94,10 @@ impl Read {
 }
 
 /// Options of earlier versions, and what took their place.
-const GONE: [(&str, &str); 1] =
-    [("crease-by", "--exact-lines draws the lines that print drew by it, with --lasting-creases those of scans")];
+const GONE: [(&str, &str); 2] = [
+    ("crease-by", "--exact-lines draws the lines that print drew by it, with --lasting-creases those of scans"),
+    ("remove-specks", "--quality best removes specks, and exact lines have none"),
+];
 
 /// The error for an unknown option.
 pub fn unknown(name: &str) -> Error {

@@ -1,13 +1,18 @@
 //! The scene of a still picture, with the light of its tones: the one place where pixels, lines and areas get both.
 
 use super::Request;
+use crate::camera::View;
 use crate::error::Result;
 use crate::lines::lit_scene;
 use crate::mesh::Mesh;
 use crate::scene::Scene;
 use crate::settings::{OptionValue, Options, Value as _};
 use crate::styles::FarLight;
+use std::borrow::Cow;
 use std::sync::Arc;
+
+/// The thickness of a sheet, as a share of its length.
+const FLAT: f64 = 1e-3;
 
 impl Request {
     /// Puts the scene of a still picture together, as [`Request::lit`] has it.
@@ -16,12 +21,24 @@ impl Request {
     ///
     /// Those of [`Scene::new`].
     pub fn scene(&self, meshes: Vec<Arc<Mesh>>) -> Result<Scene> {
-        let scene = Scene::new(meshes, &self.scene)?;
-        let scene = match self.shadow_light(&scene) {
-            Some(light) => scene.with_shadow_in_view(&self.scene, light)?,
-            None => scene,
-        };
+        let mut scene = Scene::new(meshes, &self.scene)?;
+        let mut settings = Cow::Borrowed(&self.scene);
+        if let Some(view) = self.view_of_sheet(&scene) {
+            settings.to_mut().camera.view = view;
+            scene = scene.seen_with(&settings)?;
+        }
+        if let Some(light) = self.shadow_light(&scene) {
+            scene = scene.with_shadow_in_view(&settings, light)?;
+        }
         Ok(self.lit(scene))
+    }
+
+    /// The view along the normal of models that are a flat sheet, in place of a look's: from there a sheet is seen as what it is.
+    fn view_of_sheet(&self, scene: &Scene) -> Option<View> {
+        let is_free = self.is_of_look("view") && !["eye", "target"].iter().any(|name| self.options.contains_key(*name));
+        let extent = scene.extent();
+        let thin = (0..3).find(|axis| extent[*axis] <= FLAT * extent.max_element()).filter(|_| is_free)?;
+        ["right", "top", "front"][thin].parse().ok()
     }
 
     /// Returns a scene for a still picture: if the style has tones by a far light, with that light, and without patches of a tone that
@@ -36,9 +53,12 @@ impl Request {
         lit_scene(scene, known, thresholds.map(f64::from))
     }
 
-    /// The options of a recipe: those given, with the light that was chosen for a scene.
+    /// The options of a recipe: those given, with the view and the light that were chosen for a scene.
     pub(super) fn options_for(&self, scene: &Scene) -> Options {
         let mut options = self.options.clone();
+        if let Some(view) = self.view_of_sheet(scene) {
+            options.insert("view".to_owned(), OptionValue::text(view.text()));
+        }
         if let (Some((FarLight::Auto, _)), Some(light)) = (self.style.far_tones(), scene.tone_light.get()) {
             options.insert("tone-light".to_owned(), OptionValue::text(light.text()));
         }

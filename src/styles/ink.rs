@@ -20,7 +20,7 @@ use crate::plan::{
     Depth, Draw, Facts, Geometry, Paint, Pass, Plan, Program, Step, Target, Texture, Uniform, Value, WhereEven,
 };
 use crate::scene::{Background, Scene, Size};
-use crate::settings::{ON_OFF, Setting, Value as _, under, within};
+use crate::settings::{Setting, Value as _, under, within};
 
 /// Settings of `ink`.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,9 +33,6 @@ pub struct Ink {
     pub is_inked: bool,
     /// Smallest angle between planes at a crease. Default 30 degrees; more draws fewer lines.
     pub crease_angle: CreaseAngle,
-    /// Whether to remove isolated ink at most twice as long as a line is wide; `None`, the default, follows the quality. Testing
-    /// the neighbours of all ink takes about half of the picture's time again with a software driver.
-    pub removes_specks: Option<bool>,
     /// Width of the lines. Default 2 pixels; more also joins neighbouring lines.
     pub line_width: LineWidth,
     /// Width of the lines that do not border on the background; `None`, the default, uses that of all lines.
@@ -84,7 +81,6 @@ impl Default for Ink {
             supersample: None,
             is_inked: true,
             crease_angle: CreaseAngle::of_drawings(),
-            removes_specks: None,
             least_gap_px: 1.5,
             gap_per_slope: 0.3,
             line_width: LineWidth::Pixels(2),
@@ -131,15 +127,6 @@ impl Ink {
                 |ink: &mut Self| &mut ink.inner_width,
             )
             .ours("all lines are as wide"),
-            Setting::open_field(
-                "remove-specks",
-                ON_OFF,
-                "auto",
-                "Leave out isolated specks of ink, up to two line widths long, on or off",
-                |ink: &mut Self| &mut ink.removes_specks,
-            )
-            .ours("the quality decides")
-            .said("off; on with --quality best"),
             Setting::field(
                 "quality",
                 "QUALITY",
@@ -216,8 +203,10 @@ impl Ink {
         self.supersample.unwrap_or(self.quality.supersample())
     }
 
+    /// Whether isolated ink at most twice as long as a line is wide goes. Testing the neighbours of all ink takes about half of the
+    /// picture's time again with a software driver.
     fn removes_specks(&self) -> bool {
-        self.removes_specks.unwrap_or(self.quality == Quality::Best)
+        self.quality == Quality::Best
     }
 
     fn check(&self, show: Show) -> Result<()> {

@@ -5,12 +5,17 @@ use std::fmt::Write as _;
 use tinta::edges::CreaseAngle;
 use tinta::lines::LineSettings;
 use tinta::plan::{Step, Value};
-use tinta::styles::{Ink, LineWidth, Quality};
+use tinta::styles::{Ink, LineWidth, Quality, Supersample};
 use tinta::{Picture, Renderer, Scene, SceneSettings, Show, Size, Style};
 use tinta_lab::measure::{Ink as Drawn, LineError, Reference};
 
-fn best(removes_specks: Option<bool>) -> Style {
-    Style::Ink(Ink { quality: Quality::Best, removes_specks, ..Ink::default() })
+fn best() -> Style {
+    Style::Ink(Ink { quality: Quality::Best, ..Ink::default() })
+}
+
+/// As large as [`best`], with specks.
+fn large() -> Style {
+    Style::Ink(Ink { supersample: Some(Supersample::Two), ..Ink::default() })
 }
 
 /// Whether a pixel lies in a rectangle with sides up to this length and an empty frame: a speck, found independently of the
@@ -37,12 +42,12 @@ fn what_fits_into_an_empty_frame_is_left_out_and_nothing_else() {
     let mut removed = 0;
     for backend in *BACKENDS {
         let mut renderer = renderer(backend);
-        for (width_px, quality) in [(1, Quality::Standard), (2, Quality::Standard), (1, Quality::Best)] {
+        for (width_px, supersample) in [(1, Supersample::One), (2, Supersample::One), (1, Supersample::Two)] {
             let scene = scene("builtin:bust", 150, 150);
             let style = Style::Ink(Ink {
                 line_width: LineWidth::Pixels(width_px),
-                quality,
-                removes_specks: Some(true),
+                quality: Quality::Best,
+                supersample: Some(supersample),
                 ..Ink::default()
             });
             let plan = style.plan(&scene, Show::Borders).unwrap();
@@ -60,7 +65,7 @@ fn what_fits_into_an_empty_frame_is_left_out_and_nothing_else() {
                 let is_ink = mask.pixel(x, y)[3] > 0;
                 let is_left = is_ink && !is_in_an_empty_frame(mask, x, y, side as i64);
                 removed += usize::from(is_ink && !is_left);
-                assert_eq!(found.pixel(x, y)[0] == 0, is_left, "{width_px} px, {quality:?}, at {x},{y}");
+                assert_eq!(found.pixel(x, y)[0] == 0, is_left, "{width_px} px, {supersample:?}, at {x},{y}");
             }
         }
     }
@@ -73,8 +78,8 @@ fn specks_are_looked_for_by_default_only_where_time_is_no_matter() {
     let passes =
         |style: &Style| style.plan(&scene, Show::Final).unwrap().passes.iter().map(|it| it.name).collect::<Vec<_>>();
     assert_eq!(passes(&Style::Ink(Ink::default())), ["map", "tones", "ink"]);
-    assert_eq!(passes(&best(None)), ["map", "ink", "tones", "specks", "shrink"]);
-    assert_eq!(passes(&best(Some(false))), ["map", "tones", "ink", "shrink"]);
+    assert_eq!(passes(&best()), ["map", "ink", "tones", "specks", "shrink"]);
+    assert_eq!(passes(&large()), ["map", "tones", "ink", "shrink"]);
 }
 
 fn error(renderer: &mut Renderer, scene: &Scene, reference: &Reference, style: &Style) -> LineError {
@@ -146,7 +151,7 @@ fn a_hexagonal_prism_and_a_chamfered_cube_keep_all_their_edges() {
             let scene = scene_with(file.path().to_str().unwrap(), settings);
             let lines = LineSettings { crease_angle: CreaseAngle::of_drawings(), ..LineSettings::default() };
             let reference = Reference::of(&scene, &lines).unwrap();
-            for style in [Style::Ink(Ink::default()), best(None)] {
+            for style in [Style::Ink(Ink::default()), best()] {
                 let LineError { recall, precision, .. } = error(&mut renderer, &scene, &reference, &style);
                 assert!(recall > 0.999 && precision > 0.999, "{name} at {side}: {recall} {precision}");
             }
@@ -164,7 +169,7 @@ fn is_no_worse(files: &[&str]) {
         let scene = scene_with(path.to_str().unwrap(), settings);
         let lines = LineSettings { crease_angle: CreaseAngle::default(), ..LineSettings::default() };
         let reference = Reference::of(&scene, &lines).unwrap();
-        let [with, without] = [None, Some(false)].map(|it| error(&mut renderer, &scene, &reference, &best(it)));
+        let [with, without] = [best(), large()].map(|style| error(&mut renderer, &scene, &reference, &style));
         assert!(with.f1 >= without.f1, "{file}: {} with specks, {} without", without.f1, with.f1);
         assert!(with.precision >= without.precision, "{file}: {} {}", without.precision, with.precision);
     }

@@ -7,7 +7,8 @@ use tinta::lines::Length;
 use tinta::plan::prune::{Pruned, Pruning, Rule, prune};
 use tinta::plan::{Draw, Faces, Geometry, Plan, Step};
 use tinta::styles::{
-    Border, Cartoon, Charcoal, Dietrich, Filter, Ink, Inking, LineWidth, MapEncoding, MapTarget, Phong, Supersample,
+    Border, Cartoon, Charcoal, Dietrich, Filter, Ink, Inking, LineWidth, MapEncoding, MapTarget, Phong, Quality,
+    Supersample,
 };
 use tinta::{
     Background, CameraSettings, Color, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, View,
@@ -288,7 +289,8 @@ pub fn many_styles() -> Vec<Style> {
     styles.push(Style::Ink(Ink { cull_back_faces: true, supersample: Some(Supersample::Two), ..Ink::default() }));
     for map_target in [MapTarget::Copy, MapTarget::Texture] {
         styles.push(Style::Ink(Ink {
-            removes_specks: Some(true),
+            quality: Quality::Best,
+            supersample: Some(Supersample::One),
             line_width: LineWidth::Pixels(5),
             map_target,
             ..Ink::default()

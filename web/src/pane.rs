@@ -5,6 +5,7 @@ use crate::model::{Model, asked};
 use serde_json::json;
 use tinta::camera::CameraSettings;
 use tinta::glam::DVec2;
+use tinta::lines::Progress;
 use tinta::orbit::Orbit;
 use tinta::pixel::Explanation;
 use tinta::plan::Step;
@@ -27,7 +28,12 @@ pub struct Pane {
     scene: Option<Scene>,
     orbit: Orbit,
     drawn: Option<Picture>,
+    /// How long the last search for exact lines took, milliseconds.
+    lines_ms: f64,
 }
+
+/// Exact lines that take longer are not drawn while the model turns, milliseconds.
+const LINES_AT_ONCE_MS: f64 = 30.0;
 
 #[wasm_bindgen]
 impl Pane {
@@ -39,7 +45,7 @@ impl Pane {
     #[wasm_bindgen(constructor)]
     pub fn new(canvas: HtmlCanvasElement) -> Result<Pane, JsError> {
         let renderer = Renderer::on_canvas(canvas).map_err(said)?;
-        Ok(Self { renderer, scene: None, orbit: Orbit::default(), drawn: None })
+        Ok(Self { renderer, scene: None, orbit: Orbit::default(), drawn: None, lines_ms: f64::INFINITY })
     }
 
     /// The browser's graphics context, as JSON.
@@ -65,11 +71,18 @@ impl Pane {
     /// Those of the options, the style and the browser.
     pub fn draw(&mut self, options: &str, show: &str, is_coarse: bool) -> Result<u32, JsError> {
         let mut request = picture_asked(options, show)?;
+        // A turning model has the style's own borders where exact lines take too long.
+        request.exact_lines &= !is_coarse || self.lines_ms < LINES_AT_ONCE_MS;
         if is_coarse && self.renderer.context().draw_buffers > 1 {
             request.style = coarse(&request.style);
         }
         let scene = self.seen(&request)?;
-        let picture = request.picture_of(&scene, &mut self.renderer).map_err(said)?;
+        let around = request.around(&scene, &Progress::default()).map_err(said)?;
+        if request.has_lines_over() {
+            self.lines_ms = around.found_ms;
+        }
+        let (_, pruned) = request.plans(&scene, &mut self.renderer).map_err(said)?;
+        let picture = around.drawn(&scene, &pruned.plan, &mut self.renderer).map_err(said)?;
         let width = picture.size.width;
         self.drawn = Some(picture);
         Ok(width)

@@ -292,6 +292,13 @@ impl Scene {
         Ok(Self { camera, ..self })
     }
 
+    /// The size of the box around all objects, world space.
+    pub fn extent(&self) -> DVec3 {
+        let corners: Vec<DVec3> = self.objects.iter().flat_map(Object::box_corners).collect();
+        let (low, high) = bounds(&corners);
+        high - low
+    }
+
     /// The height of the lowest point, y up.
     pub fn lowest(&self) -> f64 {
         self.objects.iter().flat_map(Object::box_corners).map(|corner| corner.y).fold(f64::INFINITY, f64::min)
