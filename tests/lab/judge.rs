@@ -198,7 +198,9 @@ fn a_camera_of_another_program_is_read_from_its_file() {
     };
     let f1 = |more: &[&str]| judged(more, 0);
     let right = f1(&view[..4]);
-    assert!(right > 0.99 && judged(&[], 1) < 0.8, "from another camera it is not scored");
+    let elsewhere = ["--view", "20,10"];
+    assert!(right > 0.99 && judged(&elsewhere, 1) < 0.8, "from another camera it is not scored");
+    assert!((f1(&[]) - right).abs() < 1e-6, "a picture by tinta is judged from where it was drawn");
     for file in [&record, &matrix, &picture] {
         assert!((f1(&["--camera", file]) - right).abs() < 1e-6, "{file}");
         // A drawing from it, in a look with another view.
@@ -280,7 +282,7 @@ fn what_cannot_be_judged_is_refused_in_a_sentence() {
 }
 
 #[test]
-fn a_picture_drawn_from_elsewhere_is_said_and_gives_its_own_camera() {
+fn a_picture_is_judged_from_where_it_was_drawn_and_one_from_elsewhere_is_said() {
     let folder = Folder::new();
     let [elsewhere, here] = ["elsewhere.svg", "here.svg"].map(|name| folder.path(name));
     let model = ["--model", "builtin:gear"];
@@ -291,16 +293,21 @@ fn a_picture_drawn_from_elsewhere_is_said_and_gives_its_own_camera() {
     };
     drawn(&elsewhere, &["--view", "70,40", "--fov", "20"]);
     drawn(&here, &[]);
-    let judged = |drawing: &str, more: &[&str]| {
-        let output = tinta(&[&["judge", drawing, "--json"], &model[..], more].concat());
-        let record: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let judged = |drawings: &[&str], more: &[&str]| {
+        let output = tinta(&[&["judge", "--json"], drawings, &model[..], more].concat());
+        let last = String::from_utf8(output.stdout.clone()).unwrap();
+        let last = last.rsplit("\n{").next().map(|record| format!("{{{}", record.trim_start_matches('{'))).unwrap();
+        let record: Value = serde_json::from_str(&last).unwrap();
         (record["lines"]["f1"].as_f64().unwrap(), said(&output))
     };
-    let (wrong, said) = judged(&elsewhere, &[]);
+    let (right, said) = judged(&[&elsewhere], &[]);
+    assert!(said.is_empty() && right > 0.95, "{right} {said}");
+    // Several drawings are judged from where the first was drawn.
+    let (wrong, said) = judged(&[&here, &elsewhere], &[]);
     assert!(said.contains("elsewhere.svg was drawn from elsewhere (--fov 20 --view 70,40); --camera"), "{said}");
-    let (right, said) = judged(&elsewhere, &["--camera", &elsewhere]);
-    assert!(said.is_empty() && right > 0.95 && wrong < 0.8, "{wrong} {right} {said}");
-    assert_eq!(judged(&here, &[]).1, "");
+    assert!(wrong < 0.8, "{wrong}");
+    assert_eq!(judged(&[&elsewhere], &["--camera", &elsewhere]).0, right);
+    assert_eq!(judged(&[&here], &[]).1, "");
 }
 
 #[test]

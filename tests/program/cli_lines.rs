@@ -419,6 +419,7 @@ fn explained_lines_are_a_text_of_what_there_is() {
     let folder = Folder::new();
     let out = folder.path("a.svg");
     let base = ["render", "builtin:bust", "-o", &out, "--silhouette", "smooth", "--view", "0,35", "--size", "160"];
+    let base = [&base[..], &["--style", "lines"]].concat();
     let said = String::from_utf8(silent(&[&base[..], &["--explain"]].concat())).unwrap();
     let record: serde_json::Value = serde_json::from_slice(&silent(&[&base[..], &["--json"]].concat())).unwrap();
     let breaks = record["changes"]["inconsistencies"].as_u64().unwrap();

@@ -74,7 +74,7 @@ fn a_recipe_says_what_was_drawn_with_which_files_by_whom() {
     let model = textured(&folder);
     let [png, svg, other] = ["a.png", "a.svg", "b.png"].map(|name| folder.path(name));
     let render = |out: &str, options: &[&str]| {
-        done(&[&["render", &model, "builtin:ant", "-o", out, "--size", "40x30", "--frames", "1"], options].concat());
+        done(&[&["render", &model, "builtin:ant", "-o", out, "--size", "40x30"], options].concat());
     };
     render(&png, &["--style", "inking", "--texture", "on", "--explain"]);
     let recipe = read(&png);

@@ -347,8 +347,8 @@ fn lines_in_the_window_are_the_files_lines_as_another_program_draws_them() {
 fn lines_over_a_picture_darken_it_where_they_are_and_go_when_they_are_taken_away() {
     let mut viewer = viewer(&["builtin:gear"], Backend::Auto, None);
     // Exact lines take the place of the style's own.
-    let plain = shown(&mut viewer, [set("--no-borders", "true")]);
-    let with_borders = shown(&mut viewer, [set("--no-borders", "false")]);
+    let plain = shown(&mut viewer, [set("--no-borders", "on")]);
+    let with_borders = shown(&mut viewer, [set("--no-borders", "off")]);
     assert_ne!(plain, with_borders);
     let over = shown(&mut viewer, [ViewerEvent::Overlay(Side::Left, true)]);
     let alone = shown(&mut viewer, [style("lines")]);

@@ -125,8 +125,8 @@ pub fn scenes(request: &Request, models: &ModelCache) -> Result<(Vec<Scene>, f64
         return Ok((one_scene_a_frame(frames, settings)?, load_ms));
     }
     let ReadModels { meshes, ms: load_ms, .. } = request.models(models)?;
+    let Some(views) = request.animation.turntable else { return Ok((vec![request.scene(meshes)?], load_ms)) };
     let scene = Scene::new(meshes, settings)?;
-    let Some(views) = request.animation.turntable else { return Ok((vec![scene], load_ms)) };
     let cameras = scene.turntable(&settings.camera, views)?;
     Ok((cameras.into_iter().map(|camera| Scene { camera, ..scene.clone() }).collect(), load_ms))
 }

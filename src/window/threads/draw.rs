@@ -185,7 +185,8 @@ impl Drawer {
     ///
     /// As [`Renderer::render`].
     pub(in crate::window) fn draw_scene(&mut self, scene: &Scene, style: &Style, show: Show) -> Result<Picture> {
-        Request::of_picture(style, show).picture_of(scene, &mut self.renderer)
+        let request = Request::of_picture(style, show);
+        request.picture_of(&request.lit(scene.clone()), &mut self.renderer)
     }
 
     /// Explains a pixel.

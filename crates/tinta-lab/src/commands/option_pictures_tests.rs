@@ -117,7 +117,7 @@ fn drawn(renderer: &mut Renderer, words: &[String]) -> Picture {
 /// One picture, or those of an animation.
 fn pictures(request: &Request, renderer: &mut Renderer) -> tinta::Result<Vec<Picture>> {
     let (scenes, _) = render::scenes(request, &ModelCache::for_one())?;
-    scenes.iter().map(|scene| renderer.draw(scene, &request.style.plan(scene, request.show)?)).collect()
+    scenes.iter().map(|scene| request.picture_of(scene, renderer)).collect()
 }
 
 fn rasterized(svg: &str, size: Size) -> Picture {
