@@ -56,7 +56,7 @@ mod tests {
     }
 
     fn scene(request: &Request) -> Scene {
-        request.scene(request.models(&ModelCache::default()).unwrap().meshes).unwrap()
+        request.scene(request.models(&ModelCache::for_one()).unwrap().meshes).unwrap()
     }
 
     #[test]
@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn a_turn_keeps_the_light_of_its_first_view_and_another_picture_chooses_its_own() {
         let automatic = request("auto");
-        let meshes = automatic.models(&ModelCache::default()).unwrap().meshes;
+        let meshes = automatic.models(&ModelCache::for_one()).unwrap().meshes;
         let first = Scene::new(meshes, &automatic.scene).unwrap();
         let cameras = first.turntable(&automatic.scene.camera, 6).unwrap();
         let views: Vec<Scene> = cameras.into_iter().map(|camera| Scene { camera, ..first.clone() }).collect();
