@@ -157,22 +157,21 @@ fn spread(neighbours: &Neighbours, areas: &[f64], places: &[Vec3], normals: &mut
 /// Spreads normals by the mean square distance `spread`.
 fn diffuse(neighbours: &Neighbours, places: &[Vec3], normals: &mut Vec<Vec3>, spread: f32, rounds: usize) {
     let (count, threads) = (normals.len(), threads_for_items(normals.len()));
-    let lengths = |part: usize| {
-        let beside = neighbours.of(part).iter();
-        beside.map(move |other| places[*other as usize].distance(places[part]).max(f32::MIN_POSITIVE))
-    };
-    // How far each moves to the mean of its neighbours' in a round, over the sum of these weights: one over the distance. The mean
-    // square distance, weighted likewise, is the sum of the distances over that of the weights.
+    let length = |part: usize, other: &u32| places[*other as usize].distance(places[part]).max(f32::MIN_POSITIVE);
+    let mut weights = Vec::with_capacity(neighbours.range(count - 1).end);
+    (0..count).for_each(|part| weights.extend(neighbours.of(part).iter().map(|other| length(part, other).recip())));
+    // How far each moves to the mean of its neighbours' in a round, over the sum of these weights. The mean square distance, weighted
+    // likewise, is the sum of the distances over that of the weights.
     let steps = filled(count, threads, 0.0, |part| {
-        let (sum, weights) =
-            lengths(part).fold((0.0, 0.0), |(sum, weights), length| (sum + length, weights + length.recip()));
-        if weights == 0.0 {
+        let weights = &weights[neighbours.range(part)];
+        let (sum, distances) =
+            weights.iter().fold((0.0, 0.0), |(sum, distances), weight| (sum + weight, distances + weight.recip()));
+        if weights.is_empty() {
             return 0.0;
         }
-        let wanted = (spread * weights / sum).max(REACH_IN_EDGES * REACH_IN_EDGES);
-        (wanted / rounds as f32).min(MOST) / weights
+        let wanted = (spread * sum / distances).max(REACH_IN_EDGES * REACH_IN_EDGES);
+        (wanted / rounds as f32).min(MOST) / sum
     });
-    let weights: Vec<f32> = (0..count).flat_map(|part| lengths(part).map(f32::recip)).collect();
     for _ in 0..rounds {
         *normals = filled(count, threads, Vec3::ZERO, |part| {
             let (own, step) = (normals[part], steps[part]);
