@@ -207,3 +207,37 @@ fn of_public_models_specks_go_and_outlines_stay() {
         assert!(after < before && after > least * before, "{file}: {after} of {before}");
     }
 }
+
+/// A square whose sides are outline, 4 pixels wide, and more lines of 2: how many of these stay.
+fn kept_beside_outline(more: &[LineSegment]) -> usize {
+    let side = |segment: LineSegment| LineSegment { is_outline: true, background: [true, false], ..segment };
+    let mut settings = DrawingSettings { line_width: Some(Length::Px(2.0)), ..DrawingSettings::default() };
+    settings.class_widths.0.set_outline(Length::Px(4.0));
+    let all: Vec<LineSegment> = square().into_iter().map(side).chain(more.iter().cloned()).collect();
+    kept_with(&all, &settings).len() - 4
+}
+
+#[test]
+fn a_line_whose_ink_touches_the_outline_all_along_is_not_drawn() {
+    let beside = |distance: f64| segment(Crease, true, [20.0 + distance, 20.0], [20.0 + distance, 60.0]);
+    assert_eq!(kept_beside_outline(&[beside(2.9)]), 0);
+    assert_eq!(kept_beside_outline(&[beside(3.1)]), 1, "paper between the two");
+    // A face nearly edge-on, with an edge that goes on from its corner.
+    let far = segment(Crease, true, [22.5, 40.0], [60.0, 45.0]);
+    let near = [[20.0, 20.0], [22.5, 40.0], [20.0, 60.0]];
+    let bent = [0, 1].map(|k| segment(Crease, true, near[k], near[k + 1]));
+    assert_eq!(kept_beside_outline(&[bent[0].clone(), bent[1].clone(), far]), 1);
+    // A line leaves the outline: all of it stays, with what lies in the ink.
+    let leaving = [[20.0, 20.0], [21.0, 40.0], [40.0, 58.0]];
+    let leaving = [0, 1].map(|k| segment(Crease, true, leaving[k], leaving[k + 1]));
+    assert_eq!(kept_beside_outline(&leaving), 2);
+    // A short line from the outline inwards is no double, nor is a line beside another inner line.
+    assert_eq!(kept_beside_outline(&[segment(Boundary, true, [40.0, 20.0], [40.0, 22.9])]), 1);
+    let inner = [40.0, 42.0].map(|x| segment(Crease, true, [x, 25.0], [x, 55.0]));
+    assert_eq!(kept_beside_outline(&inner), 2);
+    // Around a corner, and hidden.
+    let around = [[22.0, 58.0], [22.0, 22.0], [58.0, 22.0]];
+    let around = [0, 1].map(|k| segment(Crease, true, around[k], around[k + 1]));
+    assert_eq!(kept_beside_outline(&around), 0);
+    assert_eq!(kept_beside_outline(&[LineSegment { is_visible: false, ..beside(2.0) }]), 1);
+}

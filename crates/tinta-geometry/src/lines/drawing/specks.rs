@@ -2,16 +2,18 @@
 //!
 //! Input: line segments, their drawn widths and least lengths. Output: the segments that stay. Segments are connected
 //! where they share an end bit for bit. They touch where an end of one is within [`JOINED_PX`](crate::tolerances::JOINED_PX) of the other, for
-//! example where a line ends behind a nearer one. Three things are removed:
+//! example where a line ends behind a nearer one. Four things are removed:
 //!
 //! - a *speck*: a connected set shorter than its least length that touches the rest in at most one place;
 //! - a *barb*: a stretch from a free end, where nothing connects or touches, to the first fork, if it is as short;
 //! - a *sliver's side*: a short stretch that touches the rest in two places, if other lines still join these. Those
-//!   lines are as wide and also too short, so their ink covers it.
+//!   lines are as wide and also too short, so their ink covers it;
+//! - a line that *doubles* an outline of its own style: its ink touches the outline's all along ([`doubled`]).
 //!
 //! Segments that close a line therefore stay: an outline has no free end, and loses a part only if another path
 //! closes it. No removal leads to another, so a long line never disappears piece by piece.
 
+mod doubled;
 mod strokes;
 mod shortest_path;
 
@@ -31,7 +33,7 @@ use strokes::{Branch, Stroke, Strokes};
 impl VisibleLines {
     /// Removes spurs and specks: lines shorter than [`DrawingSettings::min_length`]. If the settings style the
     /// outline, segments that do not read as outline lose that mark: those beside slits narrower than it, and runs
-    /// shorter than four of its widths.
+    /// shorter than four of its widths. Lines whose ink touches the outline's all along go too.
     ///
     /// # Errors
     ///
@@ -66,7 +68,9 @@ impl VisibleLines {
                 .map(|(number, segment)| Stroke::new(number, segment, &looks[segment.look as usize], units))
                 .collect();
             let border = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));
-            match Strokes::new(&strokes, border).too_short(progress) {
+            let found = Strokes::new(&strokes, border);
+            let doubled = || if settings.tells_outline() { found.doubled(progress) } else { Ok(Vec::new()) };
+            match found.too_short(progress).and_then(|gone| Ok([gone, doubled()?].concat())) {
                 Ok(all) => all.into_iter().for_each(|stroke| keeps[strokes[stroke].number] = false),
                 // A partial removal would depend on the machine.
                 Err(Error::OutOfTime { asked_for_part: true, .. }) => {

@@ -15,6 +15,10 @@ pub(super) struct Stroke {
     pub ends: [DVec2; 2],
     pub length: f64,
     pub width: f64,
+    /// Whether it is part of the outline.
+    pub is_outline: bool,
+    /// The style of its part.
+    pub look: u32,
     /// Length below which it is too short alone.
     pub least: f64,
     /// Length below which it is too short for one side of a sliver.
@@ -30,6 +34,8 @@ impl Stroke {
             ends,
             length: ends[0].distance(ends[1]),
             width: settings.width_px(layer, units),
+            is_outline: segment.is_outline,
+            look: segment.look,
             least: settings.min_length_px(layer, units),
             least_side: settings.min_length_px(layer, units).min(settings.width_px(layer, units)),
         }
