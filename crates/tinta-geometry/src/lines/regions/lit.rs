@@ -1,8 +1,8 @@
 //! The light of tones, and the patches of a tone that are too small to draw.
 //!
-//! In: a scene and thresholds of a far light. Out: a light from above under which a fair share of what is seen is dark and hangs
-//! together; the scene with corners' normals changed so that no tone has a patch below [`LEAST_PATCH`] of what is seen. Light is
-//! linear in each triangle, so pixels and exact areas lose a patch alike.
+//! In: a scene and the thresholds of a far light. Out: a light from above that leaves a fair, connected share of the visible surface
+//! dark; the scene with other normals, so that no tone has a patch below [`LEAST_PATCH`] of the visible surface. Light is linear in
+//! each triangle: pixels and exact areas lose a patch alike.
 
 use super::seen_normals::{Sample, SeenNormals, is_back, places};
 use crate::disjoint_sets::DisjointSets;
@@ -26,24 +26,24 @@ const LIGHTS: [[f32; 3]; 8] = [
     [-0.3, 0.5, 1.3],
 ];
 
-/// The share of what is seen that an illustrator keeps dark.
+/// The dark share of the visible surface in an illustrator's drawing, least and largest.
 const DARK: [f64; 2] = [0.15, 0.25];
 
-/// What it costs a light if no part of the dark hangs together with another, in shares of what is seen.
+/// The cost of a dark that lies apart in many parts, in shares of the visible surface.
 const APART: f64 = 0.15;
 
-/// The least share of the middle tone, and what each missing share costs.
+/// The least share of the middle tone, and the cost of each missing share.
 const LEAST_MIDDLE: f64 = 0.1;
 const FLAT: f64 = 0.5;
 
-/// What each place in the list costs.
+/// The cost of each place in the list.
 const LATER: f64 = 0.004;
 
-/// The least share of what is seen that a patch of a tone has.
+/// The least patch of a tone, in shares of the visible surface.
 const LEAST_PATCH: f64 = 0.002;
 
-/// How far beyond a threshold a patch is moved that gets the tone beside it: more than light changes within a pixel, so that no pixel there
-/// is mixed.
+/// How far beyond a threshold a patch is moved that gets the tone beside it: more than light changes within a pixel, or pixels there
+/// would be mixed.
 const CLEARANCE: f64 = 0.02;
 
 /// Returns the direction of the light that suits a scene best, in the eye's space, of any length. `thresholds` are the cosines at which
@@ -53,7 +53,7 @@ pub fn chosen_light(scene: &Scene, thresholds: [f64; 2]) -> [f32; 3] {
 }
 
 /// Returns the scene under a light, or under the one that suits it, without patches of a tone too small to draw; the light is
-/// [`Scene::tone_light`]. Objects that share their mesh keep it as it is.
+/// [`Scene::tone_light`]. Objects that share a mesh keep it.
 pub fn lit_scene(scene: Scene, light: Option<[f32; 3]>, thresholds: [f64; 2]) -> Scene {
     let seen = SeenNormals::of(&scene);
     let towards = light.unwrap_or_else(|| best_light(&seen, thresholds));
@@ -69,10 +69,7 @@ pub fn lit_scene(scene: Scene, light: Option<[f32; 3]>, thresholds: [f64; 2]) ->
         }
         let mut corners = LitCorners::of(object, &space, light);
         for threshold in thresholds.into_iter().filter(|threshold| *threshold <= 1.0) {
-            // First what is dark, then what is light: each may lie within the other.
-            for is_above in [false, true] {
-                corners.flatten(&samples, threshold, is_above, least);
-            }
+            corners.flatten(&samples, threshold, least);
         }
         corners.applied(object, space.world_direction(light))
     };
@@ -92,7 +89,7 @@ fn unit(direction: [f32; 3]) -> DVec3 {
     DVec3::from_array(direction.map(f64::from)).normalize_or_zero()
 }
 
-/// How far a light is from one that an illustrator would choose, in shares of what is seen.
+/// How far a light is from an illustrator's choice, in shares of the visible surface.
 fn cost(seen: &SeenNormals, light: DVec3, [dark, middle]: [f64; 2]) -> f64 {
     let light = light.as_vec3();
     let cosine = |sample: &Option<Sample>| sample.map(|sample| f64::from(sample.normal.dot(light)));
@@ -134,8 +131,27 @@ struct LitCorners {
     added: Vec<f64>,
     /// Whether the side that is seen is the back.
     is_back: Vec<bool>,
-    /// The area of each face in the small picture, pixels.
+    /// A third of the area of the faces around it in the small picture, square pixels.
     areas: Vec<f64>,
+}
+
+/// The patches of an object on both sides of a threshold.
+struct TonePatches {
+    sets: DisjointSets,
+    /// The faces with corners on both sides.
+    mixed: Vec<u32>,
+    /// For each patch, by its root, its visible area, and its area without other surfaces before it.
+    seen: Vec<f64>,
+    whole: Vec<f64>,
+}
+
+/// Adds up the areas of each set, given those of its members; by roots.
+fn summed(sets: &mut DisjointSets, areas: &[f64]) -> Vec<f64> {
+    let mut sums = vec![0.0; areas.len()];
+    for member in (0..areas.len()).filter(|member| areas[*member] > 0.0) {
+        sums[sets.root(member as u32) as usize] += areas[member];
+    }
+    sums
 }
 
 impl LitCorners {
@@ -149,7 +165,7 @@ impl LitCorners {
             light: Vec::new(),
             added: Vec::new(),
             is_back: Vec::new(),
-            areas: Vec::with_capacity(mesh.triangles.len()),
+            areas: Vec::new(),
         };
         // For each normal and side the position that it first comes with, and its number there.
         let mut firsts = vec![[NONE; 2]; 2 * mesh.normals.len()];
@@ -158,7 +174,7 @@ impl LitCorners {
             let [a, b, c] = triangle.map(|position| places[position as usize].0);
             let double_area = (b - a).perp_dot(c - a);
             let is_back = is_back(double_area);
-            lit.areas.push(if double_area.is_nan() { 0.0 } else { double_area.abs() * 0.5 });
+            let area = if double_area.is_nan() { 0.0 } else { double_area.abs() / 6.0 };
             for corner in 0..3 {
                 let (position, normal) = (triangle[corner], normals[corner]);
                 let slot = 2 * normal + u32::from(is_back);
@@ -166,6 +182,7 @@ impl LitCorners {
                     let light = of_normals[normal as usize];
                     lit.light.push(if is_back { -light } else { light });
                     lit.is_back.push(is_back);
+                    lit.areas.push(0.0);
                     lit.light.len() as u32 - 1
                 };
                 let first = &mut firsts[slot as usize];
@@ -178,57 +195,93 @@ impl LitCorners {
                     *others.entry([slot, position]).or_insert_with(number)
                 };
                 lit.of_corners[face][corner] = known;
+                lit.areas[known as usize] += area;
             }
         }
         lit.added = vec![0.0; lit.light.len()];
         lit
     }
 
-    /// Moves the patches above a threshold, or below it, to the other side if they are smaller than `least` pixels of the small picture and
-    /// another tone lies beside them on the same surface.
-    fn flatten(&mut self, samples: &[Sample], threshold: f64, is_above: bool, least: f64) {
-        let is_in = |light: f64| (light >= threshold) == is_above;
-        let mut patches = DisjointSets::new(self.light.len());
-        for corners in &self.of_corners {
-            let is_in = corners.map(|corner| is_in(self.light[corner as usize]));
-            for [one, other] in [[0, 1], [1, 2], [2, 0]] {
-                if is_in[one] && is_in[other] {
-                    patches.join([corners[one], corners[other]]);
+    /// Moves patches smaller than `least` pixels of the small picture across a threshold, if another tone lies beside them on the same
+    /// surface: first the dark ones, for each may lie within the other.
+    fn flatten(&mut self, samples: &[Sample], threshold: f64, least: f64) {
+        let mut patches = self.patches(samples, threshold);
+        let dark = self.small(&mut patches, threshold, false, least);
+        for face in &patches.mixed {
+            let corners = self.of_corners[*face as usize];
+            if corners.iter().any(|corner| dark[*corner as usize]) {
+                patches.sets.join([corners[0], corners[1]]);
+                patches.sets.join([corners[1], corners[2]]);
+            }
+        }
+        self.moved(&dark, threshold + CLEARANCE);
+        patches.seen = summed(&mut patches.sets, &patches.seen);
+        patches.whole = summed(&mut patches.sets, &patches.whole);
+        let light = self.small(&mut patches, threshold, true, least);
+        self.moved(&light, threshold - CLEARANCE);
+    }
+
+    /// The patches on both sides of a threshold.
+    fn patches(&self, samples: &[Sample], threshold: f64) -> TonePatches {
+        let is_above = |corner: u32| self.light[corner as usize] >= threshold;
+        let count = self.light.len();
+        let mut patches =
+            TonePatches { sets: DisjointSets::new(count), mixed: Vec::new(), seen: Vec::new(), whole: Vec::new() };
+        for (face, [a, b, c]) in (0..).zip(self.of_corners.iter().copied()) {
+            let sides = [a, b, c].map(is_above);
+            if sides[0] == sides[1] {
+                patches.sets.join([a, b]);
+            }
+            if sides[1] == sides[2] {
+                patches.sets.join([b, c]);
+            }
+            if sides != [sides[0]; 3] {
+                patches.mixed.push(face);
+                if sides[0] == sides[2] {
+                    patches.sets.join([a, c]);
                 }
             }
         }
-        // What is seen of each patch; what might be seen if nothing hid it; whether another tone lies beside it.
-        let (mut seen, mut whole) = (vec![0.0; self.light.len()], vec![0.0; self.light.len()]);
-        let mut has_border = vec![false; self.light.len()];
-        for (corners, area) in self.of_corners.iter().zip(&self.areas) {
-            let inside = corners.map(|corner| is_in(self.light[corner as usize]));
-            let is_mixed = inside.contains(&true) && inside.contains(&false);
-            for (corner, _) in corners.iter().zip(inside).filter(|(_, is_in)| *is_in) {
-                let patch = patches.root(*corner) as usize;
-                whole[patch] += area / 3.0;
-                has_border[patch] |= is_mixed;
-            }
-        }
+        let mut seen = vec![0.0; count];
         for sample in samples {
             let corners = self.of_corners[sample.face as usize];
             let lights = corners.map(|corner| self.light[corner as usize]);
             let light: f64 = lights.iter().zip(sample.weights).map(|(light, weight)| light * f64::from(weight)).sum();
-            let corner = (0..3).find(|corner| is_in(lights[*corner]));
-            if let (true, Some(corner)) = (is_in(light), corner) {
-                seen[patches.root(corners[corner]) as usize] += 1.0;
-            }
+            let corner = corners.into_iter().find(|corner| is_above(*corner) == (light >= threshold));
+            corner.into_iter().for_each(|corner| seen[corner as usize] += 1.0);
         }
-        let moved = threshold + if is_above { -CLEARANCE } else { CLEARANCE };
-        for corner in 0..self.light.len() {
-            if !is_in(self.light[corner]) {
+        patches.seen = summed(&mut patches.sets, &seen);
+        patches.whole = summed(&mut patches.sets, &self.areas);
+        patches
+    }
+
+    /// For each corner whether its patch is on that side of the threshold, too small, and beside another tone.
+    fn small(&self, patches: &mut TonePatches, threshold: f64, is_above: bool, least: f64) -> Vec<bool> {
+        let is_in = |corner: u32| (self.light[corner as usize] >= threshold) == is_above;
+        let mut is_small = vec![false; self.light.len()];
+        for face in &patches.mixed {
+            let corners = self.of_corners[*face as usize];
+            // What was moved across since is mixed no more.
+            if corners.iter().all(|corner| is_in(*corner)) {
                 continue;
             }
-            let patch = patches.root(corner as u32) as usize;
-            let is_small = seen[patch] < least && (seen[patch] > 0.0 || whole[patch] < least);
-            if is_small && has_border[patch] {
-                self.added[corner] += moved - self.light[corner];
-                self.light[corner] = moved;
+            for corner in corners.into_iter().filter(|corner| is_in(*corner)) {
+                let patch = patches.sets.root(corner) as usize;
+                let (seen, whole) = (patches.seen[patch], patches.whole[patch]);
+                is_small[patch] = seen < least && (seen > 0.0 || whole < least);
             }
+        }
+        if !is_small.contains(&true) {
+            return is_small;
+        }
+        (0..is_small.len() as u32).map(|corner| is_in(corner) && is_small[patches.sets.root(corner) as usize]).collect()
+    }
+
+    /// Gives corners this light.
+    fn moved(&mut self, corners: &[bool], light: f64) {
+        for corner in (0..corners.len()).filter(|corner| corners[*corner]) {
+            self.added[corner] += light - self.light[corner];
+            self.light[corner] = light;
         }
     }
 

@@ -1,5 +1,5 @@
-//! A small picture of what a view shows, for shares of what is seen: each pixel has the face that is nearest to the eye and its
-//! normal, on the side that is seen.
+//! A small picture of a view, for shares of the visible surface: each pixel has the face nearest to the eye and its normal, on the
+//! visible side.
 //!
 //! In: a scene. Out: samples, as exact as a share of a picture must be. Faces that reach through the near plane are left out.
 
@@ -11,7 +11,7 @@ use glam::{DVec2, Vec3};
 /// The longest side of the picture, pixels.
 const LONGEST: f64 = 256.0;
 
-/// What a pixel shows.
+/// The surface at a pixel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sample {
     /// The object and its face.
@@ -59,7 +59,7 @@ impl SeenNormals {
         seen
     }
 
-    /// Draws a face where it is nearer than what is there.
+    /// Draws a face wherever no nearer one is.
     fn draw(&mut self, keys: &mut [f64], [object, face]: [u32; 2], [a, b, c]: [Corner; 3], space: &Space) {
         let double_area = (b.px - a.px).perp_dot(c.px - a.px);
         let size = DVec2::new(self.width as f64, (self.samples.len() / self.width) as f64);
