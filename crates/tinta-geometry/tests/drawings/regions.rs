@@ -257,8 +257,11 @@ fn tone(scene: &Scene, rule: &ToneRule, hit: &Hit) -> u8 {
         to_eye += hit.weights[corner] * eye;
     }
     if matches!(rule.light, ToneLight::Far(_)) {
-        // The eye of these scenes is a point.
-        let is_front = (points[1] - points[0]).cross(points[2] - points[0]).dot(points[0]) < 0.0;
+        let to_eye = match scene.camera.projection {
+            Projection::Parallel { .. } => DVec3::Z,
+            Projection::Perspective { .. } => -points[0],
+        };
+        let is_front = (points[1] - points[0]).cross(points[2] - points[0]).dot(to_eye) > 0.0;
         let light = if is_front { diffuse } else { -diffuse };
         return rule.thresholds.iter().map(|threshold| u8::from(light >= *threshold)).sum();
     }
