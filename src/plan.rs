@@ -33,7 +33,8 @@ mod tiles;
 
 pub use check::Flaw;
 pub use facts::{Facts, Shorter, WhereEven};
-pub use program::{PlanPicture, Program, Sampling, TOOTH, Texture, Uniform, Value};
+pub(crate) use program::TOOTH;
+pub use program::{PlanPicture, Program, Sampling, Texture, Uniform, Value};
 pub use submission::Submission;
 pub(crate) use target::DEPTH_COPY;
 pub use target::{Attachment, Attachments, Format, SettingValue, Target, TextureName};

@@ -33,7 +33,8 @@ pub use draw::{Drawn, DrawnPicture, ReadModels, Times};
 pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
 pub use format::{DrawingFormat, Wanted};
-pub use layers::{OF_PAPER, OF_PATHS, OptionLayer, ignored_remark, layers, pixels_on_paper, unknown};
+pub use layers::{OF_PAPER, OptionLayer, ignored_remark, layers, pixels_on_paper};
+pub(crate) use layers::{OF_PATHS, unknown};
 pub use model_cache::{Model, ModelCache};
 pub use session::Session;
 
@@ -220,7 +221,7 @@ fn settings() -> Vec<Setting<Request>> {
 }
 
 /// The option of exact lines over a picture.
-pub const EXACT_LINES: &str = "exact-lines";
+pub(crate) const EXACT_LINES: &str = "exact-lines";
 
 /// The help of `--style`.
 fn style_help() -> &'static str {

@@ -59,7 +59,9 @@ pub use charcoal::{
 pub use coarse::coarse;
 pub use dietrich::Dietrich;
 pub use far_light::FarLight;
-pub use ignored::{is_ignored, is_of_exact_lines, is_of_lines_alone, is_of_vectors};
+#[cfg(feature = "presets")]
+pub(crate) use ignored::is_of_exact_lines;
+pub use ignored::{is_ignored, is_of_lines_alone, is_of_vectors};
 pub use ink::{Ink, Quality};
 pub use inking::{Inking, LightOn, PaintMode};
 pub use line_style::LineStyle;

@@ -84,7 +84,7 @@ pub struct PlanPicture {
 }
 
 /// The name of a plan's picture of the paper's height: lines that are laid over the plan's picture are rubbed off by it.
-pub const TOOTH: &str = "tooth";
+pub(crate) const TOOTH: &str = "tooth";
 
 /// The reading of a texture between and beyond its texels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

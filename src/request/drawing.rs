@@ -89,7 +89,7 @@ impl DrawnLines {
     /// # Errors
     ///
     /// Those of [`raster_of_paths`].
-    pub fn raster(&self) -> Result<Picture> {
+    pub(crate) fn raster(&self) -> Result<Picture> {
         let Raster { size, pixels } = raster_of_paths(&self.lines, self.paths(), &self.style.drawing)?;
         Ok(Picture { size, pixels })
     }
@@ -99,7 +99,7 @@ impl DrawnLines {
     /// # Errors
     ///
     /// Those of [`strokes_of_paths`].
-    pub fn strokes(&self) -> Result<Vec<Strokes>> {
+    pub(crate) fn strokes(&self) -> Result<Vec<Strokes>> {
         strokes_of_paths(&self.lines, self.paths(), None, &self.style.drawing)
     }
 
@@ -196,7 +196,7 @@ impl Request {
     }
 
     /// The style that draws the exact lines over the picture alone; `None` without them.
-    pub fn exact_lines_style(&self) -> Option<Style> {
+    pub(crate) fn exact_lines_style(&self) -> Option<Style> {
         if self.has_lines_over() { self.lines_of_options().ok().map(Style::Lines) } else { None }
     }
 

@@ -100,7 +100,7 @@ const GONE: [(&str, &str); 2] = [
 ];
 
 /// The error for an unknown option.
-pub fn unknown(name: &str) -> Error {
+pub(crate) fn unknown(name: &str) -> Error {
     let names: Vec<&str> = Request::table().of(None).into_iter().map(|setting| setting.name).collect();
     if let Some((_, instead)) = GONE.iter().find(|(gone, _)| *gone == name) {
         return Error::setting(name, format!("this option is gone; {instead}"));
@@ -224,7 +224,7 @@ fn is_of_files(option: &str) -> bool {
 }
 
 /// The options that are about paths in a file.
-pub const OF_PATHS: [&str; 5] = ["provenance", "pen", "fit-curves", "hatch", "hatch-angle"];
+pub(crate) const OF_PATHS: [&str; 5] = ["provenance", "pen", "fit-curves", "hatch", "hatch-angle"];
 
 /// The options that are about paper.
 pub const OF_PAPER: [&str; 4] = ["page", "width-mm", "dpi", "margin"];

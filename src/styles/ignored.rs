@@ -24,7 +24,7 @@ pub fn is_of_lines_alone(option: &str) -> bool {
 }
 
 /// Whether this is an option of exact lines or of their drawing.
-pub fn is_of_exact_lines(option: &str) -> bool {
+pub(crate) fn is_of_exact_lines(option: &str) -> bool {
     DrawingSettings::table().has(option) || LineSettings::table().has(option)
 }
 
