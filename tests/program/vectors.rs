@@ -83,13 +83,24 @@ fn check(name: &str, scene: &Scene, styles: &[(&str, Style)]) {
         let expected = renderer.render(scene, style).unwrap();
         let found = drawn(&areas(scene, style), 1.0);
         assert_eq!(expected.size, found.size);
-        let (mut compared, mut wrong) = (0, 0);
+        // Tones of a far light are smooth in pixels: where light almost reaches thresholds at a corner, and turns back, a pixel there is
+        // mixed although no border is. Of each step between tones it keeps the half on its own side.
+        let half = match style {
+            Style::Ink(Ink { tone_light: Some(_), tones: Tones { levels: [dark, .., bright], .. }, .. }) => {
+                ((bright - dark) * 127.5).ceil() as u8
+            }
+            _ => 0,
+        };
+        let (mut compared, mut wrong, mut mixed) = (0, 0, 0);
         beside_no_border(&found, |pixel, rgb| {
             compared += 1;
             let of_style = &expected.pixels[pixel * 4..][..3];
-            wrong += usize::from(rgb.iter().zip(of_style).any(|(a, b)| a.abs_diff(*b) > 1));
+            let farthest = rgb.iter().zip(of_style).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
+            mixed += usize::from((2..=half).contains(&farthest));
+            wrong += usize::from(farthest > half.max(1));
         });
-        println!("{name}, {style_name}: {compared} pixels beside no border, {wrong} differ");
+        println!("{name}, {style_name}: {compared} pixels beside no border, {wrong} differ, {mixed} are mixed");
+        assert!(mixed * 5_000 <= compared, "{name}, {style_name}: {mixed} of {compared} are mixed");
         assert!(compared * 2 > found.size.pixel_count(), "{name}, {style_name}: {compared} compared");
         // OpenGL computes in f32: at a pixel that lies on a border of tones to the last bits it may find the other tone.
         assert!(wrong * 100_000 <= compared, "{name}, {style_name}: {wrong} of {compared}");
