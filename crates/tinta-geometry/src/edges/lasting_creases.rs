@@ -23,7 +23,7 @@ const FLAT: f64 = 0.99996;
 /// Most creases at a position; more of them do not continue.
 const MOST_CREASES: usize = 16;
 
-/// The share of the angle of a crease from which an edge continues it.
+/// The least angle of an edge that continues a crease, as a share of the crease angle.
 const CONTINUES: f64 = 2.0 / 3.0;
 
 /// The least share of a crease's length at which it has its whole angle: with less, curved surfaces have creases.

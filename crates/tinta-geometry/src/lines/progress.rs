@@ -58,7 +58,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// What the work does, for people.
+    /// The name of the work, for people.
     pub fn words(self) -> &'static str {
         match self {
             Self::Preparing => "preparing lines",

@@ -222,12 +222,12 @@ fn a_line_whose_ink_touches_the_outline_all_along_is_not_drawn() {
     let beside = |distance: f64| segment(Crease, true, [20.0 + distance, 20.0], [20.0 + distance, 60.0]);
     assert_eq!(kept_beside_outline(&[beside(2.9)]), 0);
     assert_eq!(kept_beside_outline(&[beside(3.1)]), 1, "paper between the two");
-    // A face nearly edge-on, with an edge that goes on from its corner.
+    // A face nearly edge-on, with another edge from its corner.
     let far = segment(Crease, true, [22.5, 40.0], [60.0, 45.0]);
     let near = [[20.0, 20.0], [22.5, 40.0], [20.0, 60.0]];
     let bent = [0, 1].map(|k| segment(Crease, true, near[k], near[k + 1]));
     assert_eq!(kept_beside_outline(&[bent[0].clone(), bent[1].clone(), far]), 1);
-    // A line leaves the outline: all of it stays, with what lies in the ink.
+    // A line leaves the outline: all of it stays, with its part in the ink.
     let leaving = [[20.0, 20.0], [21.0, 40.0], [40.0, 58.0]];
     let leaving = [0, 1].map(|k| segment(Crease, true, leaving[k], leaving[k + 1]));
     assert_eq!(kept_beside_outline(&leaving), 2);

@@ -8,7 +8,7 @@
 //! - a *barb*: a stretch from a free end, where nothing connects or touches, to the first fork, if it is as short;
 //! - a *sliver's side*: a short stretch that touches the rest in two places, if other lines still join these. Those
 //!   lines are as wide and also too short, so their ink covers it;
-//! - a line that *doubles* an outline of its own style: its ink touches the outline's all along ([`doubled`]).
+//! - a line that *doubles* an outline of the same style: its ink touches the outline's all along ([`doubled`]).
 //!
 //! Segments that close a line therefore stay: an outline has no free end, and loses a part only if another path
 //! closes it. No removal leads to another, so a long line never disappears piece by piece.

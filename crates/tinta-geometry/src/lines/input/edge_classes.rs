@@ -23,7 +23,7 @@ struct OfAngle {
 
 /// Edges with classes, and which of them are creases.
 enum Found {
-    /// Each edge by itself.
+    /// Every edge alone.
     Each(Arc<Classes>),
     /// Creases only where they last.
     Lasting(Arc<LastingCreases>),

@@ -37,7 +37,7 @@ struct Division<'a, T> {
 }
 
 impl<T: Tone> Division<'_, T> {
-    /// Adds the lines in a block, of which the part beyond the triangle is left out.
+    /// Adds the lines in a block; its part beyond the triangle has none.
     fn add(&mut self, Block { low: [i, j], size: [along, across] }: Block) {
         if i + j >= self.parts {
             return;
@@ -49,7 +49,7 @@ impl<T: Tone> Division<'_, T> {
             }
             return;
         }
-        // Beyond the triangle a weight is negative; what is inside lies between the four all the same.
+        // Beyond the triangle a weight is negative; the part inside still lies between the four.
         let around = [[i, j], [i + along, j], [i + along, j + across], [i, j + across]].map(|steps| self.plain(steps));
         if self.tone.is_even(&around) {
             return;

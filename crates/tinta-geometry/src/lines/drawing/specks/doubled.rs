@@ -79,7 +79,7 @@ impl Strokes<'_> {
         (runs_along && !self.holds_outline(stroke)).then_some(reach)
     }
 
-    /// Whether a piece of the outline ends on a stroke, and no other piece of it goes on there.
+    /// Whether a piece of the outline ends on a stroke, and no other piece continues it there.
     fn holds_outline(&self, stroke: &Stroke) -> bool {
         self.any_near(stroke.ends, JOINED_PX, |piece| {
             let is_end = |end: &DVec2| self.strokes[piece].is_outline && stroke.distance(*end) <= JOINED_PX;
