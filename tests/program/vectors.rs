@@ -100,7 +100,8 @@ fn check(name: &str, scene: &Scene, styles: &[(&str, Style)]) {
             wrong += usize::from(farthest > half.max(1));
         });
         println!("{name}, {style_name}: {compared} pixels beside no border, {wrong} differ, {mixed} are mixed");
-        assert!(mixed * 5_000 <= compared, "{name}, {style_name}: {mixed} of {compared} are mixed");
+        let beside = found.size.pixel_count() - compared;
+        assert!(mixed * 300 <= beside, "{name}, {style_name}: {mixed} are mixed, and {beside} lie beside a border");
         assert!(compared * 2 > found.size.pixel_count(), "{name}, {style_name}: {compared} compared");
         // OpenGL computes in f32: at a pixel that lies on a border of tones to the last bits it may find the other tone.
         assert!(wrong * 100_000 <= compared, "{name}, {style_name}: {wrong} of {compared}");
