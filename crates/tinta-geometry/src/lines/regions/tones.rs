@@ -85,7 +85,7 @@ struct Shading<'a> {
     rule: &'a ToneRule,
 }
 
-/// What a vertex shader hands to the interpolation, at a face's corners.
+/// The vertex shader's results at the corners of a face.
 #[derive(Debug, Clone, Copy)]
 enum Lights {
     Near([NearLight; 3]),
@@ -124,7 +124,7 @@ impl Shading<'_> {
         TonedSurface { object, material: materials.get(face as usize).copied().unwrap_or(NONE), tone }
     }
 
-    /// What is seen at a place of the picture.
+    /// The surface at a place of the picture.
     fn at(&self, px: DVec2) -> Option<TonedSurface> {
         let hit = self.view.first_hit(px)?;
         let seen = SeenFace { object: hit.object, face: hit.face };

@@ -26,7 +26,7 @@ const LEAST_TRIANGLES: usize = 4;
 /// How much larger such a face is than the one beside it. Facets around a round shape are as large as one another.
 const LARGER: f64 = 4.0;
 
-/// The largest share of its surface that a figure has in flat faces of several triangles. Figures and scans that were looked at have
+/// The largest share of its surface that a figure has in flat faces of several triangles. Measured figures and scans have
 /// up to 0.26, parts and turned shapes 0.84 and more.
 const MOST_FLAT: f64 = 0.5;
 
