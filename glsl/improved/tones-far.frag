@@ -12,7 +12,7 @@ varying float light;
 
 // The share of a pixel above a threshold.
 float shareAbove(float threshold, float seen, float change) {
-    return change < 1e-5 ? float(seen >= threshold) : clamp((seen - threshold) / change + 0.5, 0.0, 1.0);
+    return change < 0.00001 ? float(seen >= threshold) : clamp((seen - threshold) / change + 0.5, 0.0, 1.0);
 }
 
 void main() {

@@ -176,7 +176,9 @@ fn surfaces_written_twice_are_drawn_as_one_with_its_sides_turned_to_the_eye() {
             assert_eq!(twice.defects.doubled_triangles, alone.triangles.len(), "{what} {number}");
             let expected = picture_of(turned_to_the_eye(alone, &request), &request, &mut renderer);
             let drawn = picture_of(twice, &request, &mut renderer);
-            assert_eq!(expected.difference(&drawn), Some(EQUAL), "{what} {number} in {name} from {view}");
+            // Normals are averaged in another order: a smooth border of tones may move by a part of a pixel.
+            let Some(Difference { pixels, largest, .. }) = expected.difference(&drawn) else { panic!("of one size") };
+            assert!(pixels <= 4 && largest <= 8, "{what} {number} in {name} from {view}: {pixels} pixels, {largest}");
         }
     }
 }
