@@ -1,7 +1,7 @@
 //! A picture of a model from its file: `tinta render --look print` compared with the published default, f3d and PyVista.
 //!
 //! `cargo bench --bench looks` times whole processes, in turn. The others draw into a display without a screen, which is started once
-//! and not timed. Raw values go to `target/bench/looks.json`; docs/guide/gallery.md has the command and the numbers.
+//! and not timed. Raw values go to `target/bench/looks.json`; docs/results/measuring.md has the command and the numbers.
 
 mod report;
 

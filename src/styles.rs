@@ -263,7 +263,8 @@ impl Style {
     /// # Errors
     ///
     /// Those of the settings.
-    pub fn without_borders(&self) -> Result<Self> {
+    #[cfg(feature = "presets")]
+    pub(crate) fn without_borders(&self) -> Result<Self> {
         let mut style = self.clone();
         let without = Options::from([("no-borders".to_owned(), OptionValue::Switch(true))]);
         Self::table().apply(&mut style, &without).map(|()| style)

@@ -42,7 +42,7 @@ impl DrawingFormat {
     }
 
     /// Whether files of this format hold lines and no tones, unless a style with tones is asked for.
-    pub fn is_of_lines_alone(self) -> bool {
+    pub(crate) fn is_of_lines_alone(self) -> bool {
         matches!(self, Self::Dxf | Self::Json)
     }
 

@@ -300,7 +300,7 @@ impl Scene {
     }
 
     /// The height of the lowest point, y up.
-    pub fn lowest(&self) -> f64 {
+    pub(crate) fn lowest(&self) -> f64 {
         self.objects.iter().flat_map(Object::box_corners).map(|corner| corner.y).fold(f64::INFINITY, f64::min)
     }
 

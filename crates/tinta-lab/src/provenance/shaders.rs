@@ -66,7 +66,11 @@ pub const SHADERS: &[ShaderNumbers] = &[
     ours("improved/texel-biased.frag", &["2.0"], "normals from 0 to 1 into -1 to 1"),
     ours("improved/texel-depth-texture.frag", &["2.0"], "normals from 0 to 1 into -1 to 1"),
     ours("improved/tones-far.frag", &["0.5"], "the pixel's middle on the border: half of it is above"),
-    ours("improved/tones-far.frag", &["0.00001"], "light that changes less from pixel to pixel is a flat face's, rounded"),
+    ours(
+        "improved/tones-far.frag",
+        &["0.00001"],
+        "light that changes less from pixel to pixel is a flat face's, rounded",
+    ),
     printed("improved/two-targets.frag", &["0.65", "0.8", "0.95"], "E, appendix 1, step 2"),
     printed("improved/two-targets.vert", &["0.5"], "E, appendix 1, step 2: (dot + 1) * 0.5"),
     ours("improved/valleys.frag", &["255.0", "65280.0", "65535.0"], "how facing.frag stores a cosine"),
