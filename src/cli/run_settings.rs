@@ -8,7 +8,7 @@ use tinta::settings::{HasSettings, Kind, Setting, Table, under};
 use tinta::{Error, Result};
 
 /// The use of one drawing.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(in crate::cli) struct RunSettings {
     pub submission: Submission,
     /// Frames to time; `None` times one to explain it, and none for a record.
@@ -22,23 +22,6 @@ pub(in crate::cli) struct RunSettings {
     pub verify: bool,
     pub save_preset: Option<String>,
     pub no_recipe: bool,
-}
-
-impl Default for RunSettings {
-    fn default() -> Self {
-        Self {
-            submission: Submission::default(),
-            frames: None,
-            json: false,
-            explain: false,
-            within: None,
-            partial: false,
-            dump: None,
-            verify: false,
-            save_preset: None,
-            no_recipe: false,
-        }
-    }
 }
 
 /// All of them.

@@ -242,7 +242,7 @@ fn quads_have_their_width() {
         for width in [1.0, 4.0, 10.0, 40.0] {
             let style = Inking {
                 line_drawing: LineDrawing::Quads,
-                line_width: Length::Px(width.into()),
+                line_width: Length::Px(width),
                 is_smooth: false,
                 ..Inking::default()
             };

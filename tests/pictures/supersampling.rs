@@ -71,7 +71,7 @@ fn lines_are_as_wide_as_without() {
         // Lines that do not hide each other: without joints, which only half of the samples may need.
         let mut ink = |supersample| {
             let inking = Inking {
-                line_width: Length::Px(width.into()),
+                line_width: Length::Px(width),
                 supersample,
                 is_smooth: false,
                 has_joints: false,

@@ -107,7 +107,7 @@ fn borders() -> Vec<Case> {
         all.push(rendered(name, Drawing { variants: vec![Variant::new("inking", inking)], ..Drawing::default() }));
     }
     for (name, width) in [("a line width of 1e-6", 1e-6), ("a line width of 1e3", 1e3)] {
-        let inking = Style::Inking(Inking { line_width: Length::Px(width.into()), ..Inking::default() });
+        let inking = Style::Inking(Inking { line_width: Length::Px(width), ..Inking::default() });
         let drawing = Drawing { variants: vec![Variant::new("inking", inking)], ..Drawing::default() };
         all.push(Case { expected: super::Expected::Either(&["setting"]), ..rendered(name, drawing) });
     }
