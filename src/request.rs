@@ -34,6 +34,7 @@ pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
 pub use format::{DrawingFormat, Wanted};
 pub use layers::{OF_PAPER, OptionLayer, ignored_remark, layers, pixels_on_paper};
+#[cfg(feature = "cli")]
 pub(crate) use layers::{OF_PATHS, unknown};
 pub use model_cache::{Model, ModelCache};
 pub use session::Session;

@@ -89,6 +89,7 @@ impl DrawnLines {
     /// # Errors
     ///
     /// Those of [`raster_of_paths`].
+    #[cfg(feature = "window")]
     pub(crate) fn raster(&self) -> Result<Picture> {
         let Raster { size, pixels } = raster_of_paths(&self.lines, self.paths(), &self.style.drawing)?;
         Ok(Picture { size, pixels })
@@ -196,6 +197,7 @@ impl Request {
     }
 
     /// The style that draws the exact lines over the picture alone; `None` without them.
+    #[cfg(feature = "cli")]
     pub(crate) fn exact_lines_style(&self) -> Option<Style> {
         if self.has_lines_over() { self.lines_of_options().ok().map(Style::Lines) } else { None }
     }

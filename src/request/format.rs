@@ -42,6 +42,7 @@ impl DrawingFormat {
     }
 
     /// Whether files of this format hold lines and no tones, unless a style with tones is asked for.
+    #[cfg(feature = "cli")]
     pub(crate) fn is_of_lines_alone(self) -> bool {
         matches!(self, Self::Dxf | Self::Json)
     }
