@@ -31,7 +31,9 @@ import tinta_npr as tn
 def test_svg_is_the_command_lines_byte_for_byte(tinta, model, words, settings):
     with open("box.obj", "w") as file:
         file.write("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 0 0 1\nv 2 0 1\nf 1 2 3 4\nf 1 5 6 2\nf 1 4 5\n")
-    assert tinta("render", model, "-o", "drawing.svg", *words)[0] == 0
+    # The look gives the style.
+    style = () if "--look" in words else ("--style", "lines")
+    assert tinta("render", model, "-o", "drawing.svg", *style, *words)[0] == 0
     lines = tn.lines(model, **settings)
     with open("drawing.svg") as file:
         assert lines.svg() == file.read()
@@ -42,7 +44,7 @@ def test_svg_is_the_command_lines_byte_for_byte(tinta, model, words, settings):
 
 def test_pdf_and_json_are_too(tinta):
     for name in ("drawing.pdf", "drawing.json"):
-        assert tinta("render", "builtin:open-box", "-o", name)[0] == 0
+        assert tinta("render", "builtin:open-box", "-o", name, "--style", "lines")[0] == 0
     lines = tn.lines("builtin:open-box")
     with open("drawing.pdf", "rb") as file:
         assert lines.pdf() == file.read()
@@ -70,7 +72,6 @@ def test_png_of_lines_is_too(tinta, words, settings):
     for name in ("drawing.png", "ours.png"):
         with open(name, "rb") as file:
             content = file.read()
-        # The recipes differ: only the program was told the style.
         assert b"tinta-recipe" in content
         pictures.append(content[content.index(b"IDAT"):])
     assert pictures[0] == pictures[1]
@@ -128,7 +129,7 @@ def test_arrays_are_drawn_as_the_file_of_them(tinta, cube):
     with open("cube.obj", "w") as file:
         file.writelines(f"v {x} {y} {z}\n" for x, y, z in vertices)
         file.writelines("f " + " ".join(str(corner + 1) for corner in face) + "\n" for face in faces)
-    assert tinta("render", "cube.obj", "-o", "cube.svg", "--no-recipe")[0] == 0
+    assert tinta("render", "cube.obj", "-o", "cube.svg", "--style", "lines", "--no-recipe")[0] == 0
     assert tinta("render", "cube.obj", "-o", "cube.png", "--no-recipe", "--size", "64")[0] == 0
     with open("cube.svg") as file:
         assert tn.lines(vertices, faces).svg(title="cube.obj") == file.read()

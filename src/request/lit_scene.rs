@@ -53,9 +53,13 @@ impl Request {
         lit_scene(scene, known, thresholds.map(f64::from))
     }
 
-    /// The options of a recipe: those given, with the view and the light that were chosen for a scene.
+    /// The options of a recipe: those given, with the style of lines alone, and the view and the light that were chosen for a scene.
     pub(super) fn options_for(&self, scene: &Scene) -> Options {
         let mut options = self.options.clone();
+        if self.style.lines().is_some() {
+            // A file's name does not ask for it.
+            options.entry("style".to_owned()).or_insert_with(|| OptionValue::text(self.style.name()));
+        }
         if let Some(view) = self.view_of_sheet(scene) {
             options.insert("view".to_owned(), OptionValue::text(view.text()));
         }
