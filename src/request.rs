@@ -18,8 +18,8 @@
 //! # }
 //! ```
 
-mod draw;
 mod around;
+mod draw;
 mod drawing;
 mod emptiness;
 mod format;
@@ -28,7 +28,7 @@ mod lit_scene;
 mod model_cache;
 mod session;
 
-pub use around::Around;
+pub use around::{Around, LINES_AT_ONCE_MS};
 pub use draw::{Drawn, DrawnPicture, ReadModels, Times};
 pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
@@ -335,7 +335,8 @@ impl Request {
     }
 
     /// This picture of this style, of scenes that are there already.
-    pub fn of_picture(style: &Style, show: Show) -> Self {
+    #[cfg(feature = "window")]
+    pub(crate) fn of_picture(style: &Style, show: Show) -> Self {
         Self { style: style.clone(), show, ..Self::default() }
     }
 

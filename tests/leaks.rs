@@ -153,6 +153,7 @@ fn check_switches(at_once: usize, looks: usize) {
                 drawings: vec![(Side::Left, styles[number % styles.len()].clone(), Show::Final)],
                 lines_over: [None, None],
                 is_coarse: false,
+                keeps_patches: false,
             };
             drawer.draw(&job).unwrap();
         }

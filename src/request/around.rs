@@ -3,7 +3,10 @@
 use super::{Ground, Request};
 use crate::clock::{Instant, milliseconds_since};
 use crate::error::Result;
-use crate::lines::{Progress, Regions, Strokes, ground_light, ground_shadow, lay_area, lay_strokes, lay_strokes_by};
+use crate::lines::{
+    Progress, Regions, Strokes, ground_light, ground_shadow, lay_area, lay_over, lay_strokes, lay_strokes_by,
+    raster_of_strokes,
+};
 use crate::picture::Picture;
 use crate::plan::{Plan, TOOTH};
 use crate::renderer::Renderer;
@@ -22,6 +25,9 @@ pub struct Around {
     /// How long finding all of it took, milliseconds.
     pub found_ms: f64,
 }
+
+/// Exact lines that take less time than this are drawn at once with each picture of a turning model, milliseconds.
+pub const LINES_AT_ONCE_MS: f64 = 30.0;
 
 /// The light that shadows follow where a style's tones have none: from the left, eye space.
 const LIGHT: [f32; 3] = [-0.4, 1.0, 0.6];
@@ -58,8 +64,10 @@ impl Request {
 
     /// The direction towards the light of the shadow, world space; `None` without a shadow.
     pub(super) fn shadow_light(&self, scene: &Scene) -> Option<DVec3> {
-        let towards = self.style.far_tones().map_or(LIGHT, |(light, thresholds)| light.towards(scene, thresholds));
-        (self.ground == Ground::Shadow).then(|| ground_light(scene, towards))
+        (self.ground == Ground::Shadow).then(|| {
+            let far = self.style.far_tones();
+            ground_light(scene, far.map_or(LIGHT, |(light, thresholds)| light.towards(scene, thresholds)))
+        })
     }
 
     /// The scene that is planned: on a ground it has no background of its own.
@@ -93,20 +101,13 @@ impl Around {
 
     /// Puts a picture without a background on the ground.
     fn put_on(&self, shadow: &Regions<()>, color: Color, picture: &mut Picture) {
-        let background = self.background.clear_color().map(|channel| (channel * 255.0).round() as u8);
-        let mut ground = background.repeat(picture.size.pixel_count());
+        let mut ground = raster_of_strokes(&[], picture.size, self.background).pixels;
         shadow.regions.iter().for_each(|region| lay_area(&region.loops, color, picture.size, &mut ground));
-        for (pixel, below) in picture.pixels.chunks_exact_mut(4).zip(ground.chunks_exact(4)) {
-            let [opacity, rest] = [f32::from(pixel[3]) / 255.0, f32::from(below[3]) / 255.0];
-            let rest = rest * (1.0 - opacity);
-            let alpha = opacity + rest;
-            if alpha > 0.0 {
-                for (channel, below) in pixel.iter_mut().zip(&below[..3]) {
-                    *channel = ((f32::from(*channel) * opacity + f32::from(*below) * rest) / alpha).round() as u8;
-                }
-                pixel[3] = (alpha * 255.0).round() as u8;
-            }
+        for (below, pixel) in ground.chunks_exact_mut(4).zip(picture.pixels.chunks_exact(4)) {
+            let [red, green, blue, opacity] = [0, 1, 2, 3].map(|channel| f32::from(pixel[channel]) / 255.0);
+            lay_over(below, Color([red, green, blue]), opacity);
         }
+        picture.pixels = ground;
     }
 }
 

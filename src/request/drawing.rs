@@ -165,14 +165,9 @@ impl Request {
     /// Those of the options of lines and of drawings.
     pub fn vectors(&self) -> Result<Option<Vectors>> {
         let mut vectors = self.style.vectors(self.scene.size);
-        if self.has_lines_over() {
-            let LineStyle { lines, drawing, .. } = self.lines_of_options()?;
-            if let Some(vectors) = &mut vectors {
-                (vectors.lines, vectors.drawing) = (Some(lines), drawing);
-            }
-            return Ok(vectors);
-        }
-        if let (Some(vectors), None) = (&mut vectors, self.style.lines()) {
+        if let (Some(vectors), Some(LineStyle { lines, drawing, .. })) = (&mut vectors, self.lines_over()?) {
+            (vectors.lines, vectors.drawing) = (Some(lines), drawing);
+        } else if let (Some(vectors), None) = (&mut vectors, self.style.lines()) {
             DrawingSettings::table().apply(&mut vectors.drawing, &self.options)?;
             if let Some(lines) = &mut vectors.lines {
                 LineSettings::table().apply(lines, &self.options)?;
@@ -196,12 +191,6 @@ impl Request {
         if self.has_lines_over() { self.style.without_borders() } else { Ok(self.style.clone()) }
     }
 
-    /// The style that draws the exact lines over the picture alone; `None` without them.
-    #[cfg(feature = "cli")]
-    pub(crate) fn exact_lines_style(&self) -> Option<Style> {
-        if self.has_lines_over() { self.lines_of_options().ok().map(Style::Lines) } else { None }
-    }
-
     /// The plan of the picture.
     ///
     /// # Errors
@@ -223,10 +212,9 @@ impl Request {
             drawing,
             ..LineStyle::default()
         };
-        let style = match self.style.lines() {
-            Some(style) => Some(style),
-            None if self.has_lines_over() => Some(self.lines_of_options()?),
-            None => self.vectors()?.map(of_vectors),
+        let style = match (self.style.lines(), self.lines_over()?) {
+            (Some(style), _) | (None, Some(style)) => Some(style),
+            (None, None) => self.vectors()?.map(of_vectors),
         };
         Ok(style.map(|mut style| {
             (style.drawing.title, style.drawing.background) = (self.title(), self.scene.background);
@@ -234,12 +222,15 @@ impl Request {
         }))
     }
 
-    /// Exact lines by the request's options alone: they are the same over every style.
-    fn lines_of_options(&self) -> Result<LineStyle> {
+    /// The style of the exact lines over the picture, by the request's options alone: they are the same over every style.
+    pub(crate) fn lines_over(&self) -> Result<Option<LineStyle>> {
+        if !self.has_lines_over() {
+            return Ok(None);
+        }
         let mut style = LineStyle::default();
         LineSettings::table().apply(&mut style.lines, &self.options)?;
         DrawingSettings::table().apply(&mut style.drawing, &self.options)?;
-        Ok(style)
+        Ok(Some(style))
     }
 
     /// The lines to find, and the style that they are drawn in.
@@ -310,9 +301,8 @@ impl Request {
         remarks.extend(scene.far_remark());
         // Over a picture of pixels no areas are wanted.
         let vectors = if wanted.areas || self.style.lines().is_some() { self.vectors()? } else { None };
-        let areas = vectors.as_ref().map(|vectors| vectors.areas(&scene, &lines, progress)).transpose()?;
+        let mut areas = vectors.as_ref().map(|vectors| vectors.areas(&scene, &lines, progress)).transpose()?;
         remarks.extend(vectors.into_iter().flat_map(|vectors| vectors.remarks(&scene)));
-        let mut areas = areas;
         if let Some(areas) = areas.as_mut().filter(|_| !style.drawing.is_for_pen)
             && let Some((shadow, color)) = self.shadow(&scene, progress)?
         {

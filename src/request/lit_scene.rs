@@ -20,7 +20,7 @@ impl Request {
     /// # Errors
     ///
     /// Those of [`Scene::new`].
-    pub fn scene(&self, meshes: Vec<Arc<Mesh>>) -> Result<Scene> {
+    pub(crate) fn scene(&self, meshes: Vec<Arc<Mesh>>) -> Result<Scene> {
         let mut scene = Scene::new(meshes, &self.scene)?;
         let mut settings = Cow::Borrowed(&self.scene);
         if let Some(view) = self.view_of_sheet(&scene) {

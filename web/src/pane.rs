@@ -11,7 +11,7 @@ use tinta::pixel::Explanation;
 use tinta::plan::Step;
 use tinta::recipe::Driver;
 use tinta::renderer::Renderer;
-use tinta::request::Request;
+use tinta::request::{LINES_AT_ONCE_MS, Request};
 use tinta::settings::{HasSettings, Options};
 use tinta::styles::coarse;
 use tinta::{Picture, Scene, SceneSettings, StyleName, View};
@@ -31,9 +31,6 @@ pub struct Pane {
     /// How long the last search for exact lines took, milliseconds.
     lines_ms: f64,
 }
-
-/// Exact lines that take longer are not drawn while the model turns, milliseconds.
-const LINES_AT_ONCE_MS: f64 = 30.0;
 
 #[wasm_bindgen]
 impl Pane {

@@ -89,7 +89,9 @@ pub use why::{Hider, Why, WhyLine, WhyPiece};
 pub use write::dxf::{dxf, dxf_of_paths};
 #[cfg(feature = "pdf")]
 pub use write::pdf::{pdf, pdf_of_paths};
-pub use write::raster::{Raster, lay_area, lay_strokes, lay_strokes_by, raster, raster_of_paths, raster_of_strokes};
+pub use write::raster::{
+    Raster, lay_area, lay_over, lay_strokes, lay_strokes_by, raster, raster_of_paths, raster_of_strokes,
+};
 pub use write::strokes::{Polyline, Strokes, strokes, strokes_of_paths};
 pub use write::svg::{svg, svg_of_paths};
 pub use write::turn_svg::TurnSvg;

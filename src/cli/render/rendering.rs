@@ -5,6 +5,7 @@ use super::super::run_settings::RunSettings;
 use tinta::Scene;
 use tinta::record::{CameraRecord, Made, ModelRecord, Record};
 use tinta::request::Request;
+use tinta::styles::Style;
 
 /// A rendering on its way.
 pub(super) struct Rendering<'a> {
@@ -31,7 +32,7 @@ impl Rendering<'_> {
             copies: self.request.scene.copies,
             triangles: scene.triangle_count(),
             style: self.request.style.clone(),
-            exact_lines: self.request.exact_lines_style(),
+            exact_lines: self.request.lines_over().ok().flatten().map(Style::Lines),
             size: scene.size,
             background: scene.background,
             camera: CameraRecord::new(scene),

@@ -152,6 +152,7 @@ impl Drawer {
         let scene = job.scene()?;
         let draw = |(side, style, show): &(Side, Style, Show)| {
             let drawn = if job.is_coarse { &crate::styles::coarse(style) } else { style };
+            let scene = job.lit(&scene, drawn);
             // The time is that of a frame, not of the driver's compiling and uploading before the first one.
             if self.is_first(job, drawn.style_name(), *show) {
                 self.draw_scene(&scene, drawn, *show)?;
@@ -185,8 +186,7 @@ impl Drawer {
     ///
     /// As [`Renderer::render`].
     pub(in crate::window) fn draw_scene(&mut self, scene: &Scene, style: &Style, show: Show) -> Result<Picture> {
-        let request = Request::of_picture(style, show);
-        request.picture_of(&request.lit(scene.clone()), &mut self.renderer)
+        Request::of_picture(style, show).picture_of(scene, &mut self.renderer)
     }
 
     /// Explains a pixel.
@@ -199,7 +199,7 @@ impl Drawer {
         let at = [job.pixel[0], height - 1 - job.pixel[1]];
         if !self.read_back.as_ref().is_some_and(|known| known.job.is_of_same_picture(job) && known.has(at)) {
             self.read_back = None;
-            let scene = Job { is_coarse: false, ..job.view.clone() }.scene()?;
+            let scene = job.view.lit(&job.view.scene()?, &job.style);
             let plan = job.style.plan(&scene, Show::Final)?;
             let values = self.renderer.step_values(&scene, &plan, around(at, scene.size, REACH_PX))?;
             self.read_back = Some(ReadBack { job: job.clone(), scene, plan, values });
@@ -300,6 +300,7 @@ mod tests {
             drawings,
             lines_over: [None, None],
             is_coarse: false,
+            keeps_patches: false,
         };
         let mut drawer = Drawer::new(Backend::Auto).unwrap();
         drawer.draw(&job).unwrap();

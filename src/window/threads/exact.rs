@@ -167,7 +167,15 @@ mod tests {
         let (mut orbit, kept) = (Orbit::default(), Mutex::new(None));
         let find = |orbit: &Orbit, style: LineStyle| {
             let (scene, orbit, settings) = (scene.clone(), orbit.clone(), settings.clone());
-            let view = Job { scene, orbit, settings, drawings: Vec::new(), lines_over: [None, None], is_coarse: false };
+            let view = Job {
+                scene,
+                orbit,
+                settings,
+                drawings: Vec::new(),
+                lines_over: [None, None],
+                is_coarse: false,
+                keeps_patches: false,
+            };
             LineJob { view, style }.find(&kept, &Progress::default()).unwrap().1
         };
         let first = find(&orbit, LineStyle::default());

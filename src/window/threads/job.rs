@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::orbit::Orbit;
 use crate::picture::Picture;
 use crate::renderer::PassTime;
+use crate::request::Request;
 use crate::scene::{Scene, SceneSettings};
 use crate::styles::{LineStyle, Show, Style};
 use crate::window::threads::coarse;
@@ -26,6 +27,8 @@ pub struct Job {
     pub lines_over: [Option<LineStyle>; 2],
     /// Whether it may be coarser: the view is on its way to another.
     pub is_coarse: bool,
+    /// Whether small patches of a tone stay: the view is on its way to another, and finding them takes time.
+    pub keeps_patches: bool,
 }
 
 impl Job {
@@ -58,6 +61,19 @@ impl Job {
         self.orbit == other.orbit && self.settings.camera == other.settings.camera
     }
 
+    /// The scene as a style draws it.
+    pub(in crate::window) fn lit(&self, scene: &Scene, style: &Style) -> Scene {
+        match self.keeps_patches {
+            true => scene.clone(),
+            false => Request::of_picture(style, Show::Final).lit(scene.clone()),
+        }
+    }
+
+    /// The job of a view that has come to rest.
+    pub(in crate::window) fn at_rest(self) -> Self {
+        Self { is_coarse: false, keeps_patches: false, ..self }
+    }
+
     /// Whether it shows the same scene in the same view as another, whatever it draws.
     pub(in crate::window) fn is_of_same_picture(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene) && self.orbit == other.orbit && self.settings == other.settings
@@ -68,12 +84,13 @@ impl Job {
         self.is_of_same_picture(other)
             && self.drawings == other.drawings
             && self.lines_over == other.lines_over
-            && self.is_coarse == other.is_coarse
+            && (self.is_coarse, self.keeps_patches) == (other.is_coarse, other.keeps_patches)
     }
 
     /// Whether its picture serves for another job: the same, or finer than needed.
     pub(in crate::window) fn does_for(&self, other: &Self) -> bool {
-        self.is_same(&Self { is_coarse: self.is_coarse && other.is_coarse, ..other.clone() })
+        let is_coarse = self.is_coarse && other.is_coarse;
+        self.is_same(&Self { is_coarse, keeps_patches: self.keeps_patches && other.keeps_patches, ..other.clone() })
     }
 }
 

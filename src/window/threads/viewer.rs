@@ -9,6 +9,7 @@ use crate::gl::{Backend, ContextInfo};
 use crate::lines::lay_strokes;
 use crate::mesh::LoadOptions;
 use crate::picture::Picture;
+use crate::request::LINES_AT_ONCE_MS;
 use crate::scene::Scene;
 use crate::window::threads::cost::Costs;
 use crate::window::threads::exact::ExactLines;
@@ -30,9 +31,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
-
-/// Exact lines that take less time than this are drawn at once with each picture, milliseconds.
-const AT_ONCE_MS: f64 = 30.0;
 
 /// How the viewer is started.
 #[derive(Debug, Clone)]
@@ -313,10 +311,11 @@ impl Viewer {
             drawings: Vec::new(),
             lines_over: [None, None],
             is_coarse: self.is_moving && self.state.is_coarse_while_moving,
+            keeps_patches: false,
         };
         let found = self.lines.found().filter(|found| found.job.style == self.state.line_style());
         let is_fast =
-            found.is_some_and(|found| found.ms < AT_ONCE_MS && Arc::ptr_eq(&found.job.view.scene, &job.scene));
+            found.is_some_and(|found| found.ms < LINES_AT_ONCE_MS && Arc::ptr_eq(&found.job.view.scene, &job.scene));
         let is_found = found.is_some_and(|found| found.job.view.is_of_same_picture(&job));
         for side in self.state.sides() {
             let (style, show) = self.state.buffer.drawn(self.state.style(*side));
@@ -324,6 +323,7 @@ impl Viewer {
             // Until exact lines are found the style's own borders stand for them.
             let is_replaced = shown == LinesShown::Over && (is_fast || is_found);
             let style = if is_replaced { style.without_borders().unwrap_or(style) } else { style };
+            job.keeps_patches |= self.is_moving && style.far_tones().is_some();
             job.drawings.extend((shown != LinesShown::Alone).then_some((*side, style, show)));
             job.lines_over[*side as usize] = (shown == LinesShown::Over && is_fast).then(|| self.state.line_style());
         }
@@ -335,9 +335,8 @@ impl Viewer {
         let (side, pixel) = self.state.pointed.filter(|_| self.state.explains && !self.is_moving)?;
         let size = view.settings.size;
         let has_it = pixel[0] < size.width && pixel[1] < size.height;
-        let has_shaders = self.state.lines_shown(side) != LinesShown::Alone;
-        let style = self.state.style(side).clone();
-        (has_it && has_shaders).then(|| PixelJob { view: view.clone(), style, pixel })
+        let (_, style, _) = view.drawings.iter().find(|(drawn, ..)| *drawn == side)?;
+        has_it.then(|| PixelJob { view: view.clone(), style: style.clone(), pixel })
     }
 
     /// The exact lines to find, if a visible side shows them.
@@ -345,7 +344,7 @@ impl Viewer {
         // Lines that are drawn at once with the picture need no search of their own while the model moves.
         let is_drawn = self.is_moving && job.lines_over.iter().any(Option::is_some);
         let is_wanted = self.shows(LinesShown::Over) && !is_drawn || self.shows(LinesShown::Alone);
-        let view = Job { drawings: Vec::new(), lines_over: [None, None], is_coarse: false, ..job.clone() };
+        let view = Job { drawings: Vec::new(), lines_over: [None, None], ..job.clone().at_rest() };
         is_wanted.then(|| LineJob { view, style: self.state.line_style() })
     }
 
@@ -422,7 +421,7 @@ impl Viewer {
 
     fn save(&mut self, kind: Save) {
         // Written files are never coarse.
-        let job = self.job().map(|job| Job { is_coarse: false, ..job });
+        let job = self.job().map(Job::at_rest);
         let is_shown = self.drawn.as_ref().is_some_and(|drawn| !drawn.is_coarse);
         let Some(job) = job.filter(|_| is_shown) else {
             self.state.message = Some("no picture to save yet; wait until one is drawn".to_owned());

@@ -134,7 +134,7 @@ pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -
         let Some(Subject { scene, reference }) = &subject else { continue };
         let is_said = say_other_camera(&arguments.drawings[index], scene);
         let ink = match arguments.ink {
-            InkColor::Dark => lines_over(&arguments.drawings[index], picture, session)?,
+            InkColor::Dark => lines_over(&arguments.drawings[index], &arguments.model, picture, session)?,
             _ => None,
         };
         let ink = ink.unwrap_or_else(|| arguments.ink.of(picture));
@@ -233,12 +233,14 @@ impl Subject {
     }
 }
 
-/// The ink of exact lines over a picture by tinta: what darkens the picture that its recipe draws without them. `None` for other
-/// pictures.
-fn lines_over(path: &Path, picture: &Picture, session: &mut Session) -> Result<Option<Ink>> {
-    let Ok(Recipe { models, options, .. }) = Recipe::read(path) else { return Ok(None) };
-    let mut request = Request::from_given(&options)?.with_models(models);
-    if !request.has_lines_over() || !request.animation.is_still() {
+/// The ink of exact lines over a picture of a model by tinta: what darkens the picture that its recipe draws without them. `None` for
+/// other pictures.
+fn lines_over(path: &Path, model: &str, picture: &Picture, session: &mut Session) -> Result<Option<Ink>> {
+    let Ok(recipe) = Recipe::read(path) else { return Ok(None) };
+    // The recipe of an earlier version may have options that are gone.
+    let Ok(request) = Request::from_given(&recipe.options) else { return Ok(None) };
+    let mut request = request.with_models(vec![model.to_owned()]);
+    if !request.has_lines_over() || !request.animation.is_still() || model == "-" {
         return Ok(None);
     }
     request.style = request.style_in_passes()?;

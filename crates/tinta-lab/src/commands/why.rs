@@ -115,8 +115,7 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
 
 /// The models and the options below those given: a picture's by its recipe, else of lines.
 fn subject(model: &str) -> Result<(Vec<String>, Vec<OptionLayer>)> {
-    let is_picture = Path::new(model).extension().is_some_and(|ending| ending == "png" || ending == "svg");
-    if !is_picture {
+    if ![".png", ".svg"].iter().any(|ending| model.to_ascii_lowercase().ends_with(ending)) {
         return Ok((vec![model.to_owned()], vec![OptionLayer::Style(StyleName::Lines)]));
     }
     let Recipe { models, options, style, .. } = Recipe::read(Path::new(model))?;

@@ -49,14 +49,7 @@ pub fn raster_of_paths(lines: &VisibleLines, paths: Vec<LinePath>, settings: &Dr
 
 /// Returns strokes as pixels on a background, from the lowest layer to the highest.
 pub fn raster_of_strokes(strokes: &[Strokes], size: Size, background: Background) -> Raster {
-    let pixel = match background {
-        Background::Color(Color(color)) => {
-            let [red, green, blue] = color.map(byte);
-            [red, green, blue, u8::MAX]
-        }
-        Background::Transparent => [0; 4],
-    };
-    let mut pixels = pixel.repeat(size.pixel_count());
+    let mut pixels = background.clear_color().map(byte).repeat(size.pixel_count());
     lay_strokes(strokes, size, &mut pixels);
     Raster { size, pixels }
 }
@@ -131,8 +124,8 @@ fn byte(channel: f32) -> u8 {
     (channel * 255.0).round() as u8
 }
 
-/// Composites a colour with this opacity over a pixel.
-fn lay_over(pixel: &mut [u8], Color(color): Color, opacity: f32) {
+/// Composites a colour with this opacity over a pixel: red, green, blue and alpha, not premultiplied.
+pub fn lay_over(pixel: &mut [u8], Color(color): Color, opacity: f32) {
     let below = f32::from(pixel[3]) / 255.0 * (1.0 - opacity);
     let alpha = opacity + below;
     for (channel, color) in pixel.iter_mut().zip(color) {
