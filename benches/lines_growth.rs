@@ -104,7 +104,7 @@ fn measured(family: &Family, size: usize, settings: &Settings) -> Option<(Value,
     let start = Instant::now();
     let lines = match VisibleLines::with_progress(&scene, &wanted, &Progress::within(settings.limit)) {
         Ok(lines) => lines,
-        Err(Error::OutOfTime { seconds, .. }) => {
+        Err(Error::OutOfTime { seconds }) => {
             println!("  {:<12}{triangles:>10}  not done within {seconds} s", family.name);
             return None;
         }

@@ -42,7 +42,7 @@ const OTHER_SHADE: u8 = 3;
 const OTHER_SHARE: f64 = 0.005;
 
 /// The reference pictures, drawn by llvmpipe of Mesa 22.3.6 on EGL and looked at once.
-const REFERENCES: [(StyleName, &[u8]); 10] = [
+const REFERENCES: [(StyleName, &[u8]); 9] = [
     (StyleName::Phong, include_bytes!("drivers/phong.png")),
     (StyleName::ThreePass, include_bytes!("drivers/three-pass.png")),
     (StyleName::TwoPass, include_bytes!("drivers/two-pass.png")),
@@ -50,7 +50,6 @@ const REFERENCES: [(StyleName, &[u8]); 10] = [
     (StyleName::Inking, include_bytes!("drivers/inking.png")),
     (StyleName::Dietrich, include_bytes!("drivers/dietrich.png")),
     (StyleName::Ink, include_bytes!("drivers/ink.png")),
-    (StyleName::Suggestive, include_bytes!("drivers/suggestive.png")),
     (StyleName::Charcoal, include_bytes!("drivers/charcoal.png")),
     (StyleName::Sand, include_bytes!("drivers/sand.png")),
 ];

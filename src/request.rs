@@ -23,6 +23,7 @@ mod draw;
 mod drawing;
 mod emptiness;
 mod format;
+mod gone;
 mod layers;
 mod lit_scene;
 mod model_cache;
@@ -33,6 +34,8 @@ pub use draw::{Drawn, DrawnPicture, ReadModels, Times};
 pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
 pub use format::{DrawingFormat, Wanted};
+#[cfg(feature = "cli")]
+pub(crate) use gone::gone;
 pub use layers::{OF_PAPER, OptionLayer, ignored_remark, layers, pixels_on_paper};
 #[cfg(feature = "cli")]
 pub(crate) use layers::{OF_PATHS, unknown};
@@ -50,7 +53,7 @@ use crate::recipe::{Driver, FileRecord, Recipe, files_read};
 use crate::renderer::Renderer;
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::settings::{HasSettings, Kind, Options, Setting, Table, names_of, under, within};
-use crate::styles::{Ramp, Show, Style, StyleName, TextureSource};
+use crate::styles::{Ramp, Show, Style, StyleName, TextureSource, is_of_lines_alone};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -177,7 +180,7 @@ fn settings() -> Vec<Setting<Request>> {
         style_help(),
         |request: &Request| request.style.name().to_owned(),
         |request, text| {
-            request.style = Style::named(StyleName::of_name(text)?);
+            request.style = Style::named(gone::style_of(text)?);
             Ok(())
         },
     )
@@ -370,13 +373,18 @@ impl Request {
     ) -> Recipe {
         let Size { width, height } = self.scene.size;
         let paths = files_read(&self.models, beside, scene, gl.as_ref().map(|_| &self.style));
+        let mut options = self.options_for(scene);
+        if gl.is_some() && !self.has_lines_over() {
+            // A picture without the exact lines that its look draws.
+            options.retain(|option, _| !(self.is_of_look(option) && is_of_lines_alone(option)));
+        }
         Recipe {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             command: "render".to_owned(),
             style: self.style.name().to_owned(),
             size: [width, height],
             models: self.models.clone(),
-            options: self.options_for(scene),
+            options,
             files: paths.iter().filter_map(|path| record(path)).collect(),
             gl,
         }

@@ -42,7 +42,6 @@ mod ramp;
 mod row;
 mod shading;
 mod show;
-mod suggestive;
 mod supersample;
 mod surfaces;
 mod textured;
@@ -72,7 +71,6 @@ pub use phong::Phong;
 pub use ramp::{Ramp, RampRow};
 pub use row::{Mark, Origin, Outline, StyleInfo};
 pub use show::Show;
-pub use suggestive::Suggestive;
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
 pub use vectors::{Vectors, ViewAreas};
@@ -82,7 +80,7 @@ use crate::error::{Error, ParseError, Result};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::settings::{HasSettings, OptionValue, Options, Setting, Table, within};
-use headings::{ALL_STYLES, CARTOON, CHARCOAL, HEADINGS, IMAGE_SPACE, INK, INKING, SUGGESTIVE, cull, no_borders};
+use headings::{ALL_STYLES, CARTOON, CHARCOAL, HEADINGS, IMAGE_SPACE, INK, INKING, cull, no_borders};
 use row::Draw;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -180,17 +178,6 @@ row::styles! {
         shows: CHARCOAL_SHOWS,
         origin: Origin::Published(2007),
         mark: Some(Mark { rgb: [184, 137, 11], outline: Outline::Polygon { corners: 6, turn: 0.0 } }),
-    }
-
-    /// Ink in the valleys of a picture that shades the surface by its angle to the eye: contours and suggestive contours in image
-    /// space, DeCarlo et al. 2003.
-    Suggestive(Suggestive) {
-        name: "suggestive",
-        draw: Draw::Plan(Suggestive::plan),
-        has_lines: |style| style.is_inked,
-        shows: &[Show::Final, Show::Map, Show::Borders, Show::Tones],
-        origin: Origin::Own,
-        mark: Some(Mark { rgb: [230, 159, 0], outline: Outline::Star }),
     }
 
     // A new style's row comes here: docs/dev/adding-a-style.md.

@@ -95,7 +95,7 @@ pub(super) fn command(program: &Program, words: &[OsString]) -> Command {
 
 /// The arguments of a command that are options, with a value or without.
 pub(super) fn options(command: &Command) -> impl Iterator<Item = &Arg> {
-    command.get_arguments().filter(|arg| arg.get_long().is_some())
+    command.get_arguments().filter(|arg| arg.get_long().is_some() && !arg.is_hide_set())
 }
 
 fn id(arg: &Arg) -> String {

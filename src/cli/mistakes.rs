@@ -3,6 +3,7 @@
 
 use super::help::options;
 use crate::choice::{meant_or, nearest, no_option};
+use crate::request::gone;
 use clap::Command;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::ffi::OsString;
@@ -71,6 +72,9 @@ fn unknown_option(error: &clap::Error, command: &Command, words: &[OsString]) ->
     let name = word.split('=').next().unwrap_or_default();
     if !name.starts_with('-') {
         return Some(surplus(command, &shortened(word)));
+    }
+    if let Some(problem) = gone(name.trim_start_matches('-')) {
+        return Some(format!("{name}: {problem}"));
     }
     let command_name = match command.get_name() {
         "tinta" => "tinta".to_owned(),

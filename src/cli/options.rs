@@ -84,6 +84,11 @@ fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'st
     }
 }
 
+/// The word against a switch that a look turns on; `None` for a setting with a value, and for one that leaves something out.
+fn off<T>(setting: &Setting<T>) -> Option<String> {
+    (setting.kind == Kind::Flag && !setting.name.starts_with("no-")).then(|| format!("no-{}", setting.name))
+}
+
 /// A command with a table's settings among its options.
 pub(super) fn with_settings<T: Clone + Send + Sync + 'static>(
     command: Command,
@@ -94,7 +99,11 @@ pub(super) fn with_settings<T: Clone + Send + Sync + 'static>(
     settings.fold(command, |command, setting| {
         let arg =
             arg(table, setting).help_heading((has_headings && !setting.heading.is_empty()).then_some(setting.heading));
-        command.arg(arg)
+        let command = command.arg(arg);
+        match off(setting) {
+            Some(off) => command.arg(Arg::new(off.clone()).long(off).hide(true).action(ArgAction::SetTrue)),
+            None => command,
+        }
     })
 }
 
@@ -112,6 +121,10 @@ impl<S: Selection> FromArgMatches for Chosen<S> {
     fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
         let mut chosen = Self { options: Options::new(), paths: Vec::new(), selection: PhantomData };
         for setting in Self::all() {
+            if off(setting).is_some_and(|off| matches.value_source(&off) == Some(ValueSource::CommandLine)) {
+                chosen.options.insert(setting.name.to_owned(), OptionValue::Switch(false));
+                continue;
+            }
             if matches.value_source(setting.name) != Some(ValueSource::CommandLine) {
                 continue;
             }

@@ -17,7 +17,6 @@ pub(in crate::cli) struct RunSettings {
     pub explain: bool,
     /// Seconds that exact lines may take.
     pub within: Option<f64>,
-    pub partial: bool,
     pub dump: Option<PathBuf>,
     pub verify: bool,
     pub save_preset: Option<String>,
@@ -95,12 +94,6 @@ fn settings() -> Vec<Setting<RunSettings>> {
             |run, is_on| run.explain = is_on,
         ),
         within.open(OFF).said("no limit"),
-        Setting::flag(
-            "partial",
-            "With --within, write the lines found in that time; the file says that it is incomplete",
-            |run: &RunSettings| run.partial,
-            |run, is_on| run.partial = is_on,
-        ),
         Setting::open_field(
             "dump",
             "DIR",
@@ -152,7 +145,7 @@ impl RunSettings {
     /// Refuses options of lines.
     pub(super) fn refuse_for_pictures(&self) -> Result<()> {
         let problem = "only exact lines can end before they are done; leave it out, or write a .svg";
-        Self::refuse(&[("within", self.within.is_some()), ("partial", self.partial)], problem)
+        Self::refuse(&[("within", self.within.is_some())], problem)
     }
 
     /// Refuses options for single pictures.
@@ -167,8 +160,6 @@ impl RunSettings {
             "vectors have no passes and no model's frames; leave it out, or name a picture such as drawing.png";
         Self::refuse(&[("dump", self.dump.is_some()), ("frames", self.frames.is_some())], problem)?;
         let problem = "vectors are computed, not drawn by passes; leave it out here";
-        Self::refuse(&[("verify", self.verify)], problem)?;
-        let problem = "it needs a time limit; add --within SECONDS, or leave it out";
-        Self::refuse(&[("partial", self.partial && self.within.is_none())], problem)
+        Self::refuse(&[("verify", self.verify)], problem)
     }
 }

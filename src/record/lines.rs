@@ -18,8 +18,6 @@ pub struct LinesMade {
     /// Places along smooth silhouettes where visibility changes; absent with other silhouettes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changes: Option<VisibilityChanges>,
-    /// Number of lines that are missing because the time was over.
-    pub undecided: usize,
     /// Pieces of lines, and the numbers after chaining.
     pub counts: LineCounts,
     /// Times for topology, silhouettes and visibility.
@@ -84,7 +82,7 @@ struct LabelRecord<'a> {
 }
 
 /// Returns all lines as one JSON object: `size`, `camera`, `labels` if points have any, `segments`, one per line of the text, and
-/// areas as [`regions_json`](super::regions_json) writes them; pixels, y down. A partial result also has `partial`, a sentence, and `undecided`, the number of missing lines.
+/// areas as [`regions_json`](super::regions_json) writes them; pixels, y down.
 ///
 /// # Errors
 ///
@@ -92,9 +90,6 @@ struct LabelRecord<'a> {
 pub fn drawing_json(lines: &VisibleLines, regions: Option<&Regions<Option<Surface>>>, scene: &Scene) -> Result<String> {
     lines.check()?;
     let mut text = format!("{{\"size\": {},\n", json(&lines.size)?);
-    if let Some(note) = lines.partial_note() {
-        let _ = writeln!(text, "\"partial\": {},\n\"undecided\": {},", json(&note)?, lines.undecided);
-    }
     let _ = writeln!(text, "\"camera\": {},", json(&CameraRecord::new(scene))?);
     if !lines.labels.is_empty() {
         let labels = lines.labels.iter().map(|label| LabelRecord {

@@ -97,6 +97,6 @@ mod tests {
             assert!(said.iter().all(|remark| !remark.contains("nothing sets")), "{name}: {said:?}");
             count += 1;
         }
-        assert!(count > 8, "{count} styles");
+        assert!(count >= 8, "{count} styles");
     }
 }

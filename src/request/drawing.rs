@@ -105,8 +105,7 @@ impl DrawnLines {
     }
 
     /// Writes these paths of the drawing, or its own, into a file of this format. The recipe's command has a fixed name for the
-    /// output: the same drawing is the same bytes wherever it is written. Lines that are not complete depend on the machine: their
-    /// file says so and has no recipe.
+    /// output: the same drawing is the same bytes wherever it is written.
     ///
     /// # Errors
     ///
@@ -117,8 +116,6 @@ impl DrawnLines {
         paths: Option<Vec<LinePath>>,
         recipe: Option<&Recipe>,
     ) -> Result<DrawingFile> {
-        let partial = self.lines.partial_note().map(|text| Note { keyword: "Comment", text });
-        let recipe = recipe.filter(|_| partial.is_none());
         let output = if format == DrawingFormat::Pdf { "drawing.pdf" } else { "drawing.svg" };
         let settings = DrawingSettings {
             command: recipe.map(|recipe| recipe.command_line(output)).unwrap_or_default(),
@@ -141,7 +138,7 @@ impl DrawnLines {
             }
             DrawingFormat::Picture => {
                 let Raster { size, pixels } = raster_of_paths(lines, paths(), &settings)?;
-                DrawingFile::Picture(Picture { size, pixels }, partial.or_else(|| recipe.and_then(Recipe::note)))
+                DrawingFile::Picture(Picture { size, pixels }, recipe.and_then(Recipe::note))
             }
         })
     }

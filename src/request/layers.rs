@@ -1,5 +1,6 @@
 //! Layers of options, each beating those below it, as one request.
 
+use super::gone::gone;
 use super::{EXACT_LINES, Request, Source};
 use crate::camera;
 use crate::choice::meant_or;
@@ -93,17 +94,11 @@ impl Read {
     }
 }
 
-/// Options of earlier versions, and what took their place.
-const GONE: [(&str, &str); 2] = [
-    ("crease-by", "--exact-lines draws the lines that print drew by it, with --lasting-creases those of scans"),
-    ("remove-specks", "--quality best removes specks, and exact lines have none"),
-];
-
 /// The error for an unknown option.
 pub(crate) fn unknown(name: &str) -> Error {
     let names: Vec<&str> = Request::table().of(None).into_iter().map(|setting| setting.name).collect();
-    if let Some((_, instead)) = GONE.iter().find(|(gone, _)| *gone == name) {
-        return Error::setting(name, format!("this option is gone; {instead}"));
+    if let Some(problem) = gone(name) {
+        return Error::setting(name, problem);
     }
     let choice = meant_or(name, &names, "keys are long names of tinta render --help");
     Error::setting(name.chars().take(40).collect::<String>(), format!("there is no such option; {choice}"))
@@ -335,6 +330,15 @@ mod tests {
         // Even if a higher layer overrides it.
         assert!(refused(&[file("tones = \"many\""), given(&[("tones", "2")])]).starts_with("a.toml: line 1"));
         assert!(refused(&[file("tone = 2")]).contains("line 1: tone: there is no such option; did you mean tones?"));
+        let instead = "--style lines --classes silhouette,boundary,crease,suggestive draws suggestive contours";
+        for option in ["valley-depth", "valley-radius", "valley-share"] {
+            let expected = format!("a.toml: line 1: {option}: this option is gone; {instead}");
+            assert_eq!(refused(&[file(&format!("{option} = 0.1"))]), expected);
+        }
+        assert_eq!(
+            refused(&[given(&[("style", "suggestive")])]),
+            format!("style suggestive: this style is gone; {instead}")
+        );
         assert!(refused(&[file("eye = [1, 2, 3]\nview = \"top\"")]).contains("exclude each other"));
         assert_eq!(
             refused(&[given(&[("hidden", "dashed"), ("style", "phong")])]),

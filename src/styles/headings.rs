@@ -3,15 +3,13 @@
 use crate::settings::Setting;
 
 /// The headings of the settings, in this order.
-pub(super) const HEADINGS: [&str; 8] =
-    [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE, INK, SUGGESTIVE, CHARCOAL];
+pub(super) const HEADINGS: [&str; 7] = [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE, INK, CHARCOAL];
 
 pub(super) const ALL_STYLES: &str = "All styles";
 pub(super) const CARTOON: &str = "Styles three-pass, two-pass and mrt (published values are the paper's)";
 pub(super) const INKING: &str = "Style inking: lines from the model's edges (published values are the text's)";
 pub(super) const IMAGE_SPACE: &str = "Styles three-pass, two-pass, mrt and ink";
 pub(super) const INK: &str = "Style ink (also the tone options of three-pass, --crease-angle of inking)";
-pub(super) const SUGGESTIVE: &str = "Style suggestive (also the tone options of three-pass)";
 pub(super) const CHARCOAL: &str = "Styles charcoal and sand (defaults are the text's where it gives them)";
 
 /// Returns the setting that turns lines off.

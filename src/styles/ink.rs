@@ -249,7 +249,7 @@ impl Ink {
     }
 
     /// The published tones; the background is cleared and needs no square.
-    pub(super) fn tone_pass(&self, scene: &Scene) -> Pass {
+    fn tone_pass(&self, scene: &Scene) -> Pass {
         let (program, uniforms, textures) = match self.tone_light {
             Some(light) => self.far_tones(light.towards(scene, self.tones.far_thresholds())),
             None if self.tones.are_published() => {

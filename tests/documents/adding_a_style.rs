@@ -137,7 +137,7 @@ fn the_page_adds_a_style_whose_setting_is_found_at_every_door_nightly() {
 
     // Help, completions, manual.
     let help = tinta("render --help");
-    assert!(help.contains("suggestive, stripes, hatches, lines"), "{help}");
+    assert!(help.contains("sand, stripes, hatches, lines"), "{help}");
     assert!(help.contains("Style stripes:") && help.contains("--stripe-distance <PIXELS>"), "{help}");
     assert!(tinta("completions bash").contains("--stripe-distance"));
     tinta("man -o manuals");

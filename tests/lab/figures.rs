@@ -1,4 +1,4 @@
-//! `tinta figures`: the list, the files, the page, the record, the claims, and each command's picture.
+//! `tinta figures`: the list, the files, the page, the record, and each command's picture.
 
 use crate::program::{done, refused_in_one_line, tinta};
 use crate::support::Folder;
@@ -9,14 +9,13 @@ use std::path::Path;
 use tinta::gl::is_software;
 use tinta::{Backend, Picture, Size};
 use tinta_lab::figures::{
-    Claim, Content, Drawing, Figure, HowToMeasure, Panel, TRIANGLES, Text, Turn, claims, figures, kernels, measure,
-    measure_claims, only, pass_columns,
+    Content, Drawing, Figure, HowToMeasure, Panel, TRIANGLES, Turn, figures, kernels, measure, only, pass_columns,
 };
 
 const SIZE: Size = Size { width: 48, height: 48 };
 
 /// Every figure of the texts, and the additional ones.
-const IDS: [&str; 36] = [
+const IDS: [&str; 33] = [
     "evangelista-1",
     "evangelista-2",
     "evangelista-3",
@@ -32,7 +31,6 @@ const IDS: [&str; 36] = [
     "evangelista-13",
     "evangelista-14",
     "evangelista-numbers",
-    "evangelista-claims",
     "valente-1",
     "valente-2",
     "valente-3",
@@ -45,21 +43,17 @@ const IDS: [&str; 36] = [
     "valente-10",
     "valente-11",
     "valente-12",
-    "valente-claims",
     "dachsbacher-result",
     "dachsbacher-edges",
     "dachsbacher-options",
     "dachsbacher-shading",
     "dachsbacher-ramp",
     "dachsbacher-ants",
-    "dachsbacher-claims",
 ];
 
-/// Every panel, those of claims too.
+/// Every panel.
 fn panels(figures: &[Figure]) -> Vec<Panel> {
-    let of_figures = figures.iter().flat_map(Figure::panels).cloned();
-    let of_claims = figures.iter().flat_map(Figure::claims).flat_map(|claim: Claim| claim.panels());
-    of_figures.chain(of_claims).collect()
+    figures.iter().flat_map(Figure::panels).cloned().collect()
 }
 
 fn run(arguments: &[&str]) -> String {
@@ -125,7 +119,7 @@ fn a_figure_that_is_not_drawn_has_a_reason_and_no_other_has() {
         match figure.content {
             Content::NotDrawn(reason) => assert!(reason.len() > 40 && !reason.ends_with('.'), "{}", figure.id),
             Content::Pictures(panels) => assert!(!panels.is_empty(), "{}", figure.id),
-            Content::Frames | Content::OtherNumbers | Content::Passes | Content::Claims(_) => {}
+            Content::Frames | Content::OtherNumbers | Content::Passes => {}
         }
     }
 }
@@ -160,7 +154,6 @@ fn a_quick_run_writes_a_page_with_all_its_pictures_and_finite_numbers() {
     }
     let record: Value = serde_json::from_slice(&std::fs::read(folder.path("figures.json")).unwrap()).unwrap();
     assert_eq!(record["figures"].as_array().unwrap().len(), IDS.len());
-    check_claims(&record["claims"], &page, &std::fs::read_to_string(folder.path("claims.md")).unwrap());
     let numbers = &record["numbers"];
     let mut count = 0;
     check_numbers(numbers, "numbers", &mut count);
@@ -170,81 +163,6 @@ fn a_quick_run_writes_a_page_with_all_its_pictures_and_finite_numbers() {
     assert!(count > 100, "only {count} numbers");
     let renderer = record["gl"]["renderer"].as_str().unwrap();
     assert_eq!(numbers["host"]["is_software"], is_software(renderer));
-}
-
-/// Every claim is on the page and in the document, each confirmed or refuted by numbers, or not decided for a reason.
-fn check_claims(records: &Value, page: &str, document: &str) {
-    let all: Vec<Claim> = Text::ALL.into_iter().flat_map(claims).collect();
-    let records = records.as_array().unwrap();
-    assert_eq!(records.len(), all.len());
-    for (record, claim) in records.iter().zip(&all) {
-        assert_eq!(record["id"], claim.id);
-        assert!(page.contains(&format!("id=\"{}\"", claim.id)), "{} is not on the page", claim.id);
-        let numbers = record["numbers"].as_array().unwrap();
-        match record["verdict"].as_str().unwrap() {
-            "not-decided" => assert!(record["reason"].is_string(), "{record}"),
-            "confirmed" | "refuted" => {
-                assert!(record["reason"].is_null() && !numbers.is_empty(), "{record}");
-                assert!(numbers.iter().all(|number| number["value"].as_f64().is_some_and(f64::is_finite)), "{record}");
-            }
-            other => panic!("{}: {other}", claim.id),
-        }
-    }
-    let rows = rows(document);
-    assert_eq!(rows.len(), all.len());
-    for (row, claim) in rows.iter().zip(&all) {
-        let [place, says, verdict, measured, rule, command] = row[..] else { panic!("{row:?}") };
-        assert_eq!([place, says, rule, command].map(str::to_owned), claim.cells());
-        assert!(["confirmed", "refuted", "not decided here"].contains(&verdict) && !measured.is_empty(), "{row:?}");
-    }
-}
-
-/// The cells of a document's claims.
-fn rows(document: &str) -> Vec<Vec<&str>> {
-    let is_claim = |line: &&str| ["E:", "V:", "D:"].iter().any(|start| line.starts_with(&format!("| {start}")));
-    let lines = document.lines().filter(is_claim);
-    lines.map(|line| line.trim_matches('|').split(" | ").map(str::trim).collect()).collect()
-}
-
-#[test]
-fn the_document_of_claims_counts_those_that_are_measured_and_names_some_of_them() {
-    let document = std::fs::read_to_string(crate::support::root().join("docs/texts/claims.md")).unwrap();
-    let mut count = 0;
-    for text in Text::ALL {
-        let of_text = claims(text);
-        let row = document.lines().find_map(|line| line.strip_prefix(&format!("| {} | ", text.name()))).unwrap();
-        let numbers: Vec<usize> = row.trim_end_matches(" |").split(" | ").map(|cell| cell.parse().unwrap()).collect();
-        assert_eq!([numbers[0], numbers[1..].iter().sum()], [of_text.len(); 2], "{}", text.name());
-        count += numbers[2] + numbers[3];
-    }
-    let all: Vec<[String; 4]> = Text::ALL.into_iter().flat_map(claims).map(|claim| claim.cells()).collect();
-    let (here, cards) = document.split_once("## Otherwise on").unwrap();
-    assert_eq!(rows(here).len(), count, "those that are refuted or not decided");
-    for row in [rows(here), rows(cards)].concat() {
-        assert!(all.iter().any(|[place, says, ..]| row[0] == place && row[1] == says), "{row:?} is no claim");
-    }
-}
-
-#[test]
-fn closed_forms_decide_the_claims_that_have_one() {
-    let mut renderer = crate::support::renderer(Backend::Auto);
-    let how = HowToMeasure { size: SIZE, frames: 1, scenes: 1 };
-    let wanted = ["e-reads", "e-directions", "d-66-degrees", "d-portable", "v-grains-move", "v-single-pass"];
-    let chosen: Vec<Claim> =
-        Text::ALL.into_iter().flat_map(claims).filter(|claim| wanted.contains(&claim.id)).collect();
-    let found = measure_claims(&mut renderer, &chosen, &how, None, || ()).unwrap();
-    let values = |id: &str| -> Vec<f64> {
-        let record = found.iter().find(|record| record.id == id).unwrap();
-        record.finding.numbers.iter().map(|number| number.value).collect()
-    };
-    assert_eq!(values("e-reads"), [9.0, 5.0, 5.0]);
-    assert_eq!(values("e-directions"), [1.0, 1.0, 2.0]);
-    assert!((values("d-66-degrees")[0] - 66.421_821_521_798_17).abs() < 1e-9);
-    assert_eq!(values("d-portable"), [0.0]);
-    // The mean of t to the power of m is 1 / (m + 1).
-    let [scattered, moved] = values("v-grains-move")[..] else { panic!("two numbers") };
-    assert!((scattered - 0.5).abs() < 0.01 && (moved - 1.0 / 6.5).abs() < 0.01, "{scattered} {moved}");
-    assert_eq!(values("v-single-pass"), [1.0, 1.0]);
 }
 
 #[test]
@@ -263,7 +181,7 @@ fn matrices_are_what_the_filters_compute() {
 #[test]
 fn each_command_draws_the_picture_it_stands_below() {
     let folder = Folder::new();
-    let is_of_pictures = |content: &Content| matches!(content, Content::Pictures(_) | Content::Claims(_));
+    let is_of_pictures = |content: &Content| matches!(content, Content::Pictures(_));
     let chosen: Vec<Figure> = figures(SIZE).into_iter().filter(|figure| is_of_pictures(&figure.content)).collect();
     let ids: Vec<&str> = chosen.iter().map(|figure| figure.id).collect();
     run(&["-o", &folder.path(""), "--size", "48", "--quick", "--frames", "1", "--only", &ids.join(",")]);

@@ -229,7 +229,7 @@ fn a_variable_over_the_picture_has_the_value_that_each_pixel_s_explanation_tells
 #[test]
 fn a_sheet_shows_the_pixel_enlarged_in_its_colour_in_every_style() {
     let folder = Folder::new();
-    let styles = ["three-pass", "two-pass", "mrt", "inking", "charcoal", "dietrich", "phong", "ink", "suggestive"];
+    let styles = ["three-pass", "two-pass", "mrt", "inking", "charcoal", "dietrich", "phong", "ink"];
     for (model, style) in
         styles.map(|style| ("builtin:open-box", style)).into_iter().chain([("builtin:soldier", "sand")])
     {

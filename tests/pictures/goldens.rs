@@ -236,16 +236,6 @@ fn ant_ink_best() {
 }
 
 #[test]
-fn bust_suggestive() {
-    golden("bust-suggestive", BUST, &Style::named(StyleName::Suggestive), Show::Final);
-}
-
-#[test]
-fn bust_suggestive_valleys() {
-    golden("bust-suggestive-valleys", BUST, &Style::named(StyleName::Suggestive), Show::Borders);
-}
-
-#[test]
 fn bust_dietrich() {
     golden("bust-dietrich", BUST, &Style::named(StyleName::Dietrich), Show::Final);
 }

@@ -66,15 +66,12 @@ fn rows(model: &str, style: &Style, side: u32, every: u32, backend: Backend) -> 
     rows
 }
 
-/// How many of a hundred thousand pixels may differ by more than a step of 8 bits, and why. Of 25,600 pixels charcoal had 8, sand 1 and
-/// suggestive 1.
+/// How many of a hundred thousand pixels may differ by more than a step of 8 bits, and why. Of 25,600 pixels charcoal had 8 and sand 1.
 fn allowed_beyond(style: &Style) -> usize {
     match style.style_name() {
         // A filter's weight lies between two steps of 1/256, and the last bit of a coordinate decides; the grain enlarges it.
         StyleName::Charcoal => 32,
         StyleName::Sand => 4,
-        // A number of 16 bits is split into two channels: its last bit is a step or two of the lower one.
-        StyleName::Suggestive => 4,
         _ => 0,
     }
 }
@@ -102,7 +99,6 @@ fn styles() -> Vec<Style> {
         StyleName::Dietrich,
         StyleName::Phong,
         StyleName::Ink,
-        StyleName::Suggestive,
     ];
     names.map(Style::named).into()
 }
@@ -250,8 +246,6 @@ fn pixels_of_softpipe_are_the_interpreter_s() {
         softpipe_differs_little(160, every(), |style| match style {
             // Derivatives of depth, at the rims of triangles: plane-map.frag, line 22.
             StyleName::Ink => 5,
-            // facing.frag, line 14.
-            StyleName::Suggestive => 2,
             // The paper's last texel, whose weight lies between two steps: paper.frag, line 11.
             StyleName::Charcoal => 1,
             _ => 0,

@@ -70,6 +70,16 @@ fn a_comparison_is_one_sheet_or_a_folder_of_four_pictures() {
     names.sort();
     assert_eq!(names, ["left.png", "lines.png", "right.png", "sheet.png"]);
     refused_in_one_line(&["compare", "builtin:gear", "-o", &sheet, "--left", "phong"], &["phong", "lines"]);
+    // A look is drawn as the user draws it, and a style beside it in its view and size: the same lines, exact and by a filter.
+    let looks = ["compare", "builtin:gear", "-o", &sheet, "--left", "print", "--frames", "1", "--json"];
+    let record = answer(&[&looks[..], &["--right", "technical", "--size", "200"]].concat());
+    assert_eq!(
+        (&record["agreement"]["left_shared"], &record["right"]["style"]["name"]),
+        (&1.0.into(), &"lines".into())
+    );
+    let record = answer(&[&looks[..], &["--right", "three-pass"]].concat());
+    assert_eq!(record["size"], serde_json::json!({ "width": 1280, "height": 960 }));
+    assert!(record["agreement"]["left_shared"].as_f64() > Some(0.5), "{record}");
     refused_in_one_line(&["compare", "builtin:gear", "-o", "both.xyz"], &["both.xyz"]);
     refused_in_one_line(&["compare", "builtin:gear", "-o", &sheet, "--no-borders"], &["--no-borders"]);
 }

@@ -169,7 +169,7 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     refuse(&png, &["--style", "lines", "--page", "A4"], &["--page", "no paper"]);
     refuse("a.jpg", &["--style", "lines", "--transparent"], &["a.jpg", "no transparency"]);
     refuse(&svg, &["--style", "phong"], &["a.svg: style phong draws pixels", ".png"]);
-    refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "suggestive, lines"]);
+    refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "sand, lines"]);
     refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
     refuse("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);
     for options in [&["--dump", "steps"][..], &["--frames", "3"], &["--animate"], &["--show", "borders"]] {
@@ -452,19 +452,16 @@ fn lines_that_are_not_found_in_time_end_with_a_sentence_and_no_file() {
     let folder = Folder::new();
     for name in ["a.svg", "a.pdf", "a.json", "a.png"] {
         let out = folder.path(name);
-        for more in [&[][..], &["--partial"]] {
-            let words = ["render", "builtin:gear", "-o", &out, "--style", "lines", "--within", "1e-6"];
-            refused_in_one_line(&[&words[..], more].concat(), &["not done within 0.000001 s", "more time"]);
-        }
+        let words = ["render", "builtin:gear", "-o", &out, "--style", "lines", "--within", "1e-6"];
+        refused_in_one_line(&words, &["not done within 0.000001 s", "more time"]);
         assert!(!Path::new(&out).exists(), "{out}");
     }
     let of = |out: &str, more: &[&str], words: &[&str]| {
         refused_in_one_line(&[&["render", "builtin:gear", "-o", &folder.path(out)][..], more].concat(), words);
     };
     of("a.svg", &["--within", "0"], &["--within", "above 0"]);
-    of("a.svg", &["--partial"], &["--within"]);
+    of("a.svg", &["--within", "5", "--partial"], &["--partial: this option is gone; --within alone"]);
     of("a.png", &["--style", "ink", "--within", "5"], &["--within", "exact lines"]);
-    of("a.jpg", &["--style", "lines", "--within", "5", "--partial"], &["--partial", ".svg"]);
 }
 
 #[test]
@@ -478,33 +475,7 @@ fn what_is_done_in_time_is_the_same_as_without_a_limit() {
             );
             std::fs::read(out).unwrap()
         };
-        assert_eq!(drawn(&["--within", "3600", "--partial"]), drawn(&[]), "{name}");
-    }
-}
-
-#[test]
-fn a_part_is_written_where_it_is_asked_for_and_says_so() {
-    let folder = Folder::new();
-    let model = folder.file("hair.obj", slow_model(300).as_bytes());
-    for name in ["a.svg", "a.json", "a.png"] {
-        let out = folder.path(name);
-        // However fast the machine is, one of these times is over in the midst of it.
-        let mut seconds = 0.01;
-        let said = loop {
-            let within = format!("{seconds:.4}");
-            let output = tinta(&["render", &model, "-o", &out, "--style", "lines", "--within", &within, "--partial"]);
-            let said = String::from_utf8_lossy(&output.stderr).into_owned();
-            match output.status.code() {
-                Some(0) => break said,
-                Some(2) => assert!(said.contains("not done within") && !Path::new(&out).exists(), "{said}"),
-                code => panic!("{code:?}: {said}"),
-            }
-            seconds *= 1.3;
-        };
-        assert!(said.contains("partial: the time was over before"), "{name}: {said}");
-        let bytes = std::fs::read(&out).unwrap();
-        let text = String::from_utf8_lossy(&bytes);
-        assert!(text.contains("partial: the time was over before") && !text.contains("tinta again"), "{name}");
+        assert_eq!(drawn(&["--within", "3600"]), drawn(&[]), "{name}");
     }
 }
 

@@ -27,7 +27,7 @@ const FILES: [(&str, &str); 16] = [
 ];
 
 /// Command lines and their errors.
-const MISTAKES: [(&str, &str); 98] = [
+const MISTAKES: [(&str, &str); 100] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
     ("render triangle.obj", "--output is missing; name the picture to write: -o triangle.png; see --help"),
@@ -36,7 +36,15 @@ const MISTAKES: [(&str, &str); 98] = [
     ("render triangle.obj -o out.png -size 64", "tinta render has no option -size; did you mean --size?"),
     (
         "render triangle.obj -o out.png --style toon",
-        "invalid value 'toon' for '--style <STYLE>': choose one of phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand, suggestive, lines; see --help",
+        "invalid value 'toon' for '--style <STYLE>': choose one of phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand, lines; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --style suggestive",
+        "invalid value 'suggestive' for '--style <STYLE>': this style is gone; --style lines --classes silhouette,boundary,crease,suggestive draws suggestive contours; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --valley-radius 2",
+        "--valley-radius: this option is gone; --style lines --classes silhouette,boundary,crease,suggestive draws suggestive contours; see --help",
     ),
     (
         "render triangle.obj -o out.png --style three_pass",
@@ -287,7 +295,7 @@ const MISTAKES: [(&str, &str); 98] = [
     ("info triangle.obj", "tinta info takes options alone; leave out triangle.obj; see --help"),
     (
         "compare triangle.obj -o out.png --left phong",
-        "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, ink, suggestive",
+        "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, ink, print, technical",
     ),
     ("measure triangle.obj", "--output is missing; name the folder to write into: -o results; see --help"),
     ("measure triangle.obj -o out --tolerance 0", "--tolerance 0: it is a number of pixels above 0 and at most 1000"),

@@ -69,6 +69,28 @@ fn pictures_of_every_kind_are_made_again_byte_for_byte() {
 }
 
 #[test]
+fn what_a_look_switches_on_can_be_switched_off_and_its_recipe_draws_the_same_again() {
+    let folder = Folder::new();
+    for look in ["print", "technical", "charcoal"] {
+        let [whole, first, second] =
+            ["whole", "first", "second"].map(|name| folder.path(&format!("{look}-{name}.png")));
+        let render = |out: &str, more: &[&str]| {
+            done(&[&["render", "builtin:bust", "-o", out, "--look", look, "--size", "160x120"], more].concat());
+        };
+        render(&whole, &[]);
+        // The lines are all that technical draws.
+        let first_off = if look == "technical" { 2 } else { 0 };
+        for off in &["--no-exact-lines", "--no-borders", "--no-lasting-creases", "--no-taper"][first_off..] {
+            render(&first, &[off]);
+            let (code, said) = again(&first, &second, &[]);
+            assert_eq!(code, Some(0), "{look} {off}: {said}");
+            assert!(std::fs::read(&first).unwrap() == std::fs::read(&second).unwrap(), "{look} {off}");
+            assert!(read(&first) != read(&whole), "{look} {off}");
+        }
+    }
+}
+
+#[test]
 fn a_recipe_says_what_was_drawn_with_which_files_by_whom() {
     let folder = Folder::new();
     let model = textured(&folder);

@@ -121,19 +121,10 @@ pub enum Error {
     #[error("the drawing was cancelled; ask for it again")]
     Cancelled,
     /// The work exceeded its time limit.
-    #[error(
-        "not done within {seconds} s{}",
-        if *asked_for_part {
-            ", and no part of it is certain by then; give it more time, or ask for less"
-        } else {
-            "; give it more time, ask for less, or for the part that is certain by then (partial)"
-        }
-    )]
+    #[error("not done within {seconds} s; give it more time, or ask for less")]
     OutOfTime {
         /// The time limit, seconds.
         seconds: f64,
-        /// Whether the caller would have accepted a part of it.
-        asked_for_part: bool,
     },
     /// Every attempt to create an OpenGL 2.1 context failed.
     #[error(

@@ -122,9 +122,8 @@ impl VisibleLines {
     ///
     /// # Errors
     ///
-    /// Those of [`VisibleLines::of`], [`Error::Cancelled`](crate::Error::Cancelled) after [`Progress::cancel`],
-    /// [`Error::OutOfTime`](crate::Error::OutOfTime) after [`Progress::within`], and the same after
-    /// [`Progress::within_or_part`] while no line is decided.
+    /// Those of [`VisibleLines::of`], [`Error::Cancelled`](crate::Error::Cancelled) after [`Progress::cancel`], and
+    /// [`Error::OutOfTime`](crate::Error::OutOfTime) after [`Progress::within`].
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
         let clock = Instant::now();
         progress.begin(Phase::Preparing, 0);
@@ -139,19 +138,17 @@ impl VisibleLines {
             true => (lines.segments_by_rules(settings.finds_hidden, progress)?, 0),
             false => lines.segments(progress),
         };
-        let undecided = progress.undecided()?;
+        progress.go_on()?;
         let contours =
             candidates.contours.as_ref().map(|contours| ContourLines { lines: &lines, contours, input: &input });
         let changes = contours.map(|contours| contours.add(&mut segments, progress)).transpose()?.flatten();
-        // Overlaps are marked only if all lines are decided.
-        if undecided == 0 {
-            segments = visible::covered_lines::marked(segments, &input.scene_parts, &input.space, progress)?;
-        }
+        segments = visible::covered_lines::marked(segments, &input.scene_parts, &input.space, progress)?;
         input.scene_parts.put_looks(&mut segments);
         let (silhouette_ms, compared) = (candidates.silhouette_ms, candidates.compared + compared);
         let visibility_ms = milliseconds_since(clock) - topology_ms - silhouette_ms;
         let LineInput { objects, scene_parts: SceneParts { list, looks, .. }, .. } = input;
         Ok(Self {
+            size: scene.size,
             labels: labels::labels(scene, &segments),
             segments,
             parts: list,
@@ -159,9 +156,7 @@ impl VisibleLines {
             edges: candidates.counts,
             covered_triangles: objects.iter().map(ObjectEdges::covered).sum(),
             changes,
-            undecided,
             times: LineTimes { topology_ms, silhouette_ms, visibility_ms, compared },
-            ..Self::none(scene.size)
         })
     }
 }

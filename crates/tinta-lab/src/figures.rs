@@ -1,9 +1,9 @@
-//! Every figure of the three texts, drawn again or listed with the reason why not, and their claims: lists of plain data, and the
-//! code that draws, measures and shows them.
+//! Every figure of the three texts, drawn again or listed with the reason why not: lists of plain data, and the code that draws,
+//! measures and shows them.
 //!
-//! Takes a picture size and a renderer, and returns pictures, measured numbers ([`Numbers`]), the finding of each claim
-//! ([`ClaimRecord`]) and a page with everything ([`page::page`]). The list knows neither GL nor clap: a panel is a scene's
-//! settings and a style, with the words that make `tinta` draw the same. A test compares the two.
+//! Takes a picture size and a renderer, and returns pictures, measured numbers ([`Numbers`]) and a page with everything
+//! ([`page::page`]). The list knows neither GL nor clap: a panel is a scene's settings and a style, with the words that make
+//! `tinta` draw the same. A test compares the two.
 //!
 //! ```
 //! use tinta::Size;
@@ -14,7 +14,6 @@
 //! assert_eq!(tones.panels().len(), 4, "Phong, one, two and three tones");
 //! ```
 
-mod claims;
 mod dachsbacher;
 mod draw;
 mod evangelista;
@@ -32,7 +31,6 @@ mod series;
 mod throughput;
 mod valente;
 
-pub use claims::{Claim, ClaimRecord, Finding, Number, Verdict, claims, markdown, measure_claims, tally};
 pub use draw::Artist;
 pub use figure::{Content, Drawing, Figure, Model, NO_TEXTURED_MODEL, Panel, SceneDrawing, Text};
 pub use filters::{Kernel, kernels};
@@ -45,7 +43,7 @@ pub use throughput::{SHADERS, ShaderRow};
 use tinta::error::{Error, Result};
 use tinta::scene::Size;
 
-/// All figures, drawn or not, and each text's claims, for pictures of this size.
+/// All figures, drawn or not, for pictures of this size.
 pub fn figures(size: Size) -> Vec<Figure> {
     [
         others::complete(Text::Evangelista, evangelista::figures()),
@@ -70,14 +68,4 @@ pub fn only(figures: Vec<Figure>, ids: &[String]) -> Result<Vec<Figure>> {
         ));
     }
     Ok(figures.into_iter().filter(|figure| ids.is_empty() || ids.iter().any(|id| id == figure.id)).collect())
-}
-
-impl Figure {
-    /// The claims it shows.
-    pub fn claims(&self) -> Vec<Claim> {
-        match self.content {
-            Content::Claims(text) => claims(text),
-            _ => Vec::new(),
-        }
-    }
 }

@@ -1,6 +1,7 @@
 //! Compares the scripts with the options of the command line.
 
 use super::*;
+use crate::cli::help;
 
 const SHELLS: [Shell; 3] = [Shell::Bash, Shell::Zsh, Shell::Fish];
 
@@ -41,7 +42,7 @@ fn every_command_and_long_option_is_in_every_script() {
             };
             assert!(is_named, "{shell:?} does not know {name}");
             let part = part(shell, &script, name);
-            for option in command.get_arguments().filter_map(|arg| arg.get_long()) {
+            for option in help::options(command).filter_map(|arg| arg.get_long()) {
                 let is_there = match shell {
                     Shell::Bash => part.split([' ', '"', '\n']).any(|word| word == format!("--{option}")),
                     Shell::Zsh => part.contains(&format!("--{option}[")) || part.contains(&format!("--{option}=[")),

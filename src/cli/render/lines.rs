@@ -8,10 +8,8 @@ use super::super::signals::Stop;
 use super::super::{Verdict, say};
 use super::rendering::Rendering;
 use super::{explain, keep};
-use std::path::Path;
 use std::time::Instant;
 use tinta::lines::{chain, strokes_of_paths};
-use tinta::picture::PictureFormat;
 use tinta::record::{LineCounts, LinesMade, Made, Record};
 use tinta::renderer::milliseconds_since;
 use tinta::request::{DrawingFormat, Drawn, DrawnLines, OF_PAPER, OF_PATHS, Session, pixels_on_paper};
@@ -60,9 +58,6 @@ fn one_view(
             "tinta: {output}: a .dxf file has no fills, so only lines are written; --hatch draws tones as lines"
         ));
     }
-    if let Some(note) = lines.partial_note() {
-        say(&format!("tinta: {output}: {note}"));
-    }
     let has_recipe = matches!(format, DrawingFormat::Svg | DrawingFormat::Pdf | DrawingFormat::Picture);
     let recipe = if has_recipe { keep::recipe(rendering, scene, &drawn.files, None) } else { None };
     let paths = match format {
@@ -98,7 +93,6 @@ fn record(rendering: &Rendering<'_>, drawn: DrawnLines, counts: LineCounts, line
     let made = Made::Lines(Box::new(LinesMade {
         edges: lines.edges,
         changes: lines.changes.clone(),
-        undecided: lines.undecided,
         counts,
         times: lines.times,
         lines_ms,
@@ -141,13 +135,6 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: DrawingFormat) 
     refuse(&["animate"], problem)?;
     if run.explain && request.animation.turntable.is_some() {
         return Err(Error::setting("explain", "a turn has many views and this describes one; leave out --turntable"));
-    }
-    let holds_note = format != DrawingFormat::Picture
-        || output == "-"
-        || PictureFormat::of(Path::new(output)) == Some(PictureFormat::Png);
-    if run.partial && !holds_note {
-        let problem = "this format cannot mark the drawing as partial; write a .svg, .pdf, .dxf, .json or .png";
-        return Err(Error::setting("partial", problem));
     }
     if output == "-" && run.is_told() {
         let problem = "the drawing and --json or --explain cannot share standard output; name a file";

@@ -3,6 +3,7 @@
 
 use super::super::run_settings::is_of_one_run;
 use super::Arguments;
+use crate::cli::help;
 use crate::request::{OptionLayer, Request};
 use crate::styles::{is_ignored, is_of_lines_alone};
 use clap::{CommandFactory, Parser};
@@ -123,8 +124,7 @@ fn picture_file() -> tempfile::NamedTempFile {
 #[test]
 fn every_option_is_the_requests_or_of_one_run() {
     let others = ["output", "look", "preset", "camera", "help"];
-    for arg in Line::command().get_arguments() {
-        let Some(name) = arg.get_long() else { continue };
+    for name in help::options(&Line::command()).filter_map(|arg| arg.get_long()) {
         let homes = [Request::table().has(name), is_of_one_run(name), others.contains(&name)];
         assert_eq!(homes.iter().filter(|is_it| **is_it).count(), 1, "--{name}");
     }

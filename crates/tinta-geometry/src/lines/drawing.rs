@@ -19,4 +19,5 @@ pub(super) mod pen;
 pub(super) mod settings;
 pub(super) mod simplify;
 pub(super) mod specks;
+pub(super) mod taper;
 pub(super) mod text;

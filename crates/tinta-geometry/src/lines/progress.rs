@@ -35,9 +35,6 @@ pub struct Progress {
     /// When each phase began, in order.
     begins: Mutex<Vec<(Phase, Instant)>>,
     deadline: Option<Deadline>,
-    keeps_part: bool,
-    /// Extra time for drawing a partial result.
-    grace: Duration,
 }
 
 /// The current phase of work on lines.
@@ -83,23 +80,6 @@ impl Progress {
         // A limit beyond the clock's range is no limit.
         let deadline = Instant::now().checked_add(limit).map(|end| Deadline { end, limit });
         Self { deadline, ..Self::default() }
-    }
-
-    /// Ends the work after `limit` and keeps the lines decided by then, each complete.
-    /// [`VisibleLines::undecided`](super::VisibleLines::undecided) holds the number of missing lines. If no line is
-    /// decided by then, the work still ends with [`Error::OutOfTime`].
-    ///
-    /// Removing specks may take a tenth of the limit plus half a second longer. If that is too short, all specks
-    /// stay; see [`VisibleLines::has_specks`](super::VisibleLines::has_specks).
-    pub fn within_or_part(limit: Duration) -> Self {
-        const LEAST: Duration = Duration::from_millis(500);
-        Self { keeps_part: true, grace: (limit / 10).saturating_add(LEAST), ..Self::within(limit) }
-    }
-
-    /// Like [`Progress::within_or_part`], without extra time.
-    #[cfg(test)]
-    pub(crate) fn exactly_within_or_part(limit: Duration) -> Self {
-        Self { grace: Duration::ZERO, ..Self::within_or_part(limit) }
     }
 
     /// The current phase.
@@ -150,29 +130,8 @@ impl Progress {
             return Err(Error::Cancelled);
         }
         match &self.deadline {
-            Some(deadline) if self.is_late() => {
-                Err(Error::OutOfTime { seconds: deadline.limit.as_secs_f64(), asked_for_part: self.keeps_part })
-            }
+            Some(deadline) if self.is_late() => Err(Error::OutOfTime { seconds: deadline.limit.as_secs_f64() }),
             _ => Ok(()),
-        }
-    }
-
-    /// Like [`Progress::go_on`], for the work after the lines, which gets extra time for a partial result.
-    pub(crate) fn go_on_drawing(&self) -> Result<()> {
-        let is_given_more = |deadline: &Deadline| deadline.end.elapsed() < self.grace;
-        if self.keeps_part && !self.is_cancelled() && self.deadline.as_ref().is_none_or(is_given_more) {
-            return Ok(());
-        }
-        self.go_on()
-    }
-
-    /// The number of undecided lines, after the work has ended.
-    pub(crate) fn undecided(&self) -> Result<usize> {
-        let (done, total) = self.state();
-        match total - done {
-            0 => Ok(0),
-            left if self.keeps_part && done > 0 && !self.is_cancelled() => Ok(left),
-            left => self.go_on().map(|()| left),
         }
     }
 

@@ -116,7 +116,6 @@ impl VisibleLines {
         let mut edges = view.edges;
         Class::ALL.into_iter().for_each(|(_, class)| *self.edges.of(class) += *edges.of(class));
         self.covered_triangles = view.covered_triangles;
-        self.undecided += view.undecided;
         self.times.topology_ms += view.times.topology_ms;
         self.times.silhouette_ms += view.times.silhouette_ms;
         self.times.visibility_ms += view.times.visibility_ms;

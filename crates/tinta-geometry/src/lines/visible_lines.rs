@@ -35,14 +35,6 @@ pub struct VisibleLines {
     /// Where along silhouettes visibility begins and ends, if
     /// [`LineSettings::counts_changes`](super::LineSettings::counts_changes) is set.
     pub changes: Option<VisibilityChanges>,
-    /// Number of lines that were undecided at the time limit. It is above 0 only after
-    /// [`Progress::within_or_part`](super::Progress::within_or_part). The lines that were decided are the same as
-    /// without a limit.
-    pub undecided: usize,
-    /// Whether specks remain because the time ran out before they were removed. Only after
-    /// [`Progress::within_or_part`](super::Progress::within_or_part) and
-    /// [`VisibleLines::without_specks_with_progress`].
-    pub has_specks: bool,
     /// Time and work of each step.
     pub times: LineTimes,
 }
@@ -72,23 +64,8 @@ impl VisibleLines {
             edges: ClassCounts::default(),
             covered_triangles: 0,
             changes: None,
-            undecided: 0,
-            has_specks: false,
             times: LineTimes::default(),
         }
-    }
-
-    /// Returns the note that files carry if lines are missing (see [`VisibleLines::undecided`]) or specks remain.
-    pub fn partial_note(&self) -> Option<String> {
-        let lines = if self.undecided == 1 { "1 line was" } else { &format!("{} lines were", self.undecided) };
-        let specks = "specks were left out";
-        let before = match (self.undecided > 0, self.has_specks) {
-            (false, false) => return None,
-            (true, false) => format!("{lines} decided"),
-            (false, true) => specks.to_string(),
-            (true, true) => format!("{lines} decided and {specks}"),
-        };
-        Some(format!("partial: the time was over before {before}"))
     }
 
     /// The settings of a drawing for lines of a style, by its number in `looks`.

@@ -12,9 +12,13 @@ const THRESHOLDS: [f64; 2] = [0.2, 0.56];
 
 /// A view straight from the front, without perspective.
 fn seen(mesh: Mesh, name: &str) -> Scene {
+    seen_all([mesh], name)
+}
+
+fn seen_all<const N: usize>(meshes: [Mesh; N], name: &str) -> Scene {
     let camera = CameraSettings { framing: Framing::Outline, ..view(name, true) };
     let size = Size { width: 480, height: 480 };
-    Scene::new([mesh], &SceneSettings { camera, size, ..SceneSettings::default() }).unwrap()
+    Scene::new(meshes, &SceneSettings { camera, size, ..SceneSettings::default() }).unwrap()
 }
 
 fn toned(scene: &Scene, light: [f64; 3]) -> Regions<Option<TonedSurface>> {
@@ -136,6 +140,16 @@ fn a_flat_face_keeps_its_tone_however_small_it_is() {
     let scene = lit_scene(seen(mesh.clone(), "0,0"), Some(light), THRESHOLDS);
     assert_eq!(scene.objects[0].mesh.normals, mesh.normals);
     assert_eq!(toned(&scene, light.map(f64::from)).regions.iter().filter(|it| it.seen.is_some()).count(), 2);
+}
+
+#[test]
+fn a_small_round_part_keeps_the_tones_that_are_a_large_part_of_it() {
+    let round = ball(1.0);
+    let small = Mesh { positions: round.positions.iter().map(|p| 0.025 * *p + DVec3::Z * 0.5).collect(), ..round };
+    let light = [-1.0f32, 0.3, 0.6];
+    let scene = seen_all([sheet(1, |_, _| 0.0), small.clone()], "0,0");
+    let lit = lit_scene(scene, Some(light), THRESHOLDS);
+    assert_eq!(lit.objects[1].mesh.normals, small.normals);
 }
 
 #[test]

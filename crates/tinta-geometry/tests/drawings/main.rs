@@ -14,4 +14,5 @@ mod specks;
 #[path = "../support/mod.rs"]
 mod support;
 mod svg;
+mod taper;
 mod written_once;

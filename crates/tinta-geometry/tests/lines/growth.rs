@@ -5,10 +5,9 @@ use crate::support::growth::{FAMILIES, Family};
 use crate::support::lines::{lines, lines_with, scene_of, scene_of_family, view};
 use crate::support::shapes::{Random, mesh};
 use glam::DVec3;
-use std::collections::HashSet;
 use std::time::Duration;
 use tinta::edges::Class;
-use tinta::lines::{DrawingSettings, LineSegment, LineSettings, Phase, Progress, VisibleLines};
+use tinta::lines::{DrawingSettings, LineSettings, Phase, Progress, VisibleLines};
 use tinta::{Error, Scene, Size};
 
 fn family(name: &str) -> &'static Family {
@@ -93,78 +92,22 @@ fn the_same_boxes_are_looked_at_every_time() {
     assert_eq!(compared(), compared());
 }
 
-/// A scene's lines, interrupted after a part of them.
-fn part(scene: &Scene, settings: &LineSettings) -> VisibleLines {
+#[test]
+fn within_any_time_all_lines_are_found_or_none() {
+    let scene = scene_of_family(family("hair"), 400);
+    let found =
+        |limit: Duration| VisibleLines::with_progress(&scene, &LineSettings::default(), &Progress::within(limit));
+    assert!(matches!(found(Duration::ZERO), Err(Error::OutOfTime { .. })));
     // However fast the machine is, one of these times is over in the midst of it.
     let mut milliseconds = 1.0;
-    loop {
-        let progress = Progress::within_or_part(Duration::from_secs_f64(milliseconds / 1e3));
-        match VisibleLines::with_progress(scene, settings, &progress) {
-            Ok(part) if part.undecided > 0 => return part,
-            Ok(_) => panic!("all was done within {milliseconds} ms, and nothing of it in less"),
+    let segments = loop {
+        match found(Duration::from_secs_f64(milliseconds / 1e3)) {
+            Ok(whole) => break whole.segments,
             Err(Error::OutOfTime { .. }) => milliseconds *= 1.2,
             Err(error) => panic!("{error}"),
         }
-    }
-}
-
-/// The source of a piece: a mesh edge, or an intersection by the place of its line.
-fn line_of(segment: &LineSegment) -> Option<(u32, [u32; 2])> {
-    segment.edge.map(|edge| (segment.object, edge))
-}
-
-/// Hidden pieces before parts of them were replaced by other lines.
-fn uncut(segments: Vec<LineSegment>) -> Vec<LineSegment> {
-    let mut uncut: Vec<LineSegment> = Vec::new();
-    let mut was_covered = false;
-    for segment in segments {
-        let is_covered = segment.is_covered;
-        match uncut.last_mut() {
-            Some(last)
-                if [last.is_visible, segment.is_visible] == [false; 2]
-                    && was_covered != is_covered
-                    && (last.object, last.edge) == (segment.object, segment.edge)
-                    && last.ends_px[1] == segment.ends_px[0] =>
-            {
-                (last.ends_px[1], last.ends_world[1]) = (segment.ends_px[1], segment.ends_world[1]);
-            }
-            _ => uncut.push(LineSegment { is_covered: false, ..segment }),
-        }
-        was_covered = is_covered;
-    }
-    uncut
-}
-
-#[test]
-fn a_part_has_some_lines_of_the_whole_and_each_of_them_whole() {
-    let scene = scene_of_family(family("hair"), 400);
-    for finds_hidden in [false, true] {
-        let settings = LineSettings { finds_hidden, ..LineSettings::default() };
-        let mut whole = VisibleLines::of(&scene, &settings).unwrap();
-        whole.segments = uncut(whole.segments);
-        let part = part(&scene, &settings);
-        assert!(!part.segments.is_empty() && part.segments.len() < whole.segments.len());
-        let mut rest = whole.segments.iter();
-        for segment in &part.segments {
-            assert!(rest.any(|other| other == segment), "not in the whole, or not in its place: {segment:?}");
-        }
-        let there: HashSet<_> = part.segments.iter().filter_map(line_of).collect();
-        let of_them = |segment: &&LineSegment| line_of(segment).is_some_and(|line| there.contains(&line));
-        let count = |lines: &VisibleLines| lines.segments.iter().filter(of_them).count();
-        assert_eq!(count(&part), count(&whole), "a line of the part is not whole");
-    }
-}
-
-#[test]
-fn no_time_at_all_ends_with_a_sentence_even_where_a_part_would_do() {
-    let scene = scene_of_family(family("soup"), 20);
-    for progress in [Progress::within(Duration::ZERO), Progress::within_or_part(Duration::ZERO)] {
-        let ended = VisibleLines::with_progress(&scene, &LineSettings::default(), &progress);
-        assert!(matches!(ended, Err(Error::OutOfTime { .. })));
-    }
-    let enough = Progress::within_or_part(Duration::from_secs(3600));
-    let found = VisibleLines::with_progress(&scene, &LineSettings::default(), &enough).unwrap();
-    assert_eq!((found.undecided, &found.segments), (0, &lines(&scene).segments));
+    };
+    assert_eq!(segments, lines(&scene).segments);
 }
 
 #[test]
@@ -202,7 +145,7 @@ fn planes_through_one_axis_have_one_line_there() {
 }
 
 #[test]
-fn leaving_out_specks_ends_when_asked_and_goes_on_a_little_where_a_part_is_wanted() {
+fn leaving_out_specks_ends_when_asked() {
     let found = seen(&scene_of_family(family("hair"), 200));
     let settings = DrawingSettings::default();
     let ended = |progress: &Progress| found.without_specks_with_progress(&settings, progress);
@@ -212,12 +155,10 @@ fn leaving_out_specks_ends_when_asked_and_goes_on_a_little_where_a_part_is_wante
     assert!(matches!(ended(&Progress::within(Duration::ZERO)), Err(Error::OutOfTime { .. })));
     let whole = found.without_specks(&settings).unwrap();
     assert!(whole.segments.len() < found.segments.len(), "nothing to leave out");
-    // Whether a tenth more time suffices depends on the machine; the number of lines found by then does not.
-    let part = ended(&Progress::within_or_part(Duration::from_secs(3_600))).unwrap();
-    assert_eq!((part.segments, part.has_specks), (whole.segments, false));
-    let partly = Progress::within_or_part(Duration::ZERO);
-    partly.cancel();
-    assert!(matches!(ended(&partly), Err(Error::Cancelled)));
+    assert_eq!(ended(&Progress::within(Duration::from_secs(3_600))).unwrap().segments, whole.segments);
+    let late = Progress::within(Duration::ZERO);
+    late.cancel();
+    assert!(matches!(ended(&late), Err(Error::Cancelled)));
 }
 
 /// A square lattice of so many lines each way through the whole picture, cut at the crossings, and as many long lines across it.

@@ -12,9 +12,11 @@ use tinta::cli::inputs::Inputs;
 use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, PresetFile, Selection};
 use tinta::cli::{Command, Verdict, given};
 use tinta::gl::ContextInfo;
+use tinta::lines::Progress;
+use tinta::preset::{LOOKS, Look};
 use tinta::record::{CameraRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
-use tinta::request::{Request, Session, ignored_remark};
+use tinta::request::{DrawingFile, DrawingFormat, Request, Session, Wanted, ignored_remark};
 use tinta::settings::{HasSettings, Kind, Setting, Table};
 use tinta::styles::is_of_lines_alone;
 use tinta::{Error, Picture, Renderer, Result, Scene, Show, StyleName, Target};
@@ -33,7 +35,7 @@ pub(super) const COMMAND: Command = Command {
     })
 };
 
-/// Draw one scene in two styles side by side, and show which lines both drew
+/// Draw one scene in two styles or looks side by side, and show which lines both drew
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input; several make one scene
@@ -75,8 +77,8 @@ impl Arguments {
 /// How two styles are compared.
 #[derive(Debug, Clone)]
 pub(super) struct CompareSettings {
-    left: StyleName,
-    right: StyleName,
+    left: Side,
+    right: Side,
     tolerance_px: u32,
     frames: u32,
     json: bool,
@@ -84,7 +86,53 @@ pub(super) struct CompareSettings {
 
 impl Default for CompareSettings {
     fn default() -> Self {
-        Self { left: StyleName::ThreePass, right: StyleName::Inking, tolerance_px: 2, frames: 11, json: false }
+        let [left, right] = [StyleName::ThreePass, StyleName::Inking].map(Side::Style);
+        Self { left, right, tolerance_px: 2, frames: 11, json: false }
+    }
+}
+
+/// A side of a comparison: a style, or a look with its view and size, which the other side then has, too; a style also its colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Style(StyleName),
+    Look(Look),
+}
+
+impl Side {
+    /// The looks that draw lines and are no style's name.
+    fn looks() -> impl Iterator<Item = Look> {
+        let is_style = |look: &Look| StyleName::ALL.iter().any(|(name, _)| *name == look.name);
+        LOOKS.into_iter().filter(move |look| look.has_settings() && !is_style(look))
+    }
+
+    fn list() -> String {
+        let looks = Self::looks().map(|look| format!(", {}", look.name));
+        StyleName::list_with_lines() + &looks.collect::<String>()
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Style(style) => style.name(),
+            Self::Look(look) => look.name,
+        }
+    }
+
+    fn look(self) -> Option<Look> {
+        if let Self::Look(look) = self { Some(look) } else { None }
+    }
+
+    /// The request that draws this side in the view of another one.
+    fn request(self, beside: &Request, of: impl Fn(Option<Look>) -> Result<Request>) -> Result<Request> {
+        let mut own = match self {
+            Self::Look(look) => of(Some(look))?,
+            Self::Style(style) => {
+                let mut own = of(None)?.in_style(style)?;
+                (own.scene, own.read) = (beside.scene.clone(), beside.read.clone());
+                own
+            }
+        };
+        (own.scene.camera, own.scene.size) = (beside.scene.camera.clone(), beside.scene.size);
+        Ok(own)
     }
 }
 
@@ -120,19 +168,20 @@ impl Selection for OfComparison {
 fn style(
     name: &'static str,
     help: &'static str,
-    field: fn(&mut CompareSettings) -> &mut StyleName,
+    field: fn(&mut CompareSettings) -> &mut Side,
 ) -> Setting<CompareSettings> {
-    let names = StyleName::of_passes().map(|(name, _)| name).collect();
+    let names = StyleName::of_passes().map(|(name, _)| name).chain(Side::looks().map(|look| look.name)).collect();
     let get = move |how: &CompareSettings| field(&mut how.clone()).name().to_owned();
     let set = move |how: &mut CompareSettings, text: &str| {
-        *field(how) = StyleName::named_of_passes(text)?;
+        let look = Side::looks().find(|look| look.name == text).map(Side::Look);
+        *field(how) = look.map_or_else(|| StyleName::named_of_passes(text).map(Side::Style), Ok)?;
         Ok(())
     };
-    Setting::of(name, "STYLE", Kind::Choice(names), help, get, set).common()
+    Setting::of(name, "STYLE|LOOK", Kind::Choice(names), help, get, set).common()
 }
 
 fn settings() -> Vec<Setting<CompareSettings>> {
-    static LEFT: LazyLock<String> = LazyLock::new(|| format!("Style on the left: {}", StyleName::list_with_lines()));
+    static LEFT: LazyLock<String> = LazyLock::new(|| format!("Style or look on the left: {}", Side::list()));
     let tolerance = Setting::field(
         "tolerance",
         "PIXELS",
@@ -147,7 +196,7 @@ fn settings() -> Vec<Setting<CompareSettings>> {
     );
     vec![
         style("left", &LEFT, |how| &mut how.left),
-        style("right", "Style on the right", |how| &mut how.right),
+        style("right", "Style or look on the right", |how| &mut how.right),
         tolerance.whole(0..=64).range(0.0, 64.0, 0),
         frames.whole(1..=1_000_000).range(1.0, 101.0, 0),
         Setting::flag("json", "Print one JSON record", |how: &CompareSettings| how.json, |how, is_on| how.json = is_on),
@@ -159,7 +208,7 @@ fn settings() -> Vec<Setting<CompareSettings>> {
 struct DrawingRecord {
     /// The style with every setting.
     style: Style,
-    /// Making the first plan: edge list, classes and planes included, where the style needs them.
+    /// Making the first plan: edge list, classes and planes included, where the style needs them; finding exact lines.
     plan_ms: f64,
     /// The frames after warm-up, each including its plan and reading back, milliseconds.
     frame_ms: Summary,
@@ -198,15 +247,31 @@ struct Drawing {
 
 pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let (preset, camera) = (arguments.preset.preset.as_deref(), arguments.camera.camera.as_deref());
-    let (request, _) = arguments
-        .options
-        .request(&arguments.models, &Below { preset, camera, command: "compare", ..Below::default() })?;
+    let of = |look: Option<Look>| {
+        let below = Below { look, preset, camera, has_looks: look.is_some(), command: "compare", ..Below::default() };
+        arguments.options.request(&arguments.models, &below).map(|(request, _)| request)
+    };
     let files: Vec<&str> = preset.into_iter().chain(camera.and_then(Path::to_str)).collect();
-    compare(arguments, &request, &files, session).map_err(|error| request.attributed(error))
+    let request = of(None)?;
+    let mut compared = || {
+        let (how, left) = how_compared(arguments, &request)?;
+        let names = named(&request, [(left, how.left), ("right", how.right)])?;
+        let look = [how.left, how.right].into_iter().find_map(Side::look);
+        let beside = if look.is_some() { of(look)? } else { request.clone() };
+        let sides = [how.left.request(&beside, of)?, how.right.request(&beside, of)?];
+        compare(arguments, (&how, names), sides, &files, session)
+    };
+    compared().map_err(|error| request.attributed(error))
 }
 
-fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &mut Session) -> Result<()> {
-    let (how, left) = how_compared(arguments, request)?;
+fn compare(
+    arguments: &Arguments,
+    (how, names): (&CompareSettings, [&'static str; 2]),
+    sides: [Request; 2],
+    files: &[&str],
+    session: &mut Session,
+) -> Result<()> {
+    let request = &sides[0];
     tinta::cli::messages::check_output(&arguments.output)?;
     let inputs = Inputs::new(&request.models, &request.options, files);
     inputs.keep(&arguments.output)?;
@@ -215,14 +280,16 @@ fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &m
     if how.json && matches!(output, Output::File(Target::Stdout)) {
         return Err(Error::value("o", "-", "the sheet and --json cannot share standard output; name a file"));
     }
-    let names = named(request, [(left, how.left), ("right", how.right)])?;
-    let styles = [request.in_style(how.left)?.style, request.in_style(how.right)?.style];
-    let meshes = request.models(&session.models)?.meshes;
-    let scene = Scene::new(meshes, &request.scene)?;
+    let [left, right] = &sides;
+    let of = |side: &Request| -> Result<Scene> {
+        Ok(side.lit(Scene::new(side.models(&session.models)?.meshes, &side.scene)?))
+    };
+    let scenes = [of(left)?, of(right)?];
+    let scene = &scenes[0];
     let count = scene.objects.len() / request.scene.copies as usize;
     let renderer = request.renderer(session)?;
-    let mut draw = |style: &Style| Drawing::of(&scene, style, renderer, how.frames);
-    let [left, right] = [draw(&styles[0])?, draw(&styles[1])?];
+    let left = Drawing::of(scene, left, renderer, how.frames)?;
+    let right = Drawing::of(&scenes[1], right, renderer, how.frames)?;
     let agreement = Agreement::of(&left.ink, &right.ink, how.tolerance_px)
         .ok_or_else(|| Error::setting("size", "the two pictures came out in different sizes; choose another"))?;
     let map = agreement.picture(scene.size);
@@ -231,7 +298,7 @@ fn compare(arguments: &Arguments, request: &Request, files: &[&str], session: &m
         version: env!("CARGO_PKG_VERSION"),
         model: ModelRecord::together(&models),
         size: scene.size,
-        camera: CameraRecord::new(&scene),
+        camera: CameraRecord::new(scene),
         gl: renderer.context().clone(),
         left: left.record,
         right: right.record,
@@ -255,31 +322,32 @@ fn how_compared(arguments: &Arguments, request: &Request) -> Result<(CompareSett
     // A preset's style is the one on the left.
     let is_of_preset = request.options.contains_key("style") && !arguments.how.options.contains_key("left");
     if is_of_preset {
-        how.left = request.style.style_name();
+        how.left = Side::Style(request.style.style_name());
     }
     Ok((how, if is_of_preset { "style" } else { "left" }))
 }
 
 /// The names of two styles with lines, each with the option that chose it.
-fn named(request: &Request, chosen: [(&str, StyleName); 2]) -> Result<[&'static str; 2]> {
+fn named(request: &Request, chosen: [(&str, Side); 2]) -> Result<[&'static str; 2]> {
     if request.options.contains_key("no-borders") {
         return Err(Error::setting("no-borders", "compare needs the lines; leave it out"));
     }
-    for (option, name) in chosen {
-        if !name.has_lines() {
-            return Err(Error::value(
-                option,
-                name.name(),
-                format!("this style has no lines to compare; choose one of {}", StyleName::list_with_lines()),
-            ));
+    for (option, side) in chosen {
+        if matches!(side, Side::Style(style) if !style.has_lines()) {
+            let problem = format!("this style has no lines to compare; choose one of {}", Side::list());
+            return Err(Error::value(option, side.name(), problem));
         }
     }
-    Ok(chosen.map(|(_, name)| name.name()))
+    Ok(chosen.map(|(_, side)| side.name()))
 }
 
 impl Drawing {
-    /// Draws the scene in a style, and times so many frames.
-    fn of(scene: &Scene, style: &Style, renderer: &mut Renderer, frames: u32) -> Result<Self> {
+    /// Draws the scene for one side, and times so many frames.
+    fn of(scene: &Scene, side: &Request, renderer: &mut Renderer, frames: u32) -> Result<Self> {
+        let style = &side.style;
+        if side.has_lines_over() || style.lines().is_some() {
+            return Self::of_exact_lines(scene, side, renderer, frames);
+        }
         let start = Instant::now();
         let plan = style.plan(scene, Show::Final)?;
         let plan_ms = milliseconds_since(start);
@@ -298,6 +366,35 @@ impl Drawing {
         let times: Result<Vec<f64>> = (0..frames).map(|_| frame()).collect();
         let record = DrawingRecord { style: style.clone(), plan_ms, frame_ms: Summary::new(times?) };
         Ok(Self { picture, ink, record })
+    }
+
+    /// The same where exact lines are drawn, alone or over the picture; a frame finds them anew.
+    fn of_exact_lines(scene: &Scene, side: &Request, renderer: &mut Renderer, frames: u32) -> Result<Self> {
+        let start = Instant::now();
+        let lines = exact_lines(scene, side)?;
+        let plan_ms = milliseconds_since(start);
+        let mut picture = || match side.style.lines() {
+            Some(_) => exact_lines(scene, side),
+            None => side.picture_of(scene, renderer),
+        };
+        let first = picture()?;
+        let mut frame = || -> Result<f64> {
+            let start = Instant::now();
+            picture()?;
+            Ok(milliseconds_since(start))
+        };
+        let times: Result<Vec<f64>> = (0..frames).map(|_| frame()).collect();
+        let record = DrawingRecord { style: side.style.clone(), plan_ms, frame_ms: Summary::new(times?) };
+        Ok(Self { picture: first, ink: InkMask::of(&lines), record })
+    }
+}
+
+/// The exact lines alone.
+fn exact_lines(scene: &Scene, side: &Request) -> Result<Picture> {
+    let lines = side.drawn_lines(scene.clone(), Wanted::default(), &Progress::default())?;
+    match lines.written(DrawingFormat::Picture, None, None)? {
+        DrawingFile::Picture(picture, _) => Ok(picture),
+        DrawingFile::Bytes(_) => Err(Error::setting("o", "lines are compared as pixels")),
     }
 }
 

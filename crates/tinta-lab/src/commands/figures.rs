@@ -1,10 +1,10 @@
-//! `tinta figures`: the three texts' figures as our pictures and plots, and their claims with measurements, on a page.
+//! `tinta figures`: the three texts' figures as our pictures and plots, and their numbers measured here, on a page.
 
 use crate::figures::page::{FigureRecord, PictureRecord, Shown, page, png_source, svg_source};
 use crate::figures::plot::{PLOT_SIZE, plot, title};
 use crate::figures::{
-    Artist, Claim, ClaimRecord, Content, Drawing, Figure, Host, HowToMeasure, NO_TEXTURED_MODEL, Numbers, Panel,
-    TRIANGLES, Turn, figures, markdown, measure, measure_claims, only, pass_columns, triangles_a_turn,
+    Artist, Content, Drawing, Figure, HowToMeasure, NO_TEXTURED_MODEL, Numbers, Panel, TRIANGLES, Turn, figures,
+    measure, only, pass_columns, triangles_a_turn,
 };
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -27,12 +27,11 @@ pub(super) const COMMAND: Command = Command {
     })
 };
 
-/// Draw and measure the figures and claims of the three texts again, as pictures, plots and a page
+/// Draw and measure the figures of the three texts again, as pictures, plots and a page
 #[derive(clap::Args)]
 #[command(after_help = "\
 Files: index.html shows everything and needs no other file; its pictures have fewer colours than the files beside it. \
-figures.json holds commands, settings and every raw time; claims.md holds the claims as a table. Each picture is a PNG, each plot \
-an SVG.")]
+figures.json holds commands, settings and every raw time. Each picture is a PNG, each plot an SVG.")]
 pub(super) struct Arguments {
     /// Folder to write into; created if missing
     #[arg(short, long, value_name = "DIR")]
@@ -76,29 +75,24 @@ const PLOTS: [u8; 3] = [1, 2, 3];
 /// The kinds of work, in the order of [`expected`].
 enum Work {
     Panel,
-    ClaimPictures,
     Scenes,
     Squares,
-    Claim,
 }
 
 /// Its expected time, seconds: measured with two cores and a software renderer; the proportions are similar elsewhere. Actual
 /// times replace it as soon as they are known.
-fn expected(panels: usize, claims: usize, is_measured: bool, how: &HowToMeasure) -> [Steps; 5] {
-    /// The time of a picture with its file, of a turn of a small model, of a triangle, of a claim without and with its frames.
+fn expected(panels: usize, is_measured: bool, how: &HowToMeasure) -> [Steps; 3] {
+    /// The time of a picture with its file, of a turn of a small model, of a triangle.
     const PICTURE: f64 = 0.09;
     const TURN: f64 = 0.3;
     const TRIANGLE: f64 = 0.5e-6;
-    const CLAIM: [f64; 2] = [0.1, 0.03];
     let turns = if is_measured { how.frames } else { 0 };
     let pixels = how.size.pixel_count() as f64 / (512.0 * 512.0);
     let steps = |count, seconds| Steps { count, seconds };
     [
         steps(panels, PICTURE * pixels.max(0.2)),
-        steps(claims, PICTURE * pixels.max(0.2)),
         steps(turns, TURN * pixels + TRIANGLE * triangles_a_turn(how) as f64),
         steps(turns, TURN * pixels),
-        steps(claims, CLAIM[0] + CLAIM[1] * how.frames as f64),
     ]
 }
 
@@ -117,11 +111,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let mut artist = Artist::new(arguments.textured()?);
     let mut renderer = Renderer::new(arguments.backend)?;
     let how = arguments.how_to_measure();
-    let claims: Vec<Claim> = chosen.iter().flat_map(Figure::claims).collect();
     let is_measured = chosen.iter().any(Figure::needs_numbers);
-    let claims_target = if claims.is_empty() { None } else { Some(folder.text("claims.md")?) };
     let panels: usize = chosen.iter().map(|figure| figure.panels().len()).sum();
-    let progress = TimedProgress::new("drawing", &expected(panels, claims.len(), is_measured, &how));
+    let progress = TimedProgress::new("drawing", &expected(panels, is_measured, &how));
     let mut records = Vec::new();
     for figure in &chosen {
         let mut record = FigureRecord::new(figure, arguments.command(figure.id));
@@ -137,15 +129,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
         }
         records.push(record);
     }
-    let mut claim_pictures = Vec::new();
-    for claim in &claims {
-        let mut pictures = Vec::new();
-        for panel in claim.panels() {
-            pictures.extend(arguments.drawn(&folder, &mut artist, &mut renderer, &panel)?);
-        }
-        claim_pictures.push((claim.id, pictures));
-        progress.step(Work::ClaimPictures as usize);
-    }
     let numbers = match is_measured {
         true => Some(measure(&mut renderer, &how, |turn| {
             progress.step(match turn {
@@ -155,9 +138,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
         })?),
         false => None,
     };
-    let found = measure_claims(&mut renderer, &claims, &how, numbers.as_ref(), || {
-        progress.step(Work::Claim as usize);
-    })?;
     if let Some(numbers) = &numbers
         && let Some(record) = records.iter_mut().find(|record| record.id == "evangelista-13")
     {
@@ -170,12 +150,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     }
     drop(progress);
     let gl = renderer.context();
-    let shown = Shown { figures: &records, numbers: numbers.as_ref(), claims: &found, claim_pictures: &claim_pictures };
+    let shown = Shown { figures: &records, numbers: numbers.as_ref() };
     page_target.write(&page(shown, &gl.renderer, arguments.size))?;
-    record_target.write(&arguments.json(&records, numbers.as_ref(), &found, gl)?)?;
-    if let Some(target) = claims_target {
-        target.write(&markdown(&found, &Host::new(gl), &how))?;
-    }
+    record_target.write(&arguments.json(&records, numbers.as_ref(), gl)?)?;
     for record in &records {
         for line in &record.left_out {
             tinta::cli::say(&format!("tinta: {} ({}), left out: {line}", record.id, record.number));
@@ -258,13 +235,7 @@ impl Arguments {
         }
     }
 
-    fn json(
-        &self,
-        records: &[FigureRecord],
-        numbers: Option<&Numbers>,
-        claims: &[ClaimRecord],
-        gl: &tinta::gl::ContextInfo,
-    ) -> Result<String> {
+    fn json(&self, records: &[FigureRecord], numbers: Option<&Numbers>, gl: &tinta::gl::ContextInfo) -> Result<String> {
         let value = json!({
             "version": env!("CARGO_PKG_VERSION"),
             "size": self.size,
@@ -272,7 +243,6 @@ impl Arguments {
             "gl": gl,
             "figures": records,
             "numbers": numbers,
-            "claims": claims,
         });
         let text = serde_json::to_string_pretty(&value).map_err(|error| {
             Error::output("figures.json", format!("the record cannot be written as JSON ({error}); report this"))
@@ -307,9 +277,6 @@ mod tests {
         let all: Vec<crate::figures::Figure> = figures(Size { width: 64, height: 64 });
         let mut files: Vec<&str> =
             all.iter().flat_map(crate::figures::Figure::panels).map(|panel| panel.file.as_str()).collect();
-        let of_claims: Vec<Panel> =
-            all.iter().flat_map(Figure::claims).flat_map(|claim: Claim| claim.panels()).collect();
-        files.extend(of_claims.iter().map(|panel| panel.file.as_str()));
         let count = files.len();
         files.sort_unstable();
         files.dedup();
@@ -319,14 +286,14 @@ mod tests {
     #[test]
     fn the_time_left_is_that_of_all_that_is_to_come() {
         let how = HowToMeasure { size: Size { width: 512, height: 512 }, frames: 21, scenes: TRIANGLES.len() };
-        let seconds = |is_measured| expected(70, 72, is_measured, &how).map(Steps::total).iter().sum::<f64>();
+        let seconds = |is_measured| expected(50, is_measured, &how).map(Steps::total).iter().sum::<f64>();
         let [drawn, measured] = [seconds(false), seconds(true)];
         assert!(
-            drawn > 10.0 && measured > drawn + 21.0,
+            drawn > 4.0 && measured > drawn + 21.0,
             "{drawn} {measured}: what is measured is not done when all is drawn"
         );
         let quick = HowToMeasure { frames: 3, scenes: 3, ..how };
-        let seconds = expected(70, 72, true, &quick).map(Steps::total).iter().sum::<f64>();
+        let seconds = expected(50, true, &quick).map(Steps::total).iter().sum::<f64>();
         assert!(seconds < measured / 2.0, "{seconds} of {measured}");
     }
 

@@ -70,8 +70,6 @@ pub enum Content {
     OtherNumbers,
     /// Figure 7: the passes as plans have them.
     Passes,
-    /// The text's claims, measured.
-    Claims(Text),
     /// Not drawn, for this reason.
     NotDrawn(&'static str),
 }
@@ -136,15 +134,13 @@ impl Figure {
     pub fn panels(&self) -> &[Panel] {
         match &self.content {
             Content::Pictures(panels) => panels,
-            Content::Frames | Content::OtherNumbers | Content::Passes | Content::Claims(_) | Content::NotDrawn(_) => {
-                &[]
-            }
+            Content::Frames | Content::OtherNumbers | Content::Passes | Content::NotDrawn(_) => &[],
         }
     }
 
     /// Whether it needs the measurements of section 5 of Evangelista et al.
     pub fn needs_numbers(&self) -> bool {
-        matches!(self.content, Content::Frames | Content::OtherNumbers | Content::Claims(Text::Evangelista))
+        matches!(self.content, Content::Frames | Content::OtherNumbers)
     }
 }
 

@@ -132,7 +132,7 @@ pub fn measure(renderer: &mut Renderer, how: &HowToMeasure, mut step: impl FnMut
 }
 
 /// The scene from its own direction and so many times its own distance.
-pub(super) fn from(scene: &Scene, distance: f64, size: Size) -> Result<Scene> {
+fn from(scene: &Scene, distance: f64, size: Size) -> Result<Scene> {
     let camera = scene.camera;
     let eye = Some(camera.target + (camera.eye - camera.target) * distance);
     let camera = tinta::CameraSettings { eye, target: Some(camera.target), ..tinta::CameraSettings::default() };
@@ -141,7 +141,7 @@ pub(super) fn from(scene: &Scene, distance: f64, size: Size) -> Result<Scene> {
 }
 
 /// Share of the picture's pixels that the objects cover.
-pub(super) fn covered(renderer: &mut Renderer, scene: &Scene) -> Result<f64> {
+fn covered(renderer: &mut Renderer, scene: &Scene) -> Result<f64> {
     let bare = Scene { background: Background::Transparent, ..scene.clone() };
     let picture = renderer.render(&bare, &Style::Phong(tinta::styles::Phong::default()))?;
     let drawn = picture.pixels.chunks_exact(4).filter(|pixel| pixel[3] > 0).count();

@@ -121,14 +121,6 @@ impl BackgroundRow {
     pub fn gain_percent(&self) -> Interval {
         gain_percent(&self.two_pass_without, &self.three_pass)
     }
-
-    /// By how many points this gain is larger than another.
-    pub(super) fn gains_more_than(&self, other: &Self) -> Interval {
-        let series = [&self.two_pass_without, &self.three_pass, &other.two_pass_without, &other.three_pass];
-        Interval::of_turns(series, |[two, three, other_two, other_three]| {
-            (three / two - other_three / other_two) * 100.0
-        })
-    }
 }
 
 impl Numbers {

@@ -1,5 +1,4 @@
-//! The figures that are not drawn, with the reason, and each text's claims at its end: the parts missing in the lists of drawn
-//! figures.
+//! The figures that are not drawn, with the reason: the parts missing in the lists of drawn figures.
 
 use super::figure::{Content, Figure, Text};
 
@@ -39,32 +38,11 @@ fn not_drawn() -> Vec<(&'static str, Figure)> {
     ]
 }
 
-fn claims(text: Text) -> Figure {
-    let (id, caption) = match text {
-        Text::Evangelista => {
-            ("evangelista-claims", "The paper's claims about its technique, beside the measurements here.")
-        }
-        Text::Valente => ("valente-claims", "The report's claims about its technique, beside the measurements here."),
-        Text::Dachsbacher => {
-            ("dachsbacher-claims", "The article's claims about its technique, beside the measurements here.")
-        }
-    };
-    Figure {
-        id,
-        text,
-        number: "Claims",
-        title: "Its sentences, put to the test",
-        caption,
-        content: Content::Claims(text),
-    }
-}
-
 /// All figures of one text, from those of its list.
 pub(super) fn complete(text: Text, mut figures: Vec<Figure>) -> Vec<Figure> {
     for (before, figure) in not_drawn().into_iter().filter(|(_, figure)| figure.text == text) {
         let place = figures.iter().position(|other| other.id == before).unwrap_or(figures.len());
         figures.insert(place, figure);
     }
-    figures.push(claims(text));
     figures
 }

@@ -3,12 +3,11 @@
 //! Takes drawings and measurements, and returns text. It needs no other file, no network and no script, and is as readable on a
 //! telephone. Its pictures have fewer colours than the separate files, to fit all of them into one page.
 
-mod claims;
 mod diagrams;
 mod numbers;
 mod pictures;
 
-use super::{ClaimRecord, Content, Figure, Numbers, PassColumn, Text};
+use super::{Content, Figure, Numbers, PassColumn, Text};
 use pictures::pictures;
 pub use pictures::{PictureRecord, png_source, svg_source};
 use serde::Serialize;
@@ -64,17 +63,13 @@ impl FigureRecord {
     }
 }
 
-/// The drawings, measurements and findings.
+/// The drawings and measurements.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown<'a> {
     /// The figures.
     pub figures: &'a [FigureRecord],
     /// Section 5's numbers, if they were measured.
     pub numbers: Option<&'a Numbers>,
-    /// The findings of claims.
-    pub claims: &'a [ClaimRecord],
-    /// The pictures of claims, by their ids.
-    pub claim_pictures: &'a [(&'static str, Vec<PictureRecord>)],
 }
 
 /// The page.
@@ -123,7 +118,7 @@ fn write(out: &mut String, shown: Shown<'_>, gl: &str, size: Size) -> std::fmt::
 }
 
 fn section(out: &mut String, record: &FigureRecord, shown: Shown<'_>) -> std::fmt::Result {
-    let has_columns = !record.passes.is_empty() || record.id.ends_with("-claims") || record.id.ends_with("-numbers");
+    let has_columns = !record.passes.is_empty() || record.id.ends_with("-numbers");
     let class = if record.pictures.len() > 1 || has_columns { " class=\"wide\"" } else { "" };
     writeln!(out, "<section id=\"{}\"{class}>", record.id)?;
     writeln!(
@@ -144,9 +139,6 @@ fn section(out: &mut String, record: &FigureRecord, shown: Shown<'_>) -> std::fm
         diagrams::passes(out, &record.passes)?;
         return writeln!(out, "</section>");
     }
-    if record.id.ends_with("-claims") {
-        claims::claims(out, record.text_index, shown.claims, shown.claim_pictures)?;
-    }
     if let Some(measured) = shown.numbers {
         numbers::tables(out, record.id, measured)?;
     }
@@ -166,7 +158,7 @@ mod tests {
 
     #[test]
     fn names_of_files_and_drivers_cannot_break_the_page() {
-        let nothing = Shown { figures: &[], numbers: None, claims: &[], claim_pictures: &[] };
+        let nothing = Shown { figures: &[], numbers: None };
         let page = page(nothing, "<script>", Size { width: 4, height: 3 });
         assert!(page.contains("&lt;script&gt;") && !page.contains("<script"));
     }

@@ -4,10 +4,9 @@
 use crate::measure::quartiles;
 use serde::Serialize;
 use std::sync::Arc;
-use std::time::Instant;
 use tinta::error::Result;
 use tinta::plan::Plan;
-use tinta::renderer::{Renderer, median, milliseconds_since, processor_milliseconds};
+use tinta::renderer::{Renderer, median, processor_milliseconds};
 use tinta::scene::Scene;
 use tinta::styles::{Show, Style};
 
@@ -50,43 +49,12 @@ impl Interval {
         let quartiles = quartiles(&values);
         Self { middle: median(values).unwrap_or(f64::NAN), quartiles }
     }
-
-    /// A number of the costs of these series, computed in each turn.
-    pub(super) fn of_turns<const N: usize>(series: [&Series; N], number: impl Fn([f64; N]) -> f64) -> Self {
-        let turns = series.iter().map(|series| series.cost_ms().len()).min().unwrap_or_default();
-        Self::of((0..turns).map(|turn| number(series.map(|series| series.cost_ms()[turn]))).collect())
-    }
-
-    /// Whether it is larger than a limit; `None` where the limit lies within the quartiles.
-    pub(super) fn is_above(&self, limit: f64) -> Option<bool> {
-        let [low, high] = self.quartiles;
-        if low > limit { Some(true) } else { (high < limit).then_some(false) }
-    }
-
-    /// Whether it is larger than 0 by more than [`EQUAL_PERCENT`], or smaller by more; `None` where neither is certain.
-    pub(super) fn is_positive(&self) -> Option<bool> {
-        match (self.is_above(EQUAL_PERCENT), self.is_above(-EQUAL_PERCENT)) {
-            (Some(true), _) => Some(true),
-            (_, Some(false)) => Some(false),
-            _ => None,
-        }
-    }
 }
 
-/// Costs nearer to each other than this are equal, percent.
-const EQUAL_PERCENT: f64 = 3.0;
-
-/// How much more frames for the same cost `one` gives than `other`, percent.
+/// How much more frames for the same cost `one` gives than `other`, percent, computed in each turn.
 pub(super) fn gain_percent(one: &Series, other: &Series) -> Interval {
-    Interval::of_turns([one, other], |[one, other]| (other / one - 1.0) * 100.0)
-}
-
-/// What a piece of work on the processor costs, milliseconds: [`Series::cost_ms`] of a frame that a program draws.
-pub(super) fn cost_ms_of<T>(work: impl FnOnce() -> T) -> f64 {
-    let (start, before) = (Instant::now(), processor_milliseconds());
-    std::hint::black_box(work());
-    let cost = before.zip(processor_milliseconds()).map(|(before, after)| after - before);
-    cost.unwrap_or_else(|| milliseconds_since(start))
+    let turns = one.cost_ms().iter().zip(other.cost_ms());
+    Interval::of(turns.map(|(one, other)| (other / one - 1.0) * 100.0).collect())
 }
 
 /// A plan that takes its turns.
@@ -142,13 +110,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_limit_within_the_quartiles_is_not_decided() {
+    fn an_interval_holds_the_median_and_the_quartiles() {
         let interval = Interval::of((1..=21).map(f64::from).collect());
         assert_eq!((interval.middle, interval.quartiles), (11.0, [6.0, 16.0]));
-        let decided = [5.9, 6.0, 11.0, 16.0, 16.1].map(|limit| interval.is_above(limit));
-        assert_eq!(decided, [Some(true), None, None, None, Some(false)]);
-        let around = |middle: f64| Interval { middle, quartiles: [middle - 1.0, middle + 1.0] }.is_positive();
-        assert_eq!([-9.0, -3.5, 0.0, 3.5, 9.0].map(around), [Some(false), None, None, None, Some(true)]);
     }
 
     #[test]

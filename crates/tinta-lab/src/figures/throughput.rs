@@ -1,7 +1,7 @@
 //! How many pixels a fragment shader shades in a second: the time of a square over the whole picture, drawn as the style
 //! draws it, less that of the same frame without it.
 
-use super::series::{Contestant, Interval, Series};
+use super::series::{Contestant, Series};
 use serde::Serialize;
 use std::sync::Arc;
 use tinta::error::Result;
@@ -71,15 +71,6 @@ pub struct ShaderRow {
     pub squares_ms: Vec<f64>,
     /// The frames with the square.
     pub with_square: Series,
-}
-
-impl ShaderRow {
-    /// A number of the ratio of this square to these together, in each turn.
-    pub(super) fn against(&self, others: &[&Self], number: impl Fn(f64) -> f64) -> Interval {
-        let together = |turn: usize| others.iter().map(|other| other.squares_ms[turn]).sum::<f64>();
-        let ratios = self.squares_ms.iter().enumerate().map(|(turn, ms)| number(ms / together(turn)));
-        Interval::of(ratios.collect())
-    }
 }
 
 /// The frames to measure: one for each shader, and last the one without a square.

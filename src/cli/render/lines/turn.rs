@@ -57,9 +57,6 @@ pub(super) fn run(
             return Ok(stopped(stop, names.map_or(0, |_| number - 1), views));
         }
         let drawn = drawn?;
-        if let Some(note) = drawn.lines.partial_note() {
-            say(&format!("tinta: {name}: {note}"));
-        }
         let paths = ids.next(&drawn.scene, &drawn.lines);
         match &mut animated {
             Some(animated) => animated.add(&drawn.lines, paths, &style.drawing)?,

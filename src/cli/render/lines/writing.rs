@@ -14,8 +14,7 @@ pub(super) fn is_stopped(stop: Option<&Stop>) -> bool {
 /// Progress of the lines, whose time limit starts now.
 pub(super) fn progress(rendering: &Rendering<'_>) -> LineProgress {
     let Some(seconds) = rendering.run.within else { return LineProgress::default() };
-    let limit = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
-    if rendering.run.partial { LineProgress::within_or_part(limit) } else { LineProgress::within(limit) }
+    LineProgress::within(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX))
 }
 
 /// How often the progress bar is looked after, and how long work takes before it gets one.

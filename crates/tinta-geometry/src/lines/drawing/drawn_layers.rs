@@ -13,6 +13,7 @@ use crate::lines::drawing::page::Page;
 use crate::lines::drawing::pen::{dashes, in_pen_order};
 use crate::lines::drawing::settings::{DrawingSettings, Hidden};
 use crate::lines::drawing::simplify::simplified;
+use crate::lines::drawing::taper::{Lines, taper};
 use crate::lines::{LineSegment, VisibleLines};
 use crate::scene::{Color, Size};
 use glam::DVec2;
@@ -33,8 +34,6 @@ const PEN_DASHES: [f64; 2] = [1.0 / 128.0, 1.0 / 170.0];
 
 pub(in crate::lines) struct Drawing<'a> {
     pub segments: &'a [LineSegment],
-    /// A note that the lines are incomplete.
-    pub note: Option<String>,
     pub settings: &'a DrawingSettings,
     pub page: Page,
     /// Non-empty layers, from the lowest to the highest.
@@ -60,8 +59,10 @@ pub struct DrawnLayer {
     pub dash_px: Option<[f64; 2]>,
     /// Whether the whole layer has [`GHOST_OPACITY`], so that crossings do not add up.
     pub is_ghost: bool,
-    /// Its paths.
+    /// Its paths, without their tips.
     pub paths: Vec<LinePath>,
+    /// The middle lines of tapered ends, pixels, from the line's full width to the point.
+    pub tips: Vec<Vec<DVec2>>,
 }
 
 /// Returns the drawing that an SVG file of these lines holds, as plain values: layers from lowest to highest, without
@@ -118,12 +119,27 @@ impl<'a> Drawing<'a> {
             let drawn = DrawnLayer::new(layer, paths, &page, &looks[look as usize], lines.size);
             DrawnLayer { look, part, ..drawn }
         };
-        let layers = drawn.into_iter().map(styled).collect();
+        let mut layers: Vec<DrawnLayer> = drawn.into_iter().map(styled).collect();
+        if settings.tapers && !settings.is_for_pen && !settings.has_provenance {
+            taper_visible(&mut layers, lines.size);
+        }
         let mut labels = drawn_labels(&lines.labels, settings, page.units);
         let texts = areas.into_iter().flat_map(|areas| &areas.keys).flat_map(|key| &key.texts);
         labels.extend(texts.map(|text| text.drawn(height_px(page.units))));
-        Ok(Self { segments: &lines.segments, note: lines.partial_note(), settings, page, layers, labels })
+        Ok(Self { segments: &lines.segments, settings, page, layers, labels })
     }
+}
+
+/// Tapers the free ends of visible lines; hidden ones and the strokes of tones stay.
+fn taper_visible(layers: &mut [DrawnLayer], size: Size) {
+    let tapers = |layer: &&mut DrawnLayer| layer.layer.is_visible() && !matches!(layer.layer, Layer::Hatch(_));
+    let lines = |layer| {
+        let DrawnLayer { width_px, paths, .. }: &mut DrawnLayer = layer;
+        Lines { width_px: *width_px, paths }
+    };
+    let mut visible: Vec<Lines<'_>> = layers.iter_mut().filter(tapers).map(lines).collect();
+    let tips = taper(&mut visible, size);
+    layers.iter_mut().filter(tapers).zip(tips).for_each(|(layer, tips)| layer.tips = tips);
 }
 
 /// The drawing's page; if it is a sheet of paper, lines and areas fill it.
@@ -170,6 +186,7 @@ impl DrawnLayer {
             dash_px: (is_dashed && !settings.is_for_pen).then(|| DASH_WIDTHS.map(|widths| widths * width_px)),
             is_ghost: !layer.is_visible() && settings.hidden == Hidden::Ghost && !settings.is_for_pen,
             paths,
+            tips: Vec::new(),
         }
     }
 }

@@ -45,6 +45,8 @@ pub struct DrawingSettings {
     /// Whether each path names its class, object, mesh edges and angles; all its points are then written. Default
     /// false.
     pub has_provenance: bool,
+    /// Whether visible lines that end free taper off. Not for a pen, with [`Self::has_provenance`], or in DXF. Default false.
+    pub tapers: bool,
     /// Whether the drawing is for a plotter. Paths are then sorted to shorten pen-up travel, dashes are separate
     /// lines, and the background and areas are omitted. Layers, widths and colours distinguish the pens; lines without a width
     /// are half a pixel wide. Default false.
@@ -68,6 +70,7 @@ impl Default for DrawingSettings {
             page_size: PageSize::Unset,
             margin: Millimetres(15.0),
             has_provenance: false,
+            tapers: false,
             is_for_pen: false,
         }
     }
@@ -165,7 +168,7 @@ impl DrawingSettings {
                 |svg: &mut Self| &mut svg.min_length,
             )
             .range(0.0, 20.0, 1)
-            .said("the line's width, 8 widths for creases; 0 into .json"),
+            .said("the line's width, 8 widths for creases, 16 with --taper; 0 into .json"),
             Setting::open_field(
                 "fit-curves",
                 "PX",
@@ -185,6 +188,13 @@ impl DrawingSettings {
                 "Write each path's class, object, mesh edges and angles into the file, and keep all points",
                 |svg: &Self| svg.has_provenance,
                 |svg, is_on| svg.has_provenance = is_on,
+            ),
+            Setting::flag(
+                "taper",
+                "Let visible lines that end free taper off over 12 widths, as a pen leaves the paper; not in .dxf, or with \
+                 --pen or --provenance",
+                |svg: &Self| svg.tapers,
+                |svg, is_on| svg.tapers = is_on,
             ),
             Setting::flag(
                 "pen",
@@ -342,7 +352,8 @@ impl DrawingSettings {
             Layer::Visible(Class::Silhouette) => self.tells_outline(),
             _ => false,
         };
-        if may_be_a_fold { length.max(LEAST_FOLD * length.min(width)) } else { length }
+        let widths = if self.tapers { LEAST_TAPERED } else { LEAST_FOLD };
+        if may_be_a_fold { length.max(widths * length.min(width)) } else { length }
     }
 }
 
@@ -355,6 +366,9 @@ pub(in crate::lines) fn mixed(color: Color, paper: Color, strength: f32) -> Colo
 /// Factor of the least length for creases, and for silhouettes inside the outline, with a free end or without a
 /// connection.
 const LEAST_FOLD: f64 = 8.0;
+
+/// The same for lines that taper: a shorter one hardly reaches its full width.
+const LEAST_TAPERED: f64 = 16.0;
 
 /// Diameter of the dots that show points, in line widths.
 const POINT_WIDTHS: f64 = 2.0;

@@ -80,6 +80,14 @@ impl Cone {
     }
 }
 
+/// The distance of a point from a straight line between two ends.
+pub(super) fn distance([a, b]: [DVec2; 2], point: DVec2) -> f64 {
+    let along = b - a;
+    let square = along.length_squared();
+    let share = if square > 0.0 { ((point - a).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
+    point.distance(a + along * share)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -19,7 +19,7 @@ mod shortest_path;
 
 use crate::bvh::steps;
 use crate::edges::ClassSet;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::lines::VisibleLines;
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::outline_runs::readable;
@@ -46,7 +46,7 @@ impl VisibleLines {
     ///
     /// # Errors
     ///
-    /// Also [`Error::Cancelled`], and [`Error::OutOfTime`] unless a partial result is allowed.
+    /// Also [`Error::Cancelled`](crate::Error::Cancelled) and [`Error::OutOfTime`](crate::Error::OutOfTime).
     pub fn without_specks_with_progress(&self, settings: &DrawingSettings, progress: &Progress) -> Result<Self> {
         settings.check()?;
         self.check()?;
@@ -69,15 +69,11 @@ impl VisibleLines {
                 .collect();
             let border = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));
             let found = Strokes::new(&strokes, border);
-            let doubled = || if settings.tells_outline() { found.doubled(progress) } else { Ok(Vec::new()) };
-            match found.too_short(progress).and_then(|gone| Ok([gone, doubled()?].concat())) {
-                Ok(all) => all.into_iter().for_each(|stroke| keeps[strokes[stroke].number] = false),
-                // A partial removal would depend on the machine.
-                Err(Error::OutOfTime { asked_for_part: true, .. }) => {
-                    return Ok(Self { has_specks: true, segments, ..self.clone_without_segments() });
-                }
-                Err(error) => return Err(error),
+            let mut gone = found.too_short(progress)?;
+            if settings.tells_outline() {
+                gone.extend(found.doubled(progress)?);
             }
+            gone.into_iter().for_each(|stroke| keeps[strokes[stroke].number] = false);
         }
         let kept = segments.into_iter().zip(keeps).filter(|(_, keeps)| *keeps).map(|(segment, _)| segment);
         Ok(Self { segments: kept.collect(), ..self.clone_without_segments() })
@@ -93,8 +89,6 @@ impl VisibleLines {
             edges: self.edges,
             changes: self.changes.clone(),
             covered_triangles: self.covered_triangles,
-            undecided: self.undecided,
-            has_specks: self.has_specks,
             times: self.times,
         }
     }
@@ -107,17 +101,16 @@ impl Strokes<'_> {
     /// All segments to remove.
     fn too_short(&self, progress: &Progress) -> Result<Vec<usize>> {
         progress.begin(Phase::TooShort, 0);
-        progress.go_on_drawing()?;
+        progress.go_on()?;
         let mut is_gone = vec![false; self.strokes.len()];
         let wholes = self.small_wholes();
         let barbs = self.barbs();
         let loose: Vec<&Branch> = wholes.iter().chain(&barbs).collect();
         let goes = in_chunks(loose.len(), LOOKED_AT_ONCE, cores(), |range| {
-            let goes =
-                |branch: usize| progress.go_on_drawing().is_ok() && self.places_touched(loose[branch]).len() <= 1;
+            let goes = |branch: usize| !progress.is_over() && self.places_touched(loose[branch]).len() <= 1;
             range.map(goes).collect::<Vec<bool>>()
         });
-        progress.go_on_drawing()?;
+        progress.go_on()?;
         for (branch, _) in loose.iter().zip(goes.concat()).filter(|(_, goes)| *goes) {
             branch.strokes.iter().for_each(|stroke| is_gone[*stroke] = true);
         }
@@ -126,19 +119,19 @@ impl Strokes<'_> {
         let mut sides: Vec<&Branch> = wholes.iter().filter(is_side).chain(&spans).collect();
         sides.sort_by(|a, b| a.length.total_cmp(&b.length));
         let places_touched = in_chunks(sides.len(), LOOKED_AT_ONCE, cores(), |range| {
-            let places = |side: usize| match progress.go_on_drawing() {
-                Ok(()) => <[DVec2; 2]>::try_from(self.places_touched(sides[side])).ok(),
-                Err(_) => None,
+            let places = |side: usize| match progress.is_over() {
+                true => None,
+                false => <[DVec2; 2]>::try_from(self.places_touched(sides[side])).ok(),
             };
             range.map(places).collect::<Vec<_>>()
         });
-        progress.go_on_drawing()?;
+        progress.go_on()?;
         let mut is_needed = vec![false; self.strokes.len()];
         let mut paths = ShortestPaths::new(self);
         progress.begin(Phase::TooShort, sides.len());
         let mut before = steps();
         for (branch, places) in sides.into_iter().zip(places_touched.into_iter().flatten()) {
-            progress.go_on_drawing()?;
+            progress.go_on()?;
             let now = steps();
             progress.advance(1, now.wrapping_sub(before));
             before = now;
@@ -157,29 +150,5 @@ impl Strokes<'_> {
 
     fn meeting(&self, end: u32) -> &[u32] {
         &self.ends[self.meetings[end as usize]]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::lines::progress::Progress;
-    use crate::lines::{LineSettings, VisibleLines};
-    use crate::mesh::Mesh;
-    use crate::scene::{Scene, SceneSettings};
-    use std::time::Duration;
-
-    #[test]
-    fn where_a_part_is_wanted_and_the_time_is_over_specks_stay_and_that_is_said() {
-        let scene = Scene::new(vec![Mesh::triangle()], &SceneSettings::default()).unwrap();
-        let whole = VisibleLines::of(&scene, &LineSettings::default()).unwrap();
-        let settings = DrawingSettings { min_length: Some("2000".parse().unwrap()), ..DrawingSettings::default() };
-        let ended = |progress: &Progress| whole.without_specks_with_progress(&settings, progress);
-        let part = ended(&Progress::exactly_within_or_part(Duration::ZERO)).unwrap();
-        assert_eq!(part, VisibleLines { has_specks: true, ..whole.clone() });
-        let note = "partial: the time was over before specks were left out";
-        assert_eq!(part.partial_note().as_deref(), Some(note));
-        let enough = ended(&Progress::exactly_within_or_part(Duration::from_secs(3_600))).unwrap();
-        assert_eq!((enough.partial_note(), enough.segments.len() < whole.segments.len()), (None, true));
     }
 }

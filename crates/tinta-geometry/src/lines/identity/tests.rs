@@ -91,8 +91,6 @@ fn creases(of: &[[f64; 2]]) -> VisibleLines {
         edges: ClassCounts::default(),
         changes: None,
         covered_triangles: 0,
-        undecided: 0,
-        has_specks: false,
         labels: Vec::new(),
         parts: Vec::new(),
         looks: Vec::new(),

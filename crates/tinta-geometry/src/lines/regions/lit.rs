@@ -42,6 +42,9 @@ const LATER: f64 = 0.004;
 /// The least patch of a tone, in shares of the visible surface.
 const LEAST_PATCH: f64 = 0.002;
 
+/// A patch with this share of its surface is no speck, however small: half of a hole's wall, for example.
+const LARGE_PART: f64 = 0.2;
+
 /// How far beyond a threshold a patch is moved that gets the tone beside it: more than light changes within a pixel, or pixels there
 /// would be mixed.
 const CLEARANCE: f64 = 0.02;
@@ -68,8 +71,9 @@ pub fn lit_scene(scene: Scene, light: Option<[f32; 3]>, thresholds: [f64; 2]) ->
             return object.clone();
         }
         let mut corners = LitCorners::of(object, &space, light);
+        corners.find_surfaces(&samples, least);
         for threshold in thresholds.into_iter().filter(|threshold| *threshold <= 1.0) {
-            corners.flatten(&samples, threshold, least);
+            corners.flatten(&samples, threshold);
         }
         corners.applied(object, space.world_direction(light))
     };
@@ -133,6 +137,8 @@ struct LitCorners {
     is_back: Vec<bool>,
     /// A third of the area of the faces around it in the small picture, square pixels.
     areas: Vec<f64>,
+    /// The size below which a patch around it is too small, pixels of the small picture.
+    least: Vec<f64>,
 }
 
 /// The patches of an object on both sides of a threshold.
@@ -166,6 +172,7 @@ impl LitCorners {
             added: Vec::new(),
             is_back: Vec::new(),
             areas: Vec::new(),
+            least: Vec::new(),
         };
         // For each normal and side the position that it first comes with, and its number there.
         let mut firsts = vec![[NONE; 2]; 2 * mesh.normals.len()];
@@ -202,11 +209,24 @@ impl LitCorners {
         lit
     }
 
-    /// Moves patches smaller than `least` pixels of the small picture across a threshold, if another tone lies beside them on the same
+    /// Finds for each corner the size of patches that are too small: `least`, or a part of its smooth surface, if that is less.
+    fn find_surfaces(&mut self, samples: &[Sample], least: f64) {
+        let mut surfaces = DisjointSets::new(self.light.len());
+        for [a, b, c] in &self.of_corners {
+            surfaces.join([*a, *b]);
+            surfaces.join([*b, *c]);
+        }
+        let mut seen = vec![0.0; self.light.len()];
+        samples.iter().for_each(|sample| seen[surfaces.root(self.of_corners[sample.face as usize][0]) as usize] += 1.0);
+        let least = |corner: u32| least.min(LARGE_PART * seen[surfaces.root(corner) as usize]);
+        self.least = (0..self.light.len() as u32).map(least).collect();
+    }
+
+    /// Moves patches that are too small across a threshold, if another tone lies beside them on the same
     /// surface: first the dark ones, for each may lie within the other.
-    fn flatten(&mut self, samples: &[Sample], threshold: f64, least: f64) {
+    fn flatten(&mut self, samples: &[Sample], threshold: f64) {
         let mut patches = self.patches(samples, threshold);
-        let dark = self.small(&mut patches, threshold, false, least);
+        let dark = self.small(&mut patches, threshold, false);
         for face in &patches.mixed {
             let corners = self.of_corners[*face as usize];
             if corners.iter().any(|corner| dark[*corner as usize]) {
@@ -217,7 +237,7 @@ impl LitCorners {
         self.moved(&dark, threshold + CLEARANCE);
         patches.seen = summed(&mut patches.sets, &patches.seen);
         patches.whole = summed(&mut patches.sets, &patches.whole);
-        let light = self.small(&mut patches, threshold, true, least);
+        let light = self.small(&mut patches, threshold, true);
         self.moved(&light, threshold - CLEARANCE);
     }
 
@@ -256,7 +276,7 @@ impl LitCorners {
     }
 
     /// For each corner whether its patch is on that side of the threshold, too small, and beside another tone.
-    fn small(&self, patches: &mut TonePatches, threshold: f64, is_above: bool, least: f64) -> Vec<bool> {
+    fn small(&self, patches: &mut TonePatches, threshold: f64, is_above: bool) -> Vec<bool> {
         let is_in = |corner: u32| (self.light[corner as usize] >= threshold) == is_above;
         let mut is_small = vec![false; self.light.len()];
         for face in &patches.mixed {
@@ -267,7 +287,7 @@ impl LitCorners {
             }
             for corner in corners.into_iter().filter(|corner| is_in(*corner)) {
                 let patch = patches.sets.root(corner) as usize;
-                let (seen, whole) = (patches.seen[patch], patches.whole[patch]);
+                let (seen, whole, least) = (patches.seen[patch], patches.whole[patch], self.least[patch]);
                 is_small[patch] = seen < least && (seen > 0.0 || whole < least);
             }
         }

@@ -99,7 +99,7 @@ impl ContourLines<'_> {
     ///
     /// # Errors
     ///
-    /// Those of [`Progress::go_on`]: smooth contours are all or nothing.
+    /// Those of [`Progress::go_on`].
     pub(in crate::lines) fn add(
         &self,
         segments: &mut Vec<LineSegment>,

@@ -7,7 +7,7 @@
 //! candidates. The search for a line ends when it is covered as a whole.
 
 use crate::edges::ClassSet;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::lines::LineSegment;
 use crate::lines::eye::image::Image;
 use crate::lines::eye::pieces::{PieceTree, Pieces};
@@ -24,11 +24,11 @@ const WHOLE: [f64; 2] = [0.0, 1.0];
 /// Hidden lines that a thread tests at once.
 const CHUNK: usize = 512;
 
-/// Cuts and marks hidden pieces, and those that are ghosts'. Returns all pieces unchanged if time runs out and the settings accept some of the lines.
+/// Cuts and marks hidden pieces, and those that are ghosts'.
 ///
 /// # Errors
 ///
-/// [`Error::Cancelled`] and [`Error::OutOfTime`].
+/// Those of [`Progress::go_on`].
 pub(in crate::lines) fn marked(
     segments: Vec<LineSegment>,
     scene_parts: &SceneParts,
@@ -58,16 +58,13 @@ pub(in crate::lines) fn marked(
     };
     let lines = LinesAbove { segments: &segments, ranks: &ranks, images: &images, trees: [tree(true), tree(false)] };
     let covered = in_chunks(segments.len(), CHUNK, cores(), |range| {
-        let covered = |number: usize| match ranks[number] == Rank::Solid || progress.go_on_drawing().is_err() {
+        let covered = |number: usize| match ranks[number] == Rank::Solid || progress.is_over() {
             true => Vec::new(),
             false => lines.covered(number),
         };
         range.map(covered).collect::<Vec<_>>()
     });
-    match progress.go_on_drawing() {
-        Err(Error::OutOfTime { asked_for_part: true, .. }) => return Ok(segments),
-        ended => ended?,
-    }
+    progress.go_on()?;
     let all = segments.iter().zip(&images).zip(covered.into_iter().flatten());
     Ok(all.flat_map(|((segment, image), covered)| cut(space, segment, image, &covered)).collect())
 }

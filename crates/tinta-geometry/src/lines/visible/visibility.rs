@@ -19,13 +19,12 @@ use std::cell::LazyCell;
 const PIECES_A_GLANCE: usize = 64;
 
 impl LineIndex<'_> {
-    /// The wanted lines' pieces, in the lines' order; with the count of tested boxes. Of all lines, unless the time is over
-    /// before: then of some, each as a whole.
+    /// The wanted lines' pieces, in the lines' order; with the count of tested boxes. Some are missing if the time runs out.
     pub(in crate::lines) fn segments(&self, progress: &Progress) -> (Vec<LineSegment>, u64) {
         /// Few: of any part of the time the lines done represent the rest.
         const LINES: usize = 16;
         progress.begin(Phase::Lines, self.features.len());
-        // Not one after the other: what is left then takes as long as what is done, and a part is one of the whole picture.
+        // Not one after the other: what is left then takes as long as what is done.
         let chunks = spread_chunks(self.features.len(), LINES, cores(), |range| {
             counting_steps(|| {
                 let mut segments = Vec::new();
@@ -34,9 +33,7 @@ impl LineIndex<'_> {
                         break;
                     }
                     let before = steps();
-                    if self.add_segments(index, progress, &mut segments).is_none() {
-                        break;
-                    }
+                    self.add_segments(index, progress, &mut segments);
                     progress.advance(1, steps().wrapping_sub(before));
                 }
                 segments
@@ -48,9 +45,9 @@ impl LineIndex<'_> {
         (segments, compared)
     }
 
-    /// Adds the pieces of a line; `None`, and nothing, where the time is over before all are decided.
-    fn add_segments(&self, index: usize, progress: &Progress, segments: &mut Vec<LineSegment>) -> Option<()> {
-        let Some((image, inside)) = self.wanted(index) else { return Some(()) };
+    /// Adds the pieces of a line, unless the time runs out.
+    fn add_segments(&self, index: usize, progress: &Progress, segments: &mut Vec<LineSegment>) {
+        let Some((image, inside)) = self.wanted(index) else { return };
         let behind = self.behind_nearest(index, &image, inside);
         let overlapping = match self.features[index].overlaps() {
             true => OverlappingLines::new(index, &image, inside),
@@ -74,7 +71,7 @@ impl LineIndex<'_> {
             }
         }
         if !self.finds_hidden && cover.open.is_empty() {
-            return Some(());
+            return;
         }
         self.add_piercings(index, &image, &mut cuts);
         if self.finds_hidden {
@@ -84,7 +81,7 @@ impl LineIndex<'_> {
         let places = self.places(&image, inside, cuts);
         for (number, place) in places.windows(2).enumerate() {
             if number % PIECES_A_GLANCE == PIECES_A_GLANCE - 1 && progress.is_over() {
-                return None;
+                return;
             }
             let [from, to] = [place[0], place[1]];
             let place = (from + to) * 0.5;
@@ -97,7 +94,6 @@ impl LineIndex<'_> {
         }
         pieces.retain(|piece| piece.is_visible || self.finds_hidden);
         segments.extend(pieces.into_iter().flat_map(|piece| self.segments_of(index, piece)));
-        Some(())
     }
 
     /// A piece of a wanted line as segments: one, or several where the outline begins and ends.

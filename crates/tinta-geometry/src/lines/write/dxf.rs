@@ -60,9 +60,9 @@ pub fn dxf_of_paths(
     areas: Option<&Areas>,
     settings: &DrawingSettings,
 ) -> Result<String> {
+    let settings = &DrawingSettings { tapers: false, ..settings.clone() };
     let drawing = Drawing::new(lines, paths, areas, settings)?;
     let mut out = Text { out: String::new(), page: &drawing.page };
-    drawing.note.iter().for_each(|note| out.pair(999, note));
     let mut layers: Vec<(String, Color)> = drawing.layers.iter().map(|layer| (layer.id(), layer.color)).collect();
     if let Some(label) = drawing.labels.first() {
         layers.push((LABELS.to_owned(), label.color));

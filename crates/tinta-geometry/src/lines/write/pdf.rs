@@ -14,6 +14,7 @@ use crate::lines::drawing::drawn_labels::{DrawnLabel, height_px, width, win_ansi
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
 use crate::lines::drawing::fills::{Fill, FillGroup, TRAP_PX};
 use crate::lines::drawing::settings::{DrawingSettings, mixed};
+use crate::lines::drawing::taper::outline;
 use crate::lines::drawing::text::{written_point, written_points};
 use crate::scene::{Background, Color};
 use glam::DVec2;
@@ -142,9 +143,6 @@ fn written(drawing: &Drawing<'_>, areas: &Areas, labels: &[Text], scale: f64) ->
     if !settings.command.is_empty() {
         information.subject(TextStr(&settings.command));
     }
-    if let Some(note) = &drawing.note {
-        information.keywords(TextStr(note));
-    }
     information.finish();
     pdf.finish()
 }
@@ -253,6 +251,11 @@ fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, number: usize, content
     content.set_dash_pattern(dash.into_iter().flatten(), 0.0);
     for path in &drawn.paths {
         write_path(drawing.settings, path, content);
+    }
+    if !drawn.tips.is_empty() {
+        content.set_fill_rgb(red, green, blue);
+        drawn.tips.iter().for_each(|tip| write_polyline(&outline(tip, drawn.width_px), true, content));
+        content.fill_nonzero();
     }
     content.end_marked_content();
 }

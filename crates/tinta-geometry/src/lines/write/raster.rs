@@ -9,6 +9,7 @@ use crate::lines::VisibleLines;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::drawn_layers::Drawing;
 use crate::lines::drawing::settings::DrawingSettings;
+use crate::lines::drawing::taper;
 use crate::lines::write::strokes::{Polyline, Strokes, strokes_of};
 use crate::scene::{Background, Color, Size};
 use glam::{DVec2, Vec2};
@@ -67,7 +68,12 @@ pub fn lay_strokes_by(strokes: &[Strokes], size: Size, pixels: &mut [u8], share:
         for Polyline { points_px, is_closed } in &layer.polylines {
             let closing = is_closed.then(|| points_px.last().zip(points_px.first())).flatten();
             let pairs = points_px.windows(2).map(|pair| (&pair[0], &pair[1])).chain(closing);
-            pairs.for_each(|(a, b)| cover.line([*a, *b], layer.width_px));
+            pairs.for_each(|(a, b)| cover.line([*a, *b], [layer.width_px; 2]));
+        }
+        for tip in &layer.tips {
+            for (pair, shares) in tip.windows(2).zip(taper::shares(tip).windows(2)) {
+                cover.line([pair[0], pair[1]], [shares[0], shares[1]].map(|share| share * layer.width_px));
+            }
         }
         cover.blend_into(pixels, layer.color, |pixel| layer.opacity * share(pixel));
     }
@@ -177,10 +183,11 @@ impl Cover {
         Self { size, shares, directions, is_used: vec![false; size.height as usize] }
     }
 
-    /// Raises each pixel's coverage to that of a line with round ends, where that is more.
-    fn line(&mut self, [a, b]: [DVec2; 2], width_px: f64) {
+    /// Raises each pixel's coverage to that of a line with round ends and a width at each, where that is more.
+    fn line(&mut self, [a, b]: [DVec2; 2], widths_px: [f64; 2]) {
+        let radii = widths_px.map(|width| width * 0.5);
         // Coverage ends half a pixel's diagonal beyond the line's border.
-        let (radius, reach) = (width_px * 0.5, width_px * 0.5 + FRAC_1_SQRT_2);
+        let reach = radii[0].max(radii[1]) + FRAC_1_SQRT_2;
         let along = b - a;
         let across = along.perp().try_normalize().unwrap_or(DVec2::X);
         let squared = along.length_squared();
@@ -205,6 +212,7 @@ impl Cover {
                     continue;
                 }
                 let direction = if distance > 0.0 { from_line / distance } else { across };
+                let radius = radii[0] + (radii[1] - radii[0]) * share;
                 let covered = share_inside(radius - distance, direction) - share_inside(-radius - distance, direction);
                 let place = row * self.size.width as usize + column;
                 let direction = direction.as_vec2();
@@ -241,7 +249,7 @@ mod tests {
 
     fn covered(ends: [[f64; 2]; 2], width_px: f64) -> Vec<f32> {
         let mut cover = Cover::new(SIZE);
-        cover.line(ends.map(DVec2::from_array), width_px);
+        cover.line(ends.map(DVec2::from_array), [width_px; 2]);
         cover.shares
     }
 
@@ -324,6 +332,7 @@ mod tests {
             width_mm: None,
             opacity: 1.0,
             polylines: vec![Polyline { points_px: corners.map(DVec2::from_array).to_vec(), is_closed }],
+            tips: Vec::new(),
         }
     }
 

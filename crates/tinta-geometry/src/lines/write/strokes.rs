@@ -31,6 +31,8 @@ pub struct Strokes {
     pub opacity: f32,
     /// The strokes.
     pub polylines: Vec<Polyline>,
+    /// The middle lines of tapered ends, pixels, from the full width to the point.
+    pub tips: Vec<Vec<DVec2>>,
 }
 
 /// A stroke.
@@ -101,6 +103,7 @@ fn of_layer(drawn: &DrawnLayer, settings: &DrawingSettings, units: Units) -> Str
         width_mm: units.px_per_mm.map(|px| drawn.width_px / px),
         opacity: if drawn.is_ghost { GHOST_OPACITY } else { 1.0 },
         polylines: polylines(drawn, settings),
+        tips: drawn.tips.clone(),
     }
 }
 
@@ -133,8 +136,6 @@ mod tests {
             edges: Default::default(),
             changes: None,
             covered_triangles: 0,
-            undecided: 0,
-            has_specks: false,
             labels: Vec::new(),
             parts: Vec::new(),
             looks: Vec::new(),

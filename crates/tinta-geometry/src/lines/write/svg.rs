@@ -17,6 +17,7 @@ use crate::lines::drawing::key::Key;
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::page::PAGE_DECIMALS;
 use crate::lines::drawing::settings::DrawingSettings;
+use crate::lines::drawing::taper::outline;
 use crate::lines::drawing::text::{curve_data, decimal, hexadecimal, number, path_data};
 use crate::lines::regions::Surface;
 use crate::markup::escaped;
@@ -116,7 +117,6 @@ pub(super) fn begin(drawing: &Drawing<'_>, out: &mut String) {
     };
     let [title, title_again] = ["title", "dc:title"].map(|name| element(name, &settings.title));
     let command = element("dc:description", &settings.command);
-    let note = element("dc:coverage", drawing.note.as_deref().unwrap_or_default());
     let recipe = recipe_element(&settings.recipe);
     let _ = write!(
         out,
@@ -126,7 +126,7 @@ pub(super) fn begin(drawing: &Drawing<'_>, out: &mut String) {
 <rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#" xmlns:cc="http://creativecommons.org/ns#" xmlns:dc="http://purl.org/dc/elements/1.1/">
 <cc:Work rdf:about="">
 <dc:format>image/svg+xml</dc:format>
-{title_again}{command}{note}</cc:Work>
+{title_again}{command}</cc:Work>
 </rdf:RDF>
 {recipe}</metadata>
 "#
@@ -190,6 +190,11 @@ fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, out: &mut String) {
     let [_, name] = drawn.layer.words();
     for path in &drawn.paths {
         write_path(drawing, name, path, out);
+    }
+    if !drawn.tips.is_empty() {
+        let outlines = drawn.tips.iter().map(|tip| path_data(&outline(tip, drawn.width_px), true, false));
+        let (fill, data) = (hexadecimal(drawn.color), outlines.collect::<String>());
+        let _ = writeln!(out, r#"<path fill="{fill}" stroke="none" d="{data}"/>"#);
     }
     out.push_str("</g>\n");
 }

@@ -1,5 +1,5 @@
-//! Creases that last: chains of edges at which faces differ by more than the smoothing angle and that continue for some length.
-//! On scans and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks. Around a
+//! Creases that last: chains of edges at which faces differ by more than the smoothing angle and that continue for some length, or on
+//! a part close. On scans and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks. Around a
 //! flat face of a part a smaller angle is enough, because chamfers of nuts and shafts have 30 degrees.
 //!
 //! In: welded triangles and the angle's cosine. Out: the vertices where normals may be split, and for each triangle the area of the
@@ -33,6 +33,9 @@ const MOST_FLAT: f64 = 0.5;
 /// The cosine of the angle above which an edge of a figure is sharp, if it is not larger: facets of low models stand at up to 50
 /// degrees to one another where the form is round.
 const COS_OF_FIGURES: f64 = 0.5;
+
+/// The cosine of the angle above which no edge of a part is sharp by chance.
+const COS_OF_PARTS: f64 = 0.26;
 
 /// Where normals may be split, and how much faces weigh in.
 pub(super) struct PersistentCreases {
@@ -124,6 +127,14 @@ impl PersistentCreases {
         let sharp: Vec<&Edge> = edges().filter(is_crease).collect();
         let mut chains = DisjointSets::new(positions.len());
         sharp.iter().for_each(|edge| chains.join(edge.ends));
+        let mut counts = vec![0; positions.len()];
+        sharp.iter().flat_map(|edge| edge.ends).for_each(|end| counts[end as usize] += 1);
+        // Whether a chain may be chance: on a part one that closes and is sharp all along is none, however small, as a hole's rim.
+        let mut may_be_chance = vec![is_figure; positions.len()];
+        for edge in &sharp {
+            let is_end = edge.ends.iter().any(|end| counts[*end as usize] == 1);
+            may_be_chance[chains.root(edge.ends[0]) as usize] |= is_end || cosine(edge) > COS_OF_PARTS;
+        }
         let mut boxes = vec![Span::NONE; positions.len()];
         for edge in &sharp {
             let chain = chains.root(edge.ends[0]) as usize;
@@ -132,7 +143,7 @@ impl PersistentCreases {
         let (mut vertices, mut borders) = (vec![false; positions.len()], vec![false; positions.len()]);
         for edge in &sharp {
             let chain = chains.root(edge.ends[0]) as usize;
-            let lasts = boxes[chain].diagonal() >= LEAST_REACH * whole.diagonal();
+            let lasts = !may_be_chance[chain] || boxes[chain].diagonal() >= LEAST_REACH * whole.diagonal();
             let is_border = is_border(edge);
             for end in edge.ends {
                 vertices[end as usize] = lasts;

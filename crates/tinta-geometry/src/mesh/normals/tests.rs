@@ -104,6 +104,17 @@ fn chamfers_at_45_degrees_keep_their_own_normals_beside_smoother_corners() {
     assert!(split < 1e-3, "{split}");
 }
 
+#[test]
+fn a_box_on_a_part_keeps_its_edges_however_small_it_is() {
+    // Its corners are 1.7 apart, and those of the plate beside it 141.
+    let (mut positions, mut triangles) = cube();
+    let first = positions.len() as u32;
+    positions.extend([[9.0, 0.0], [109.0, 0.0], [109.0, 100.0], [9.0, 100.0]].map(|[x, y]| DVec3::new(x, y, 0.0)));
+    triangles.extend([[0, 1, 2], [0, 2, 3]].map(|triangle| triangle.map(|corner| corner + first)));
+    let split = farthest(&positions, &triangles, &lasting(&positions, &triangles));
+    assert!(split < 1e-3, "{split}");
+}
+
 /// A square of so many cells a side, each of two triangles, its height at each point.
 fn grid(cells: usize, height: impl Fn(usize, usize) -> f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let (side, at) = (cells + 1, |x: usize, y: usize| (y * (cells + 1) + x) as u32);

@@ -30,7 +30,7 @@ pub struct PictureRecord {
     pub source: String,
 }
 
-/// The largest size of a picture of the page, bytes, unless it is all grain: more than sixty of them stay below six million in
+/// The largest size of a picture of the page, bytes, unless it is all grain: more than fifty of them stay below six million in
 /// base 64.
 const MOST_BYTES: usize = 80_000;
 

@@ -21,7 +21,7 @@ impl Strokes<'_> {
     ///
     /// # Errors
     ///
-    /// Those of [`Progress::go_on_drawing`].
+    /// Those of [`Progress::go_on`].
     pub(super) fn doubled(&self, progress: &Progress) -> Result<Vec<usize>> {
         let widest =
             self.strokes.iter().filter(|stroke| stroke.is_outline).map(|stroke| stroke.width).fold(0.0, f64::max);
@@ -29,10 +29,10 @@ impl Strokes<'_> {
             return Ok(Vec::new());
         }
         let reaches = in_chunks(self.strokes.len(), CHUNK, cores(), |range| {
-            let strokes = range.take_while(|_| progress.go_on_drawing().is_ok());
+            let strokes = range.take_while(|_| !progress.is_over());
             strokes.map(|number| self.reach_if_doubled(number, widest)).collect::<Vec<_>>()
         });
-        progress.go_on_drawing()?;
+        progress.go_on()?;
         let reaches = reaches.concat();
         let mut lines = DisjointSets::new(self.strokes.len());
         for ends in &self.ends {

@@ -5,6 +5,7 @@ use crate::lines::LineSegment;
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::length::Units;
 use crate::lines::drawing::settings::DrawingSettings;
+use crate::lines::drawing::simplify::distance;
 use crate::tolerances::JOINED_PX;
 use glam::DVec2;
 
@@ -51,10 +52,7 @@ impl Stroke {
     }
 
     pub(super) fn distance(&self, point: DVec2) -> f64 {
-        let along = self.ends[1] - self.ends[0];
-        let square = along.length_squared();
-        let share = if square > 0.0 { ((point - self.ends[0]).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
-        point.distance(self.ends[0] + along * share)
+        distance(self.ends, point)
     }
 }
 

@@ -1,0 +1,36 @@
+//! Names of earlier versions, and what took their place.
+
+use crate::choice::Choice;
+use crate::error::ParseError;
+use crate::styles::StyleName;
+
+/// What took the place of the style `suggestive` and of its options.
+const CONTOURS: &str = "--style lines --classes silhouette,boundary,crease,suggestive draws suggestive contours";
+
+/// Options of earlier versions, and what took their place.
+const GONE: [(&str, &str); 6] = [
+    ("crease-by", "--exact-lines draws the lines that print drew by it, with --lasting-creases those of scans"),
+    ("partial", "--within alone writes all lines, or no file if the time is over"),
+    ("remove-specks", "--quality best removes specks, and exact lines have none"),
+    ("valley-depth", CONTOURS),
+    ("valley-radius", CONTOURS),
+    ("valley-share", CONTOURS),
+];
+
+/// Why an option of an earlier version is unknown, and what took its place; `None` for any other name.
+pub(crate) fn gone(option: &str) -> Option<String> {
+    let (_, instead) = GONE.iter().find(|(gone, _)| *gone == option)?;
+    Some(format!("this option is gone; {instead}"))
+}
+
+/// The style of this name, as the option names it.
+///
+/// # Errors
+///
+/// What took the place of a style of earlier versions; otherwise those of [`Choice::of_name`].
+pub(super) fn style_of(name: &str) -> std::result::Result<StyleName, ParseError> {
+    match name {
+        "suggestive" => Err(format!("this style is gone; {CONTOURS}").into()),
+        name => StyleName::of_name(name),
+    }
+}
