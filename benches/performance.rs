@@ -125,7 +125,7 @@ fn race(renderer: &mut Renderer, scene: &Scene, contestants: &[(String, Contesta
         contestant.frame_ms(renderer, scene);
     }
     for round in 0..rounds {
-        let view = turned(scene, round as f64 * 3.0);
+        let view = turned(scene, round as f64 * 10.0);
         for ((_, contestant), series) in contestants.iter().zip(&mut series) {
             series.times.push(contestant.frame_ms(renderer, &view));
         }
@@ -137,7 +137,8 @@ fn rows(series: &[Series]) -> Value {
     series.iter().map(|one| json!({ "name": one.name, "ms": one.times })).collect()
 }
 
-/// Styles in full and pruned: the bust filling the picture, gear and open box on about a quarter of it.
+/// Styles in full and pruned over a turn: the bust filling the picture, gear and open box on about a quarter of it, and the files of
+/// TINTA_MODELS.
 fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
     let fitted = |model: &str| {
         let mesh = Arc::new(load(model, &LoadOptions::default()).expect("a model").mesh);
@@ -153,6 +154,12 @@ fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
         ("the gear, on a quarter of the picture", from_afar("builtin:gear", 1.85)),
         ("the open box, on a quarter of the picture", from_afar("builtin:open-box", 1.85)),
     ];
+    let files = std::env::var_os("TINTA_MODELS").map(std::fs::read_dir).into_iter().flatten().flatten().flatten();
+    let mut files: Vec<String> = files.map(|file| file.path().to_string_lossy().into_owned()).collect();
+    files.retain(|file| file.ends_with(".obj"));
+    files.sort();
+    let scenes: Vec<(&str, Scene)> =
+        scenes.into_iter().chain(files.iter().map(|file| (file.as_str(), fitted(file)))).collect();
     let tables = scenes.iter().map(|(name, scene)| {
         let view = turned(scene, 0.0);
         let extent = view.extent_px(view.objects.iter(), view.size).map_or(0, |extent| extent.pixel_count());

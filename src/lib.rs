@@ -111,7 +111,9 @@
 #[cfg(feature = "window")]
 use tinta_geometry::threads;
 use tinta_geometry::{bytes, clock, files, markup, values};
-pub use tinta_geometry::{camera, choice, culling, doubled, edges, error, limits, lines, scene, settings, tolerances};
+pub use tinta_geometry::{
+    camera, choice, culling, doubled, edges, error, hidden_faces, limits, lines, scene, settings, tolerances,
+};
 
 pub mod random;
 pub mod output;

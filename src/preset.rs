@@ -35,9 +35,6 @@ use toml::de::{DeArray, DeTable, DeValue};
 /// The longest preset read, bytes: some hundred times the size of all options.
 pub const LARGEST_BYTES: u64 = 64 << 10;
 
-/// Rules that `keep` of earlier versions named; the picture is the same without them.
-const FORMER_RULES: [&str; 1] = ["hidden-faces"];
-
 /// How the names of presets that ship begin.
 pub const PREFIX: &str = "paper:";
 
@@ -127,7 +124,6 @@ impl Preset {
             preset.lines.insert(key.clone(), line_of(start));
             preset.options.insert(key, value);
         }
-        forget_former_rules(&mut preset.options);
         Ok(preset)
     }
 
@@ -155,18 +151,8 @@ impl Preset {
 }
 
 /// The names of all presets that ship, with commas between.
-pub fn shipped_names() -> String {
+fn shipped_names() -> String {
     SHIPPED.map(|(name, _)| name).join(", ")
-}
-
-/// Removes the rules of earlier versions from `keep` in options that a file holds.
-pub(crate) fn forget_former_rules(options: &mut Options) {
-    let Some(OptionValue::Text(keep)) = options.get_mut("keep") else { return };
-    let rules: Vec<&str> = keep.split(',').filter(|rule| !FORMER_RULES.contains(&rule.trim())).collect();
-    match rules[..] {
-        [] => drop(options.remove("keep")),
-        _ => *keep = rules.join(","),
-    }
 }
 
 /// A preset's text: a line for each option, the style first, with `comment` above them.

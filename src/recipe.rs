@@ -24,7 +24,6 @@ use crate::files::{Failure, shown};
 use crate::gl::ContextInfo;
 use crate::markup::{RECIPE_BEGIN, RECIPE_END};
 use crate::picture::{Note, png_text};
-use crate::preset::forget_former_rules;
 use crate::scene::Scene;
 use crate::settings::{OptionValue, Options};
 use crate::shell;
@@ -240,10 +239,9 @@ impl Recipe {
         if json.len() > LARGEST_BYTES {
             return Err(format!("its recipe is longer than {LARGEST_BYTES} bytes, the limit for one"));
         }
-        let mut recipe: Self = serde_json::from_str(&json).map_err(|error| {
+        let recipe: Self = serde_json::from_str(&json).map_err(|error| {
             format!("its recipe cannot be understood ({}); draw it again with tinta render", shown(&error.to_string()))
         })?;
-        forget_former_rules(&mut recipe.options);
         Ok(recipe)
     }
 

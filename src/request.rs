@@ -473,7 +473,7 @@ impl Request {
 }
 
 /// The options that name a file to read.
-pub fn file_options() -> Vec<&'static str> {
+fn file_options() -> Vec<&'static str> {
     let settings = Request::table().of(None).into_iter();
     settings.filter(|setting| setting.kind == Kind::File).map(|setting| setting.name).collect()
 }

@@ -84,6 +84,7 @@ impl Rule {
             Self::Border => dead::border(plan),
             Self::OutsideObjects => objects::outside(plan, situation),
             Self::CulledFaces => objects::culled_faces(plan, situation),
+            Self::HiddenFaces => objects::hidden_faces(plan, situation),
             Self::UnusedLight => shaders::unused_light(plan),
             Self::BackgroundSquare => background::square(plan),
             Self::EmptyPixels => background::empty_pixels(plan, situation),

@@ -138,6 +138,18 @@ fn faces_are_left_out_before_the_driver_culls_them_only_where_it_culls() {
 }
 
 #[test]
+fn faces_that_nobody_can_see_are_left_out_but_for_devices_and_draws_that_cull() {
+    let scene = || scene("builtin:sphere", 256, 256);
+    let plain = cartoon(|_| {});
+    assert!(applies(Rule::HiddenFaces, &scene(), &plain));
+    assert!(applies(Rule::HiddenFaces, &scene(), &Style::named(StyleName::Inking)));
+    assert!(!applies(Rule::HiddenFaces, &scene(), &cartoon(|cartoon| cartoon.cull_back_faces = true)));
+    let plan = plain.plan(&scene(), Show::Final).unwrap();
+    let kept = prune(&plan, &scene(), &Pruning { is_software: false, ..every_rule() }).kept;
+    assert!(kept.iter().any(|one| one.rule == Rule::HiddenFaces && one.reason.contains("device")));
+}
+
+#[test]
 fn light_is_left_out_where_no_tone_depends_on_it() {
     let scene = scene("builtin:bust", 64, 64);
     let shaders = |style: &Style| {

@@ -122,30 +122,6 @@ fn a_recipe_says_what_was_drawn_with_which_files_by_whom() {
 }
 
 #[test]
-fn files_of_earlier_versions_may_keep_a_rule_that_is_gone_and_a_command_line_may_not() {
-    let folder = Folder::new();
-    let [first, second, third] = ["first.png", "second.png", "third.png"].map(|name| folder.path(name));
-    let render = |out: &str, options: &[&str]| {
-        done(&[&["render", "builtin:gear", "-o", out, "--size", "32", "--style", "phong"], options].concat());
-    };
-    render(&first, &["--keep", "border"]);
-    let pixels = |path: &str| Picture::read_png(Path::new(path)).unwrap();
-    for (keep, left) in [("hidden-faces", None), ("border,hidden-faces", Some("border"))] {
-        with_recipe(&first, |recipe| drop(recipe.options.insert("keep".to_owned(), OptionValue::text(keep))));
-        assert_eq!(again(&first, &second, &[]).0, Some(0), "{keep}");
-        assert_eq!(read(&second).options.get("keep").cloned(), left.map(OptionValue::text));
-        let preset = folder.file("old.toml", format!("keep = \"{keep}\"\n").as_bytes());
-        render(&third, &["--preset", &preset]);
-        assert_eq!(read(&third).options.get("keep").cloned(), left.map(OptionValue::text));
-        assert!(pixels(&first) == pixels(&second) && pixels(&first) == pixels(&third));
-    }
-    refused_in_one_line(
-        &["render", "builtin:gear", "-o", &third, "--keep", "hidden-faces"],
-        &["--keep", "hidden-faces", "choose"],
-    );
-}
-
-#[test]
 fn without_a_recipe_no_name_is_told_and_nothing_can_be_made_again() {
     let folder = Folder::new();
     let model = textured(&folder);

@@ -17,10 +17,10 @@
 //! ```
 
 use crate::mesh::{Part, VertexArrays};
-use crate::threads::{filled, threads_for};
+use crate::threads::{filled, threads_for, threads_for_items};
 use crate::tolerances::{CLIP_ROUNDING, SUBPIXEL_STEPS};
 use crate::values::Size;
-use glam::{Mat4, Vec2, Vec3};
+use glam::{Mat4, Vec2, Vec3, Vec3Swizzles, Vec4Swizzles};
 
 /// The faces that a view needs.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,12 +45,10 @@ pub fn faces_not_culled(
 ) -> Option<DrawnFaces> {
     let half = Vec2::new(surface.width as f32, surface.height as f32) * 0.5;
     let places = window_places(arrays, clip_from_object, half);
-    // How far GL may have moved a vertex: its sub-pixels, and what f32 makes of a coordinate.
-    let moved =
-        SUBPIXEL_STEPS as f32 * 0.5f32.powi(subpixel_bits.min(24) as i32) + CLIP_ROUNDING as f32 * half.max_element();
+    let moved = moved(subpixel_bits, half);
     let count = arrays.indices.len() / 3;
     let is_culled = filled(count, threads_for(count), false, |face| {
-        let [a, b, c] = [0, 1, 2].map(|corner| places[arrays.indices[face * 3 + corner] as usize]);
+        let [a, b, c] = [0, 1, 2].map(|corner| places[arrays.indices[face * 3 + corner] as usize].xy());
         // More than a picture's width outside, each driver cuts faces off at different places.
         let farthest =
             [a, b, c].map(|place| ((place - half) / half).abs().max_element()).into_iter().fold(0.0, f32::max);
@@ -63,19 +61,26 @@ pub fn faces_not_culled(
     (left_out > 0).then(|| without(arrays, &is_culled, left_out))
 }
 
-/// Returns the vertices' places in the window, pixels; NaN for a vertex that the near or far plane may cut off.
-fn window_places(arrays: &VertexArrays, clip_from_object: Mat4, half: Vec2) -> Vec<Vec2> {
-    let threads = threads_for(arrays.vertices.len());
-    filled(arrays.vertices.len(), threads, Vec2::ZERO, |vertex| {
+/// How far GL may have moved a vertex, pixels: its sub-pixels, and what f32 makes of a coordinate.
+pub(crate) fn moved(subpixel_bits: u32, half: Vec2) -> f32 {
+    SUBPIXEL_STEPS as f32 * 0.5f32.powi(subpixel_bits.min(24) as i32) + CLIP_ROUNDING as f32 * half.max_element()
+}
+
+/// Returns the vertices' places in the window, pixels, and their depths from 0 to 1; NaN for a vertex that the near or far plane may
+/// cut off.
+pub(crate) fn window_places(arrays: &VertexArrays, clip_from_object: Mat4, half: Vec2) -> Vec<Vec3> {
+    let threads = threads_for_items(arrays.vertices.len());
+    filled(arrays.vertices.len(), threads, Vec3::ZERO, |vertex| {
         let [x, y, z, ..] = arrays.vertices[vertex];
         let clip = clip_from_object * Vec3::new(x, y, z).extend(1.0);
         let is_between = clip.w > 0.0 && clip.z > -clip.w && clip.z < clip.w;
-        if is_between { Vec2::new(clip.x, clip.y) / clip.w * half + half } else { Vec2::NAN }
+        let place = clip.xyz() / clip.w;
+        if is_between { (place.xy() * half + half).extend(place.z * 0.5 + 0.5) } else { Vec3::NAN }
     })
 }
 
 /// The arrays' faces in their order, without those marked.
-fn without(arrays: &VertexArrays, is_culled: &[bool], left_out: usize) -> DrawnFaces {
+pub(crate) fn without(arrays: &VertexArrays, is_culled: &[bool], left_out: usize) -> DrawnFaces {
     let mut indices = Vec::with_capacity(arrays.indices.len() - left_out * 3);
     let mut parts = Vec::with_capacity(arrays.parts.len());
     for part in &arrays.parts {

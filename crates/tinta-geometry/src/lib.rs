@@ -58,6 +58,7 @@ mod bvh;
 pub mod culling;
 pub mod doubled;
 pub mod scene;
+pub mod hidden_faces;
 pub mod lines;
 
 pub use camera::{Camera, CameraSettings, View};

@@ -39,6 +39,7 @@ use crate::mesh::{Material, Mesh, VertexArrays, bounds};
 use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
 use crate::tolerances::SCENE_RADIUS;
 use glam::{DMat4, DVec3, Mat4, Vec3};
+use std::sync::atomic::AtomicU32;
 use std::sync::{Arc, LazyLock, OnceLock, Weak};
 
 /// A mesh in its place.
@@ -91,6 +92,8 @@ pub struct Scene {
     /// The direction towards the far light of tones that was chosen for this scene, in the eye's space, of any length. Copies in other
     /// views share it, so a light that was chosen once does not move.
     pub tone_light: Arc<OnceLock<[f32; 3]>>,
+    /// For how many views the search for hidden faces rests, because it found few. Copies in other views share it.
+    pub hidden_faces_rest: Arc<AtomicU32>,
 }
 
 crate::choices! {
@@ -273,7 +276,8 @@ impl Scene {
     pub fn seen_with(&self, settings: &SceneSettings) -> Result<Self> {
         check_size(settings.size)?;
         let seen = Self::seen(self.objects.clone(), self.centre, self.radius, settings)?;
-        Ok(Self { tone_light: self.tone_light.clone(), ..seen })
+        let (tone_light, hidden_faces_rest) = (self.tone_light.clone(), self.hidden_faces_rest.clone());
+        Ok(Self { tone_light, hidden_faces_rest, ..seen })
     }
 
     /// Returns the scene with a camera that is fitted to the objects and to their shadow on the ground, by a light in this direction,
@@ -318,6 +322,7 @@ impl Scene {
             recolor: settings.color.is_some(),
             surface: settings.surface,
             tone_light: Arc::default(),
+            hidden_faces_rest: Arc::default(),
         };
         scene.check_distance()?;
         Ok(scene)

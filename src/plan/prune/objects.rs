@@ -3,8 +3,9 @@
 use super::ground::stays_in_objects;
 use super::rule::{Omission, Rule, Situation, counted};
 use crate::culling::{DrawnFaces, faces_not_culled};
-use crate::plan::{Draw, EdgeRun, FaceList, Faces, Geometry, Plan, Step};
-use crate::scene::{Object, Scene};
+use crate::hidden_faces::faces_not_hidden;
+use crate::plan::{Blend, Depth, Draw, EdgeRun, FaceList, Faces, Geometry, Plan, Step};
+use crate::scene::Scene;
 use std::sync::Arc;
 
 /// Leaves out objects outside the picture, with their edges.
@@ -71,7 +72,8 @@ pub(super) fn culled_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
     if !pruning.is_software {
         return Err("the device culls faster than they are found here".to_owned());
     }
-    let lists = |object: &Object| {
+    let lists = |number: usize| {
+        let object = &scene.objects[number];
         let arrays = scene.arrays(object);
         let clip_from_object = scene.clip_from_view() * scene.view_from_object(object, arrays.centre);
         faces_not_culled(arrays, clip_from_object, surface, pruning.subpixel_bits)
@@ -90,6 +92,45 @@ pub(super) fn culled_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
     })
 }
 
+/// Leaves out faces outside the picture, and those behind a layer of others that has no end there.
+pub(super) fn hidden_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
+    let Situation { scene, surface, pruning, .. } = *situation;
+    let hides = |draw: &Draw| {
+        draw.is_of_objects()
+            && draw.keeps_places()
+            && draw.keeps_pixels()
+            && draw.depth == Depth::TestAndWrite
+            && draw.blend == Blend::Replace
+            && !draw.cull_back_faces
+    };
+    if !plan.draws().any(hides) {
+        return Err("no draw of objects tests and writes depth, and nothing else".to_owned());
+    }
+    if !pruning.is_software {
+        return Err("the device draws them faster than they are found here".to_owned());
+    }
+    let mut offsets: Vec<Option<[f32; 2]>> =
+        plan.draws().filter(|draw| hides(draw)).map(|draw| draw.polygon_offset).collect();
+    offsets.dedup();
+    let mut left_out = 0;
+    for offset in offsets {
+        let is_meant = |draw: &Draw| hides(draw) && draw.polygon_offset == offset;
+        let draws = plan.draws().filter(|draw| is_meant(draw)).count();
+        let found = faces_not_hidden(scene, surface, pruning.subpixel_bits, offset.unwrap_or_default(), draws);
+        let Some(lists) = found else { break };
+        left_out = left_out.max(choose(plan, scene, is_meant, |number| lists[number].clone()));
+    }
+    if left_out == 0 {
+        return Err("no face is surely hidden, or an earlier view saved less than its search cost".to_owned());
+    }
+    Ok(Omission {
+        rule: Rule::HiddenFaces,
+        what: format!("{left_out} of {} faces", scene.triangle_count()),
+        reason: "none of their pixels would be seen".to_owned(),
+        facts: vec!["a layer of faces without an end there lies before them in every cell of the picture".to_owned()],
+    })
+}
+
 /// The faces of each object that a draw draws.
 type Selection = Arc<Vec<Faces>>;
 
@@ -98,20 +139,17 @@ fn choose(
     plan: &mut Plan,
     scene: &Scene,
     is_meant: impl Fn(&Draw) -> bool,
-    list: impl Fn(&Object) -> Option<DrawnFaces>,
+    list: impl Fn(usize) -> Option<DrawnFaces>,
 ) -> usize {
     let is_whole = |draw: &Draw, number: usize| match &draw.faces {
         None => true,
         Some(faces) => faces.get(number) == Some(&Faces::All),
     };
     let mut left_out = 0;
-    let lists: Vec<Option<Faces>> = scene
-        .objects
-        .iter()
-        .enumerate()
-        .map(|(number, object)| {
+    let lists: Vec<Option<Faces>> = (0..scene.objects.len())
+        .map(|number| {
             let is_needed = plan.draws().any(|draw| draw.is_of_objects() && is_meant(draw) && is_whole(draw, number));
-            let DrawnFaces { indices, parts, left_out: count } = is_needed.then(|| list(object)).flatten()?;
+            let DrawnFaces { indices, parts, left_out: count } = is_needed.then(|| list(number)).flatten()?;
             left_out += count;
             Some(Faces::Listed(Arc::new(FaceList { indices, parts })))
         })

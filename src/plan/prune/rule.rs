@@ -16,6 +16,8 @@ tinta_geometry::choices! {
         OutsideObjects = "outside-objects",
         /// Faces that the driver would cull anyway.
         CulledFaces = "culled-faces",
+        /// Faces outside the picture, and behind a layer of others that has no end there.
+        HiddenFaces = "hidden-faces",
         /// Light that no tone depends on: highlights below three tones, all light with one.
         UnusedLight = "unused-light",
         /// The background square, if a clear does the same.
