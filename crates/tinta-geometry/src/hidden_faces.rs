@@ -49,8 +49,8 @@ const MOST_CELLS: usize = 24;
 
 /// How long a driver on the processor takes to draw a face, and the search to look at one on one thread, nanoseconds: measured on
 /// llvmpipe, two cores.
-const DRAWING_NS: usize = 150;
-const SEARCHING_NS: usize = 90;
+const DRAWING_NS: f64 = 150.0;
+const SEARCHING_NS: f64 = 90.0;
 
 /// For how many views the search rests if it cost more than it saved.
 const REST: u32 = 31;
@@ -77,7 +77,7 @@ pub fn faces_not_hidden(
     let lists = View::of(scene, surface, subpixel_bits, polygon_offset).lists(scene);
     let left_out: usize = lists.iter().flatten().map(|list| list.left_out).sum();
     let all = scene.triangle_count();
-    if left_out * draws * DRAWING_NS < all * SEARCHING_NS / threads(all) {
+    if (left_out * draws) as f64 * DRAWING_NS < all as f64 * SEARCHING_NS / threads(all) as f64 {
         rest.store(REST, Relaxed);
     }
     Some(lists)
