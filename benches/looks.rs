@@ -61,11 +61,11 @@ fn main() {
     // The first round warms the caches of files and is not counted.
     for round in 0..=settings.rounds {
         for ((name, command), series) in contestants.iter().zip(&mut series) {
-            let _ = std::fs::remove_file(&picture);
+            let _ = std::fs::remove_file(&command.output);
             let start = Instant::now();
             let status = run(command);
             let ms = milliseconds_since(start);
-            assert!(status && picture.is_file(), "{name} has drawn nothing");
+            assert!(status && command.output.is_file(), "{name} has drawn nothing");
             if round > 0 {
                 series.times.push(ms);
             }
@@ -77,9 +77,10 @@ fn main() {
     write_record("looks", &json!({ "model": settings.model, "size": size, "contestants": rows }));
 }
 
-/// The words of a command and the display it draws into.
+/// The words of a command, the file it writes, and the display it draws into.
 struct Words {
     words: Vec<String>,
+    output: PathBuf,
     display: Option<String>,
 }
 
@@ -93,19 +94,26 @@ fn run(command: &Words) -> bool {
 }
 
 fn contestants(settings: &Settings, picture: &Path, display: Option<&Display>) -> Vec<(&'static str, Words)> {
-    let (model, picture) = (settings.model.display().to_string(), picture.display().to_string());
+    let (model, output) = (settings.model.display().to_string(), picture);
+    let picture = output.display().to_string();
     let Size { width, height } = settings.size;
-    let tinta = |look: &str| {
-        let size = settings.size.to_string();
-        let words = [env!("CARGO_BIN_EXE_tinta"), "render", &model, "-o", &picture, "--look", look, "--size", &size];
-        Words { words: words.map(str::to_owned).to_vec(), display: None }
+    let tinta = |look: &str, kind: &str| {
+        let (size, output) = (settings.size.to_string(), output.with_extension(kind));
+        let file = output.display().to_string();
+        let words = [env!("CARGO_BIN_EXE_tinta"), "render", &model, "-o", &file, "--look", look, "--size", &size];
+        Words { words: words.map(str::to_owned).to_vec(), output, display: None }
     };
-    let mut all = vec![("tinta --look print", tinta("print")), ("tinta --look published", tinta("published"))];
+    let mut all = vec![
+        ("tinta --look print", tinta("print", "png")),
+        ("tinta --look print, SVG", tinta("print", "svg")),
+        ("tinta --look published", tinta("published", "png")),
+    ];
     let Some(display) = display else {
         println!("SKIPPED f3d and PyVista: they need the package xvfb");
         return all;
     };
-    let with_display = |words: Vec<String>| Words { words, display: Some(display.name.clone()) };
+    let with_display =
+        |words: Vec<String>| Words { words, output: output.to_owned(), display: Some(display.name.clone()) };
     let f3d = ["f3d", &model, &format!("--output={picture}"), &format!("--resolution={width},{height}")];
     let f3d = with_display(f3d.map(str::to_owned).to_vec());
     match run(&f3d) {

@@ -117,8 +117,8 @@ pub(super) fn hidden_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
         let is_meant = |draw: &Draw| hides(draw) && draw.polygon_offset == offset;
         let draws = plan.draws().filter(|draw| is_meant(draw)).count();
         let found = faces_not_hidden(scene, surface, pruning.subpixel_bits, offset.unwrap_or_default(), draws);
-        let Some(lists) = found else { break };
-        left_out = left_out.max(choose(plan, scene, is_meant, |number| lists[number].clone()));
+        let Some(mut lists) = found else { break };
+        left_out = left_out.max(choose(plan, scene, is_meant, |number| lists[number].take()));
     }
     if left_out == 0 {
         return Err("no face is surely hidden, or an earlier view saved less than its search cost".to_owned());
@@ -139,7 +139,7 @@ fn choose(
     plan: &mut Plan,
     scene: &Scene,
     is_meant: impl Fn(&Draw) -> bool,
-    list: impl Fn(usize) -> Option<DrawnFaces>,
+    mut list: impl FnMut(usize) -> Option<DrawnFaces>,
 ) -> usize {
     let is_whole = |draw: &Draw, number: usize| match &draw.faces {
         None => true,

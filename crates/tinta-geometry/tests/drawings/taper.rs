@@ -5,7 +5,7 @@ use crate::support::lines::{lines_with, scene_of, view};
 use crate::support::{builtin, public_meshes};
 use glam::DVec2;
 use tinta::edges::Class::{Boundary, Crease, Curve, Silhouette};
-use tinta::lines::{DrawnLayer, LineSegment, LineSettings, drawn_layers, dxf, strokes, svg};
+use tinta::lines::{LineSegment, LineSettings, Strokes, drawn_layers, dxf, strokes, svg};
 use tinta::{DrawingSettings, VisibleLines};
 
 /// Lines are 2 pixels wide, so a tip is 24 pixels long.
@@ -13,8 +13,8 @@ fn tapering() -> DrawingSettings {
     DrawingSettings { tapers: true, min_length: Some("0".parse().unwrap()), ..DrawingSettings::default() }
 }
 
-fn layers(segments: &[LineSegment]) -> Vec<DrawnLayer> {
-    drawn_layers(&lines(segments.to_vec()), &tapering()).unwrap()
+fn layers(segments: &[LineSegment]) -> Vec<Strokes> {
+    strokes(&lines(segments.to_vec()), &tapering()).unwrap()
 }
 
 /// The last points of all tips, in order.
@@ -62,10 +62,10 @@ fn a_tip_continues_its_line_and_is_at_most_a_third_of_it() {
     for (length, expected) in [(75.0, 24.0), (30.0, 10.0)] {
         let all = layers(&[segment(Crease, true, [10.0, 50.0], [10.0 + length, 50.0])]);
         let [layer] = &all[..] else { panic!("one layer") };
-        assert_eq!((layer.paths[0].points_px.len(), layer.paths[0].segments.len(), layer.tips.len()), (2, 1, 2));
+        assert_eq!((layer.polylines[0].points_px.len(), layer.tips.len()), (2, 2));
         for tip in &layer.tips {
             assert!((tip[0].distance(tip[1]) - expected).abs() < 1e-9);
-            assert!(layer.paths[0].points_px.contains(&tip[0]));
+            assert!(layer.polylines[0].points_px.contains(&tip[0]));
         }
     }
 }
@@ -95,7 +95,7 @@ fn over_models_tips_are_as_long_as_what_their_lines_lost() {
 }
 
 #[test]
-fn a_pen_provenance_and_dxf_keep_whole_lines() {
+fn a_pen_provenance_dxf_and_plain_values_keep_whole_lines() {
     let lines = lines(vec![segment(Crease, true, [20.0, 50.0], [80.0, 50.0])]);
     let tips = |settings: &DrawingSettings| svg(&lines, settings).unwrap().matches("stroke=\"none\"").count();
     assert_eq!(tips(&tapering()), 1);
@@ -103,4 +103,5 @@ fn a_pen_provenance_and_dxf_keep_whole_lines() {
     assert_eq!(tips(&DrawingSettings { has_provenance: true, ..tapering() }), 0);
     let whole = DrawingSettings { tapers: false, ..tapering() };
     assert_eq!(dxf(&lines, &tapering()).unwrap(), dxf(&lines, &whole).unwrap());
+    assert_eq!(drawn_layers(&lines, &tapering()).unwrap(), drawn_layers(&lines, &whole).unwrap());
 }

@@ -357,14 +357,11 @@ impl Drawing {
         let picture = renderer.draw(scene, &plan)?;
         renderer.time_frames(scene, &plan, WARM_UP, 1)?;
         // As in a moving view: silhouettes and light are computed in every frame.
-        let mut frame = || -> Result<f64> {
-            let start = Instant::now();
+        let frame_ms = timed(frames, || {
             let plan = style.plan(scene, Show::Final)?;
-            renderer.time_frames(scene, &plan, 0, 1)?;
-            Ok(milliseconds_since(start))
-        };
-        let times: Result<Vec<f64>> = (0..frames).map(|_| frame()).collect();
-        let record = DrawingRecord { style: style.clone(), plan_ms, frame_ms: Summary::new(times?) };
+            renderer.time_frames(scene, &plan, 0, 1).map(drop)
+        })?;
+        let record = DrawingRecord { style: style.clone(), plan_ms, frame_ms };
         Ok(Self { picture, ink, record })
     }
 
@@ -378,15 +375,19 @@ impl Drawing {
             None => side.picture_of(scene, renderer),
         };
         let first = picture()?;
-        let mut frame = || -> Result<f64> {
-            let start = Instant::now();
-            picture()?;
-            Ok(milliseconds_since(start))
-        };
-        let times: Result<Vec<f64>> = (0..frames).map(|_| frame()).collect();
-        let record = DrawingRecord { style: side.style.clone(), plan_ms, frame_ms: Summary::new(times?) };
+        let frame_ms = timed(frames, || picture().map(drop))?;
+        let record = DrawingRecord { style: side.style.clone(), plan_ms, frame_ms };
         Ok(Self { picture: first, ink: InkMask::of(&lines), record })
     }
+}
+
+/// The milliseconds of so many frames.
+fn timed(frames: u32, mut frame: impl FnMut() -> Result<()>) -> Result<Summary> {
+    let mut time = || {
+        let start = Instant::now();
+        frame().map(|()| milliseconds_since(start))
+    };
+    (0..frames).map(|_| time()).collect::<Result<Vec<f64>>>().map(Summary::new)
 }
 
 /// The exact lines alone.

@@ -62,17 +62,18 @@ pub struct DrawnLayer {
     /// Its paths, without their tips.
     pub paths: Vec<LinePath>,
     /// The middle lines of tapered ends, pixels, from the line's full width to the point.
-    pub tips: Vec<Vec<DVec2>>,
+    pub(in crate::lines) tips: Vec<Vec<DVec2>>,
 }
 
 /// Returns the drawing that an SVG file of these lines holds, as plain values: layers from lowest to highest, without
-/// spurs and specks.
+/// spurs and specks. Lines are whole, not tapered.
 ///
 /// # Errors
 ///
 /// Those of [`crate::lines::svg()`].
 pub fn drawn_layers(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<DrawnLayer>> {
     let lines = lines.without_specks(settings)?;
+    let settings = &DrawingSettings { tapers: false, ..settings.clone() };
     let mut layers = Drawing::new(&lines, chain(&lines.segments), None, settings)?.layers;
     for path in layers.iter_mut().flat_map(|layer| &mut layer.paths) {
         path.points_px = settings.points_of(path);

@@ -1,6 +1,6 @@
 //! Creases that last: chains of edges at which faces differ by more than the smoothing angle and that continue for some length, or on
-//! a part close. On scans and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks. Around a
-//! flat face of a part a smaller angle is enough, because chamfers of nuts and shafts have 30 degrees.
+//! a part close. On scans and on models of few triangles single edges are as sharp by chance, and to split normals there makes specks.
+//! Around a flat face of a part a smaller angle is enough, because chamfers of nuts and shafts have 30 degrees.
 //!
 //! In: welded triangles and the angle's cosine. Out: the vertices where normals may be split, and for each triangle the area of the
 //! flat face it is part of. By it a face counts more than the chamfer beside it, which so bends from face to face and leaves them
