@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 use crate::gl::context::{Context, Current};
 use crate::gl::execute::Resources;
-use crate::limits::{DRAWN_AT_ONCE_PIXELS, DRAWN_PIXELS, TILE_SIDE_PX};
+use crate::limits::{DRAWN_AT_ONCE_PIXELS, TILE_SIDE_PX};
 use crate::picture::Picture;
 use crate::plan::{Format, Output, Pass, Plan, Step, Target, Tile, TileLimits};
 use crate::scene::{Rectangle, Scene, Size};
@@ -94,10 +94,6 @@ impl Drawer {
     ) -> Result<T> {
         scene.check_precision()?;
         let whole = scene.size.times(plan.supersample);
-        if scene.size.pixel_count() > DRAWN_PIXELS {
-            let problem = format!("the largest picture has {DRAWN_PIXELS} pixels; ask for a smaller one");
-            return Err(Error::value("size", scene.size, problem));
-        }
         let tiles = self.tiles(plan, whole).ok_or_else(|| self.refusal(scene, plan))?;
         let longest = |side: fn(&Tile) -> u32| tiles.iter().map(side).max().unwrap_or(1);
         let surface = Size { width: longest(|tile| tile.drawn.width), height: longest(|tile| tile.drawn.height) };

@@ -4,6 +4,7 @@ use crate::program::{answer, done, refused_in_one_line, tinta};
 use crate::support::{Folder, skip};
 use std::path::Path;
 use std::process::Command;
+use tinta::StyleName;
 
 #[test]
 fn a_picture_is_written_and_nothing_is_said() {
@@ -90,7 +91,18 @@ fn nonsensical_settings_are_refused_by_name() {
         refused_in_one_line(&arguments, words);
     };
     render(&["--size", "0x10"], &["--size"]);
-    render(&["--size", "100000x100000"], &["--size 100000x100000", "the largest picture"]);
+    // Before anything is made for its pixels: any style, any file.
+    for (style, _) in StyleName::ALL {
+        render(&["--size", "40000000", "--style", style], &["--size 40000000x40000000", "the largest picture"]);
+    }
+    for (file, look) in [("a.svg", "print"), ("a.pdf", "technical"), ("a.dxf", "technical"), ("a.png", "print")] {
+        let out = folder.path(file);
+        let words = ["--size 40000000x40000000", "the largest picture"];
+        refused_in_one_line(
+            &["render", "builtin:open-box", "-o", &out, "--look", look, "--size", "40000000"],
+            &words,
+        );
+    }
     render(&["--eye", "1,2,3", "--target", "1,2,3"], &["--eye and --target", "same point"]);
     render(&["--up", "0,0,0"], &["--up"]);
     render(&["--eye", "0,0,9", "--target", "0,0,0", "--up", "0,0,1"], &["--up", "along the view"]);

@@ -35,6 +35,7 @@ use crate::camera::{Camera, CameraSettings, Projection};
 use crate::curvature::{Curvatures, KeptCurvatures};
 use crate::edges::{CreaseAngle, Eye, MeshEdges, SilhouetteRule};
 use crate::error::{Error, Result};
+use crate::limits::DRAWN_PIXELS;
 use crate::mesh::{Material, Mesh, VertexArrays, bounds};
 use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
 use crate::tolerances::SCENE_RADIUS;
@@ -231,8 +232,8 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for a scene that cannot be drawn: no mesh, no copy, a size of 0, an impossible camera,
-    /// planes too far apart for depth to order faces, or coordinates beyond [`SCENE_RADIUS`].
+    /// [`Error::Setting`] for a scene that cannot be drawn: no mesh, no copy, no pixel or too many, an impossible
+    /// camera, planes too far apart for depth to order faces, or coordinates beyond [`SCENE_RADIUS`].
     pub fn new(meshes: impl IntoIterator<Item: Into<Arc<Mesh>>>, settings: &SceneSettings) -> Result<Self> {
         let meshes: Vec<Arc<Mesh>> = meshes.into_iter().map(Into::into).collect();
         if meshes.is_empty() || !(1..=LARGEST_COPIES).contains(&settings.copies) {
@@ -517,7 +518,11 @@ impl Object {
 fn check_size(size: Size) -> Result<()> {
     match size.pixel_count() {
         0 => Err(Error::value("size", size, "a picture has at least one pixel")),
-        _ => Ok(()),
+        ..=DRAWN_PIXELS => Ok(()),
+        _ => {
+            let problem = format!("the largest picture has {DRAWN_PIXELS} pixels; ask for a smaller one");
+            Err(Error::value("size", size, problem))
+        }
     }
 }
 

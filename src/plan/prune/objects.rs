@@ -4,6 +4,7 @@ use super::ground::stays_in_objects;
 use super::rule::{Omission, Rule, Situation, counted};
 use crate::culling::{DrawnFaces, faces_not_culled};
 use crate::hidden_faces::faces_not_hidden;
+use crate::limits::DRAWN_AT_ONCE_PIXELS;
 use crate::plan::{Blend, Depth, Draw, EdgeRun, FaceList, Faces, Geometry, Plan, Step};
 use crate::scene::Scene;
 use std::sync::Arc;
@@ -108,6 +109,9 @@ pub(super) fn hidden_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
     }
     if !pruning.is_software {
         return Err("the device draws them faster than they are found here".to_owned());
+    }
+    if surface.pixel_count() > DRAWN_AT_ONCE_PIXELS {
+        return Err("so large a picture is drawn in tiles".to_owned());
     }
     let mut offsets: Vec<Option<[f32; 2]>> =
         plan.draws().filter(|draw| hides(draw)).map(|draw| draw.polygon_offset).collect();
