@@ -10,16 +10,18 @@ mod report;
 #[path = "report/sphere.rs"]
 mod sphere;
 
-use glam::DVec3;
+use glam::{DVec3, Vec2, Vec3};
 use growth::{Curve, plot};
 use report::{Series, print_table, write_record};
 use serde_json::{Value, json};
 use sphere::bumpy_sphere;
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
-use tinta::plan::prune::prune;
-use tinta::plan::{Draw, Geometry, Paint, Pass, Plan, Step};
+use tinta::mesh::Part;
+use tinta::plan::prune::{Rule, prune};
+use tinta::plan::{Depth, Draw, FaceList, Faces, Geometry, Paint, Pass, Plan, Step};
 use tinta::renderer::milliseconds_since;
 use tinta::styles::{Cartoon, Mrt};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, load};
@@ -80,6 +82,9 @@ enum Contestant {
     Full(Style),
     /// The same, pruned for each view.
     Pruned(Style),
+    /// The same by all other rules, and only faces that own a pixel, which are found before the time starts: what leaving out
+    /// hidden faces can reach.
+    Ceiling(Style),
     /// A plan of single steps.
     Limit(Plan),
 }
@@ -87,9 +92,13 @@ enum Contestant {
 impl Contestant {
     /// The milliseconds of one frame, its plan included.
     fn frame_ms(&self, renderer: &mut Renderer, scene: &Scene) -> f64 {
-        let pruning = renderer.pruning();
+        let mut pruning = renderer.pruning();
+        let owners = matches!(self, Self::Ceiling(_)).then(|| owners(scene));
+        if owners.is_some() {
+            pruning.keep.push(Rule::HiddenFaces);
+        }
         let start = Instant::now();
-        let made;
+        let mut made;
         let plan = match self {
             Self::Full(style) => {
                 made = style.plan(scene, Show::Final).expect("a plan");
@@ -99,11 +108,64 @@ impl Contestant {
                 made = prune(&style.plan(scene, Show::Final).expect("a plan"), scene, &pruning).plan;
                 &made
             }
+            Self::Ceiling(style) => {
+                made = prune(&style.plan(scene, Show::Final).expect("a plan"), scene, &pruning).plan;
+                let steps = made.passes.iter_mut().flat_map(|pass| &mut pass.steps);
+                for draw in steps.filter_map(|step| if let Step::Draw(draw) = step { Some(draw) } else { None }) {
+                    if matches!(draw.geometry, Geometry::Objects(_)) && draw.depth == Depth::TestAndWrite {
+                        draw.faces.clone_from(&owners);
+                    }
+                }
+                &made
+            }
             Self::Limit(plan) => plan,
         };
         renderer.time_frames(scene, plan, 0, 1).expect("a frame");
         milliseconds_since(start)
     }
+}
+
+/// The faces of a scene's one object that are nearest at a pixel's centre.
+fn owners(scene: &Scene) -> Arc<Vec<Faces>> {
+    let (object, size) = (&scene.objects[0], scene.size);
+    let arrays = scene.arrays(object);
+    let clip_from_object = scene.clip_from_view() * scene.view_from_object(object, arrays.centre);
+    let half = Vec2::new(size.width as f32, size.height as f32) * 0.5;
+    let place = |[x, y, z, ..]: &[f32; 6]| {
+        let place = clip_from_object.project_point3(Vec3::new(*x, *y, *z));
+        (place.truncate() * half + half).extend(place.z)
+    };
+    let places: Vec<Vec3> = arrays.vertices.iter().map(place).collect();
+    let mut nearest = vec![(f32::INFINITY, usize::MAX); size.pixel_count()];
+    for (face, corners) in arrays.indices.chunks_exact(3).enumerate() {
+        let [a, b, c] = [0, 1, 2].map(|corner| places[corners[corner] as usize]);
+        let (low, high) = (a.min(b).min(c).max(Vec3::ZERO), a.max(b).max(c).min((half * 2.0 - 0.5).extend(1.0)));
+        let area = (b - a).truncate().perp_dot((c - a).truncate());
+        for y in low.y as u32..=high.y.max(0.0) as u32 {
+            for x in low.x as u32..=high.x.max(0.0) as u32 {
+                let at = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+                let part = |p: Vec3, q: Vec3| (q - p).truncate().perp_dot(at - p.truncate()) / area;
+                let [of_c, of_a, of_b] = [part(a, b), part(b, c), part(c, a)];
+                if of_a >= 0.0 && of_b >= 0.0 && of_c >= 0.0 {
+                    let pixel = &mut nearest[(y * size.width + x) as usize];
+                    let depth = a.z * of_a + b.z * of_b + c.z * of_c;
+                    if depth < pixel.0 {
+                        *pixel = (depth, face);
+                    }
+                }
+            }
+        }
+    }
+    let owners: BTreeSet<u32> =
+        nearest.iter().filter(|(_, face)| *face != usize::MAX).map(|(_, face)| *face as u32).collect();
+    let (mut indices, mut parts) = (Vec::new(), Vec::new());
+    for part in &arrays.parts {
+        let first = indices.len() as u32;
+        let faces = owners.range(part.first / 3..(part.first + part.count) / 3);
+        faces.for_each(|face| indices.extend_from_slice(&arrays.indices[*face as usize * 3..][..3]));
+        parts.push(Part { first, count: indices.len() as u32 - first, ..*part });
+    }
+    Arc::new(vec![Faces::Listed(Arc::new(FaceList { indices, parts }))])
 }
 
 /// The scene with the eye turned by so many degrees.
@@ -176,13 +238,14 @@ fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
                 let contestants = [
                     (full.clone(), Contestant::Full(Style::named(style))),
                     (name.to_owned(), Contestant::Pruned(Style::named(style))),
+                    (format!("{name}, the faces that own a pixel"), Contestant::Ceiling(Style::named(style))),
                 ];
                 let series = race(renderer, scene, &contestants, rounds);
-                let ratio = series[0].median() / series[1].median();
+                let [full_ms, pruned, ceiling] = [0, 1, 2].map(|number| series[number].median());
                 println!(
-                    "  {full:<24}{:>9.2} ms{:>9.2} ms pruned: {ratio:.2} x",
-                    series[0].median(),
-                    series[1].median()
+                    "  {full:<24}{full_ms:>9.2} ms{pruned:>9.2} ms pruned: {:.2} x, at most {:.2} x",
+                    full_ms / pruned,
+                    full_ms / ceiling
                 );
                 rows(&series)
             })

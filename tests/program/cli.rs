@@ -98,10 +98,7 @@ fn nonsensical_settings_are_refused_by_name() {
     for (file, look) in [("a.svg", "print"), ("a.pdf", "technical"), ("a.dxf", "technical"), ("a.png", "print")] {
         let out = folder.path(file);
         let words = ["--size 40000000x40000000", "the largest picture"];
-        refused_in_one_line(
-            &["render", "builtin:open-box", "-o", &out, "--look", look, "--size", "40000000"],
-            &words,
-        );
+        refused_in_one_line(&["render", "builtin:open-box", "-o", &out, "--look", look, "--size", "40000000"], &words);
     }
     render(&["--eye", "1,2,3", "--target", "1,2,3"], &["--eye and --target", "same point"]);
     render(&["--up", "0,0,0"], &["--up"]);

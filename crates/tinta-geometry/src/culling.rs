@@ -45,7 +45,7 @@ pub fn faces_not_culled(
 ) -> Option<DrawnFaces> {
     let half = Vec2::new(surface.width as f32, surface.height as f32) * 0.5;
     let places = window_places(arrays, clip_from_object, half);
-    let moved = moved(subpixel_bits, half);
+    let moved = moved(subpixel_bits) + CLIP_ROUNDING as f32 * half.max_element();
     let count = arrays.indices.len() / 3;
     let is_culled = filled(count, threads_for(count), false, |face| {
         let [a, b, c] = [0, 1, 2].map(|corner| places[arrays.indices[face * 3 + corner] as usize].xy());
@@ -61,9 +61,9 @@ pub fn faces_not_culled(
     (left_out > 0).then(|| without(arrays, &is_culled, left_out))
 }
 
-/// How far GL may have moved a vertex, pixels: its sub-pixels, and what f32 makes of a coordinate.
-pub(crate) fn moved(subpixel_bits: u32, half: Vec2) -> f32 {
-    SUBPIXEL_STEPS as f32 * 0.5f32.powi(subpixel_bits.min(24) as i32) + CLIP_ROUNDING as f32 * half.max_element()
+/// How far GL may have moved a vertex to its sub-pixels, pixels.
+pub(crate) fn moved(subpixel_bits: u32) -> f32 {
+    SUBPIXEL_STEPS as f32 * 0.5f32.powi(subpixel_bits.min(24) as i32)
 }
 
 /// Returns the vertices' places in the window, pixels, and their depths from 0 to 1; NaN for a vertex that the near or far plane may

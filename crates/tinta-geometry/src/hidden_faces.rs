@@ -1,17 +1,12 @@
-//! The faces that no eye can reach in a view: those outside the picture, and those behind a layer of faces that has no end there.
+//! The faces that no eye can reach in a view: those that cover no pixel's centre, and those behind others at every centre they cover.
 //!
-//! In: a scene, and how its driver draws. Out: for each object the faces to draw. Call an edge an *end* unless it has exactly two
-//! faces, wound alike, that both surely point the same way in the picture: rims, folds and edge-on faces are ends. The picture is cut
-//! into cells. A layer of faces that reaches into a cell in which it has no end covers all of the cell, because a path within the cell
-//! can be followed on the layer and meets no end. So something lies there at most as far as the layer's farthest depth, and a face that
-//! is behind such a depth in every cell that it touches owns no pixel.
+//! In: a scene, and how its driver draws. Out: for each object the faces to draw. A driver gives a pixel to the nearest of the faces
+//! that cover its centre. So one depth is kept for each centre: the nearest of the faces that surely cover it, taken as far away as
+//! the driver may draw them. A face that is behind it, taken as near as the driver may draw it, at every centre that it may cover,
+//! owns no pixel. Soups and open sheets do as well as closed meshes.
 //!
-//! The depths of a layer in a cell are one interval. Each cell keeps a mask of depth bins that faces pointing to the eye touch, and a
-//! second mask of those that surely reach into it. From the first sure bin the run of touched bins holds all of that layer. Where an
-//! end is nearer than the run's end, the cell hides nothing.
-//!
-//! Margins: corners move by the driver's sub-pixels, depths by as much times their slope, by steps of the depth buffer, and by an
-//! offset that pushes faces back.
+//! Margins: corners move by the driver's sub-pixels, depths by as much times their slope, by rounding, by steps of the depth buffer,
+//! and by an offset that pushes faces back.
 //!
 //! ```
 //! use tinta_geometry::{LoadOptions, Scene, SceneSettings, hidden_faces::faces_not_hidden, load};
@@ -24,44 +19,43 @@
 //! ```
 
 use crate::culling::{DrawnFaces, moved, window_places, without};
-use crate::edges::Incidence;
-use crate::scene::{Object, Scene};
-use crate::threads::{filled, in_parallel, threads_for_items};
+use crate::scene::Scene;
+use crate::threads::{each_piece, filled, listed, threads_for_items};
 use crate::values::Size;
-use glam::{Mat4, Vec2, Vec3, Vec3Swizzles};
+use glam::{Mat4, Vec2, Vec3, Vec3Swizzles, Vec4};
 use std::ops::Range;
 use std::sync::atomic::Ordering::Relaxed;
-
-/// Side of a cell, pixels of the surface drawn into.
-const CELL: f32 = 8.0;
-
-/// How far around a cell its layers may have no end, pixels: more than corners move.
-const MARGIN: f32 = 1.0;
-
-/// Bins of depth in a cell.
-const BINS: u32 = 64;
 
 /// How far behind a depth a face must lie: two steps of a depth buffer of 16 bits.
 const BEHIND: f32 = 1.0 / 32_768.0;
 
-/// The most cells that faces may touch on average. Where faces are long and thin, looking at all cells costs more than drawing.
-const MOST_CELLS: usize = 24;
+/// Some of f32's last places, as a share: of a corner's place for each of the far plane's distances over the near plane's, and of the
+/// slope of a face for each of its lengths over its width.
+const ROUNDING: f32 = 1e-6;
 
-/// How long a driver on the processor takes to draw a face, and the search to look at one on one thread, nanoseconds: measured on
-/// llvmpipe, two cores.
-const DRAWING_NS: f64 = 150.0;
-const SEARCHING_NS: f64 = 90.0;
+/// The most pixels that the boxes of faces may hold on average. Where faces are long and thin, looking at all costs more than drawing.
+const MOST_PIXELS: usize = 4000;
+
+/// How long a driver on the processor takes to draw a face and each pixel of its box, the search to look at them on one thread, and
+/// to start more threads, nanoseconds: measured on llvmpipe, two cores.
+const DRAWING_NS: [usize; 2] = [100, 3];
+const SEARCHING_NS: [usize; 2] = [80, 2];
+const STARTING_NS: usize = 300_000;
+
+/// The centres of a row that are computed together.
+const GROUP: usize = 4;
 
 /// For how many views the search rests if it cost more than it saved.
 const REST: u32 = 31;
 
-/// The threads for so many faces or edges: each takes as long as several simple items.
-fn threads(count: usize) -> usize {
-    threads_for_items(4 * count)
+/// The threads for so many faces and pixels of their boxes: a face takes as long as several simple items, a pixel less than one.
+fn threads(faces: usize, pixels: usize) -> usize {
+    threads_for_items(8 * faces + pixels / 8)
 }
 
-/// Returns for each object the faces that may own a pixel, `None` where all may. Nothing is left out where a face reaches the near or
-/// the far plane, or where faces are long and thin. `None` for all if the search rests, because an earlier one saved less than it cost.
+/// Returns for each object the faces that may own a pixel, `None` where all may. A face that reaches the near or the
+/// far plane stays, and all do where faces are long and thin. `None` for all if the search rests, because an earlier one saved less
+/// than it cost.
 ///
 /// `surface` is the size drawn into, pixels (the picture's times its supersampling); GL places vertices to 2^-`subpixel_bits` of a
 /// pixel, pushes faces back by `polygon_offset` (glPolygonOffset's factor and units), and draws the objects `draws` times.
@@ -74,288 +68,261 @@ pub fn faces_not_hidden(
 ) -> Option<Vec<Option<DrawnFaces>>> {
     let rest = &scene.hidden_faces_rest;
     rest.fetch_update(Relaxed, Relaxed, |views| views.checked_sub(1)).err()?;
-    let lists = View::of(scene, surface, subpixel_bits, polygon_offset).lists(scene);
-    let left_out: usize = lists.iter().flatten().map(|list| list.left_out).sum();
-    let all = scene.triangle_count();
-    if (left_out * draws) as f64 * DRAWING_NS < all as f64 * SEARCHING_NS / threads(all) as f64 {
+    let view = View::of(scene, surface, subpixel_bits, polygon_offset);
+    let found = view.and_then(|view| view.find(scene));
+    let Some(Found { lists, seen_ns, all_ns, search_ns }) = found else { return Some(vec![None; scene.objects.len()]) };
+    let threads = threads(scene.triangle_count(), 0);
+    let starting_ns = if threads > 1 { STARTING_NS } else { 0 };
+    if (all_ns - seen_ns) * draws < search_ns / threads + starting_ns {
         rest.store(REST, Relaxed);
     }
     Some(lists)
 }
 
+/// The faces to draw, and the times of drawing them, of drawing all, and of the search on one thread.
+struct Found {
+    lists: Vec<Option<DrawnFaces>>,
+    seen_ns: usize,
+    all_ns: usize,
+    search_ns: usize,
+}
+
 /// A view of a scene in the driver's coordinates.
 struct View {
-    size: Vec2,
-    /// Columns and rows of cells.
-    cells: [u16; 2],
+    /// The surface, pixels: columns and rows.
+    size: [u16; 2],
+    half: Vec2,
     /// How far GL may have moved a corner, pixels.
     moved: f32,
     polygon_offset: [f32; 2],
     clip_from_view: Mat4,
 }
 
-/// An object's corners in the picture, and its faces in drawing order.
-struct ObjectFaces {
-    /// Pixels from the lower left corner, and depth from 0 to 1.
-    places: Vec<Vec3>,
-    faces: Vec<Face>,
-    /// The side of each of the mesh's faces.
-    sides: Vec<Side>,
-}
-
-/// The side of a face that the eye sees, if GL can see no other.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Front,
-    Back,
-    Unsure,
-}
-
-/// A face in the picture.
+/// A face that may cover the centre of a pixel.
 #[derive(Clone, Copy)]
 struct Face {
-    /// Its least depth without a polygon offset, and its largest with it, as a driver may have them.
-    near: f32,
-    far: f32,
-    /// The first cell that it may touch and the one after the last, column and row.
+    /// Its place in drawing order.
+    number: u32,
+    /// The first column and row whose centres it may cover and the ones after the last: none for a face that stays in any case.
     low: [u16; 2],
     high: [u16; 2],
-    side: Side,
+    /// Whether it points to the eye. Layers turned away lie behind others, or are rare.
+    hides: bool,
 }
 
 impl Face {
-    fn rows(&self) -> Range<u16> {
-        self.low[1]..self.high[1]
+    /// The centres in its box.
+    fn pixels(&self) -> usize {
+        usize::from(self.high[0] - self.low[0]) * usize::from(self.high[1] - self.low[1])
     }
 
-    fn columns(&self) -> Range<u16> {
-        self.low[0]..self.high[0]
+    /// The columns of its groups of centres.
+    fn columns(&self) -> Range<usize> {
+        let low = usize::from(self.low[0]);
+        low..low + usize::from(self.high[0] - self.low[0]).next_multiple_of(GROUP)
     }
+}
 
-    fn cell_count(&self) -> usize {
-        self.rows().len() * self.columns().len()
-    }
+/// An object's corners in the picture, pixels from the lower left corner and depth from 0 to 1, and the faces that may be seen.
+struct ObjectFaces<'a> {
+    indices: &'a [u32],
+    places: Vec<Vec3>,
+    faces: Vec<Face>,
+}
+
+fn corners(indices: &[u32], places: &[Vec3], face: u32) -> [Vec3; 3] {
+    [0, 1, 2].map(|corner| places[indices[face as usize * 3 + corner] as usize])
+}
+
+/// The part of a face at the centres of pixels: to hide, and then it is taken as far away and as small as a driver may draw it; or to
+/// be hidden, and then it is taken as near and as large.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Role {
+    Hides,
+    IsHidden,
+}
+
+/// A face's depth and its three borders, positive inside, as linear functions in the picture.
+struct Plane {
+    /// Where they have the value `start`.
+    origin: Vec2,
+    start: Vec4,
+    by_column: Vec4,
+    by_row: Vec4,
 }
 
 impl View {
-    fn lists(&self, scene: &Scene) -> Vec<Option<DrawnFaces>> {
-        let mut grid = Grid::new(self);
+    /// `None` for a surface larger than any driver's.
+    fn of(scene: &Scene, surface: Size, subpixel_bits: u32, polygon_offset: [f32; 2]) -> Option<Self> {
+        let size = [u16::try_from(surface.width).ok()?, u16::try_from(surface.height).ok()?];
+        let half = Vec2::from(size.map(f32::from)) * 0.5;
+        let depths = (scene.camera.far / scene.camera.near) as f32;
+        let moved = moved(subpixel_bits) + ROUNDING * depths * half.max_element();
+        Some(Self { size, half, moved, polygon_offset, clip_from_view: scene.clip_from_view() })
+    }
+
+    fn find(&self, scene: &Scene) -> Option<Found> {
         // An offset towards the eye may bring a face before its corners.
-        let is_pulled = self.polygon_offset.iter().any(|offset| *offset < 0.0);
-        let objects = || scene.objects.iter().map(|object| self.add_faces(scene, object, &mut grid)).collect();
-        let found: Option<Vec<ObjectFaces>> = (!is_pulled).then(objects).flatten();
-        let Some(objects) = found else { return vec![None; scene.objects.len()] };
-        for (object, faces) in scene.objects.iter().zip(&objects) {
-            self.add_ends(scene, object, faces, &mut grid);
+        if self.polygon_offset.iter().any(|offset| *offset < 0.0) {
+            return None;
         }
-        let depths = grid.depths();
-        let left = |(object, ObjectFaces { faces, .. }): (&Object, &ObjectFaces)| {
-            let is_hidden =
-                filled(faces.len(), threads(faces.len()), false, |face| self.is_hidden(&faces[face], &depths));
+        let found = scene.objects.iter().map(|object| {
+            let arrays = scene.arrays(object);
+            let clip_from_object = self.clip_from_view * scene.view_from_object(object, arrays.centre);
+            self.faces(&arrays.indices, window_places(arrays, clip_from_object, self.half))
+        });
+        let objects: Vec<ObjectFaces<'_>> = found.collect::<Option<_>>()?;
+        let all = scene.triangle_count();
+        let pixels: usize = objects.iter().flat_map(|object| &object.faces).map(Face::pixels).sum();
+        let depths = self.depths(&objects, threads(all, pixels));
+        let [all_ns, search_ns] = [DRAWING_NS, SEARCHING_NS].map(|[face, pixel]| all * face + pixels * pixel);
+        let mut seen_ns = 0;
+        let lists = scene.objects.iter().zip(&objects).map(|(object, ObjectFaces { indices, places, faces })| {
+            let may_be_seen = filled(faces.len(), threads(all, pixels), false, |index| {
+                let face = &faces[index];
+                self.may_be_seen(face, corners(indices, places, face.number), &depths)
+            });
+            let mut is_hidden = vec![true; indices.len() / 3];
+            for (face, _) in faces.iter().zip(may_be_seen).filter(|(_, may_be_seen)| *may_be_seen) {
+                is_hidden[face.number as usize] = false;
+                seen_ns += DRAWING_NS[0] + face.pixels() * DRAWING_NS[1];
+            }
             let left_out = is_hidden.iter().filter(|is_hidden| **is_hidden).count();
             (left_out > 0).then(|| without(scene.arrays(object), &is_hidden, left_out))
-        };
-        scene.objects.iter().zip(&objects).map(left).collect()
-    }
-
-    fn of(scene: &Scene, surface: Size, subpixel_bits: u32, polygon_offset: [f32; 2]) -> Self {
-        let size = Vec2::new(surface.width as f32, surface.height as f32);
-        let cells = (size / CELL).ceil().to_array().map(|count| count as u16);
-        let moved = moved(subpixel_bits, size * 0.5);
-        Self { size, cells, moved, polygon_offset, clip_from_view: scene.clip_from_view() }
-    }
-
-    /// Finds an object's faces, and adds the depths of those that point to the eye; `None` where a corner lies beyond the near or far
-    /// plane, or faces touch too many cells.
-    fn add_faces(&self, scene: &Scene, object: &Object, grid: &mut Grid) -> Option<ObjectFaces> {
-        let arrays = scene.arrays(object);
-        let clip_from_object = self.clip_from_view * scene.view_from_object(object, arrays.centre);
-        let places = window_places(arrays, clip_from_object, self.size * 0.5);
-        let count = arrays.indices.len() / 3;
-        let most_cells = MOST_CELLS * count.max(grid.ends.len()) / threads(count);
-        let parts = in_parallel(count, threads(count), |range| {
-            let (mut grid, mut cells) = (Grid::new(self), 0);
-            let mut faces = Vec::with_capacity(range.len());
-            for face in range {
-                let corners = [0, 1, 2].map(|corner| places[arrays.indices[face * 3 + corner] as usize]);
-                let face = self.face(corners);
-                cells += face.cell_count();
-                if corners.iter().any(|corner| corner.is_nan()) || cells > most_cells {
-                    return None;
-                }
-                self.add_face(&face, corners, &mut grid);
-                faces.push(face);
-            }
-            Some((faces, grid))
         });
-        let mut faces = Vec::with_capacity(count);
-        for part in parts {
-            let (mut own, other) = part?;
-            faces.append(&mut own);
-            grid.add(&other);
+        Some(Found { lists: lists.collect(), seen_ns, all_ns, search_ns })
+    }
+
+    /// The faces that may cover the centre of a pixel; `None` where they are long and thin.
+    fn faces<'a>(&self, indices: &'a [u32], places: Vec<Vec3>) -> Option<ObjectFaces<'a>> {
+        let count = indices.len() / 3;
+        let faces = listed(count, 1, threads(count, 0), |range, faces| {
+            let mut pixels = usize::from(self.size[0]) * usize::from(self.size[1]) + MOST_PIXELS * range.len();
+            for number in range {
+                if let Some(face) = self.face(number as u32, corners(indices, &places, number as u32)) {
+                    pixels = pixels.checked_sub(face.pixels())?;
+                    faces.push(face);
+                }
+            }
+            Some(())
+        })?;
+        Some(ObjectFaces { indices, places, faces })
+    }
+
+    /// `None` for a face that covers no centre.
+    fn face(&self, number: u32, corners: [Vec3; 3]) -> Option<Face> {
+        let stays = Face { number, low: [0; 2], high: [0; 2], hides: false };
+        let [a, b, c] = corners.map(Vec3::xy);
+        // A corner beyond the near or the far plane has no place.
+        if corners.iter().any(|corner| corner.is_nan()) {
+            return Some(stays);
         }
-        let mut sides = vec![Side::Unsure; count];
-        faces.iter().zip(&arrays.order).for_each(|(face, number)| sides[*number as usize] = face.side);
-        Some(ObjectFaces { places, faces, sides })
-    }
-
-    fn face(&self, [a, b, c]: [Vec3; 3]) -> Face {
-        let (first, second) = (b - a, c - a);
-        let normal = first.cross(second);
-        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        // What moving the corners may change of twice the area.
-        let most = self.moved * (first.xy().abs().element_sum() + second.xy().abs().element_sum())
-            + 4.0 * self.moved * self.moved;
+        let (low, high) = (a.min(b).min(c) - self.moved, a.max(b).max(c) + self.moved);
+        if high.min_element() < 0.0 || (low - 2.0 * self.half).max_element() > 0.0 {
+            return None;
+        }
         // More than a picture's width outside, each driver cuts faces off at different places.
-        let is_cut =
-            (low.xy() + 0.5 * self.size).min_element() < 0.0 || (high.xy() - 1.5 * self.size).max_element() > 0.0;
-        let side = match normal.z {
-            area if is_cut || area.abs() <= 2.0 * most => Side::Unsure,
-            area if area > 0.0 => Side::Front,
-            _ => Side::Back,
-        };
-        let slope = (normal.x.abs() + normal.y.abs()) / normal.z.abs();
-        let [factor, units] = self.polygon_offset;
-        // How far moved corners and an offset move its depths; a unit is no more than a step of 16 bits.
-        let moves = [2.0 * slope * self.moved, factor * slope + units / 65_536.0];
-        // A face without a slope may have any depth.
-        let [sliding, offset] = if slope.is_finite() { moves } else { [1.0; 2] };
-        let (low_cell, high_cell) = self.cells_of(low.xy(), high.xy());
-        Face { near: low.z - sliding, far: high.z + sliding + offset, low: low_cell, high: high_cell, side }
-    }
-
-    /// The first cell that a box touches, its margin included, and the one after the last.
-    fn cells_of(&self, low: Vec2, high: Vec2) -> ([u16; 2], [u16; 2]) {
-        let (low, high) = (low - MARGIN, high + MARGIN);
-        if high.min_element() < 0.0 || (low - self.size).max_element() > 0.0 {
-            return ([0; 2], [0; 2]);
+        if (low + self.half).min_element() < 0.0 || (high - 3.0 * self.half).max_element() > 0.0 {
+            return Some(stays);
         }
         // A number below 0 becomes 0.
-        let [low, high] = [low, high].map(|corner| (corner / CELL).to_array().map(|place| place as u16));
-        (low, [0, 1].map(|axis| high[axis].saturating_add(1).min(self.cells[axis])))
+        let first = (low + 0.5).to_array().map(|place| place as u16);
+        let end = (high + 0.5).to_array().map(|place| place as u16);
+        let end = [0, 1].map(|axis| end[axis].min(self.size[axis]));
+        (first[0] < end[0] && first[1] < end[1]).then_some(Face {
+            low: first,
+            high: end,
+            hides: (b - a).perp_dot(c - a) > 0.0,
+            ..stays
+        })
     }
 
-    fn index(&self, column: u16, row: u16) -> usize {
-        usize::from(row) * usize::from(self.cells[0]) + usize::from(column)
-    }
-
-    fn add_face(&self, face: &Face, corners: [Vec3; 3], grid: &mut Grid) {
-        if face.side == Side::Back {
-            return;
+    /// `None` for a face seen from its edge, whose plane has no known slope.
+    fn plane(&self, [a, b, c]: [Vec3; 3], role: Role) -> Option<Plane> {
+        let (first, second) = (b - a, c - a);
+        let normal = first.cross(second);
+        let length = first.xy().abs().element_sum() + second.xy().abs().element_sum();
+        // What moving the corners may change of twice the area.
+        let most = self.moved * length + 4.0 * self.moved * self.moved;
+        if normal.z.abs() <= 2.0 * most {
+            return None;
         }
-        let [a, b, c] = corners;
-        let bits = bins(face.near, face.far);
-        for row in face.rows() {
-            for column in face.columns() {
-                grid.touched[self.index(column, row)] |= bits;
-            }
-        }
-        if face.side == Side::Unsure {
-            return;
-        }
-        let middle = (a + b + c).xy() / 3.0;
-        if middle.min_element() >= 0.0 && (self.size - middle).min_element() > 0.0 {
-            let [column, row] = (middle / CELL).to_array().map(|place| place as u16);
-            grid.sure[self.index(column, row)] |= bits;
-        }
-        if (a.max(b).max(c) - a.min(b).min(c)).xy().max_element() <= CELL {
-            return;
-        }
-        // The middle of a cell lies in the face, wherever its corners moved.
-        let is_inside = |place: Vec2| {
-            [[a, b], [b, c], [c, a]].into_iter().all(|[from, to]| {
-                let along = to.xy() - from.xy();
-                along.perp_dot(place - from.xy()) > 2.0 * self.moved * (along.abs().element_sum() + 1.0)
-            })
+        let growth = -normal.xy() / normal.z;
+        let slope = growth.abs().element_sum();
+        let slides = slope * (2.0 * self.moved + ROUNDING * length * length * length / normal.z.abs());
+        let [factor, units] = self.polygon_offset;
+        let sides = [first.xy(), second.xy() - first.xy(), -second.xy()].map(|along| along * normal.z.signum());
+        let [of_a, of_b, of_c] = sides.map(|along| self.moved * (along.abs().element_sum() + 1.0));
+        let slack = Vec4::new(0.0, of_a, of_b, of_c);
+        let start = Vec4::new(a.z, 0.0, sides[1].perp_dot(-first.xy()), 0.0);
+        let start = match role {
+            // A unit is no more than a step of 16 bits.
+            Role::Hides => start - slack + Vec4::X * (slides + factor * slope + units / 65_536.0),
+            Role::IsHidden => start + slack - Vec4::X * (slides + BEHIND),
         };
-        for row in face.rows() {
-            for column in face.columns() {
-                if is_inside((Vec2::new(f32::from(column), f32::from(row)) + 0.5) * CELL) {
-                    grid.sure[self.index(column, row)] |= bits;
-                }
-            }
-        }
+        let by_column = Vec4::new(growth.x, -sides[0].y, -sides[1].y, -sides[2].y);
+        let by_row = Vec4::new(growth.y, sides[0].x, sides[1].x, sides[2].x);
+        Some(Plane { origin: a.xy(), start, by_column, by_row })
     }
 
-    /// Notes where an object's layers end.
-    fn add_ends(&self, scene: &Scene, object: &Object, faces: &ObjectFaces, grid: &mut Grid) {
-        let (list, arrays) = (scene.edges(object).list(), scene.arrays(object));
-        let count = list.len();
-        let nearest = in_parallel(count, threads(count), |edges| {
-            let mut nearest = vec![f32::INFINITY; grid.ends.len()];
-            for edge in edges {
-                let sides = || list.faces(edge as u32).iter().map(|face| faces.sides[*face as usize]);
-                let is_inner = list.incidence()[edge] == Incidence::Inner
-                    && (sides().all(|side| side == Side::Front) || sides().all(|side| side == Side::Back));
-                // Layers turned away hide nothing, so folds between them do not matter.
-                if is_inner {
-                    continue;
-                }
-                let [a, b] = list.positions()[edge]
-                    .map(|position| faces.places[arrays.position_vertices[position as usize] as usize]);
-                let (low, high) = self.cells_of(a.xy().min(b.xy()), a.xy().max(b.xy()));
-                // An end belongs to its faces, which may seem nearer than its corners.
-                let depth = a.z.min(b.z) - BEHIND;
-                for row in low[1]..high[1] {
-                    for column in low[0]..high[0] {
-                        let cell = &mut nearest[self.index(column, row)];
-                        *cell = cell.min(depth);
+    /// The floats of a row of depths: rows are read and written by groups of four.
+    fn stride(&self) -> usize {
+        usize::from(self.size[0]) + GROUP - 1
+    }
+
+    /// The depth at which something is seen at the centre of each pixel, at the latest.
+    fn depths(&self, objects: &[ObjectFaces<'_>], threads: usize) -> Vec<f32> {
+        let mut depths = vec![f32::MAX; self.stride() * usize::from(self.size[1])];
+        let mut rows: Vec<&mut [f32]> = depths.chunks_mut(self.stride()).collect();
+        each_piece(&mut rows, threads, 2 * threads, |first, rows| {
+            for object in objects {
+                for face in object.faces.iter().filter(|face| face.hides) {
+                    let low = usize::from(face.low[1]).max(first);
+                    let high = usize::from(face.high[1]).min(first + rows.len());
+                    if low >= high {
+                        continue;
+                    }
+                    let Some(plane) = self.plane(corners(object.indices, &object.places, face.number), Role::Hides)
+                    else {
+                        continue;
+                    };
+                    for row in low..high {
+                        let depths = rows[row - first][face.columns()].chunks_exact_mut(GROUP);
+                        for (known, depth) in depths.zip(plane.row(face.low[0], row)) {
+                            depth.min(Vec4::from_slice(known)).write_to_slice(known);
+                        }
                     }
                 }
             }
-            nearest
         });
-        for nearest in nearest {
-            grid.ends.iter_mut().zip(nearest).for_each(|(cell, depth)| *cell = cell.min(depth));
+        depths
+    }
+
+    /// Whether a face is not behind the known depth of every centre that it may cover.
+    fn may_be_seen(&self, face: &Face, corners: [Vec3; 3], depths: &[f32]) -> bool {
+        if face.low == face.high {
+            return true;
         }
-    }
-
-    /// Whether a face is behind the known depth of every cell that it may touch.
-    fn is_hidden(&self, face: &Face, depths: &[f32]) -> bool {
-        let is_behind = |column: u16, row: u16| face.near - BEHIND > depths[self.index(column, row)];
-        face.rows().all(|row| face.columns().all(|column| is_behind(column, row)))
+        let Some(plane) = self.plane(corners, Role::IsHidden) else { return true };
+        (face.low[1]..face.high[1]).map(usize::from).any(|row| {
+            let depths = depths[row * self.stride()..][face.columns()].chunks_exact(GROUP);
+            depths.zip(plane.row(face.low[0], row)).any(|(known, depth)| depth.cmple(Vec4::from_slice(known)).any())
+        })
     }
 }
 
-/// The bins from one depth to another.
-fn bins(near: f32, far: f32) -> u64 {
-    let bin = |depth: f32| ((depth * BINS as f32).clamp(0.0, (BINS - 1) as f32)) as u32;
-    let (first, last) = (bin(near), bin(far));
-    (u64::MAX >> (BINS - 1 - (last - first))) << first
-}
-
-/// The cells' layers.
-struct Grid {
-    /// The bins that faces touch which may point to the eye.
-    touched: Vec<u64>,
-    /// The bins of faces that surely reach into the cell and point to the eye.
-    sure: Vec<u64>,
-    /// The least depth of an end.
-    ends: Vec<f32>,
-}
-
-impl Grid {
-    fn new(view: &View) -> Self {
-        let count = usize::from(view.cells[0]) * usize::from(view.cells[1]);
-        Self { touched: vec![0; count], sure: vec![0; count], ends: vec![f32::INFINITY; count] }
-    }
-
-    fn add(&mut self, other: &Self) {
-        self.touched.iter_mut().zip(&other.touched).for_each(|(own, other)| *own |= other);
-        self.sure.iter_mut().zip(&other.sure).for_each(|(own, other)| *own |= other);
-    }
-
-    /// The depth at which something lies everywhere in each cell, at the latest.
-    fn depths(&self) -> Vec<f32> {
-        let depth = |((touched, sure), end): ((&u64, &u64), &f32)| {
-            if *sure == 0 {
-                return f32::INFINITY;
-            }
-            let first = sure.trailing_zeros();
-            let run = (touched >> first).trailing_ones();
-            let last = (first + run) as f32 / BINS as f32;
-            if *end > last { last } else { f32::INFINITY }
-        };
-        self.touched.iter().zip(&self.sure).zip(&self.ends).map(depth).collect()
+impl Plane {
+    /// The depths at a row's centres, by groups that start at a column, infinite outside the face.
+    fn row(&self, column: u16, row: usize) -> impl Iterator<Item = Vec4> {
+        let start = self.start + self.by_row * (row as f32 + 0.5 - self.origin.y);
+        let first = Vec4::new(0.5, 1.5, 2.5, 3.5) + (f32::from(column) - self.origin.x);
+        let function = |number: usize| (Vec4::splat(start[number]), Vec4::splat(self.by_column[number]));
+        let [depth, a, b, c] = [0, 1, 2, 3].map(function);
+        (0_u16..).map(move |group| {
+            let x = first + f32::from(group) * GROUP as f32;
+            let at = |(start, growth): (Vec4, Vec4)| start + growth * x;
+            let is_inside = at(a).cmpgt(Vec4::ZERO) & at(b).cmpgt(Vec4::ZERO) & at(c).cmpgt(Vec4::ZERO);
+            Vec4::select(is_inside, at(depth), Vec4::INFINITY)
+        })
     }
 }

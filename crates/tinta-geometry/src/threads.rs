@@ -34,7 +34,7 @@ pub fn ranges(count: usize, pieces: usize) -> Vec<std::ops::Range<usize>> {
 /// `blank` is the value of zeroed memory: the system then provides the list's pages at the first write.
 pub fn filled<T: Copy + Send>(count: usize, threads: usize, blank: T, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let mut list = vec![blank; count];
-    each_piece(&mut list, threads, |start, places| {
+    each_piece(&mut list, threads, threads, |start, places| {
         places.iter_mut().enumerate().for_each(|(index, place)| *place = value(start + index));
     });
     list
@@ -42,16 +42,21 @@ pub fn filled<T: Copy + Send>(count: usize, threads: usize, blank: T, value: imp
 
 /// Sorts a list of distinct elements, one piece per thread.
 pub fn sort_by<T: Send>(list: &mut [T], threads: usize, order: impl Fn(&T, &T) -> std::cmp::Ordering + Sync) {
-    each_piece(list, threads, |_, piece| piece.sort_unstable_by(&order));
+    each_piece(list, threads, threads, |_, piece| piece.sort_unstable_by(&order));
     if threads > 1 {
         // The stable sort finds ordered runs and merges them.
         list.sort_by(order);
     }
 }
 
-/// Does `work` for as many pieces of a list as there are threads; `work` also gets each piece's place in the list.
-fn each_piece<T: Send>(list: &mut [T], threads: usize, work: impl Fn(usize, &mut [T]) + Sync) {
-    let length = list.len().div_ceil(threads.max(1)).max(1);
+/// Does `work` for so many pieces of a list; `work` also gets each piece's place in the list.
+pub(crate) fn each_piece<T: Send>(
+    list: &mut [T],
+    threads: usize,
+    pieces: usize,
+    work: impl Fn(usize, &mut [T]) + Sync,
+) {
+    let length = list.len().div_ceil(pieces.max(1)).max(1);
     let pieces = Mutex::new(list.chunks_mut(length).enumerate());
     // Every thread takes pieces until none is left, this one too: if no other starts, it does them all.
     let take = || {

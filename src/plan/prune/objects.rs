@@ -93,7 +93,7 @@ pub(super) fn culled_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
     })
 }
 
-/// Leaves out faces outside the picture, and those behind a layer of others that has no end there.
+/// Leaves out faces that cover no pixel's centre, and those behind others at every centre that they cover.
 pub(super) fn hidden_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
     let Situation { scene, surface, pruning, .. } = *situation;
     let hides = |draw: &Draw| {
@@ -131,7 +131,9 @@ pub(super) fn hidden_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
         rule: Rule::HiddenFaces,
         what: format!("{left_out} of {} faces", scene.triangle_count()),
         reason: "none of their pixels would be seen".to_owned(),
-        facts: vec!["a layer of faces without an end there lies before them in every cell of the picture".to_owned()],
+        facts: vec![
+            "others lie before them at every pixel's centre that they may cover, or they cover none".to_owned(),
+        ],
     })
 }
 

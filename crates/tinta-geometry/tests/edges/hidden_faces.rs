@@ -5,6 +5,7 @@ use crate::support::families::{KINDS, scene_of_kind};
 use crate::support::shapes::{Random, icosphere, joined, mesh};
 use crate::support::{builtin, public_meshes};
 use glam::{DMat4, DVec2, DVec3, Vec3};
+use std::sync::atomic::Ordering::Relaxed;
 use tinta::culling::DrawnFaces;
 use tinta::hidden_faces::faces_not_hidden;
 use tinta::{Mesh, Scene, SceneSettings, Size};
@@ -15,8 +16,11 @@ fn lists(scene: &Scene, polygon_offset: [f32; 2]) -> Option<Vec<Option<DrawnFace
     faces_not_hidden(scene, SIZE, 8, polygon_offset, 2)
 }
 
+/// How a driver may put a corner on one of 256 places in a pixel.
+type Snapping = fn(DVec2) -> DVec2;
+
 /// The corners of an object's faces in drawing order, in the picture and in depth; `None` where one lies beyond a plane.
-fn faces(scene: &Scene, object: usize) -> Vec<Option<[DVec3; 3]>> {
+fn faces(scene: &Scene, object: usize, snapped: Snapping) -> Vec<Option<[DVec3; 3]>> {
     let arrays = scene.arrays(&scene.objects[object]);
     let clip = scene.clip_from_view() * scene.view_from_object(&scene.objects[object], arrays.centre);
     let clip: DMat4 = clip.as_dmat4();
@@ -24,16 +28,16 @@ fn faces(scene: &Scene, object: usize) -> Vec<Option<[DVec3; 3]>> {
     let place = |index: &u32| {
         let [x, y, z, ..] = arrays.vertices[*index as usize];
         let clip = clip * Vec3::new(x, y, z).as_dvec3().extend(1.0);
-        // Corners go to the nearest of 256 places in a pixel.
-        let px = ((DVec2::new(clip.x, clip.y) / clip.w * half + half) * 256.0).round() / 256.0;
+        let px = snapped((DVec2::new(clip.x, clip.y) / clip.w * half + half) * 256.0) / 256.0;
         (clip.w > 0.0 && clip.z.abs() < clip.w).then(|| px.extend(clip.z / clip.w * 0.5 + 0.5))
     };
     let face = |corners: &[u32]| Some([place(&corners[0])?, place(&corners[1])?, place(&corners[2])?]);
     arrays.indices.chunks_exact(3).map(face).collect()
 }
 
-/// The depth of a face at each pixel's centre that it covers. A border belongs to both its faces: whichever the driver gives it to.
-fn covered([a, b, c]: [DVec3; 3], mut visit: impl FnMut(usize, f64)) {
+/// The depth of a face at each pixel's centre that it covers. The driver gives a border to either of its faces: a face that may be
+/// hidden has it, one that hides has not.
+fn covered([a, b, c]: [DVec3; 3], has_border: bool, mut visit: impl FnMut(usize, f64)) {
     let area = (b - a).truncate().perp_dot((c - a).truncate());
     if area == 0.0 {
         return;
@@ -47,7 +51,8 @@ fn covered([a, b, c]: [DVec3; 3], mut visit: impl FnMut(usize, f64)) {
             let at = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
             let part = |p: DVec3, q: DVec3| (q - p).truncate().perp_dot(at - p.truncate()) / area;
             let [of_c, of_a, of_b] = [part(a, b), part(b, c), part(c, a)];
-            if of_a >= 0.0 && of_b >= 0.0 && of_c >= 0.0 {
+            let least = of_a.min(of_b).min(of_c);
+            if least > 0.0 || has_border && least == 0.0 {
                 visit((y * SIZE.width + x) as usize, a.z * of_a + b.z * of_b + c.z * of_c);
             }
         }
@@ -64,15 +69,30 @@ fn pushed([a, b, c]: [DVec3; 3], [factor, units]: [f32; 2]) -> f64 {
 /// Asserts that no face left out is the nearest anywhere; returns how many were left out, of how many.
 #[track_caller]
 fn check(name: &str, scene: &Scene, offset: [f32; 2]) -> [usize; 2] {
+    scene.hidden_faces_rest.store(0, Relaxed);
     let kept = lists(scene, offset).unwrap();
+    let snappings: [Snapping; 3] = [DVec2::round, DVec2::floor, DVec2::ceil];
+    let counts = snappings.map(|snapped| check_snapped(name, scene, offset, &kept, snapped));
+    counts[0]
+}
+
+#[track_caller]
+fn check_snapped(
+    name: &str,
+    scene: &Scene,
+    offset: [f32; 2],
+    kept: &[Option<DrawnFaces>],
+    snapped: Snapping,
+) -> [usize; 2] {
     let mut nearest = vec![f64::INFINITY; SIZE.pixel_count()];
-    let all: Vec<Vec<Option<[DVec3; 3]>>> = (0..scene.objects.len()).map(|object| faces(scene, object)).collect();
+    let objects = 0..scene.objects.len();
+    let all: Vec<Vec<Option<[DVec3; 3]>>> = objects.map(|object| faces(scene, object, snapped)).collect();
     for corners in all.iter().flatten().flatten() {
         let offset = pushed(*corners, offset);
-        covered(*corners, |pixel, depth| nearest[pixel] = nearest[pixel].min(depth + offset));
+        covered(*corners, false, |pixel, depth| nearest[pixel] = nearest[pixel].min(depth + offset));
     }
     let mut left_out = 0;
-    for (object, (faces, list)) in all.iter().zip(&kept).enumerate() {
+    for (object, (faces, list)) in all.iter().zip(kept).enumerate() {
         let Some(list) = list else { continue };
         left_out += list.left_out;
         let indices = &scene.arrays(&scene.objects[object]).indices;
@@ -83,8 +103,10 @@ fn check(name: &str, scene: &Scene, offset: [f32; 2]) -> [usize; 2] {
             }
             let corners = face.unwrap_or_else(|| panic!("{name}: face {number} reaches a plane and is left out"));
             let offset = pushed(corners, offset);
-            covered(corners, |pixel, depth| {
-                assert!(depth + offset > nearest[pixel], "{name}: face {number} of object {object} owns pixel {pixel}");
+            covered(corners, true, |pixel, depth| {
+                // By the steps of a depth buffer of 16 bits.
+                let [own, known] = [depth + offset, nearest[pixel]].map(|depth| (depth * 65_535.0).floor());
+                assert!(own > known, "{name}: face {number} of object {object} owns pixel {pixel}");
             });
         }
         assert!(drawn.next().is_none(), "{name}: a face that is not the object's");
@@ -174,7 +196,7 @@ fn most_faces_behind_go_and_none_of_those_that_are_seen() {
     let ball = joined(&[icosphere(5)]);
     let [left_out, all] = check("a ball", &seen(vec![ball.clone()], "30,20"), [0.0; 2]);
     assert!(left_out * 10 > all * 3, "{left_out} of {all}");
-    // A ball in the ball goes, except where its depths are those of the layer before it.
+    // A ball in the ball goes.
     let small = Mesh { positions: ball.positions.iter().map(|point| *point * 0.5).collect(), ..ball.clone() };
     let [both, _] = check("two balls", &seen(vec![ball, small], "30,20"), [0.0; 2]);
     assert!(both > left_out + all / 2, "{both}");
@@ -188,7 +210,7 @@ fn most_faces_behind_go_and_none_of_those_that_are_seen() {
 
 #[test]
 fn a_search_that_costs_more_than_it_saves_rests_for_some_views() {
-    let scene = seen(vec![builtin("gear")], "30,15");
+    let scene = seen(vec![sheet(|_| 0.0)], "front");
     assert!(lists(&scene, [0.0; 2]).is_some());
     let rests = (0..).take_while(|_| lists(&scene, [0.0; 2]).is_none()).count();
     assert_eq!(rests, 31);
@@ -227,5 +249,5 @@ fn a_steep_layer_that_an_offset_pushes_back_hides_nothing_close_behind_it() {
         check("with an offset", &seen(sheets(), "front"), [factor, 0.0]);
     }
     let [pushed, _] = check("with a large offset", &seen(sheets(), "front"), [100.0, 0.0]);
-    assert!(pushed * 3 < plain, "{pushed} of {plain}");
+    assert!(pushed * 2 < plain, "{pushed} of {plain}");
 }
