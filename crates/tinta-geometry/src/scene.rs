@@ -518,7 +518,7 @@ impl Object {
 fn check_size(size: Size) -> Result<()> {
     match size.pixel_count() {
         0 => Err(Error::value("size", size, "a picture has at least one pixel")),
-        ..=DRAWN_PIXELS => Ok(()),
+        1..=DRAWN_PIXELS => Ok(()),
         _ => {
             let problem = format!("the largest picture has {DRAWN_PIXELS} pixels; ask for a smaller one");
             Err(Error::value("size", size, problem))

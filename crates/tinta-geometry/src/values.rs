@@ -28,7 +28,7 @@ impl Size {
 
     /// Number of pixels.
     pub fn pixel_count(self) -> usize {
-        self.width as usize * self.height as usize
+        (self.width as usize).saturating_mul(self.height as usize)
     }
 }
 
@@ -99,7 +99,7 @@ impl Rectangle {
 
     /// Number of pixels.
     pub fn pixel_count(self) -> usize {
-        self.width as usize * self.height as usize
+        (self.width as usize).saturating_mul(self.height as usize)
     }
 }
 
