@@ -53,9 +53,8 @@ fn threads(faces: usize, pixels: usize) -> usize {
     threads_for_items(8 * faces + pixels / 8)
 }
 
-/// Returns for each object the faces that may own a pixel, `None` where all may. A face that reaches the near or the
-/// far plane stays, and all do where faces are long and thin. `None` for all if the search rests, because an earlier one saved less
-/// than it cost.
+/// Returns for each object the faces that may own a pixel, `None` where all may. A face that reaches the near or the far plane stays,
+/// and all do where faces are long and thin. `None` for all if the search rests, because an earlier one saved less than it cost.
 ///
 /// `surface` is the size drawn into, pixels (the picture's times its supersampling); GL places vertices to 2^-`subpixel_bits` of a
 /// pixel, pushes faces back by `polygon_offset` (glPolygonOffset's factor and units), and draws the objects `draws` times.
@@ -136,7 +135,7 @@ fn corners(indices: &[u32], places: &[Vec3], face: u32) -> [Vec3; 3] {
 
 /// The part of a face at the centres of pixels: to hide, and then it is taken as far away and as small as a driver may draw it; or to
 /// be hidden, and then it is taken as near and as large.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 enum Role {
     Hides,
     IsHidden,

@@ -16,7 +16,7 @@ tinta_geometry::choices! {
         OutsideObjects = "outside-objects",
         /// Faces that the driver would cull anyway.
         CulledFaces = "culled-faces",
-        /// Faces outside the picture, and behind a layer of others that has no end there.
+        /// Faces that cover no pixel's centre, and those behind others at every centre that they cover.
         HiddenFaces = "hidden-faces",
         /// Light that no tone depends on: highlights below three tones, all light with one.
         UnusedLight = "unused-light",
