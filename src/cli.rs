@@ -13,7 +13,8 @@ pub mod batch;
 pub mod camera_file;
 mod command;
 pub mod completions;
-mod edges;
+mod generate;
+mod groups;
 mod help;
 mod info;
 pub mod inputs;
@@ -32,7 +33,6 @@ mod selection;
 mod signals;
 mod standard_input;
 mod standard_output;
-mod textures;
 #[cfg(feature = "window")]
 mod view;
 
@@ -48,15 +48,11 @@ const COMMANDS: &[Command] = &[
     render::COMMAND,
     #[cfg(feature = "window")]
     view::COMMAND,
-    looks::COMMAND,
     page::COMMAND,
     again::COMMAND,
-    edges::COMMAND,
-    textures::COMMAND,
     batch::COMMAND,
     info::COMMAND,
-    completions::COMMAND,
-    man::COMMAND,
+    generate::COMMAND,
 ];
 
 impl Default for Program {

@@ -24,8 +24,9 @@ use crate::files::{Failure, shown};
 use crate::gl::ContextInfo;
 use crate::markup::{RECIPE_BEGIN, RECIPE_END};
 use crate::picture::{Note, png_text};
+use crate::request::Request;
 use crate::scene::Scene;
-use crate::settings::{OptionValue, Options};
+use crate::settings::{HasSettings, OptionValue, Options};
 use crate::shell;
 use crate::styles::Style;
 use serde::{Deserialize, Serialize};
@@ -310,8 +311,13 @@ impl Recipe {
 
 /// The words that give an option on the command line; empty for a switch that is off.
 pub fn option_words(name: &str, value: &OptionValue) -> Vec<String> {
+    let setting = Request::table().settings.iter().find(|setting| setting.name == name);
+    let group = setting.and_then(|setting| setting.group);
     match value {
         OptionValue::Switch(false) => Vec::new(),
+        // Inside another option.
+        OptionValue::Switch(true) if let Some(group) = group => vec![format!("--{group}"), name.to_owned()],
+        OptionValue::Text(value) if let Some(group) = group => vec![format!("--{group}"), format!("{name}={value}")],
         OptionValue::Switch(true) => vec![format!("--{name}")],
         // As a separate word it would be parsed as an option.
         OptionValue::Texts(values) => option_words(name, &OptionValue::Text(values.join(","))),

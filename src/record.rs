@@ -16,7 +16,6 @@ pub use camera::CameraRecord;
 pub use lines::{LineCounts, LinesMade, drawing_json};
 pub use regions::regions_json;
 
-use crate::edges::{ClassCounts, ClassSet, SilhouetteRule};
 use crate::gl::ContextInfo;
 use crate::mesh::{Defects, LoadOptions, Mesh};
 use crate::plan::Submission;
@@ -141,42 +140,6 @@ impl ModelRecord {
     }
 }
 
-/// A model's edges and the time it took to find them, milliseconds.
-#[derive(Debug, Clone, Serialize)]
-pub struct EdgeRecord {
-    /// tinta's version.
-    pub version: &'static str,
-    /// The model, with its defects.
-    pub model: ModelRecord,
-    /// How it was read.
-    pub load: LoadOptions,
-    /// Edges, each once.
-    pub edges: usize,
-    /// Number of edges in each class; an edge of several counts in each. Intersections of faces are not searched and have no key.
-    #[serde(serialize_with = "without_intersections")]
-    pub classes: ClassCounts,
-    /// Inner edges whose faces have opposite winding.
-    pub reversed_edges: usize,
-    /// Smallest angle between faces at a crease.
-    pub crease_angle_degrees: f64,
-    /// Its cosine.
-    pub crease_cosine: f64,
-    /// The rule for silhouettes.
-    pub silhouette_rule: SilhouetteRule,
-    /// The camera, world space.
-    pub camera: CameraRecord,
-    /// Reading the model.
-    pub load_ms: f64,
-    /// The edge list.
-    pub build_ms: Summary,
-    /// Time to find the classes that do not depend on the view.
-    pub classify_ms: Summary,
-    /// Time to compute the faces' planes, once per mesh.
-    pub planes_ms: Summary,
-    /// The silhouette.
-    pub silhouette_ms: Summary,
-}
-
 /// The file of measured rows inside a report's folder.
 pub const ROWS_FILE: &str = "results.jsonl";
 
@@ -203,10 +166,4 @@ impl Summary {
             all,
         }
     }
-}
-
-/// Serialises the counts of the classes that a mesh's edges can have.
-fn without_intersections<S: serde::Serializer>(counts: &ClassCounts, serializer: S) -> Result<S::Ok, S::Error> {
-    let mut counts = *counts;
-    serializer.collect_map(ClassSet::EDGES.classes().map(|class| (class.name(), *counts.of(class))))
 }

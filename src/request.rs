@@ -35,7 +35,7 @@ pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
 pub use format::{DrawingFormat, Wanted};
 #[cfg(feature = "cli")]
-pub(crate) use gone::gone;
+pub(crate) use gone::{gone, gone_command};
 pub use layers::{OF_PAPER, OptionLayer, ignored_remark, layers, pixels_on_paper};
 #[cfg(feature = "cli")]
 pub(crate) use layers::{OF_PATHS, unknown};
@@ -53,7 +53,7 @@ use crate::recipe::{Driver, FileRecord, Recipe, files_read};
 use crate::renderer::Renderer;
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::settings::{HasSettings, Kind, Options, Setting, Table, names_of, under, within};
-use crate::styles::{Ramp, Show, Style, StyleName, TextureSource, is_of_lines_alone};
+use crate::styles::{Show, Style, StyleName, is_of_lines_alone};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -89,8 +89,6 @@ pub struct Request {
     pub options: Options,
     /// Where options that come from a look or a file stand.
     sources: BTreeMap<String, Source>,
-    /// Files of options whose paths are not valid text.
-    paths: Vec<(String, PathBuf)>,
 }
 
 tinta_geometry::choices! {
@@ -333,7 +331,6 @@ impl Request {
             title: None,
             options: Options::new(),
             sources: BTreeMap::new(),
-            paths: Vec::new(),
         }
     }
 
@@ -401,33 +398,7 @@ impl Request {
     ///
     /// As [`Style::with_options`].
     pub fn in_style(&self, style: StyleName) -> Result<Self> {
-        let mut other = Self { style: Style::with_options(style, &self.options)?, paths: Vec::new(), ..self.clone() };
-        self.paths.iter().try_for_each(|(option, path)| other.set_path(option, path))?;
-        Ok(other)
-    }
-
-    /// Reads the file of an option whose path is not valid text, which options cannot hold.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::File`] if it cannot be read.
-    pub fn set_path(&mut self, option: &str, path: &Path) -> Result<()> {
-        self.paths.push((option.to_owned(), path.to_owned()));
-        match (&mut self.style, option) {
-            (_, "skin") => self.read.skin = Some(path.to_owned()),
-            (Style::Inking(inking), "ramp") => inking.ramp = Ramp::read(path)?,
-            (Style::Charcoal(charcoal) | Style::Sand(charcoal), option) => {
-                let source = match option {
-                    "cet" => &mut charcoal.cet,
-                    "noise-texture" => &mut charcoal.noise_texture,
-                    "paper" => &mut charcoal.paper,
-                    _ => return Ok(()),
-                };
-                *source = TextureSource::read(path)?;
-            }
-            _ => {}
-        }
-        Ok(())
+        Ok(Self { style: Style::with_options(style, &self.options)?, ..self.clone() })
     }
 
     /// The style's name for messages: its look, or its own name.

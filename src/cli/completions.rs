@@ -1,60 +1,24 @@
-//! `tinta completions`: a script with which a shell completes commands, options, values and files.
+//! A script with which a shell completes commands, options, values and files.
 //!
 //! clap_complete writes the scripts from the definition that also parses the command line. This module adds two things: a model
 //! or preset is either a built-in one or a file, and in bash a word may hold a colon or an equals sign.
 
 mod values;
 
-use super::{Command as OfProgram, Program, Verdict, given};
+use super::Program;
+use super::generate::What;
 use clap::Command;
 use clap_complete::Shell as Written;
-use tinta::Result;
 use tinta::mesh::BUILTINS;
 use tinta::preset::SHIPPED;
 pub use values::{of_table, with_values};
-
-/// The command.
-pub(super) const COMMAND: OfProgram = OfProgram {
-    examples: &["tinta completions bash                          or zsh, fish"],
-    ..OfProgram::new("completions", <Arguments as clap::Args>::augment_args, |matches, call| {
-        run(&given::<Arguments>(matches)?, call.program).map(|()| Verdict::Good)
-    })
-};
-
-/// Print a completion script for a shell: commands, options, values and files
-#[derive(clap::Args)]
-#[command(after_help = "Run one of these once; it takes effect in new shells:
-  tinta completions bash > \
-~/.local/share/bash-completion/completions/tinta
-  tinta completions zsh > ~/.zfunc/_tinta          with \
-fpath+=~/.zfunc before compinit in ~/.zshrc
-  tinta completions fish > ~/.config/fish/completions/tinta.fish
-
-The \
-folders must exist: mkdir -p creates them. The Debian package installs these files.")]
-pub(super) struct Arguments {
-    /// Shell to write the script for
-    #[arg(value_name = "SHELL")]
-    shell: Shell,
-}
-
-/// Shells with completions of ours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum Shell {
-    Bash,
-    Zsh,
-    Fish,
-}
-
-pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<()> {
-    super::print(&script(arguments.shell, program))
-}
 
 /// Options that take a preset, and arguments that take models.
 const PRESET: &str = "preset";
 const MODELS: [&str; 2] = ["models", "model"];
 
-fn script(shell: Shell, program: &Program) -> String {
+/// The script of a shell; empty for man.
+pub(super) fn script(shell: What, program: &Program) -> String {
     let command = with_values(program);
     let written = |shell: Written| {
         let mut script = Vec::new();
@@ -62,9 +26,10 @@ fn script(shell: Shell, program: &Program) -> String {
         String::from_utf8_lossy(&script).into_owned()
     };
     match shell {
-        Shell::Bash => bash(&command, &written(Written::Bash)),
-        Shell::Zsh => zsh(&written(Written::Zsh)),
-        Shell::Fish => fish(&command, &written(Written::Fish)),
+        What::Bash => bash(&command, &written(Written::Bash)),
+        What::Zsh => zsh(&written(Written::Zsh)),
+        What::Fish => fish(&command, &written(Written::Fish)),
+        What::Man => String::new(),
     }
 }
 

@@ -4,6 +4,7 @@
 //! clap would give each option of a long help three lines; here both helps use the short form.
 
 use super::Program;
+use super::groups::ALSO;
 use clap::{Arg, ArgAction, Command};
 use std::ffi::OsString;
 use tinta::preset::{LOOKS, OptionValue, Options};
@@ -107,6 +108,17 @@ fn lines(command: &Command) -> usize {
     command.clone().term_width(80).render_help().to_string().lines().count()
 }
 
+/// An option whose help has its own part alone, with one default.
+fn in_short(arg: Arg) -> Arg {
+    let Some(help) = arg.get_help().map(ToString::to_string) else { return arg };
+    let (about, default) = help.rsplit_once(DEFAULT).map_or((help.as_str(), String::new()), |(about, default)| {
+        let default = default.split(OTHERWISE).next().unwrap_or_default().split(';').next().unwrap_or_default();
+        (about, format!(" {DEFAULT}{}]", default.trim_end_matches(']')))
+    });
+    let about = about.split(ALSO).next().unwrap_or_default().trim_end().to_owned();
+    arg.help(about + &default)
+}
+
 /// A command that lists only these options, in one group, and names the way to the others.
 fn shortened(command: Command, needed: &[String]) -> Command {
     let name = command.get_name().to_owned();
@@ -115,7 +127,7 @@ fn shortened(command: Command, needed: &[String]) -> Command {
         .mut_args(|arg| {
             let is_needed = needed.contains(&id(&arg));
             let is_option = !arg.is_positional();
-            let arg = if is_needed { arg } else { arg.hide(true) };
+            let arg = if is_needed { in_short(arg) } else { arg.hide(true) };
             if is_option { arg.help_heading(None) } else { arg }
         })
         .disable_help_flag(true)
@@ -199,13 +211,13 @@ mod tests {
                 assert!(is_stated || help.ends_with(&format!("[default: {value}]")), "{name} --{option}: {help}");
             }
         }
-        let edges = command.find_subcommand("edges").unwrap();
-        assert!(options(edges).all(|arg| !arg.get_help().unwrap().to_string().contains(OTHERWISE)));
+        let info = command.find_subcommand("info").unwrap();
+        assert!(options(info).all(|arg| !arg.get_help().unwrap().to_string().contains(OTHERWISE)));
     }
 
     #[test]
     fn a_help_of_one_page_is_the_same_for_both() {
-        for name in ["textures", "info", "again"] {
+        for name in ["generate", "info", "again"] {
             assert_eq!(help_of(&format!("tinta {name} -h")), help_of(&format!("tinta {name} --help")));
         }
     }

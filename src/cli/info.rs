@@ -1,37 +1,82 @@
-//! `tinta info`: tries every backend and prints its properties or why it failed.
+//! `tinta info`: whether tinta works here, with the properties of every backend or why it failed; or a model's edges by class.
 
-use super::Verdict;
-use super::{Command, given};
+use super::models::load_meshes;
+use super::options::{Chosen, Selection};
+use super::{Command, Verdict, given};
+use serde_json::json;
 use tinta::drivers::{Checked, Found, check};
+use tinta::edges::{Class, ClassCounts, ClassSet, Classes, SilhouetteRule, Silhouettes};
 use tinta::gl::context::{Attempt, Outcome, attempts};
-use tinta::{Backend, Error, Result};
+use tinta::record::{CameraRecord, ModelRecord};
+use tinta::settings::Setting;
+use tinta::styles::Inking;
+use tinta::{Backend, Error, LoadOptions, Result, Scene, SceneSettings, Style, StyleName};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
-    examples: &["tinta info                                      list the OpenGL backends"],
+    examples: &[
+        "tinta info                                      say whether tinta works here",
+        "tinta info cow.obj                              count its edges by class",
+    ],
     ..Command::new("info", <Arguments as clap::Args>::augment_args, |matches, _| run(&given::<Arguments>(matches)?))
 };
 
-/// Show which OpenGL backends work on this machine, and why the others do not
+/// Show whether tinta works here and with which drivers, or count a model's edges by class
 #[derive(clap::Args)]
 #[command(after_help = "\
-Exit code: 0 if a context works, and with --check if all draw as they should; 1 if one does not; 2 if none works. docs/dev/drivers.md lists \
-known driver faults.")]
+Exit code: 0 if a context works, and with --check if all draw as they should; 1 if one does not; 2 if none works. \
+--check \
+also names the known faults of each driver.")]
 pub(super) struct Arguments {
+    /// Model file (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in model, or - for standard input [default: none, show the drivers]
+    #[arg(value_name = "MODEL")]
+    model: Option<String>,
+
     /// Backends to try: auto (all), egl, surfaceless, osmesa, wgl, cgl [default: auto]
-    #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
+    #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true, conflicts_with = "model")]
     backend: Backend,
 
     /// Draw small scenes in every style on each, compare them with reference pictures, and ask about copies, offsets, smoothed lines and alpha [default: off]
-    #[arg(long)]
+    #[arg(long, conflicts_with = "model")]
     check: bool,
 
     /// Print one JSON object instead of text [default: off]
     #[arg(long)]
     json: bool,
+
+    #[command(flatten)]
+    crease: Chosen<OfEdges>,
+
+    #[command(flatten)]
+    read: Chosen<OfReading>,
+}
+
+/// The setting of the edge list, the same as in the style inking.
+struct OfEdges;
+
+impl Selection for OfEdges {
+    type Of = Style;
+
+    fn has(setting: &Setting<Style>) -> bool {
+        setting.name == "crease-angle"
+    }
+}
+
+/// How a model is read.
+struct OfReading;
+
+impl Selection for OfReading {
+    type Of = LoadOptions;
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
+    if let Some(model) = &arguments.model {
+        return edges(model, arguments).map(|()| Verdict::Good);
+    }
+    if let Some(option) = arguments.crease.options.keys().chain(arguments.read.options.keys()).next() {
+        let problem = format!("--{option}: it counts a model's edges; name the model");
+        return Err(Error::CommandLine { problem });
+    }
     if arguments.check {
         return run_check(arguments);
     }
@@ -39,7 +84,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
     if arguments.json {
         super::print_json(&serde_json::json!({ "version": env!("CARGO_PKG_VERSION"), "attempts": attempts }))?;
     } else {
-        super::print(&attempts.iter().map(in_words).collect::<String>())?;
+        super::print(&(works(&attempts) + &attempts.iter().map(in_words).collect::<String>()))?;
     }
     if attempts.iter().any(|attempt| matches!(attempt.outcome, Outcome::Context(_))) {
         return Ok(Verdict::Good);
@@ -49,6 +94,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
         Outcome::Context(_) => attempt.device,
     };
     Err(Error::NoContext { attempts: attempts.into_iter().map(reason).collect() })
+}
+
+/// The first line: the driver of the first context, with which tinta draws; empty where none works.
+fn works(attempts: &[Attempt]) -> String {
+    let info = |attempt: &Attempt| match &attempt.outcome {
+        Outcome::Context(info) => {
+            Some(format!("tinta works: it draws with {}, OpenGL {}\n\n", info.renderer, info.version))
+        }
+        Outcome::Error(_) => None,
+    };
+    attempts.iter().find_map(info).unwrap_or_default()
 }
 
 /// Checks every context there is.
@@ -129,4 +185,62 @@ fn in_words(attempt: &Attempt) -> String {
     ];
     let lines: String = rows.iter().map(|(name, value)| format!("  {name:<21}{value}\n")).collect();
     format!("{}\n{lines}\n", attempt.device)
+}
+
+/// Prints a model's edges by class.
+fn edges(model: &str, arguments: &Arguments) -> Result<()> {
+    let Style::Inking(Inking { crease_angle, .. }) = Style::with_options(StyleName::Inking, &arguments.crease.options)?
+    else {
+        return Ok(());
+    };
+    let (read, rule) = (arguments.read.settings()?, SilhouetteRule::Exact);
+    let scene = Scene::new(load_meshes(&[model.to_owned()], &read)?, &SceneSettings::default())?;
+    let Some(object) = scene.objects.first() else { return Ok(()) };
+    let (mesh, found) = (&object.mesh, scene.edges(object));
+    found.remark().iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
+    let list = found.list();
+    let mut counts = Classes::new(mesh, list, crease_angle, ClassSet::EDGES).counts();
+    counts.silhouette = Silhouettes::new(mesh, list).find(mesh, list, scene.eye(object, rule), rule).len();
+    if !arguments.json {
+        return super::print(&edges_in_words(list.len(), counts, list.reversed_edges()));
+    }
+    let classes: Vec<Class> = ClassSet::EDGES.classes().collect();
+    let classes = classes.into_iter().map(|class| (class.name().to_owned(), json!(*counts.of(class))));
+    super::print_json(&json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "model": ModelRecord::new(mesh),
+        "load": read,
+        "edges": list.len(),
+        "classes": classes.collect::<serde_json::Map<_, _>>(),
+        "reversed_edges": list.reversed_edges(),
+        "crease_angle_degrees": crease_angle.degrees(),
+        "crease_cosine": crease_angle.cosine,
+        "camera": CameraRecord::new(&scene),
+    }))
+}
+
+fn edges_in_words(edges: usize, mut counts: ClassCounts, reversed: usize) -> String {
+    let mut text = format!("{:<16}{edges:>10}\n", "edges");
+    for class in ClassSet::EDGES.classes() {
+        let what = match class {
+            Class::Boundary => "one face",
+            Class::NonManifold => "three faces or more",
+            Class::Silhouette => "where the surface turns away, in the view iso",
+            Class::Crease => "sharper than the crease angle",
+            Class::ConvexCrease => "of these convex",
+            Class::ConcaveCrease => "of these concave",
+            Class::Material => "between two materials",
+            Class::Texture => "between different texture coordinates",
+            Class::Normal => "between different vertex normals",
+            Class::Part => "between two parts",
+            Class::Marked => "marked by the file",
+            // No edges of the mesh.
+            _ => continue,
+        };
+        text.push_str(&format!("  {:<14}{:>10}  {what}\n", class.name(), *counts.of(class)));
+    }
+    if reversed > 0 {
+        text.push_str(&format!("  {:<14}{reversed:>10}  faces wound against each other\n", "reversed"));
+    }
+    text
 }

@@ -1,51 +1,19 @@
-//! `tinta man`: a manual page for the program and one for each command.
+//! A manual page for the program and one for each command.
 //!
 //! clap_mangen writes names, synopses and options from the definition that also reads the command line. Examples, exit
 //! codes, environment and the texts below `--help` are put below them.
 
-use super::{Command as OfProgram, Program, Verdict, given};
+use super::Program;
 use clap::Command;
 use clap_mangen::Man;
 use roff::{Roff, bold, roman};
-use std::path::PathBuf;
-use tinta::{Result, TextTarget};
-
-/// The command.
-pub(super) const COMMAND: OfProgram = OfProgram {
-    examples: &["tinta man -o man                                write the manual pages"],
-    ..OfProgram::new("man", <Arguments as clap::Args>::augment_args, |matches, call| {
-        run(&given::<Arguments>(matches)?, call.program).map(|()| Verdict::Good)
-    })
-};
-
-/// Write the manual pages: tinta.1, and one for each command, such as tinta-render.1
-#[derive(clap::Args)]
-#[command(
-    after_help = "To read one: man -l man/tinta.1. Written with -o ~/.local/share/man/man1, they open with: man \
-tinta. The Debian package installs them."
-)]
-pub(super) struct Arguments {
-    /// Folder to write into; created if missing
-    #[arg(short, long, value_name = "DIR")]
-    output: PathBuf,
-}
-
-pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<()> {
-    super::make_folder(&arguments.output)?;
-    let targets = pages(program).into_iter().map(|page| {
-        let path = arguments.output.join(&page.file);
-        TextTarget::check(&path.to_string_lossy()).map(|target| (target, page.text))
-    });
-    let targets = targets.collect::<Result<Vec<_>>>()?;
-    targets.iter().try_for_each(|(target, text)| target.write(text))
-}
 
 /// A manual page.
-struct Page {
+pub(super) struct Page {
     /// Its file: `tinta-render.1`.
-    file: String,
+    pub file: String,
     /// The page in man's language.
-    text: String,
+    pub text: String,
 }
 
 /// The description of the program, for its own page.
@@ -65,8 +33,8 @@ const ENVIRONMENT: [(&str, &str); 3] = [
     ("LP_NUM_THREADS", "Number of threads that Mesa's llvmpipe draws with; unset, one for each core."),
 ];
 
-/// Commands that open no OpenGL.
-const WITHOUT_OPENGL: [&str; 4] = ["edges", "textures", "completions", "man"];
+/// The command that opens no OpenGL.
+const WITHOUT_OPENGL: &str = "generate";
 
 /// The meaning of each exit code.
 const EXIT_CODES: [(&str, &str); 4] = [
@@ -82,7 +50,7 @@ const EXIT_CODES: [(&str, &str); 4] = [
 /// Further ones of `tinta batch`.
 const EXIT_CODES_OF_BATCH: [(&str, &str); 1] = [("75", "Another run is working on the same slice; try again later.")];
 
-fn pages(program: &Program) -> Vec<Page> {
+pub(super) fn pages(program: &Program) -> Vec<Page> {
     let mut whole = program.command_line().disable_help_subcommand(true);
     whole.build();
     let examples = examples(&whole);
@@ -144,7 +112,7 @@ pub(super) fn page(command: &Command, examples: &[String], commands: &[String]) 
     if command.get_name() == "batch" {
         EXIT_CODES_OF_BATCH.iter().for_each(|code| row(&mut rest, *code));
     }
-    if !WITHOUT_OPENGL.contains(&command.get_name()) {
+    if command.get_name() != WITHOUT_OPENGL {
         listed(&mut rest, "ENVIRONMENT", &ENVIRONMENT);
         if command.get_name() == "view" || !commands.is_empty() {
             row(&mut rest, DISPLAY);

@@ -1,5 +1,6 @@
 //! Messages: results to standard output, remarks to standard error, or both captured for the batch worker that does the job.
 
+use super::groups::in_groups;
 use super::standard_output;
 use std::io::Write;
 use std::path::Path;
@@ -35,7 +36,7 @@ pub(super) fn is_captured() -> bool {
 
 /// Prints a line for the user to standard error; a closed stream is no error.
 pub fn say(line: &str) {
-    let line = plain(line);
+    let line = plain(&in_groups(line));
     match CAPTURED.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
         Some(captured) => captured.said.push(line.strip_prefix("tinta: ").map(str::to_owned).unwrap_or(line)),
         None => drop(writeln!(std::io::stderr(), "{line}")),

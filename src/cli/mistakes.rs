@@ -1,9 +1,10 @@
 //! The error of a command line in one sentence: clap's without usage lines and hints, or a better one where possible, such as a
 //! suggested name.
 
+use super::groups::inside_now;
 use super::help::options;
 use crate::choice::{meant_or, nearest, no_option};
-use crate::request::gone;
+use crate::request::{gone, gone_command};
 use clap::Command;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::ffi::OsString;
@@ -58,6 +59,9 @@ fn texts(error: &clap::Error, kind: ContextKind) -> Option<&[String]> {
 
 fn unknown_command(error: &clap::Error, whole: &Command) -> Option<String> {
     let name = text(error, ContextKind::InvalidSubcommand)?;
+    if let Some(problem) = gone_command(name) {
+        return Some(problem);
+    }
     let names: Vec<&str> = whole.get_subcommands().map(Command::get_name).collect();
     let choice = meant_or(name, &names, &format!("choose one of {}", names.join(", ")));
     Some(format!("there is no command {}; {choice}", shortened(name)))
@@ -73,7 +77,7 @@ fn unknown_option(error: &clap::Error, command: &Command, words: &[OsString]) ->
     if !name.starts_with('-') {
         return Some(surplus(command, &shortened(word)));
     }
-    if let Some(problem) = gone(name.trim_start_matches('-')) {
+    if let Some(problem) = gone(name.trim_start_matches('-')).or_else(|| inside_now(name.trim_start_matches('-'))) {
         return Some(format!("{name}: {problem}"));
     }
     let command_name = match command.get_name() {
@@ -173,15 +177,15 @@ mod tests {
             ("tinta render a.obj -o a.png --colour red", "tinta render has no option --colour; did you mean --color?"),
             ("tinta render a.obj -o a.png -size=64", "tinta render has no option -size; did you mean --size?"),
             (
-                "tinta edges a.obj --crease_angel 30",
-                "tinta edges has no option --crease_angel; did you mean --crease-angle?",
+                "tinta info a.obj --crease_angel 30",
+                "tinta info has no option --crease_angel; did you mean --crease-angle?",
             ),
-            ("tinta edges a.obj --seed 3", "tinta edges has no option --seed; see --help"),
+            ("tinta info a.obj --seed 3", "tinta info has no option --seed; see --help"),
             ("tinta --versoin", "tinta has no option --versoin; did you mean --version?"),
-            ("tinta completions bahs", "invalid value 'bahs' for '<SHELL>': did you mean bash?"),
+            ("tinta generate bahs", "invalid value 'bahs' for '<WHAT>': did you mean bash?"),
             (
-                "tinta completions nushell",
-                "invalid value 'nushell' for '<SHELL>': choose one of bash, zsh, fish; see --help",
+                "tinta generate nushell",
+                "invalid value 'nushell' for '<WHAT>': choose one of bash, zsh, fish, man; see --help",
             ),
             (
                 "tinta render a.obj -o a.png --style three_pass",
@@ -216,10 +220,6 @@ mod tests {
             (
                 "tinta render",
                 "a model and --output are missing: tinta render cow.obj -o cow.png; see --help".to_owned(),
-            ),
-            (
-                "tinta edges",
-                "a model is missing; name a file, or a built-in one such as builtin:bust; see --help".to_owned(),
             ),
         ] {
             assert_eq!(said(line), sentence, "{line}");

@@ -7,12 +7,14 @@
 mod tests;
 
 use super::camera_file;
+use super::groups::{groups, in_groups};
 pub use super::selection::Selection;
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches, parser::ValueSource};
 use std::ffi::OsStr;
 use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 use tinta::camera;
+use tinta::error::ParseError;
 use tinta::preset::{LOOKS, Look, Preset};
 use tinta::request::{OptionLayer, Request, layers};
 use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table};
@@ -23,8 +25,6 @@ use tinta::{LoadOptions, Result};
 pub struct Chosen<S> {
     /// By name, as in a preset.
     pub options: Options,
-    /// Files whose paths are not valid text; options cannot hold them.
-    paths: Vec<(&'static str, PathBuf)>,
     selection: PhantomData<S>,
 }
 
@@ -37,7 +37,7 @@ impl<S: Selection> Chosen<S> {
     pub fn of_options(options: &Options) -> Self {
         let options = options.iter().filter(|(name, _)| Self::all().any(|setting| setting.name == **name));
         let options = options.map(|(name, value)| (name.clone(), value.clone())).collect();
-        Self { options, paths: Vec::new(), selection: PhantomData }
+        Self { options, selection: PhantomData }
     }
 
     /// Whether it has an option of this name.
@@ -59,7 +59,7 @@ fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'st
     let default = setting.said_default.map_or_else(|| table.default_of(setting), str::to_owned);
     let arg = Arg::new(setting.name)
         .long(setting.name)
-        .help(format!("{} [default: {default}]", setting.help))
+        .help(in_groups(&format!("{} [default: {default}]", setting.help)))
         .hide_short_help(!setting.is_common);
     if setting.kind == Kind::Flag {
         return arg.action(ArgAction::SetTrue);
@@ -73,7 +73,6 @@ fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'st
     // Parsing refuses only invalid values; the setting's owner is known later.
     let check = move |text: &str| table.check(setting.name, text).map(|()| text.to_owned());
     match &setting.kind {
-        Kind::File => arg.value_parser(clap::value_parser!(PathBuf)),
         Kind::Numbers { .. } | Kind::Text { .. } | Kind::Color | Kind::Colors { .. } => {
             arg.value_parser(check).allow_hyphen_values(true)
         }
@@ -85,7 +84,7 @@ fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'st
 }
 
 /// The word against a switch that a look turns on; `None` for a setting with a value, and for one that leaves something out.
-fn off<T>(setting: &Setting<T>) -> Option<String> {
+fn off_word<T>(setting: &Setting<T>) -> Option<String> {
     (setting.kind == Kind::Flag && !setting.name.starts_with("no-")).then(|| format!("no-{}", setting.name))
 }
 
@@ -96,14 +95,17 @@ pub(super) fn with_settings<T: Clone + Send + Sync + 'static>(
     settings: impl Iterator<Item = &'static Setting<T>>,
     has_headings: bool,
 ) -> Command {
-    settings.fold(command, |command, setting| {
-        let arg =
-            arg(table, setting).help_heading((has_headings && !setting.heading.is_empty()).then_some(setting.heading));
-        let command = command.arg(arg);
-        match off(setting) {
-            Some(off) => command.arg(Arg::new(off.clone()).long(off).hide(true).action(ArgAction::SetTrue)),
-            None => command,
-        }
+    groups(settings).iter().fold(command, |command, group| {
+        let arg = match group.plain.filter(|_| group.inside.is_empty()) {
+            Some(setting) => arg(table, setting),
+            None => group.arg(table),
+        };
+        let heading = group.heading();
+        let command = command.arg(arg.help_heading((has_headings && !heading.is_empty()).then_some(heading)));
+        let off = |command: Command, off: String| {
+            command.arg(Arg::new(off.clone()).long(off).hide(true).action(ArgAction::SetTrue))
+        };
+        group.settings().filter_map(off_word).fold(command, off)
     })
 }
 
@@ -119,25 +121,31 @@ impl<S: Selection> clap::Args for Chosen<S> {
 
 impl<S: Selection> FromArgMatches for Chosen<S> {
     fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
-        let mut chosen = Self { options: Options::new(), paths: Vec::new(), selection: PhantomData };
+        let mut chosen = Self { options: Options::new(), selection: PhantomData };
+        for group in groups(Self::all()).iter().filter(|group| !group.inside.is_empty()) {
+            let given = matches.value_source(group.name) == Some(ValueSource::CommandLine);
+            for text in matches.get_many::<String>(group.name).into_iter().flatten().filter(|_| given) {
+                let split = group.split(text).unwrap_or_default();
+                chosen.options.extend(split.into_iter().map(|(name, value)| (name.to_owned(), value)));
+            }
+        }
+        let is_alone = |setting: &&Setting<S::Of>| {
+            setting.group.is_none() && !Self::all().any(|other| other.group == Some(setting.name))
+        };
         for setting in Self::all() {
-            if off(setting).is_some_and(|off| matches.value_source(&off) == Some(ValueSource::CommandLine)) {
+            if off_word(setting).is_some_and(|off| matches.value_source(&off) == Some(ValueSource::CommandLine)) {
                 chosen.options.insert(setting.name.to_owned(), OptionValue::Switch(false));
                 continue;
             }
-            if matches.value_source(setting.name) != Some(ValueSource::CommandLine) {
+            if !is_alone(&setting) || matches.value_source(setting.name) != Some(ValueSource::CommandLine) {
                 continue;
             }
             let between = OsStr::new(setting.between.unwrap_or_default());
             let raw: Vec<&OsStr> = matches.get_raw(setting.name).into_iter().flatten().collect();
-            let value = match raw.join(between).into_string() {
-                _ if setting.kind == Kind::Flag => OptionValue::Switch(true),
-                Ok(text) if setting.stands_alone && text.is_empty() => OptionValue::Switch(true),
-                Ok(text) => OptionValue::Text(text),
-                Err(path) => {
-                    chosen.paths.push((setting.name, path.into()));
-                    continue;
-                }
+            let text = raw.join(between).to_string_lossy().into_owned();
+            let value = match text.is_empty() && setting.stands_alone || setting.kind == Kind::Flag {
+                true => OptionValue::Switch(true),
+                false => OptionValue::Text(text),
             };
             chosen.options.insert(setting.name.to_owned(), value);
         }
@@ -198,6 +206,35 @@ pub(super) struct NamedLook {
     pub look: Option<Look>,
 }
 
+/// `--look` of `tinta render`.
+#[derive(clap::Args, Default)]
+pub(super) struct NamedLooks {
+    #[arg(id = "look", long, value_name = "LOOK", value_parser = Looks::of_name, help = format!(
+        "Appearance of the picture: {}; all: a picture in each, into the folder of --output; a preset and every other option \
+         override it [default: {}; published if a style or preset is given, and into .dxf and .json]",
+        Look::list(), LOOKS[0].name
+    ))]
+    pub looks: Option<Looks>,
+}
+
+/// A look, or all of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Looks {
+    One(Look),
+    All,
+}
+
+impl Looks {
+    fn of_name(name: &str) -> std::result::Result<Self, ParseError> {
+        if name == "all" { Ok(Self::All) } else { Look::of_name(name).map(Self::One) }
+    }
+
+    /// `None` for all.
+    pub(super) fn one(self) -> Option<Look> {
+        if let Self::One(look) = self { Some(look) } else { None }
+    }
+}
+
 /// The layers below the options of a command line.
 #[derive(Debug, Default)]
 pub struct Below<'a> {
@@ -253,11 +290,8 @@ impl<S: Selection<Of = Request>> Chosen<S> {
             layers.insert(layers.len() - 1, OptionLayer::Camera(camera));
             aspect = of_file.map(|aspect| (path, aspect));
         }
-        let (mut request, mut remarks) = Request::from_layers(&layers)?;
+        let (request, mut remarks) = Request::from_layers(&layers)?;
         remarks.extend(aspect.and_then(|(path, aspect)| camera_file::aspect_remark(path, aspect, request.scene.size)));
-        for (option, path) in &self.paths {
-            request.set_path(option, path)?;
-        }
         Ok((request.with_models(models.to_vec()), remarks))
     }
 }

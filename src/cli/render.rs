@@ -14,13 +14,14 @@ pub use animate::scenes;
 use super::Verdict;
 use super::batch::JobOptions;
 use super::inputs::Inputs;
-use super::options::{Below, CameraFile, Chosen, NamedLook, OfRequest, PresetFile};
+use super::options::{Below, CameraFile, Chosen, Looks, NamedLooks, OfRequest, PresetFile};
 use super::run_settings::{OfRun, RunSettings};
-use super::{Command, given};
+use super::{Command, given, looks};
 use rendering::{Rendering, pictures_of};
 use std::path::Path;
 use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
+use tinta::preset::{LOOKS, Look};
 use tinta::record::{Made, PictureMade, Summary};
 use tinta::request::{DrawingFormat, Drawn, DrawnPicture, Request, Session, Times, Wanted};
 use tinta::settings::refuse_exclusive;
@@ -35,6 +36,7 @@ pub(super) const COMMAND: Command = Command {
         "tinta render cow.obj -o cow.svg                 write it as vectors",
         "tinta render cow.obj -o cow.gif --turntable 60  turn the model once around",
         "tinta render cow.obj -o cow.png --preset a.toml read options from a file",
+        "tinta render cow.obj -o looks --look all        draw it in every look",
     ],
     job: Some(|job| {
         let arguments = Arguments::of_job(job)?;
@@ -64,7 +66,7 @@ pub(super) struct Arguments {
     pub run: Chosen<OfRun>,
 
     #[command(flatten)]
-    pub look: NamedLook,
+    pub look: NamedLooks,
 
     #[command(flatten)]
     pub preset: PresetFile,
@@ -83,19 +85,24 @@ impl Arguments {
             output: job.output.clone(),
             options: Chosen::of_options(&job.options),
             run: Chosen::of_options(&job.options),
-            look: NamedLook { look: job.look()? },
+            look: NamedLooks { looks: job.look()?.map(Looks::One) },
             preset: job.preset(),
             camera: job.camera(),
         })
     }
 
     /// Returns the request, and the options without effect.
-    pub(super) fn asked(&self) -> Result<(Request, Vec<String>)> {
+    fn asked(&self) -> Result<(Request, Vec<String>)> {
+        self.asked_in(self.look.looks.and_then(Looks::one), &self.output)
+    }
+
+    /// Returns the request for an output in a look, and the options without effect.
+    pub(super) fn asked_in(&self, look: Option<Look>, output: &str) -> Result<(Request, Vec<String>)> {
         let below = Below {
-            look: self.look.look,
+            look,
             preset: self.preset.preset.as_deref(),
             camera: self.camera.camera.as_deref(),
-            draws_lines: DrawingFormat::of_name(&self.output).is_some_and(|format| {
+            draws_lines: DrawingFormat::of_name(output).is_some_and(|format| {
                 // Areas are drawn from one view.
                 format.is_of_lines_alone() || self.options.options.contains_key("turntable")
             }),
@@ -127,13 +134,20 @@ pub fn asked_by(words: &[String]) -> Result<(Request, String)> {
 
 /// Draws the arguments' models.
 pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<Verdict> {
-    let (request, remarks) = arguments.asked()?;
+    match arguments.look.looks {
+        Some(Looks::All) => looks::run(arguments, session),
+        looks => drawn(arguments, looks.and_then(Looks::one), &arguments.output, session),
+    }
+}
+
+/// Draws them in a look into a file.
+pub(super) fn drawn(arguments: &Arguments, look: Option<Look>, output: &str, session: &mut Session) -> Result<Verdict> {
+    let (request, remarks) = arguments.asked_in(look, output)?;
     let run = arguments.run.settings()?;
     let both = arguments.options.options.iter().chain(&arguments.run.options);
     refuse_exclusive(&both.map(|(name, value)| (name.clone(), value.clone())).collect())?;
     let presets = [arguments.preset.preset.as_deref(), arguments.camera.camera.as_deref().and_then(Path::to_str)];
-    let verdict =
-        render(&request, &run, &arguments.output, &presets.into_iter().flatten().collect::<Vec<_>>(), session);
+    let verdict = render(&request, &run, output, &presets.into_iter().flatten().collect::<Vec<_>>(), session);
     let verdict = verdict.map_err(|error| request.attributed(error))?;
     // After drawing: a refusal prints one sentence only.
     remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
@@ -286,11 +300,12 @@ fn after_help() -> String {
     let names: Vec<String> =
         BUILTINS.iter().map(|builtin| format!("  builtin:{:<10} {}", builtin.name, builtin.what)).collect();
     format!(
-        "Built-in models:\n{}\n\nWhere two defaults are given, the first is that of the look print, which tinta draws unless you give \
+        "Built-in models:\n{}\n\nLooks:\n{}\n\nWhere two defaults are given, the first is that of the look print, which tinta draws unless you give \
          --look, --style, --preset or a .dxf or .json file. The second counts with --style, --preset or \
-         --look published. `tinta looks` describes the looks.\n\nPublished borders are black and one or two pixels wide at any \
+         --look published.\n\nPublished borders are black and one or two pixels wide at any \
          size, and edges are not smoothed.\n\nIf facets show as thin lines, the file's normals are wrong: try --normals smooth.",
-        names.join("\n")
+        names.join("\n"),
+        LOOKS.map(|look| format!("  {:<18} {}", look.name, look.about)).join("\n")
     )
 }
 

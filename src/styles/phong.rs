@@ -39,6 +39,7 @@ impl Phong {
                 "Share of the colour seen where no light falls; more lightens the shadows",
                 |phong: &mut Self| &mut phong.ambient,
             )
+            .inside("shading")
             .limits(0.0..=1.0)
             .ours("E shows Phong shading in figures 5a and 8 and prints no weights"),
             Setting::field(
@@ -47,6 +48,7 @@ impl Phong {
                 "Weight of the white highlight; more is brighter",
                 |phong: &mut Self| &mut phong.specular,
             )
+            .inside("shading")
             .limits(0.0..=1.0)
             .ours("E shows Phong shading in figures 5a and 8 and prints no weights"),
             Setting::field(
@@ -55,6 +57,7 @@ impl Phong {
                 "Exponent of the highlight; more makes it smaller",
                 |phong: &mut Self| &mut phong.shininess,
             )
+            .inside("shading")
             .ours("E shows Phong shading in figures 5a and 8 and prints no exponent")
             .limits(1.0..=10_000.0)
             .range(1.0, 200.0, 0),

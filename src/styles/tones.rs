@@ -46,6 +46,7 @@ impl Tones {
                 Ok(())
             },
         )
+        .inside("tones")
         .printed("E, appendix 1: diffuse>=0.8f, specular>0.65f");
         let settings = vec![
             Setting::field(
@@ -63,6 +64,7 @@ impl Tones {
                 "Brightness of each tone: factors for the colour",
                 |tones: &mut Self| &mut tones.levels,
             )
+            .inside("tones")
             .printed("E, appendix 1: 0.65f, 0.95f, 1.0f")
             .range(0.0, 1.0, 3),
             Setting::field(
@@ -71,6 +73,7 @@ impl Tones {
                 "Look up tones by comparison (steps) or in a 1-D texture (texture)",
                 |tones: &mut Self| &mut tones.lookup,
             )
+            .inside("tones")
             .printed("E, appendix 1 compares; section 3.2 names one-dimensional textures"),
         ];
         under(CARTOON, settings).collect()

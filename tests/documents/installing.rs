@@ -11,7 +11,7 @@ fn tinta(words: &[&str]) -> Output {
 
 /// The script for a shell, in a file.
 fn script(folder: &Path, shell: &str) -> PathBuf {
-    let output = tinta(&["completions", shell]);
+    let output = tinta(&["generate", shell]);
     assert!(output.status.success() && output.stdout.len() > 10_000, "{shell}: {output:?}");
     let file = folder.join(shell);
     std::fs::write(&file, output.stdout).unwrap();
@@ -41,8 +41,8 @@ const TYPED: [(&str, &[&str], &str); 8] = [
     ("tinta render --style tw", &["two-pass"], "ink"),
     ("tinta render --style=tw", &["two-pass"], "ink"),
     ("tinta render buil", &["builtin:bust", "builtin:open-box"], "cow.obj"),
-    ("tinta edges c", &["cow.obj"], "builtin:bust"),
-    ("tinta completions ", &["bash", "zsh", "fish"], "cow.obj"),
+    ("tinta info c", &["cow.obj"], "builtin:bust"),
+    ("tinta generate ", &["bash", "zsh", "fish"], "cow.obj"),
 ];
 
 /// Checks answers; some shells omit the part already on the line.
@@ -129,7 +129,7 @@ fn zsh_completes_commands_options_names_models_and_files() {
 fn manual_pages_have_no_warnings() {
     let folder = tempfile::tempdir().unwrap();
     let pages = folder.path().join("man");
-    assert!(tinta(&["man", "-o", pages.to_str().unwrap()]).status.success());
+    assert!(tinta(&["generate", "man", "-o", pages.to_str().unwrap()]).status.success());
     let mut files: Vec<PathBuf> = std::fs::read_dir(&pages).unwrap().map(|file| file.unwrap().path()).collect();
     files.sort();
     assert!(files.len() > 10 && files.contains(&pages.join("tinta.1")), "{files:?}");

@@ -309,7 +309,7 @@ fn without_any_driver_the_sentence_says_what_was_tried_and_what_to_install() {
 
 #[test]
 fn help_states_every_default() {
-    for (command, least) in [("render", 50), ("again", 3), ("compare", 50), ("edges", 15), ("info", 2)] {
+    for (command, least) in [("render", 50), ("again", 3), ("compare", 50), ("info", 15)] {
         let mut program = Command::new(env!("CARGO_BIN_EXE_tinta"));
         let output = program.args([command, "--help"]).env_remove("COLUMNS").output().unwrap();
         let text = String::from_utf8(output.stdout).unwrap();

@@ -1,12 +1,12 @@
-//! `tinta edges`, `tinta compare` and the style inking as a user meets them.
+//! `tinta info MODEL`, `tinta compare` and the style inking as a user meets them.
 
 use crate::program::{answer, refused_in_one_line, tinta};
 use crate::support::Folder;
 use std::path::Path;
 
 #[test]
-fn edges_are_counted_by_class_and_timed_as_often_as_asked() {
-    let output = tinta(&["edges", "builtin:open-box", "--json", "--frames", "3", "--silhouette", "exact"]);
+fn edges_are_counted_by_class() {
+    let output = tinta(&["info", "builtin:open-box", "--json", "--silhouette", "exact"]);
     let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(record["edges"], 17);
     let classes = &record["classes"];
@@ -14,16 +14,12 @@ fn edges_are_counted_by_class_and_timed_as_often_as_asked() {
         assert_eq!(classes[class], count, "{class}");
     }
     assert_eq!(classes.get("intersection"), None, "they are not looked for");
-    for times in ["build_ms", "classify_ms", "planes_ms", "silhouette_ms"] {
-        assert_eq!(record[times]["all"].as_array().map(Vec::len), Some(3), "{times}");
-    }
     assert_eq!(record["model"]["defects"]["degenerate_triangles"], 0);
     assert_eq!(record["crease_cosine"], 0.4);
-    let text = String::from_utf8(tinta(&["edges", "builtin:open-box", "--crease-angle", "100"]).stdout).unwrap();
+    let text = String::from_utf8(tinta(&["info", "builtin:open-box", "--crease-angle", "100"]).stdout).unwrap();
     assert!(text.contains("crease                 0"), "{text}");
-    refused_in_one_line(&["edges", "builtin:open-box", "--crease-angle", "200"], &["--crease-angle 200"]);
-    refused_in_one_line(&["edges", "no-such.obj"], &["no-such.obj"]);
-    refused_in_one_line(&["edges", "builtin:ant", "--frames", "0"], &["--frames"]);
+    refused_in_one_line(&["info", "builtin:open-box", "--crease-angle", "200"], &["--crease-angle 200"]);
+    refused_in_one_line(&["info", "no-such.obj"], &["no-such.obj"]);
 }
 
 #[test]
@@ -43,7 +39,7 @@ fn a_record_of_lines_counts_every_class_by_the_name_that_the_lines_and_the_optio
     tinta(&["render", &book, "-o", &json]);
     let lines: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(json).unwrap()).unwrap();
     assert!(lines["segments"].as_array().unwrap().iter().any(|line| line["class"] == "non-manifold"));
-    assert_eq!(record(&["edges", &book, "--json"])["classes"]["non-manifold"], 1);
+    assert_eq!(record(&["info", &book, "--json"])["classes"]["non-manifold"], 1);
 }
 
 #[test]

@@ -27,7 +27,7 @@ const FILES: [(&str, &str); 16] = [
 ];
 
 /// Command lines and their errors.
-const MISTAKES: [(&str, &str); 100] = [
+const MISTAKES: [(&str, &str); 99] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
     ("render triangle.obj", "--output is missing; name the picture to write: -o triangle.png; see --help"),
@@ -288,11 +288,14 @@ const MISTAKES: [(&str, &str); 100] = [
         "render - -o out.png",
         "standard input: nothing came; pipe a model file into it, or see what the command before the pipe says",
     ),
-    ("edges", "a model is missing; name a file, or a built-in one such as builtin:bust; see --help"),
-    ("edges triangle.obj --seed 3", "tinta edges has no option --seed; see --help"),
-    ("edges triangle.obj other.obj", "tinta edges takes one model; other.obj is one too many; see --help"),
-    ("looks triangle.obj other.obj", "tinta looks takes one model; other.obj is one too many; see --help"),
-    ("info triangle.obj", "tinta info takes options alone; leave out triangle.obj; see --help"),
+    ("info triangle.obj --seed 3", "tinta info has no option --seed; see --help"),
+    ("info triangle.obj other.obj", "tinta info takes one model; other.obj is one too many; see --help"),
+    ("info --crease-angle 30", "--crease-angle: it counts a model's edges; name the model"),
+    ("render triangle.obj --look all -o out.png", "out.png: --look all draws a picture in each look; name a folder"),
+    (
+        "looks triangle.obj",
+        "the command looks is gone; tinta render MODEL --look all -o DIR draws every look, and tinta render --help lists them; see --help",
+    ),
     (
         "compare triangle.obj -o out.png --left phong",
         "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, ink, print, technical",
@@ -304,10 +307,9 @@ const MISTAKES: [(&str, &str); 100] = [
     ("batch none.jsonl -o out", "none.jsonl: there is no such file; check the name"),
     ("again notes.txt", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),
     ("again notes.txt -o out.png", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),
-    ("textures -o triangle.obj", "-o triangle.obj: this is a file; name a folder"),
-    ("completions nushell", "invalid value 'nushell' for '<SHELL>': choose one of bash, zsh, fish; see --help"),
-    ("completions bahs", "invalid value 'bahs' for '<SHELL>': did you mean bash?"),
-    ("provenance three_pass", "invalid value 'three_pass' for '[STYLE]': did you mean three-pass?"),
+    ("generate man -o triangle.obj", "-o triangle.obj: this is a file; name a folder"),
+    ("generate nushell", "invalid value 'nushell' for '<WHAT>': choose one of bash, zsh, fish, man; see --help"),
+    ("generate bahs", "invalid value 'bahs' for '<WHAT>': did you mean bash?"),
 ];
 
 #[test]

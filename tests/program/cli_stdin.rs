@@ -59,7 +59,7 @@ fn a_model_of_every_format_is_drawn_from_a_pipe_as_from_its_file() {
 fn a_picture_can_be_piped_through() {
     let output = piped(&["render", "-", "-o", "-", "--size", "40"], OBJ.as_bytes());
     assert_eq!(image::load_from_memory(&output.stdout).unwrap().width(), 40, "{}", said(&output));
-    let counted = piped(&["edges", "-", "--json"], OBJ.as_bytes());
+    let counted = piped(&["info", "-", "--json"], OBJ.as_bytes());
     assert!(String::from_utf8_lossy(&counted.stdout).contains("\"standard input\""), "{}", said(&counted));
 }
 

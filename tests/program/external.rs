@@ -96,9 +96,9 @@ fn a_skin_that_the_user_names_may_lie_anywhere_and_the_option_is_the_programs_to
     let scene = scene_of_mesh(load(&model, &LoadOptions { skin, ..LoadOptions::default() }).unwrap().mesh);
     assert!(tinta::picture::material_pictures(&scene.objects[0].mesh.materials).unwrap().iter().all(Option::is_some));
 
-    let output = tinta(&["edges", &model]);
+    let output = tinta(&["info", &model]);
     one_line(&String::from_utf8(output.stderr).unwrap(), &["secret.mtl is outside", "--allow-external reads it"]);
-    assert_refused(&tinta(&["edges", &model, "--strict"]), &["1 missing material"]);
-    let output = tinta(&["edges", &model, "--strict", "--allow-external"]);
+    assert_refused(&tinta(&["info", &model, "--strict"]), &["1 missing material"]);
+    let output = tinta(&["info", &model, "--strict", "--allow-external"]);
     assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()));
 }

@@ -22,10 +22,10 @@ fn data_and_pictures_outside_the_models_folder_are_followed_only_when_asked_to()
     for uri in ["../box.bin", "..%2Fbox.bin", &absolute] {
         let model = folder.file("model/box.gltf", &file.with_buffer(Some(uri)));
         assert_refused(
-            &tinta(&["edges", &model]),
+            &tinta(&["info", &model]),
             &["box.gltf: the data file", "outside its folder", "--allow-external"],
         );
-        let output = tinta(&["edges", &model, "--allow-external"]);
+        let output = tinta(&["info", &model, "--allow-external"]);
         assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()), "{uri}");
     }
     let loaded = load(&folder.file("model/box.glb", &file.binary()), &LoadOptions::default()).unwrap();
@@ -37,7 +37,7 @@ fn data_and_pictures_outside_the_models_folder_are_followed_only_when_asked_to()
         ("no-such.bin", "its data file no-such.bin is missing"),
         ("data:;base64,!!!!", "broken base64"),
     ] {
-        assert_refused(&tinta(&["edges", &folder.file("model/box.gltf", &file.with_buffer(Some(uri)))]), &[sentence]);
+        assert_refused(&tinta(&["info", &folder.file("model/box.gltf", &file.with_buffer(Some(uri)))]), &[sentence]);
     }
     // From memory no file is read at all.
     let bytes = file.with_buffer(Some(&absolute));
@@ -56,7 +56,7 @@ fn extensions_that_are_needed_and_not_read_are_named_with_what_to_do() {
         let mut file = box_file();
         file.json["extensionsRequired"] = json!(["KHR_materials_unlit", extension]);
         let model = folder.file("box.glb", &file.binary());
-        assert_refused(&tinta(&["edges", &model]), &["box.glb: it needs the extension", extension, remedy]);
+        assert_refused(&tinta(&["info", &model]), &["box.glb: it needs the extension", extension, remedy]);
     }
     let mut file = box_file();
     file.json["extensionsUsed"] = json!(["KHR_materials_unlit", "XX_of_mine"]);

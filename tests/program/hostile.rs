@@ -52,10 +52,10 @@ fn formats_that_are_not_read_are_refused_by_name_whatever_their_lines_look_like(
     ] {
         let model = folder.file(name, b"v 0 0 0\nf 1 1 1\n");
         let sentence = format!("{name}: {format} is not read; export it as STL, OBJ or glTF");
-        assert_refused(&tinta(&["edges", &model]), &[&sentence]);
+        assert_refused(&tinta(&["info", &model]), &[&sentence]);
     }
     let model = folder.file("foo.q3o", b"quick3Do");
-    assert_refused(&tinta(&["edges", &model]), &["foo.q3o: this is not a model in a supported format"]);
+    assert_refused(&tinta(&["info", &model]), &["foo.q3o: this is not a model in a supported format"]);
 }
 
 #[cfg(unix)]
@@ -104,7 +104,7 @@ fn files_that_lie_about_their_counts_are_refused_without_the_memory() {
         ("chunk.3ds", [b"MM".as_slice(), &words(&[u32::MAX]), &[2, 0, 0, 0]].concat(), "promises 4294967295 bytes"),
     ];
     for (name, bytes, sentence) in files {
-        assert_refused(&tinta_within(1500, &["edges", &folder.file(name, &bytes)]), &[name, sentence]);
+        assert_refused(&tinta_within(1500, &["info", &folder.file(name, &bytes)]), &[name, sentence]);
     }
 }
 
@@ -145,12 +145,12 @@ fn pictures_that_unfold_are_refused_before_they_do() {
 fn names_that_break_lines_or_command_the_terminal_are_said_in_one_line() {
     let folder = Folder::new();
     let name = "a\nb\r\u{1b}[2J\u{202e}.obj";
-    assert_refused(&tinta(&["edges", &folder.path(name)]), &["a\\nb\\r\\u{1b}[2J\\u{202e}.obj: there is no such file"]);
-    assert_refused(&tinta(&["edges", "--no\n\nsuch\u{1b}"]), &["--no"]);
+    assert_refused(&tinta(&["info", &folder.path(name)]), &["a\\nb\\r\\u{1b}[2J\\u{202e}.obj: there is no such file"]);
+    assert_refused(&tinta(&["info", "--no\n\nsuch\u{1b}"]), &["--no"]);
     // A material's, a picture's and a material file's names, the last without end.
     let text = format!("mtllib \u{1b}]0;x\u{7}.mtl\nmtllib {}\n{SQUARE}f 1 2 3\nf 1 3 4\n", "x".repeat(100_000));
     let model = folder.file("names.obj", text.as_bytes());
-    let output = done(&["edges", &model]);
+    let output = done(&["info", &model]);
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(said.matches('\n').count(), 2, "{said:.2000}");
     assert!(said.contains("\\u{1b}]0;x\\u{7}.mtl is missing") && said.len() < 1000, "{said:.2000}");
@@ -161,7 +161,7 @@ fn check_zeros(bytes: u64) {
     let folder = Folder::new();
     let zeros = folder.file("zeros.obj", b"");
     std::fs::File::options().write(true).open(&zeros).unwrap().set_len(bytes).unwrap();
-    assert_refused(&tinta_within(1600, &["edges", &zeros]), &["zeros.obj: it holds no vertices and no faces"]);
+    assert_refused(&tinta_within(1600, &["info", &zeros]), &["zeros.obj: it holds no vertices and no faces"]);
     for (name, sentence) in [
         ("zeros.stl", "it holds no vertices"),
         ("zeros.ply", "does not begin like"),
@@ -169,7 +169,7 @@ fn check_zeros(bytes: u64) {
     ] {
         let link = folder.path(name);
         std::os::unix::fs::symlink(&zeros, &link).unwrap();
-        assert_refused(&tinta_within(1600, &["edges", &link]), &[name, sentence]);
+        assert_refused(&tinta_within(1600, &["info", &link]), &[name, sentence]);
     }
     let out = folder.path("out.png");
     let arguments = ["render", "builtin:ant", "-o", &out, "--style", "inking", "--ramp", &zeros];
@@ -204,11 +204,11 @@ fn pipes_and_folders_are_refused_wherever_a_file_is_read_and_nobody_waits_for_th
     for (file, what) in
         [(pipe.as_str(), "this is a pipe or a device, not a regular file"), (inside.as_str(), "this is a ")]
     {
-        assert_refused(&tinta(&["edges", file]), &[what]);
+        assert_refused(&tinta(&["info", file]), &[what]);
         assert_refused(&tinta(&with_ramp(file)), &[what]);
         assert_refused(&tinta(&["measure", "--merge", file, "-o", &new]), &[what]);
     }
-    assert_refused(&tinta(&["edges", "builtin:ant", "--skin", &pipe]), &["not a regular file"]);
+    assert_refused(&tinta(&["info", "builtin:ant", "--skin", &pipe]), &["not a regular file"]);
     for open in [tinta_lab::report::RowLog::create, |folder: &Path| {
         tinta_lab::report::RowLog::resume(folder).map(|(log, _)| log)
     }] {
@@ -216,7 +216,7 @@ fn pipes_and_folders_are_refused_wherever_a_file_is_read_and_nobody_waits_for_th
         assert!(message.contains("results.jsonl: this is not a regular file"), "{message}");
     }
     let model = folder.file("a.obj", format!("mtllib results.jsonl\n{SQUARE}f 1 2 3\nf 1 3 4\n").as_bytes());
-    let output = done(&["edges", &model]);
+    let output = done(&["info", &model]);
     one_line(&String::from_utf8(output.stderr).unwrap(), &["the material file results.jsonl is missing"]);
 }
 
@@ -290,7 +290,7 @@ fn corners_of_two_bytes_each_are_refused_before_they_take_more_than_twenty_times
     // 20 times the file, the slack of docs/dev/limits.md, and the basic address space of a process.
     let sentence =
         "corners.obj: its 4 vertices and 9999998 triangles take more than 20 times the file's size in memory";
-    assert_refused(&tinta_within(20 * 20 + 64 + 300, &["edges", &model]), &[sentence]);
+    assert_refused(&tinta_within(20 * 20 + 64 + 300, &["info", &model]), &[sentence]);
 }
 
 #[cfg(unix)]
@@ -306,7 +306,7 @@ fn chunks_in_chunks_a_hundred_thousand_deep_do_not_go_deeper() {
         bytes.extend(((depth - level) * 6).to_le_bytes());
     }
     assert_eq!(bytes.len() as u32, depth * 6 + 16);
-    assert_refused(&tinta_within(700, &["edges", &folder.file("deep.3ds", &bytes)]), &["deep.3ds"]);
+    assert_refused(&tinta_within(700, &["info", &folder.file("deep.3ds", &bytes)]), &["deep.3ds"]);
 }
 
 fn check_long_lines(bytes: usize) {

@@ -31,6 +31,5 @@ mod styles;
 #[expect(dead_code, reason = "shared with the other tests")]
 #[path = "../support/mod.rs"]
 mod support;
-mod textures;
 mod turntable;
 mod vectors;

@@ -39,7 +39,12 @@ fn a_directory_in_the_files_place_is_refused_and_left_alone() {
         assert_eq!(names(Path::new(&folder.path(""))), [file]);
         assert!(names(Path::new(&folder.path(file))).is_empty());
     }
-    for command in ["textures -o {}/taken", "measure builtin:ant --quick -o {}/taken", "figures -o {}/taken"] {
+    for command in [
+        "generate man -o {}/taken",
+        "render builtin:ant --look all -o {}/taken",
+        "measure builtin:ant --quick -o {}/taken",
+        "figures -o {}/taken",
+    ] {
         let folder = Folder::new();
         folder.file("taken", OLD);
         let output = through_shell(":", &arguments(command, &folder.path("")));
@@ -65,9 +70,6 @@ fn a_limit_on_files_sizes_is_an_error_and_no_signal() {
     }
     // If several pictures belong together, none appears.
     let folder = Folder::new();
-    let place = folder.path("textures");
-    assert_refused(&through_shell(limit, &arguments("textures --size 64 -o {}", &place)), &["ulimit -f"]);
-    assert!(names(Path::new(&place)).is_empty());
     let place = folder.path("both/");
     let compare = "compare builtin:ant --size 200 --frames 1 -o {}/";
     assert_refused(&through_shell(limit, &arguments(compare, &place)), &["ulimit -f"]);
@@ -93,7 +95,7 @@ fn standard_output_that_takes_nothing_is_an_error() {
     let folder = Folder::new();
     let json = format!("render builtin:ant --size 32 --json -o {}", folder.path("a.png"));
     let commands =
-        ["render builtin:ant --size 32 -o -", "info", "info --json", "edges builtin:ant", "edges builtin:ant --json"];
+        ["render builtin:ant --size 32 -o -", "info", "info --json", "info builtin:ant", "info builtin:ant --json"];
     for command in commands.into_iter().chain([json.as_str()]) {
         let full = File::options().write(true).open("/dev/full").unwrap();
         let output = Command::new(env!("CARGO_BIN_EXE_tinta")).args(command.split(' ')).stdout(full).output().unwrap();

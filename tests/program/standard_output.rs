@@ -43,11 +43,11 @@ fn a_result_for_closed_standard_output_is_refused_before_the_work() {
         "render no-such.obj --style lines -o -",
         "compare no-such.obj -o -",
         "info",
-        "edges builtin:ant",
+        "info builtin:ant",
         "--help",
         "render --help",
         "--version",
-        "completions fish",
+        "generate fish",
     ] {
         assert_refused(&run(&format!("\"$1\" {arguments} >&-")), &["standard output is closed; name a file"]);
     }

@@ -1,14 +1,15 @@
 //! Styles and formats by the command line: drawings, remarks and refusals.
 
-use crate::program::{answer, done, refused_in_one_line, tinta};
+use crate::program::{done, refused_in_one_line, tinta};
 use crate::support::Folder;
 use crate::support::shapes::cuboid;
 use glam::DVec3;
 use serde_json::Value;
-use tinta::picture::Difference;
+use tinta::picture::{Difference, write_rgba_png};
 use tinta::preset::OptionValue;
 use tinta::settings::HasSettings;
-use tinta::{LoadOptions, Picture, Recipe, Style, Target, load};
+use tinta::textures::{ContrastTexture, NoiseTexture, PaperTexture};
+use tinta::{Picture, Recipe, Size, Style, Target};
 
 const EQUAL: Difference = Difference { largest: 0, pixels: 0 };
 
@@ -90,11 +91,14 @@ fn the_recipes_old_name_is_read_wherever_it_stands_and_no_longer_written() {
 #[test]
 fn textures_of_ones_own_are_drawn_with_and_those_that_tinta_writes_draw_what_it_draws_without() {
     let folder = Folder::new();
-    assert_eq!(
-        tinta(&["textures", "-o", &folder.path("textures"), "--size", "48", "--seed", "3"]).status.code(),
-        Some(0)
-    );
-    let [cet, noise, paper] = ["cet", "noise", "paper"].map(|name| folder.path(&format!("textures/{name}.png")));
+    let size = Size { width: 48, height: 48 };
+    let [cet, noise, paper] = ["cet", "noise", "paper"].map(|name| folder.path(&format!("{name}.png")));
+    let contrast = ContrastTexture { size, seed: 3, ..ContrastTexture::default() };
+    write_rgba_png(&contrast.picture().unwrap(), cet.as_ref()).unwrap();
+    let texture = NoiseTexture { size, seed: 3, ..NoiseTexture::default() };
+    write_rgba_png(&texture.picture().unwrap(), noise.as_ref()).unwrap();
+    let texture = PaperTexture { size, seed: 3, ..PaperTexture::default() };
+    write_rgba_png(&texture.picture().unwrap(), paper.as_ref()).unwrap();
     let pixels = |file: &str, options: &[&str]| {
         let out = folder.path(file);
         let line = ["render", "builtin:gear", "-o", &out, "--size", "64", "--style", "charcoal", "--improve", "wrap"];
@@ -228,24 +232,6 @@ fn the_command_line_draws_the_same_file_by_every_way_to_hand_vertices_over() {
             &["--submission", "buffers, immediate"],
         );
     }
-}
-
-#[test]
-fn the_command_writes_what_it_counts_and_refuses_other_files() {
-    let folder = Folder::new();
-    let output = folder.path("gear.glb");
-    let record = answer(&["edges", "builtin:gear", "-o", &output, "--json"]);
-    let marked = load(&output, &LoadOptions::default()).unwrap().mesh.marked.len() as u64;
-    let of = |class: &str| record["classes"][class].as_u64().unwrap();
-    assert_eq!(marked, of("boundary") + of("non-manifold") + of("crease") + of("material"));
-    assert!(marked > 100);
-    let again = tinta(&["edges", "builtin:gear", "-o", "-"]);
-    assert_eq!(again.stdout, std::fs::read(&output).unwrap());
-    // One class alone.
-    let done = tinta(&["edges", "builtin:open-box", "-o", &output, "--classes", "boundary"]);
-    assert!(done.status.success() && String::from_utf8_lossy(&done.stdout).contains("boundary               4"));
-    assert_eq!(load(&output, &LoadOptions::default()).unwrap().mesh.marked.len(), 4);
-    refused_in_one_line(&["edges", "builtin:gear", "-o", &folder.path("gear.obj")], &["gear.obj", "ends in .glb"]);
 }
 
 #[test]

@@ -27,8 +27,6 @@ mod orientation;
 mod silhouette;
 mod smooth;
 mod usual_angles;
-#[cfg(feature = "gltf")]
-mod write_glb;
 
 pub(crate) use lasting_creases::LastingCreases;
 
@@ -39,5 +37,3 @@ pub use mesh_edges::MeshEdges;
 pub use orientation::{Eye, Side, side_of_face};
 pub use silhouette::{SilhouetteRule, Silhouettes};
 pub use smooth::{Shell, SmoothSurface};
-#[cfg(feature = "gltf")]
-pub use write_glb::glb;

@@ -57,8 +57,6 @@ pub use format::{is_model_name, is_read};
 pub use frame::ModelFrame;
 #[cfg(feature = "gltf")]
 pub use gltf::camera as gltf_camera;
-#[cfg(feature = "gltf")]
-pub(crate) use gltf::{EDGES_EXTENSION, glb_container, to_linear};
 pub use load::{Loaded, load, load_watched, read_as, read_bytes, refuse_address};
 pub use options::{LoadOptions, LoadStage, Normals, UpAxis};
 pub use section::{Cut, SECTION, SectionPlane};

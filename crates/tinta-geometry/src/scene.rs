@@ -186,6 +186,7 @@ impl SceneSettings {
                     }
                 },
             )
+            .inside("background")
             .common(),
             Setting::open_field("color", "COLOR", "own", "One colour for all surfaces", |scene: &mut Self| {
                 &mut scene.color

@@ -135,6 +135,8 @@ pub struct Setting<T> {
     pub stands_alone: bool,
     /// What joins its values if its option is given several times; `None` if it may not be.
     pub between: Option<&'static str>,
+    /// The option of the command line that holds this one: `--page margin=10mm`. `None`: it has its own.
+    pub group: Option<&'static str>,
     /// Whether it decides which other settings exist, and is therefore set first.
     is_first: bool,
     label: Option<&'static str>,
@@ -237,6 +239,7 @@ impl<T: Clone + 'static> Setting<T> {
             former: &[],
             stands_alone: false,
             between: None,
+            group: None,
             is_first: false,
             label: None,
             get: Box::new(move |of| Some(get(of))),
@@ -291,6 +294,13 @@ impl<T: Clone + 'static> Setting<T> {
     #[must_use]
     pub fn repeated(mut self, between: &'static str) -> Self {
         self.between = Some(between);
+        self
+    }
+
+    /// Puts it into another option of the command line.
+    #[must_use]
+    pub fn inside(mut self, group: &'static str) -> Self {
+        self.group = Some(group);
         self
     }
 
@@ -378,6 +388,7 @@ impl<T: Clone + 'static> Setting<T> {
             former: self.former,
             stands_alone: self.stands_alone,
             between: self.between,
+            group: self.group,
             is_first: self.is_first,
             label: self.label,
             get: Box::new(move |whole: &S| part(&mut whole.clone()).and_then(|part| get(part))),

@@ -13,7 +13,6 @@ mod measure;
 mod offered_tests;
 #[cfg(all(test, feature = "judging"))]
 mod option_pictures_tests;
-mod provenance;
 #[cfg(feature = "measuring")]
 mod stress;
 mod why;
@@ -32,7 +31,6 @@ const COMMANDS: &[Command] = &[
     figures::COMMAND,
     #[cfg(feature = "measuring")]
     stress::COMMAND,
-    provenance::COMMAND,
 ];
 
 /// The commands of this package, as help lists them.

@@ -145,7 +145,7 @@ const PAGE_OPENING: &str = "\
 # Whose value is it
 
 Every value that a style draws with: printed in its text, deduced from the text, or ours because the text is silent.
-`tinta provenance three-pass` prints those of one style, `tinta provenance --markdown` this page. E is Evangelista et al. 2005, D is Dachsbacher, V is Valente 2007; numbers like E13 are rows of the errata.
+`cargo run -p tinta-lab --example provenance -- three-pass` prints those of one style, without a style this page. E is Evangelista et al. 2005, D is Dachsbacher, V is Valente 2007; numbers like E13 are rows of the errata.
 ";
 
 fn heading(whose: Whose) -> &'static str {

@@ -50,8 +50,8 @@ fn every_page_has_its_sections_and_the_programs_own_names_all_others() {
 fn examples_are_on_the_pages_of_their_commands() {
     let pages = pages(&Program::default());
     let page = |file: &str| &pages.iter().find(|page| page.file == file).unwrap().text;
-    assert_eq!(page("tinta.1").matches("\ntinta render ").count(), 6);
-    assert_eq!(page("tinta-render.1").matches("\ntinta render ").count(), 6);
+    assert_eq!(page("tinta.1").matches("\ntinta render ").count(), 7);
+    assert_eq!(page("tinta-render.1").matches("\ntinta render ").count(), 7);
     // With its second line.
     assert!(page("tinta-render.1").contains("read options from a file"));
     assert_eq!(page("tinta-again.1").matches("\ntinta again ").count(), 2);

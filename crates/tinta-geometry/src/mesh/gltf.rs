@@ -28,10 +28,7 @@ use crate::memory;
 use accessors::Accessors;
 use buffers::Buffers;
 pub use cameras::camera;
-pub(crate) use container::glb_container;
-pub(crate) use extensions::EDGES as EDGES_EXTENSION;
 use gltf_json::Root;
-pub(crate) use materials::to_linear;
 use materials::{LeftOut, Materials};
 use nodes::Nodes;
 

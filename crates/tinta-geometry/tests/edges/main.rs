@@ -4,7 +4,6 @@ extern crate tinta_geometry as tinta;
 
 mod edges;
 #[cfg(feature = "gltf")]
-mod gltf_edges;
 mod hidden_faces;
 mod random;
 mod section;

@@ -222,7 +222,7 @@ impl Arguments {
     fn record(&self, panel: &Panel, picture: &Picture) -> PictureRecord {
         let scene = match &panel.drawing {
             Drawing::Scene(scene) => Some(scene),
-            Drawing::Grains { .. } | Drawing::Ramp => None,
+            Drawing::Grains(_) | Drawing::Ramp => None,
         };
         PictureRecord {
             file: panel.file.clone(),

@@ -35,7 +35,7 @@ impl Artist {
     /// Those of [`Renderer::draw`]; [`tinta::Error::Setting`] for a model without a texture.
     pub fn draw(&mut self, renderer: &mut Renderer, panel: &Panel, size: Size) -> Result<Option<Picture>> {
         match &panel.drawing {
-            Drawing::Grains { texture, .. } => texture.picture().map(Some),
+            Drawing::Grains(texture) => texture.picture().map(Some),
             Drawing::Ramp => Ok(Some(Picture::clone(&Ramp::default().picture))),
             Drawing::Scene(drawing) => {
                 let Some(mesh) = self.mesh(drawing.model, drawing.normals)? else { return Ok(None) };

@@ -91,12 +91,7 @@ pub enum Drawing {
     /// A model in a style.
     Scene(Box<SceneDrawing>),
     /// A texture of grains.
-    Grains {
-        /// Its settings.
-        texture: ContrastTexture,
-        /// The file `tinta textures` writes it to.
-        name: &'static str,
-    },
+    Grains(ContrastTexture),
     /// The built-in ramp.
     Ramp,
 }
@@ -156,8 +151,9 @@ impl Panel {
                     .trim_end()
                     .to_owned()
             }
-            Drawing::Grains { name, .. } => format!("tinta textures -o textures --size {size}  # textures/{name}"),
-            Drawing::Ramp => "tinta textures -o textures  # textures/ramp.png".to_owned(),
+            Drawing::Grains(_) | Drawing::Ramp => {
+                format!("tinta figures -o figures --size {size}  # figures/{}", self.file)
+            }
         }
     }
 

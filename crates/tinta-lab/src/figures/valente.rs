@@ -42,11 +42,8 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
     };
     let everything = || Charcoal { improve: Improvements::EVERYTHING, ..recipe(CharcoalRecipe::Closure) };
     let [light, medium, dense] = ContrastTexture::figure_3(size, 0);
-    let grains = |file: &str, label, texture, name| Panel {
-        file: format!("{file}.png"),
-        label,
-        drawing: Drawing::Grains { texture, name },
-    };
+    let grains =
+        |file: &str, label, texture| Panel { file: format!("{file}.png"), label, drawing: Drawing::Grains(texture) };
     let quarter = || Shot::view(35.0, 20.0, "--view 35,20");
     vec![
         figure(
@@ -55,7 +52,7 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
             "Scattered grains of density 60",
             "Black pixels at random places on white, before the contrast operator moves them. The report does not say what 60 \
              counts; here it is percent.",
-            vec![grains("valente-2", "density 60", ContrastTexture::figure_2(size, 0), "figure-2.png")],
+            vec![grains("valente-2", "density 60", ContrastTexture::figure_2(size, 0))],
         ),
         figure(
             "valente-3",
@@ -65,9 +62,9 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
              bottom. Each grain starts at a random place within its pixel, which is ours: the report's picture, which was not at \
              hand, may have stripes.",
             vec![
-                grains("valente-3-left", "m = 1.3", light, "figure-3-m-1.3.png"),
-                grains("valente-3-middle", "m = 5.5", medium, "figure-3-m-5.5.png"),
-                grains("valente-3-right", "m = 15", dense, "figure-3-m-15.png"),
+                grains("valente-3-left", "m = 1.3", light),
+                grains("valente-3-middle", "m = 5.5", medium),
+                grains("valente-3-right", "m = 15", dense),
             ],
         ),
         figure(

@@ -65,7 +65,8 @@ impl Hatching {
             "DEGREES",
             "Direction of the strokes of --hatch, degrees from the horizontal, rising to the right",
             |hatching: &mut Self| &mut hatching.angle_degrees,
-        );
+        )
+        .inside("hatch");
         vec![spacing.open(NONE).said("none, areas"), angle.range(-90.0, 90.0, 0)]
     }
 

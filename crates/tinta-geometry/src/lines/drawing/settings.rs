@@ -113,7 +113,8 @@ impl DrawingSettings {
                 svg.page_size = if text == UNSET { PageSize::Unset } else { PageSize::WidthMm(f64::parse(text)?) };
                 Ok(())
             },
-        );
+        )
+        .inside("page");
         let dpi = Setting::of(
             "dpi",
             "N",
@@ -124,7 +125,8 @@ impl DrawingSettings {
                 svg.page_size = if text == UNSET { PageSize::Unset } else { PageSize::Dpi(f64::parse(text)?) };
                 Ok(())
             },
-        );
+        )
+        .inside("page");
         let paper = Setting::of(
             "page",
             "PAPER",
@@ -182,7 +184,7 @@ impl DrawingSettings {
             width.open(UNSET).said("none, sizes are in pixels"),
             dpi.open(UNSET).said("none, sizes are in pixels"),
             paper.open(UNSET).said("none, sizes are in pixels"),
-            Setting::field("margin", "MM", "Free border of --page, in millimetres", |svg: &mut Self| &mut svg.margin),
+            Setting::field("margin", "MM", "Free border of --page, in millimetres", |svg: &mut Self| &mut svg.margin).inside("page"),
             Setting::flag(
                 "provenance",
                 "Write each path's class, object, mesh edges and angles into the file, and keep all points",

@@ -14,7 +14,6 @@ use serde::de::{Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::fmt::Formatter;
 
 const HEADER_BYTES: usize = 12;
-const CHUNK_HEADER_BYTES: usize = 8;
 const VERSION: u32 = 2;
 const JSON_CHUNK: u32 = u32::from_le_bytes(*b"JSON");
 const DATA_CHUNK: u32 = u32::from_le_bytes(*b"BIN\0");
@@ -64,24 +63,6 @@ pub(super) fn open(file: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
         }
     }
     Ok((json.ok_or("it has no chunk of JSON; it is damaged, export it again")?, data))
-}
-
-/// Returns a GLB file of this JSON and data, whose length is a multiple of 4; `None` beyond 4 GiB.
-pub(crate) fn glb_container(json: &[u8], data: &[u8]) -> Option<Vec<u8>> {
-    let json_length = json.len().next_multiple_of(4);
-    let length = HEADER_BYTES + 2 * CHUNK_HEADER_BYTES + json_length + data.len();
-    let mut file = Vec::with_capacity(length);
-    file.extend_from_slice(GLB_MAGIC);
-    for number in [VERSION, length.try_into().ok()?, json_length.try_into().ok()?, JSON_CHUNK] {
-        file.extend_from_slice(&number.to_le_bytes());
-    }
-    file.extend_from_slice(json);
-    file.resize(HEADER_BYTES + CHUNK_HEADER_BYTES + json_length, b' ');
-    for number in [data.len().try_into().ok()?, DATA_CHUNK] {
-        file.extend_from_slice(&u32::to_le_bytes(number));
-    }
-    file.extend_from_slice(data);
-    Some(file)
 }
 
 /// The JSON with its types, unchecked: indices may be out of range.

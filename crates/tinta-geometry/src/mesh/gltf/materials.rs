@@ -192,12 +192,6 @@ pub(super) fn to_srgb(linear: f32) -> f32 {
     (if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }) as f32
 }
 
-/// The share of light of an sRGB value in [0, 1].
-pub(crate) fn to_linear(srgb: f32) -> f32 {
-    let srgb = f64::from(srgb);
-    (if srgb <= 0.040_45 { srgb / 12.92 } else { ((srgb + 0.055) / 1.055).powf(2.4) }) as f32
-}
-
 /// The file's pictures, each taken once.
 struct Images<'a> {
     root: &'a Root,
@@ -284,10 +278,6 @@ mod tests {
     fn shares_of_light_become_bytes_as_screens_show_them() {
         for (linear, byte) in [(0.0, 0.0), (0.002, 6.59), (0.212_230_76, 127.0), (0.5, 187.516), (1.0, 255.0)] {
             assert!((to_srgb(linear) * 255.0 - byte).abs() < 0.01, "{linear}: {}", to_srgb(linear) * 255.0);
-        }
-        for byte in 0..=255u8 {
-            let srgb = f32::from(byte) / 255.0;
-            assert!((to_srgb(to_linear(srgb)) - srgb).abs() < 1e-6, "{byte}");
         }
         assert_eq!([to_srgb(-1.0), to_srgb(7.0), to_srgb(f32::NAN)], [0.0, 1.0, 1.0]);
     }

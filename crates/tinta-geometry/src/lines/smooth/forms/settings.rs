@@ -48,7 +48,7 @@ impl FormSettings {
                 "NUMBER",
                 "Least growth of the curvature along the view that makes a suggestive contour; more draws fewer",
                 |forms: &mut Self| &mut forms.suggestive_threshold,
-            )
+            ).inside("form-lines")
             .ours("the default of qrtsc, by the authors of suggestive contours")
             .range(0.0, 0.1, 3),
             Setting::field(
@@ -56,7 +56,7 @@ impl FormSettings {
                 "NUMBER",
                 "Least curvature of a ridge or valley; more draws fewer",
                 |forms: &mut Self| &mut forms.ridge_threshold,
-            )
+            ).inside("form-lines")
             .ours("the default of qrtsc")
             .range(0.0, 1.0, 2),
             Setting::field(
@@ -64,7 +64,7 @@ impl FormSettings {
                 "NUMBER",
                 "Least curvature, as the eye sees it, of an apparent ridge; more draws fewer",
                 |forms: &mut Self| &mut forms.apparent_ridge_threshold,
-            )
+            ).inside("form-lines")
             .ours("chosen by eye on public models")
             .range(0.0, 1.0, 2),
             Setting::field(
@@ -73,7 +73,7 @@ impl FormSettings {
                 "Smallest angle between two faces that stays sharp in the smooth surface, in degrees; more smooths \
                  over sharper edges",
                 |forms: &mut Self| &mut forms.crease_angle,
-            )
+            ).inside("form-lines")
             .ours("Dachsbacher's crease angle: the faces of coarse round shapes meet at less")
             .said("66.4"),
             Setting::field(
@@ -81,7 +81,7 @@ impl FormSettings {
                 "EDGES",
                 "How far normals are smoothed before form lines are found, in edge lengths, 0 to 10; more draws fewer, longer lines",
                 |forms: &mut Self| &mut forms.smoothing,
-            )
+            ).inside("form-lines")
             .ours("chosen by eye on public models")
             .range(0.0, LARGEST_SMOOTHING, 1),
         ];
