@@ -15,8 +15,8 @@ pub(super) const COMMAND: Command = Command {
 /// Show which OpenGL backends work on this machine, and why the others do not
 #[derive(clap::Args)]
 #[command(after_help = "\
-Exit code: 0 if a context works, and with --check if all draw as they should; 1 if one does not; 2 if none works. docs/dev/drivers.md lists \
-known driver faults.")]
+Exit code: 0 if a context works, and with --check if all draw as they should; 1 if one does not; 2 if none works. --check also names \
+the known faults of each driver.")]
 pub(super) struct Arguments {
     /// Backends to try: auto (all), egl, surfaceless, osmesa, wgl, cgl [default: auto]
     #[arg(long, value_name = "BACKEND", default_value = "auto", hide_default_value = true)]
