@@ -2,7 +2,7 @@
 //!
 //! Takes a backend and returns a [`Checked`] for each of its contexts: pictures of small scenes in every style beside reference
 //! pictures, which are part of the program; answers to questions that the styles rest on; the known faults of such a driver.
-//! docs/dev/drivers.md has the measurements.
+//! docs/dev/testing.md has the measurements.
 //!
 //! ```
 //! use tinta::drivers::check;

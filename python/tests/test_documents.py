@@ -1,4 +1,4 @@
-"""The code that the pages for Python show runs as it stands, block after block."""
+"""The code that the page for Python shows runs as it stands, block after block."""
 
 import os
 import re
@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 GUIDE = Path(os.environ.get("TINTA_GUIDE") or Path(__file__).parents[2] / "docs" / "guide")
-WRITTEN = {"python.md": ["figure.svg", "scene.svg", "scene.pdf", "faces.svg", "tones.pdf", "outlines.svg", "mesh.png", "hidden.pdf"], "for-scientists.md": ["figure.pdf", "figure.svg", "scene.pdf"]}
+WRITTEN = {"python.md": ["figure.svg", "scene.svg", "scene.pdf", "faces.svg", "tones.pdf", "outlines.svg", "mesh.png", "hidden.pdf"]}
 
 
 @pytest.mark.parametrize("page", WRITTEN)

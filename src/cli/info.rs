@@ -24,9 +24,8 @@ pub(super) const COMMAND: Command = Command {
 /// Show whether tinta works here and with which drivers, or count a model's edges by class
 #[derive(clap::Args)]
 #[command(after_help = "\
-Exit code: 0 if a context works, and with --check if all draw as they should; 1 if one does not; 2 if none works. \
---check \
-also names the known faults of each driver.")]
+Exit code: 0 if a context works, and with --check if all draw as they should; 1 if one does not; 2 if none works. --check also names \
+the known faults of each driver.")]
 pub(super) struct Arguments {
     /// Model file (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in model, or - for standard input [default: none, show the drivers]
     #[arg(value_name = "MODEL")]

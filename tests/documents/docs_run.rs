@@ -141,9 +141,11 @@ fn the_first_ten_minutes_go_as_they_are_written() {
     for (from, to) in [("models/pawn.obj", "cow.obj"), ("models/pawn.ppm", "cow.ppm")] {
         std::fs::copy(root().join(from), folder.path().join(to)).unwrap();
     }
-    let page = std::fs::read_to_string(root().join("docs/guide/first-ten-minutes.md")).unwrap();
+    let page = std::fs::read_to_string(root().join("docs/guide/installing.md")).unwrap();
+    let (_, section) = page.split_once("## The first ten minutes").unwrap();
+    let (section, _) = section.split_once("\n## ").unwrap();
     let mut count = 0;
-    for command in page.lines().filter_map(|line| line.strip_prefix("    tinta ")) {
+    for command in section.lines().filter_map(|line| line.strip_prefix("    tinta ")) {
         if command.starts_with("view") {
             continue;
         }

@@ -85,7 +85,7 @@ fn the_licence_check_notices_what_is_not_allowed() {
 
 #[test]
 fn every_crate_that_is_named_has_a_row_in_the_documents() {
-    let page = std::fs::read_to_string(root().join("docs/dev/dependencies.md")).unwrap();
+    let page = std::fs::read_to_string(root().join("docs/dev/decisions.md")).unwrap();
     let cells: std::collections::BTreeSet<&str> = page
         .lines()
         .filter_map(|line| line.strip_prefix("| "))
@@ -109,7 +109,7 @@ fn every_crate_that_is_named_has_a_row_in_the_documents() {
                 found += 1;
                 assert!(
                     name.starts_with("tinta") || cells.contains(name),
-                    "docs/dev/dependencies.md has no row for {name}"
+                    "docs/dev/decisions.md has no row for {name}"
                 );
             }
         }
