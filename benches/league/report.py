@@ -159,7 +159,7 @@ def tables(about_run, summaries, rows, failures, missing):
         )
     text += by_class_and_model(summaries, rows)
     text += ["", "| program | version | can draw | settings |", "|---|---|---|---|"]
-    for row in summaries:
+    for row in (row for row in summaries if not row["name"].startswith("tinta")):
         program = program_of(row)
         text.append(f"| {row['name']} | {row['version']} | {program.draws} | {program.settings} |")
     text += ["", "Not drawn:", ""] + [f"- {name}: {reason}" for name, reason in sorted({**missing, **failures}.items())]
