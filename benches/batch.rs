@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench batch` writes different meshes of 1,000 triangles, and a job for each: 256x256 pixels, the default style.
 //! Contestants take turns. One process per picture draws a share of them, as many in parallel as there are jobs of the batch. Raw
-//! values go to `target/bench/batch.json`; docs/results/scale.md has the command and the numbers.
+//! values go to `target/bench/batch.json`; docs/results/measuring.md has the command and the numbers.
 
 use serde_json::{Value, json};
 use std::fmt::Write;

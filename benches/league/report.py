@@ -95,7 +95,6 @@ def summary(name, rows):
         "name": name,
         "is_reference": next(program.is_reference for program in PROGRAMS if program.name == name),
         "version": rows[0]["version"],
-        "cases": len(rows),
         "f1": mean(line["f1"] for line in lines),
         "worst": f"{worst['judged']['lines']['f1']:.3f} {worst['case']}",
         "recall": mean(line["recall"] for line in lines),
@@ -128,41 +127,39 @@ def beaten(summaries):
     ]
 
 
-def by_model(summaries, rows):
-    """Seconds of whole processes on the smallest, the middle and the largest model."""
+def by_class_and_model(summaries, rows):
+    """What each program found of every class, and its seconds on the smallest, the middle and the largest model."""
     triangles = {row["model"]: row["triangles"] for row in rows}
     models = sorted(triangles, key=triangles.get)
     models = [models[0], models[len(models) // 2], models[-1]]
-    text = ["", "| seconds | " + " | ".join(f"{model}, {triangles[model]} triangles" for model in models) + " |", "|---|---|---|---|"]
+    heads = ["found of", *CLASSES, *(f"s: {model}, {triangles[model]} triangles" for model in models)]
+    having = [sum(1 for row in first_of_cases(rows) if kind in row["judged"]["lines"]["recall_of_class"]) for kind in CLASSES]
+    text = ["", "| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+    text.append("| " + " | ".join(["pictures with such lines", *map(str, having), *([""] * len(models))]) + " |")
     for row in summaries:
         own = [[run["seconds"] for run in rows if (run["program"], run["model"]) == (row["name"], model)] for model in models]
-        text.append(f"| {row['name']} | " + " | ".join(f"{statistics.median(values):.2f}" if values else "–" for values in own) + " |")
+        seconds = [f"{statistics.median(values):.2f}" if values else "–" for values in own]
+        text.append("| " + " | ".join([row["name"], *(share(row["classes"][kind]) for kind in CLASSES), *seconds]) + " |")
     return text
 
 
 def tables(about_run, summaries, rows, failures, missing):
     """The report's Markdown."""
-    cases = len({row["case"] for row in rows})
     text = [f"{about_run['date']}, {about_run['system']}, {about_run['processor']}, {about_run['cores']} cores, OpenGL in software, {about_run['tinta']}; {about_run['rounds']} rounds.", ""]
     text += beaten(summaries)
-    text += ["| program | F1 | worst | found | of the ink right | one to one, 1 px | hidden drawn | s | of that, drawing | MiB | drawn |"]
-    text.append("|" + "---|" * 11)
+    text += ["| program | F1 | worst | found | of the ink right | one to one, 1 px | hidden drawn | s | of that, drawing | MiB |"]
+    text.append("|" + "---|" * 10)
     for row in summaries:
         # A single executable has no modules to load: all of it counts.
         inside = "all" if row["inside"] is None or row["inside"] > 0.95 * row["seconds"] else f"{row['inside']:.2f}"
         hidden = "–" if program_of(row).draws.startswith("all") else share(row["hidden"])
         text.append(
             f"| {named(row)} | {row['f1']:.3f} | {row['worst']} | {share(row['recall'])} | {share(row['precision'])} | {row['one']:.3f} | "
-            f"{hidden} | {row['seconds']:.2f} | {inside} | {row['peak']:.0f} | {row['cases']} of {cases} |"
+            f"{hidden} | {row['seconds']:.2f} | {inside} | {row['peak']:.0f} |"
         )
-    text += by_model(summaries, rows)
-    text += ["", "| found of | " + " | ".join(CLASSES) + " |", "|" + "---|" * (len(CLASSES) + 1)]
-    having = [sum(1 for row in first_of_cases(rows) if kind in row["judged"]["lines"]["recall_of_class"]) for kind in CLASSES]
-    text.append("| pictures with such lines | " + " | ".join(map(str, having)) + " |")
-    for row in summaries:
-        text.append(f"| {row['name']} | " + " | ".join(share(row["classes"][kind]) for kind in CLASSES) + " |")
+    text += by_class_and_model(summaries, rows)
     text += ["", "| program | version | can draw | settings |", "|---|---|---|---|"]
-    for row in summaries:
+    for row in (row for row in summaries if not row["name"].startswith("tinta")):
         program = program_of(row)
         text.append(f"| {row['name']} | {row['version']} | {program.draws} | {program.settings} |")
     text += ["", "Not drawn:", ""] + [f"- {name}: {reason}" for name, reason in sorted({**missing, **failures}.items())]
