@@ -45,7 +45,7 @@ use tinta::{Error, Result};
 
 /// The commands of this package, as help lists them.
 const COMMANDS: &[Command] = &[
-    render::COMMAND,
+    looks::COMMAND,
     #[cfg(feature = "window")]
     view::COMMAND,
     page::COMMAND,

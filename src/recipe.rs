@@ -23,9 +23,9 @@ use crate::error::{Error, FileKind, Result};
 use crate::files::{Failure, shown};
 use crate::gl::ContextInfo;
 use crate::markup::{RECIPE_BEGIN, RECIPE_END};
+use crate::mesh::LoadOptions;
 use crate::picture::{Note, png_text};
-use crate::request::Request;
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneSettings};
 use crate::settings::{HasSettings, OptionValue, Options};
 use crate::shell;
 use crate::styles::Style;
@@ -309,10 +309,18 @@ impl Recipe {
     }
 }
 
+/// The same as one word: `--page=margin=3mm`.
+pub fn option_word(name: &str, value: &OptionValue) -> Option<String> {
+    let words = option_words(name, value);
+    (!words.is_empty()).then(|| words.join("="))
+}
+
 /// The words that give an option on the command line; empty for a switch that is off.
 pub fn option_words(name: &str, value: &OptionValue) -> Vec<String> {
-    let setting = Request::table().settings.iter().find(|setting| setting.name == name);
-    let group = setting.and_then(|setting| setting.group);
+    fn group<T: HasSettings>(name: &str) -> Option<&'static str> {
+        T::table().settings.iter().find(|setting| setting.name == name)?.group
+    }
+    let group = group::<Style>(name).or_else(|| group::<SceneSettings>(name)).or_else(|| group::<LoadOptions>(name));
     match value {
         OptionValue::Switch(false) => Vec::new(),
         // Inside another option.

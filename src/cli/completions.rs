@@ -6,19 +6,27 @@
 mod values;
 
 use super::Program;
-use super::generate::What;
 use clap::Command;
 use clap_complete::Shell as Written;
 use tinta::mesh::BUILTINS;
 use tinta::preset::SHIPPED;
 pub use values::{of_table, with_values};
 
+/// What is generated: a shell's script, or the manual pages, which are no script.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Script {
+    Bash,
+    Zsh,
+    Fish,
+    Man,
+}
+
 /// Options that take a preset, and arguments that take models.
 const PRESET: &str = "preset";
 const MODELS: [&str; 2] = ["models", "model"];
 
 /// The script of a shell; empty for man.
-pub(super) fn script(shell: What, program: &Program) -> String {
+pub(super) fn script(shell: Script, program: &Program) -> String {
     let command = with_values(program);
     let written = |shell: Written| {
         let mut script = Vec::new();
@@ -26,10 +34,10 @@ pub(super) fn script(shell: What, program: &Program) -> String {
         String::from_utf8_lossy(&script).into_owned()
     };
     match shell {
-        What::Bash => bash(&command, &written(Written::Bash)),
-        What::Zsh => zsh(&written(Written::Zsh)),
-        What::Fish => fish(&command, &written(Written::Fish)),
-        What::Man => String::new(),
+        Script::Bash => bash(&command, &written(Written::Bash)),
+        Script::Zsh => zsh(&written(Written::Zsh)),
+        Script::Fish => fish(&command, &written(Written::Fish)),
+        Script::Man => String::new(),
     }
 }
 

@@ -1,13 +1,14 @@
 //! `tinta generate`: files that a package installs beside the program: manual pages, and a shell's script of completions.
 
-use super::{Command, Program, Verdict, completions, given, man};
+use super::completions::{self, Script};
+use super::{Command, Program, Verdict, given, man};
 use std::path::PathBuf;
 use tinta::{Result, TextTarget};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
     examples: &[
-        "tinta generate bash                             print completions (or zsh, fish)",
+        "tinta generate bash                             print completions; zsh, fish",
         "tinta generate man -o man                       write the manual pages",
     ],
     ..Command::new("generate", <Arguments as clap::Args>::augment_args, |matches, call| {
@@ -28,24 +29,15 @@ tinta-render.1; man -l man/tinta.1 shows one of another folder. The Debian packa
 pub(super) struct Arguments {
     /// Shell to complete for, or man
     #[arg(value_name = "WHAT")]
-    what: What,
+    what: Script,
 
     /// Folder for the manual pages; created if missing
     #[arg(short, long, value_name = "DIR", required_if_eq("what", "man"))]
     output: Option<PathBuf>,
 }
 
-/// What can be generated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum What {
-    Bash,
-    Zsh,
-    Fish,
-    Man,
-}
-
 fn run(arguments: &Arguments, program: &Program) -> Result<()> {
-    if arguments.what != What::Man {
+    if arguments.what != Script::Man {
         return super::print(&completions::script(arguments.what, program));
     }
     let folder = arguments.output.clone().unwrap_or_default();

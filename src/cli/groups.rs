@@ -112,13 +112,20 @@ pub(super) fn in_groups(sentence: &str) -> String {
         let end = part.find(|c: char| !c.is_ascii_lowercase() && !c.is_ascii_digit() && c != '-').unwrap_or(part.len());
         let (name, rest) = part.split_at(end);
         let setting = Request::table().settings.iter().find(|setting| setting.name == name);
-        text += &match setting.and_then(|setting| Some((setting, setting.group?))) {
-            None => format!("--{part}"),
-            Some((setting, group)) if setting.kind == Kind::Flag => format!("--{group} {name}{rest}"),
-            Some((_, group)) => {
-                let value = rest.strip_prefix([' ', '=']).filter(|rest| !rest.starts_with(|c: char| c.is_whitespace()));
-                format!("--{group} {name}={}", value.unwrap_or(rest))
-            }
+        let Some((setting, group)) = setting.and_then(|setting| Some((setting, setting.group?))) else {
+            text += &format!("--{part}");
+            continue;
+        };
+        let word = rest.strip_prefix([' ', '=']).and_then(|rest| rest.split([' ', ';', ':', ')', ']']).next());
+        // At the beginning stands the value that is wrong.
+        let is_wrong = |word: &str| ["", "tinta: "].contains(&text.as_str()) && word != "and";
+        let is_value = |word: &&str| {
+            let is_plain = !matches!(setting.kind, Kind::Flag | Kind::File) && !word.is_empty();
+            is_plain && (is_wrong(word) || Request::table().check(name, word.trim_end_matches(',')).is_ok())
+        };
+        text += &match word.filter(is_value) {
+            Some(word) => format!("--{group} {name}={word}{}", &rest[1 + word.len()..]),
+            None => format!("--{group} {name}{rest}"),
         };
     }
     text
@@ -156,7 +163,8 @@ mod tests {
     fn sentences_name_settings_as_the_command_line_takes_them() {
         for (plain, said) in [
             ("--margin 3km: give a length", "--page margin=3km: give a length"),
-            ("--margin: give a length", "--page margin=: give a length"),
+            ("--margin: give a length", "--page margin: give a length"),
+            ("--near and --far: they are equal", "--clip near and --clip far: they are equal"),
             ("leave out --transparent, or --tones 2", "leave out --background transparent, or --tones 2"),
             ("a -- b --no-such", "a -- b --no-such"),
         ] {

@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn a_help_of_one_page_is_the_same_for_both() {
-        for name in ["generate", "info", "again"] {
+        for name in ["generate", "again"] {
             assert_eq!(help_of(&format!("tinta {name} -h")), help_of(&format!("tinta {name} --help")));
         }
     }

@@ -1,8 +1,9 @@
 //! `tinta render --look all`: draws models in each look.
 
-use super::Verdict;
 use super::messages::{make_folder, print};
+use super::options::Looks;
 use super::render::{self, Arguments};
+use super::{Command, Verdict, given};
 use std::fmt::Write;
 use std::path::Path;
 use tinta::markup::escaped;
@@ -13,8 +14,24 @@ use tinta::recipe::option_words;
 use tinta::request::{DrawingFormat, Request, Session};
 use tinta::{Error, Result, Size, TextTarget};
 
+/// The command `render`, which draws in one look or in all.
+pub(super) const COMMAND: Command = Command {
+    run: |matches, call| {
+        let arguments: Arguments = given(matches)?;
+        match arguments.look.looks {
+            Some(Looks::All) => run(&arguments, call.session),
+            _ => render::run(&arguments, call.session),
+        }
+    },
+    offers: |option| match option {
+        "look" => LOOKS.iter().map(|look| look.name).chain(["all"]).collect(),
+        _ => Vec::new(),
+    },
+    ..render::COMMAND
+};
+
 /// Draws a picture in each look, as pixels and as vectors where it has them, and writes a page that shows them side by side.
-pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<Verdict> {
+fn run(arguments: &Arguments, session: &mut Session) -> Result<Verdict> {
     let folder = Path::new(&arguments.output);
     if arguments.output == "-"
         || DrawingFormat::of_name(&arguments.output).is_some()

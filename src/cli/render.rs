@@ -16,7 +16,7 @@ use super::batch::JobOptions;
 use super::inputs::Inputs;
 use super::options::{Below, CameraFile, Chosen, Looks, NamedLooks, OfRequest, PresetFile};
 use super::run_settings::{OfRun, RunSettings};
-use super::{Command, given, looks};
+use super::{Command, given};
 use rendering::{Rendering, pictures_of};
 use std::path::Path;
 use tinta::mesh::BUILTINS;
@@ -134,10 +134,7 @@ pub fn asked_by(words: &[String]) -> Result<(Request, String)> {
 
 /// Draws the arguments' models.
 pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<Verdict> {
-    match arguments.look.looks {
-        Some(Looks::All) => looks::run(arguments, session),
-        looks => drawn(arguments, looks.and_then(Looks::one), &arguments.output, session),
-    }
+    drawn(arguments, arguments.look.looks.and_then(Looks::one), &arguments.output, session)
 }
 
 /// Draws them in a look into a file.

@@ -219,7 +219,7 @@ fn a_model_with_a_texture_fills_the_figures_that_need_one() {
     let said = run(&[&figures[..], &["--model", &model, "--skin", &skin]].concat());
     assert_eq!(said, "");
     let page = std::fs::read_to_string(format!("{output}/index.html")).unwrap();
-    assert!(page.contains(&format!("tinta render {model} --skin {skin} -o valente-9.png")), "{page}");
+    assert!(page.contains(&format!("tinta render {model} --texture skin={skin} -o valente-9.png")), "{page}");
     assert!(!page.contains("Left out"));
     assert!(Path::new(&format!("{output}/valente-12-model.png")).exists());
 }
@@ -236,7 +236,7 @@ fn what_cannot_be_done_is_said_in_a_sentence() {
     refused_in_one_line(&["figures", "-o", &file], &["this is a file; name a folder"]);
     refused_in_one_line(&["figures", "-o", &format!("{file}/below")], &["the folder cannot be created"]);
     let bare = ["figures", "-o", &out, "--only", "valente-9", "--model", "builtin:ant"];
-    refused_in_one_line(&bare, &["--model builtin:ant: no picture for it was found", "--skin"]);
+    refused_in_one_line(&bare, &["--model builtin:ant: no picture for it was found", "--texture skin"]);
     refused_in_one_line(&["figures", "-o", &out, "--skin", "a.png"], &["--model"]);
     refused_in_one_line(&["figures", "-o", &out, "--frames", "0"], &["--frames"]);
 }

@@ -105,7 +105,7 @@ pub fn made_up_rows(machine: &str, slowness: f64) -> Vec<Row> {
                 add(&format!("--style {style}{filter} --detection-factor 0.4"), ms * factor, f1 + 0.05, Some(0.000_31));
             }
             add(&format!("--style {style} --tones 2"), ms, 0.71, Some(0.000_12));
-            add(&format!("--style {style} --tone-lookup texture"), ms * 0.97, 0.71, Some(0.004_4));
+            add(&format!("--style {style} --tones tone-lookup=texture"), ms * 0.97, 0.71, Some(0.004_4));
         }
         add("--style inking", 2.9, 0.93, Some(0.0));
         add("--style inking --silhouette exact", 3.0, 0.972, Some(0.0));
@@ -113,7 +113,7 @@ pub fn made_up_rows(machine: &str, slowness: f64) -> Vec<Row> {
         add("--style inking --silhouette exact --ink-depth test", 3.1, 0.978, Some(0.0));
         add("--style dietrich", 2.4, 0.52, Some(0.02));
         add("--style charcoal", 7.7, 0.0, None);
-        add("--style charcoal --contrast-operator none", 7.5, 0.0, None);
+        add("--style charcoal --contrast contrast-operator=none", 7.5, 0.0, None);
         add("--style lines", 61.0, 0.996, None);
     }
     rows
@@ -150,7 +150,7 @@ fn rows_with_nasty_names() -> Vec<Row> {
     let mut rows = made_up_rows("a", 1.0);
     rows[3].model = NASTY.to_owned();
     rows[4].machine = NASTY.to_owned();
-    rows[5].options = format!("--style two-pass --ramp {NASTY}");
+    rows[5].options = format!("--style two-pass --texture ramp={NASTY}");
     rows
 }
 

@@ -32,9 +32,13 @@ fn a_jobs_options_are_those_of_the_command_line_and_its_pictures_too() {
         (
             "numbers",
             r#","fov":25.5,"tone-levels":[0.4,0.6,0.8],"view":"-20,30""#,
-            &["--fov", "25.5", "--tone-levels", "0.4,0.6,0.8", "--view=-20,30"],
+            &["--fov", "25.5", "--tones", "tone-levels=0.4,0.6,0.8", "--view=-20,30"],
         ),
-        ("switches", r#","parallel":true,"transparent":true,"full":false"#, &["--parallel", "--transparent"]),
+        (
+            "switches",
+            r#","parallel":true,"transparent":true,"full":false"#,
+            &["--parallel", "--background", "transparent"],
+        ),
         (
             "styles",
             r#","style":"inking","joints":false,"silhouette":"exact""#,

@@ -6,7 +6,7 @@ use std::path::Path;
 
 #[test]
 fn edges_are_counted_by_class() {
-    let output = tinta(&["info", "builtin:open-box", "--json", "--silhouette", "exact"]);
+    let output = tinta(&["info", "builtin:open-box", "--json"]);
     let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(record["edges"], 17);
     let classes = &record["classes"];
@@ -89,13 +89,13 @@ fn ink_takes_its_options_and_refuses_what_it_cannot_use() {
         arguments.extend(options);
         refused_in_one_line(&arguments, words);
     };
-    refuse(&["--ramp", "no-such.png"], &["no-such.png"]);
+    refuse(&["--texture", "ramp=no-such.png"], &["no-such.png"]);
     let low = folder.file("low.ppm", b"P6 1 1 255\n\xff\0\0");
-    refuse(&["--ramp", &low], &["low.ppm", "4 gradients"]);
+    refuse(&["--texture", &format!("ramp={}", low)], &["low.ppm", "4 gradients"]);
     refuse(&["--classes", "edges"], &["boundary, non-manifold, silhouette"]);
     refuse(&["--class-colors", "crease"], &["CLASS=COLOR"]);
     refuse(&["--line-width", "0"], &["--line-width 0"]);
-    refuse(&["--texture", "on"], &["--skin"]);
+    refuse(&["--texture", "on"], &["--texture skin"]);
     let output = tinta(&[
         "render",
         "builtin:gear",

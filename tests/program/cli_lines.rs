@@ -167,7 +167,7 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     };
     refuse("turn.gif", &["--style", "lines"], &["style lines writes .svg, .pdf, .dxf, .json or a still picture"]);
     refuse(&png, &["--style", "lines", "--page", "A4"], &["--page", "no paper"]);
-    refuse("a.jpg", &["--style", "lines", "--transparent"], &["a.jpg", "no transparency"]);
+    refuse("a.jpg", &["--style", "lines", "--background", "transparent"], &["a.jpg", "no transparency"]);
     refuse(&svg, &["--style", "phong"], &["a.svg: style phong draws pixels", ".png"]);
     refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "sand, lines"]);
     refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
@@ -193,9 +193,9 @@ fn nonsense_for_lines_is_refused_by_the_options_name() {
     let refuse = |options: &[&str], words: &[&str]| {
         refused_in_one_line(&[&["render", "builtin:ant", "-o", &svg], options].concat(), words);
     };
-    refuse(&["--width-mm", "100", "--dpi", "96"], &["--width-mm", "--dpi"]);
-    refuse(&["--width-mm", "-3"], &["--width-mm -3", "millimetres"]);
-    refuse(&["--dpi", "NaN"], &["--dpi NaN", "96"]);
+    refuse(&["--page", "width-mm=100", "--page", "dpi=96"], &["--page width-mm", "--page dpi"]);
+    refuse(&["--page", "width-mm=-3"], &["--page width-mm=-3", "millimetres"]);
+    refuse(&["--page", "dpi=NaN"], &["--page dpi=NaN", "96"]);
     refuse(&["--line-width", "0"], &["--line-width 0"]);
     refuse(&["--class-widths", "crease=-1"], &["--class-widths crease=-1"]);
     refuse(&["--class-widths", "crease"], &["--class-widths", "CLASS=PIXELS"]);
@@ -210,9 +210,9 @@ fn nonsense_for_lines_is_refused_by_the_options_name() {
     refuse(&["--min-length", "1mm"], &["--min-length 1mm", "--page A4"]);
     refuse(&["--min-length", "-1"], &["--min-length -1", "0 or more"]);
     refuse(&["--page", "A9"], &["--page", "A3, A4, A5 or letter"]);
-    refuse(&["--page", "A4", "--width-mm", "90"], &["--page", "--width-mm"]);
-    refuse(&["--page", "A4", "--margin", "105"], &["--margin 105mm", "105 millimetres"]);
-    refuse(&["--margin", "10mm"], &["--margin", "--page A4"]);
+    refuse(&["--page", "A4", "--page", "width-mm=90"], &["--page", "--page width-mm"]);
+    refuse(&["--page", "A4", "--page", "margin=105"], &["--page margin=105mm", "105 millimetres"]);
+    refuse(&["--page", "margin=10mm"], &["--page margin", "--page A4"]);
     refuse(&["--fit-curves", "0"], &["--fit-curves 0", "0.01 to 100"]);
     refuse(&["--fit-curves", "0.5", "--provenance"], &["--fit-curves", "--provenance"]);
     refuse(&["--silhouette", "round"], &["--silhouette", "exact, smooth"]);
@@ -246,7 +246,7 @@ fn the_look_technical_has_one_ratio_of_widths_for_paper_pictures_and_pens() {
         (&["--page", "A4"][..], 0.7),
         (&["--page", "A3", "--line-width", "0.25mm"], 0.5),
         (&["--page", "A5", "--pen"], 0.7),
-        (&["--width-mm", "90", "--pen", "--line-width", "0.25mm"], 0.5),
+        (&["--page", "width-mm=90", "--pen", "--line-width", "0.25mm"], 0.5),
     ] {
         let (layers, px_per_mm) = draw(options);
         let names: Vec<&str> = layers.iter().map(|(name, _)| name.as_str()).collect();
@@ -373,8 +373,8 @@ fn only_lines_have_outlines_and_millimetres() {
         "outline=red",
         "--line-width",
         "0.5mm",
-        "--dpi",
-        "96",
+        "--page",
+        "dpi=96",
     ]);
     assert!(std::fs::read_to_string(&svg).unwrap().contains(r#"id="visible-outline""#));
 }

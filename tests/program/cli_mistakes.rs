@@ -89,8 +89,8 @@ const MISTAKES: [(&str, &str); 99] = [
     ),
     ("render triangle.obj -o out.png --tones 4", "--tones 4: there are 1, 2 or 3 tones"),
     (
-        "render triangle.obj -o out.png --tone-levels 1,2",
-        "invalid value '1,2' for '--tone-levels <A,B,C>': give 3 numbers separated by commas, without blanks; see --help",
+        "render triangle.obj -o out.png --tones tone-levels=1,2",
+        "invalid value 'tone-levels=1,2' for '--tones <N>': tone-levels: give 3 numbers separated by commas, without blanks; see --help",
     ),
     (
         "render triangle.obj -o out.png --filter sobell",
@@ -117,8 +117,14 @@ const MISTAKES: [(&str, &str); 99] = [
         "render triangle.obj -o out.png --normals flatt",
         "invalid value 'flatt' for '--normals <WHERE>': did you mean flat?",
     ),
-    ("render triangle.obj -o out.png --smooth-angle 400", "--smooth-angle 400: the angle is between 0 and 180 degrees"),
-    ("render triangle.obj -o out.png --skin none.png", "none.png: there is no such file; check the name after --skin"),
+    (
+        "render triangle.obj -o out.png --normals smooth-angle=400",
+        "--normals smooth-angle=400: the angle is between 0 and 180 degrees",
+    ),
+    (
+        "render triangle.obj -o out.png --texture skin=none.png",
+        "none.png: there is no such file; check the name after --texture skin",
+    ),
     (
         "render triangle.obj -o out.png --turntable 0",
         "invalid value '0' for '--turntable <N>': give a whole number from 1 to 10000; see --help",
@@ -225,8 +231,8 @@ const MISTAKES: [(&str, &str); 99] = [
         "--page: a picture has pixels and no paper; for 300 dpi say --size 3300x2550, or write a .svg or .pdf",
     ),
     (
-        "render triangle.obj -o out.png --dpi 300",
-        "--dpi: a picture has pixels and no paper; say --size, or write a .svg or .pdf",
+        "render triangle.obj -o out.png --page dpi=300",
+        "--page dpi: a picture has pixels and no paper; say --size, or write a .svg or .pdf",
     ),
     (
         "render triangle.obj -o out.svg --class-widths outlines=3",
@@ -290,7 +296,7 @@ const MISTAKES: [(&str, &str); 99] = [
     ),
     ("info triangle.obj --seed 3", "tinta info has no option --seed; see --help"),
     ("info triangle.obj other.obj", "tinta info takes one model; other.obj is one too many; see --help"),
-    ("info --crease-angle 30", "--crease-angle: it counts a model's edges; name the model"),
+    ("info --crease-angle 30", "--crease-angle: it counts a model's edges; name the model; see --help"),
     ("render triangle.obj --look all -o out.png", "out.png: --look all draws a picture in each look; name a folder"),
     (
         "looks triangle.obj",

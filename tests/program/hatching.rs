@@ -100,7 +100,7 @@ fn a_sheet_has_strokes_in_millimetres_for_a_pen_of_its_own() {
 #[test]
 fn a_recipe_keeps_hatching() {
     let folder = Folder::new();
-    let text = drawn(&folder, &["--look", "print", "--page", "A4", "--hatch", "1.5mm", "--hatch-angle", "30"]);
+    let text = drawn(&folder, &["--look", "print", "--page", "A4", "--hatch", "1.5mm", "--hatch", "hatch-angle=30"]);
     let again = folder.path("again.svg");
     assert_eq!(tinta(&["again", &folder.path("a.svg"), "-o", &again]).status.code(), Some(0), "the same");
     assert_eq!(std::fs::read_to_string(&again).unwrap(), text);
@@ -126,8 +126,8 @@ fn nonsense_for_strokes_is_refused_by_the_options_name() {
     refuse("a.svg", &["--look", "print", "--hatch", "wide"], &["--hatch", "wide", "1mm or 6x"]);
     refuse(
         "a.svg",
-        &["--look", "print", "--hatch", "auto", "--hatch-angle", "nan"],
-        &["--hatch-angle NaN", "-360 to 360"],
+        &["--look", "print", "--hatch", "auto", "--hatch", "hatch-angle=nan"],
+        &["--hatch hatch-angle=NaN", "-360 to 360"],
     );
     refuse(
         "a.svg",

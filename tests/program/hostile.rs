@@ -129,7 +129,8 @@ fn pictures_that_unfold_are_refused_before_they_do() {
     ];
     for (name, bytes, sentence) in files {
         let file = folder.file(name, &bytes);
-        let arguments = ["render", "builtin:ant", "-o", &out, "--style", "inking", "--ramp", &file];
+        let arguments =
+            ["render", "builtin:ant", "-o", &out, "--style", "inking", "--texture", &format!("ramp={}", file)];
         assert_refused(&tinta_within(700, &arguments), &[name, sentence]);
     }
     // As a model's texture it is read only when a style needs it.
@@ -172,7 +173,7 @@ fn check_zeros(bytes: u64) {
         assert_refused(&tinta_within(1600, &["info", &link]), &[name, sentence]);
     }
     let out = folder.path("out.png");
-    let arguments = ["render", "builtin:ant", "-o", &out, "--style", "inking", "--ramp", &zeros];
+    let arguments = ["render", "builtin:ant", "-o", &out, "--style", "inking", "--texture", &format!("ramp={}", zeros)];
     let sentence = if bytes > 640 << 20 { "zeros.obj: it is larger than 640 MiB" } else { "zeros.obj: " };
     assert_refused(&tinta_within(600, &arguments), &[sentence]);
     let merge = ["measure", "--merge", &zeros, "-o", &folder.path("merged")];
@@ -200,15 +201,17 @@ fn pipes_and_folders_are_refused_wherever_a_file_is_read_and_nobody_waits_for_th
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     let inside = folder.path("");
     let (out, new) = (folder.path("out.png"), folder.path("new"));
-    let with_ramp = |file| ["render", "builtin:ant", "-o", &out, "--style", "inking", "--ramp", file];
+    let with_ramp = |file: &str| {
+        tinta(&["render", "builtin:ant", "-o", &out, "--style", "inking", "--texture", &format!("ramp={file}")])
+    };
     for (file, what) in
         [(pipe.as_str(), "this is a pipe or a device, not a regular file"), (inside.as_str(), "this is a ")]
     {
         assert_refused(&tinta(&["info", file]), &[what]);
-        assert_refused(&tinta(&with_ramp(file)), &[what]);
+        assert_refused(&with_ramp(file), &[what]);
         assert_refused(&tinta(&["measure", "--merge", file, "-o", &new]), &[what]);
     }
-    assert_refused(&tinta(&["info", "builtin:ant", "--skin", &pipe]), &["not a regular file"]);
+    assert_refused(&tinta(&["info", "builtin:ant", "--texture", &format!("skin={}", pipe)]), &["not a regular file"]);
     for open in [tinta_lab::report::RowLog::create, |folder: &Path| {
         tinta_lab::report::RowLog::resume(folder).map(|(log, _)| log)
     }] {

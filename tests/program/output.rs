@@ -164,7 +164,7 @@ fn a_disk_that_fills_up_keeps_whole_frames_and_no_half_set_of_pictures() {
     // A frame is 3 * 64 * 64 bytes and a few, so four pages; there is room for three.
     let script = format!(
         "{TRY} mount -t tmpfs -o size=52k none \"$D\"; try render builtin:ant --size 64 --turntable 9 -o \"$D/%d.ppm\"; hold; \
-         wc -c < \"$D/3.ppm\"; rm \"$D\"/*; echo old > \"$D/noise.png\"; try textures --size 128 -o \"$D\"; hold; cat \"$D/noise.png\""
+         wc -c < \"$D/3.ppm\"; rm \"$D\"/*; echo old > \"$D/lines.png\"; try compare builtin:ant --size 600 --frames 1 -o \"$D/\"; hold; cat \"$D/lines.png\""
     );
     let Some(text) = where_mounts_are_ours(&script, &folder.path("")) else { return };
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
@@ -172,7 +172,7 @@ fn a_disk_that_fills_up_keeps_whole_frames_and_no_half_set_of_pictures() {
     assert_eq!((exit, frames), ("exit 2", "holds 1.ppm 2.ppm 3.ppm"), "{text}");
     assert!(said.contains("4.ppm: the disk is full"), "{said}");
     assert_eq!(bytes, (3 * 64 * 64 + "P6\n64 64\n255\n".len()).to_string());
-    assert_eq!((exit_of_set, set, old), ("exit 2", "holds noise.png", "old"), "{text}");
+    assert_eq!((exit_of_set, set, old), ("exit 2", "holds lines.png", "old"), "{text}");
     assert!(said_of_set.contains("the disk is full"), "{said_of_set}");
 }
 
@@ -222,11 +222,11 @@ fn nothing_that_is_read_is_written_over() {
     let attempts: [&[&str]; 11] = [
         &["render", &model, "-o", &model],
         &["render", &obj, "-o", &at("x.png"), "--save-preset", &obj],
-        &["render", &obj, "-o", &skin, "--skin", &skin],
-        &["render", &obj, "-o", &ramp, "--style", "inking", "--ramp", &ramp],
-        &["render", &obj, "-o", &paper, "--style", "charcoal", "--paper", &paper],
-        &["render", &obj, "-o", &cet, "--style", "charcoal", "--cet", &cet],
-        &["render", &obj, "-o", &noise, "--style", "sand", "--noise-texture", &noise],
+        &["render", &obj, "-o", &skin, "--texture", &format!("skin={}", skin)],
+        &["render", &obj, "-o", &ramp, "--style", "inking", "--texture", &format!("ramp={}", ramp)],
+        &["render", &obj, "-o", &paper, "--style", "charcoal", "--texture", &format!("paper={}", paper)],
+        &["render", &obj, "-o", &cet, "--style", "charcoal", "--texture", &format!("cet={}", cet)],
+        &["render", &obj, "-o", &noise, "--style", "sand", "--texture", &format!("noise-texture={}", noise)],
         &["render", &obj, "-o", &preset, "--preset", &preset],
         &["render", &obj, "-o", &worn],
         &["render", &at("fr-0001.png"), "-o", &frames, "--turntable", "2"],

@@ -101,7 +101,7 @@ fn what_cannot_be_a_page_is_refused_in_a_sentence() {
     page(&["models/none.obj"], &["none.obj"]);
     page(&["builtin:gear", "--lecture", "nobody"], &["lecture", "evangelista"]);
     page(&["builtin:gear", "--style", "three-pass", "--tones", "9"], &["tones"]);
-    page(&["builtin:gear", "--skin", "a.png"], &["skin"]);
+    page(&["builtin:gear", "--texture", "skin=a.png"], &["skin"]);
     refused_in_one_line(&["page", "builtin:gear", "-o", &made, "--from", &other], &["other.html", "scripts/web"]);
     refused_in_one_line(
         &["page", "builtin:gear", "-o", &made, "--from", &folder.path("no.html")],

@@ -78,8 +78,8 @@ fn what_the_command_line_gives_counts_more_and_the_record_states_what_counted() 
     assert_eq!(given["background"]["color"], serde_json::json!([1.0, 0.0, 0.0]));
     // On either side of --preset; an option that excludes one of the preset overrides it.
     for options in [
-        &["--tones", "1", "--preset", &preset, "--eye", "1,2,9", "--transparent"][..],
-        &["--preset", &preset, "--transparent", "--eye=1,2,9", "--tones=1"],
+        &["--tones", "1", "--preset", &preset, "--eye", "1,2,9", "--background", "transparent"][..],
+        &["--preset", &preset, "--background", "transparent", "--eye=1,2,9", "--tones=1"],
     ] {
         let beaten = record(options);
         assert_eq!((&beaten["style"]["name"], &beaten["style"]["tones"]), (&"mrt".into(), &1.into()));

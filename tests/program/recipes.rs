@@ -35,8 +35,8 @@ fn pictures_of_every_kind_are_made_again_byte_for_byte() {
     let [first, second] = backend_names();
     let mut made_again = 0;
     for (kind, options) in [
-        ("png", &["--style", "sand", "--light-1=-1,0.5,2"][..]),
-        ("png", &["--style", "inking", "--texture", "on", "--transparent", "--backend", second]),
+        ("png", &["--style", "sand", "--light=light-1=-1,0.5,2"][..]),
+        ("png", &["--style", "inking", "--texture", "on", "--background", "transparent", "--backend", second]),
         ("png", &["--style", "ink", "--background", "rgb(10.5 20 30)", "--full", "--surface", "textured"]),
         (
             "png",
@@ -55,7 +55,7 @@ fn pictures_of_every_kind_are_made_again_byte_for_byte() {
             ],
         ),
         ("svg", &["--style", "lines", "--hidden", "dashed", "--class-colors", "silhouette=red", "--provenance"]),
-        ("svg", &["--style", "lines", "--pen", "--dpi", "96.5", "--transparent"]),
+        ("svg", &["--style", "lines", "--pen", "--page", "dpi=96.5", "--background", "transparent"]),
     ] {
         let [first, second] = ["first", "second"].map(|name| folder.path(&format!("{name}.{kind}")));
         done(&[&["render", &model, "-o", &first, "--size", "64x48"], options].concat());
@@ -184,7 +184,7 @@ fn a_model_that_has_moved_is_asked_for_and_found() {
     for kind in ["png", "svg"] {
         std::fs::copy(&old, &new).unwrap();
         let [first, second] = ["first", "second"].map(|name| folder.path(&format!("{name}.{kind}")));
-        done(&["render", &old, "-o", &first, "--size", "32", "--transparent"]);
+        done(&["render", &old, "-o", &first, "--size", "32", "--background", "transparent"]);
         std::fs::rename(&old, folder.path("hidden.obj")).unwrap();
         refused_in_one_line(&["again", &first, "-o", &second], &["old.obj: ", "--model FILE"]);
         assert!(!Path::new(&second).exists());

@@ -17,8 +17,8 @@ fn help_versions_scripts_and_pages_that_cannot_be_written_are_errors() {
         "render --help",
         "help batch",
         "stress -h",
-        "completions bash",
-        "completions zsh",
+        "generate bash",
+        "generate zsh",
     ] {
         let full = File::options().write(true).open("/dev/full").unwrap();
         let mut command = Command::new(env!("CARGO_BIN_EXE_tinta"));

@@ -27,7 +27,7 @@ fn recipes_are_overruled_by_options_and_nonsense_is_refused_by_name() {
         let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         record["style"].clone()
     };
-    let closure = settings(&["--json", "--charcoal", "closure", "--density", "50", "--improve", "clamp,wrap"]);
+    let closure = settings(&["--json", "--charcoal", "closure", "--grain", "density=50", "--improve", "clamp,wrap"]);
     assert_eq!((closure["name"].as_str(), closure["density"].as_f64()), (Some("charcoal"), Some(50.0)));
     assert_eq!((closure["saturation"].as_f64(), closure["smudge"].as_bool()), (Some(1.4), Some(false)));
     assert_eq!(closure["improve"], serde_json::json!(["clamp", "wrap"]));
@@ -39,22 +39,22 @@ fn recipes_are_overruled_by_options_and_nonsense_is_refused_by_name() {
     };
     refused(&["--improve", "polish"], &["--improve", "paper-coordinate"]);
     refused(&["--charcoal", "lighter"], &["--charcoal", "darker", "closure"]);
-    refused(&["--light-1", "0,0,0"], &["--light-1"]);
-    refused(&["--texture-size", "5000"], &["--texture-size 5000x5000", "4096"]);
-    refused(&["--paper", "no/such.png"], &["no/such.png"]);
+    refused(&["--light", "light-1=0,0,0"], &["--light light-1"]);
+    refused(&["--grain", "texture-size=5000"], &["--grain texture-size=5000x5000", "4096"]);
+    refused(&["--texture", "paper=no/such.png"], &["no/such.png"]);
     refused(&["--show", "tones"], &["--show", "diffuse"]);
     for style in ["phong", "three-pass", "two-pass", "mrt", "inking", "dietrich"] {
         let line = ["render", "builtin:gear", "-o", &out, "--style", style, "--show", "cet"];
         refused_in_one_line(&line, &["--show"]);
     }
-    refused_in_one_line(&["render", "builtin:gear", "-o", &out, "--style", "sand"], &["style sand", "--skin"]);
+    refused_in_one_line(&["render", "builtin:gear", "-o", &out, "--style", "sand"], &["style sand", "--texture skin"]);
 }
 
 #[test]
 fn the_recipes_old_name_is_read_wherever_it_stands_and_no_longer_written() {
     let folder = Folder::new();
     let drawn = |file: &str, options: &[&str]| {
-        let line = ["render", "builtin:gear", "-o", file, "--size", "32", "--texture-size", "16"];
+        let line = ["render", "builtin:gear", "-o", file, "--size", "32", "--grain", "texture-size=16"];
         done(&[&line[..], options].concat());
         std::fs::read(file).unwrap()
     };
@@ -105,20 +105,31 @@ fn textures_of_ones_own_are_drawn_with_and_those_that_tinta_writes_draw_what_it_
         done(&[&line[..], options].concat());
         Picture::read_png(out.as_ref()).unwrap()
     };
-    let made = pixels("made.png", &["--seed", "3", "--texture-size", "48"]);
-    let own = pixels("own.png", &["--cet", &cet, "--noise-texture", &noise, "--paper", &paper]);
+    let made = pixels("made.png", &["--seed", "3", "--grain", "texture-size=48"]);
+    let own = pixels(
+        "own.png",
+        &[
+            "--texture",
+            &format!("cet={}", cet),
+            "--texture",
+            &format!("noise-texture={}", noise),
+            "--texture",
+            &format!("paper={}", paper),
+        ],
+    );
     assert_eq!(made.difference(&own), Some(EQUAL));
     let recipe = Recipe::read(folder.path("own.png").as_ref()).unwrap();
     let files: Vec<&str> = recipe.files.iter().map(|file| file.path.as_str()).collect();
     assert_eq!(files, [&cet, &noise, &paper]);
     // A grain without grains is the light alone.
     let white = folder.file("white.ppm", b"P6 1 1 255\n\xff\xff\xff");
-    let none = pixels("none.png", &["--cet", &white, "--seed", "3", "--texture-size", "48"]);
-    let empty = pixels("empty.png", &["--density", "0", "--seed", "3", "--texture-size", "48"]);
+    let none =
+        pixels("none.png", &["--texture", &format!("cet={}", white), "--seed", "3", "--grain", "texture-size=48"]);
+    let empty = pixels("empty.png", &["--grain", "density=0", "--seed", "3", "--grain", "texture-size=48"]);
     assert_eq!(none.difference(&empty), Some(EQUAL));
     let line = ["render", "builtin:gear", "-o", &folder.path("a.png"), "--style", "charcoal"];
-    for option in ["--cet", "--noise-texture"] {
-        refused_in_one_line(&[&line[..], &[option, "no/such.png"]].concat(), &["no/such.png"]);
+    for option in ["cet", "noise-texture"] {
+        refused_in_one_line(&[&line[..], &["--texture", &format!("{option}=no/such.png")]].concat(), &["no/such.png"]);
     }
 }
 
@@ -128,7 +139,7 @@ fn faces_on_each_other_are_said_with_what_helps_and_no_longer_once_it_does() {
     let leaf = folder.file("leaf.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 .2\nf 1 2 3\nf 3 2 1\n");
     let out = folder.path("leaf.png");
     let said = |options: &[&str]| {
-        let line = ["render", &leaf, "-o", &out, "--size", "16", "--texture-size", "16"];
+        let line = ["render", &leaf, "-o", &out, "--size", "16", "--grain", "texture-size=16"];
         let output = done(&[&line[..], options].concat());
         String::from_utf8(output.stderr).unwrap()
     };
@@ -190,7 +201,7 @@ fn averaged_normals_are_left_out_of_looks_and_named_in_published_styles() {
         assert_eq!(code, Some(0), "{remark}");
         (remark, std::fs::read(out).unwrap())
     };
-    for look in [&["--look", "print"][..], &["--look", "charcoal", "--texture-size", "32"]] {
+    for look in [&["--look", "print"][..], &["--look", "charcoal", "--grain", "texture-size=32"]] {
         let (remark, picture) = render(0, look);
         assert!(remark.contains("d.obj: 36 of the file's 36 normals") && remark.contains("--normals file"), "{remark}");
         let (silence, clean) = render(1, look);

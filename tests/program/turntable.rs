@@ -51,7 +51,7 @@ fn a_transparent_turntable_leaves_nothing_of_the_view_before() {
     let folder = Folder::new();
     let (gif_path, pictures) = (folder.path("a.gif"), folder.path("a-%d.png"));
     for path in [&gif_path, &pictures] {
-        render(&["builtin:ant", "--size", "64", "--turntable", "5", "--transparent", "-o", path]);
+        render(&["builtin:ant", "--size", "64", "--turntable", "5", "--background", "transparent", "-o", path]);
     }
     for (number, frame) in gif(&gif_path).iter().enumerate() {
         let picture = image::open(folder.path(&format!("a-{}.png", number + 1))).unwrap().into_rgba8();
@@ -147,7 +147,7 @@ fn an_animated_svg_shows_each_view_as_the_numbered_drawings_do() {
     let folder = Folder::new();
     for (model, views, options) in [
         ("builtin:open-box", 5, &["--hidden", "dashed"][..]),
-        ("builtin:ant", 7, &["--line-width", "0.25mm", "--width-mm", "100"]),
+        ("builtin:ant", 7, &["--line-width", "0.25mm", "--page", "width-mm=100"]),
         ("builtin:gear", 3, &["--hidden", "ghost", "--class-colors", "crease=red"]),
         ("builtin:torus", 6, &["--silhouette", "smooth", "--fit-curves", "0.5"]),
         ("builtin:open-box", 1, &[]),
@@ -196,7 +196,7 @@ fn what_makes_no_turn_of_lines_is_refused() {
     }
     refused("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);
     refused("no/such/%d.svg", &[], &["no/such/1.svg: the folder no/such does not exist"]);
-    refused("%d.svg", &["--page", "A4"], &["--page", "each view", "--width-mm"]);
+    refused("%d.svg", &["--page", "A4"], &["--page", "each view", "--page width-mm"]);
 }
 
 #[test]
@@ -209,7 +209,7 @@ fn what_makes_no_animation_is_refused() {
     refused("a.png", &["--turntable", "4"], &["a.png: this names one picture", ".gif or .apng", "frame-%04d.png"]);
     refused("-", &["--turntable", "4"], &["-: this names one picture"]);
     refused("no/such/a.gif", &["--turntable", "4"], &["no/such/a.gif: the folder no/such does not exist"]);
-    refused(&folder.path("%d.jpg"), &["--turntable", "4", "--transparent"], &["no transparency"]);
+    refused(&folder.path("%d.jpg"), &["--turntable", "4", "--background", "transparent"], &["no transparency"]);
     refused(&out, &["--turntable", "0"], &["--turntable", "from 1 to 10000"]);
     refused(&out, &["--turntable", "4", "--frame-delay", "5"], &["--frame-delay", "from 20 to 60000"]);
     refused(&out, &["--turntable", "4", "--animate"], &["--turntable", "--animate"]);

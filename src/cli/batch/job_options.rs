@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use tinta::batch::{Job, OUTPUTS, place_in};
 use tinta::choice::nearest;
 use tinta::preset::Look;
-use tinta::recipe::option_words;
+use tinta::recipe::option_word;
 use tinta::request::{Request, gone};
 use tinta::settings::{HasSettings, OptionValue, Options};
 use tinta::{Error, ParseError, Result};
@@ -102,9 +102,6 @@ fn placed(key: &str, value: &OptionValue, folder: &Path) -> Result<OptionValue> 
 /// The command line that would do the same.
 fn command(job: &Job, options: &Options) -> String {
     let name = job.command.name().to_owned();
-    let words = options.iter().flat_map(|(name, value)| match value {
-        OptionValue::Text(text) => vec![format!("--{name}={text}")],
-        value => option_words(name, value),
-    });
+    let words = options.iter().filter_map(|(name, value)| option_word(name, value));
     tinta::shell::command_line([name].into_iter().chain(words).chain(["--".to_owned()]).chain(job.models.clone()))
 }

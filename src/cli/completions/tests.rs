@@ -3,7 +3,7 @@
 use super::*;
 use crate::cli::help;
 
-const SHELLS: [What; 3] = [What::Bash, What::Zsh, What::Fish];
+const SHELLS: [Script; 3] = [Script::Bash, Script::Zsh, Script::Fish];
 
 fn whole() -> Command {
     let mut whole = Program::default().command_line().disable_help_subcommand(true);
@@ -12,16 +12,16 @@ fn whole() -> Command {
 }
 
 /// A script's part for one command.
-fn part(shell: What, script: &str, command: &str) -> String {
+fn part(shell: Script, script: &str, command: &str) -> String {
     let between = |start: &str, end: &str| {
         let rest = script.split_once(start).unwrap_or_else(|| panic!("{command}: no {start:?}")).1;
         rest.split_once(end).unwrap().0.to_owned()
     };
     match shell {
-        What::Bash => between(&format!("\n        tinta__subcmd__{command})\n"), "\n            ;;"),
-        What::Zsh => between(&format!("({command})\n_arguments"), "\n;;"),
-        What::Man => String::new(),
-        What::Fish => {
+        Script::Bash => between(&format!("\n        tinta__subcmd__{command})\n"), "\n            ;;"),
+        Script::Zsh => between(&format!("({command})\n_arguments"), "\n;;"),
+        Script::Man => String::new(),
+        Script::Fish => {
             let start = format!("complete -c tinta -n \"__fish_tinta_using_subcommand {command}\"");
             script.lines().filter(|line| line.starts_with(&start)).collect::<Vec<_>>().join("\n") + "\n"
         }
@@ -37,19 +37,19 @@ fn every_command_and_long_option_is_in_every_script() {
         for command in whole.get_subcommands() {
             let name = command.get_name();
             let is_named = match shell {
-                What::Bash => script.contains(&format!("tinta,{name})")),
-                What::Zsh => script.contains(&format!("'{name}:")),
-                What::Fish => script.contains(&format!("-a \"{name}\" -d ")),
-                What::Man => false,
+                Script::Bash => script.contains(&format!("tinta,{name})")),
+                Script::Zsh => script.contains(&format!("'{name}:")),
+                Script::Fish => script.contains(&format!("-a \"{name}\" -d ")),
+                Script::Man => false,
             };
             assert!(is_named, "{shell:?} does not know {name}");
             let part = part(shell, &script, name);
             for option in help::options(command).filter_map(|arg| arg.get_long()) {
                 let is_there = match shell {
-                    What::Bash => part.split([' ', '"', '\n']).any(|word| word == format!("--{option}")),
-                    What::Zsh => part.contains(&format!("--{option}[")) || part.contains(&format!("--{option}=[")),
-                    What::Fish => part.contains(&format!(" -l {option} ")),
-                    What::Man => false,
+                    Script::Bash => part.split([' ', '"', '\n']).any(|word| word == format!("--{option}")),
+                    Script::Zsh => part.contains(&format!("--{option}[")) || part.contains(&format!("--{option}=[")),
+                    Script::Fish => part.contains(&format!(" -l {option} ")),
+                    Script::Man => false,
                 };
                 assert!(is_there, "{shell:?} does not know {name} --{option}");
                 options += 1;

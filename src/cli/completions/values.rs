@@ -45,7 +45,7 @@ fn offered(offers: fn(&str) -> Vec<&'static str>, option: &str) -> Vec<&'static 
     let of_command = offers(option);
     match option {
         _ if !of_command.is_empty() => of_command,
-        "look" => LOOKS.iter().map(|look| look.name).chain(["all"]).collect(),
+        "look" => LOOKS.iter().map(|look| look.name).collect(),
         "submission" => names_of::<Submission>(),
         _ => {
             // Styles and lines have settings of one name that take different ones.

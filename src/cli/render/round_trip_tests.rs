@@ -10,7 +10,7 @@ use clap::{CommandFactory, Parser};
 use std::collections::BTreeSet;
 use std::path::Path;
 use tinta::preset::{OptionValue, Options, Preset, SHIPPED};
-use tinta::recipe::option_words;
+use tinta::recipe::option_word;
 use tinta::settings::{HasSettings, Kind, Table};
 use tinta::{LoadOptions, Picture, Size, Style, StyleName, Target};
 
@@ -26,11 +26,7 @@ fn parsed(words: &[String]) -> Arguments {
 }
 
 fn words(options: &Options) -> Vec<String> {
-    let word = |(name, value): (&String, &OptionValue)| match value {
-        OptionValue::Text(text) => vec![format!("--{name}={text}")],
-        value => option_words(name, value),
-    };
-    options.iter().flat_map(word).collect()
+    options.iter().filter_map(|(name, value)| option_word(name, value)).collect()
 }
 
 /// An option with a value other than its default.
@@ -43,8 +39,8 @@ struct Sample {
 impl Sample {
     fn words(&self) -> Vec<String> {
         match self.kind {
-            Kind::Flag => vec![format!("--{}", self.name)],
-            _ => vec![format!("--{}={}", self.name, self.value)],
+            Kind::Flag => option_word(self.name, &OptionValue::Switch(true)).into_iter().collect(),
+            _ => option_word(self.name, &OptionValue::text(&self.value)).into_iter().collect(),
         }
     }
 }
@@ -125,7 +121,8 @@ fn picture_file() -> tempfile::NamedTempFile {
 fn every_option_is_the_requests_or_of_one_run() {
     let others = ["output", "look", "preset", "camera", "help"];
     for name in help::options(&Line::command()).filter_map(|arg| arg.get_long()) {
-        let homes = [Request::table().has(name), is_of_one_run(name), others.contains(&name)];
+        let holds = Request::table().settings.iter().any(|setting| setting.group == Some(name));
+        let homes = [Request::table().has(name) || holds, is_of_one_run(name), others.contains(&name)];
         assert_eq!(homes.iter().filter(|is_it| **is_it).count(), 1, "--{name}");
     }
 }

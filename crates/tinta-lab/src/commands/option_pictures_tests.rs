@@ -53,21 +53,28 @@ struct Section {
 }
 
 fn sections(page: &str) -> Vec<Section> {
-    let mut sections = Vec::new();
-    for text in page.split("\n### `--").skip(1) {
+    let options = page.split("\n### `--").skip(1).map(|text| text.split("\n## ").next().unwrap());
+    let sections = options.flat_map(|text| {
         let option = text.split('`').next().unwrap().to_owned();
-        let command =
-            text.lines().find_map(|line| line.strip_prefix("    ")).unwrap_or_else(|| panic!("no command: {option}"));
-        let picture = text
-            .split("](")
-            .find_map(|rest| rest.strip_prefix("../").filter(|rest| rest.starts_with("pictures/")))
-            .and_then(|rest| rest.split(')').next())
-            .unwrap_or_else(|| panic!("no picture: {option}"));
-        let words: Vec<String> = command.split_whitespace().map(str::to_owned).collect();
-        assert_eq!(words[0], "tinta", "{option}: {command}");
-        sections.push(Section { option, words, picture: root().join("docs").join(picture) });
-    }
-    sections
+        // An option of several settings has a picture for each.
+        let parts: Vec<&str> = text.split("\n#### ").filter(|part| part.contains("\n![")).collect();
+        assert!(!parts.is_empty(), "no picture: {option}");
+        parts.into_iter().map(move |part| section(&option, part)).collect::<Vec<_>>()
+    });
+    sections.collect()
+}
+
+fn section(option: &str, text: &str) -> Section {
+    let command =
+        text.lines().find_map(|line| line.strip_prefix("    ")).unwrap_or_else(|| panic!("no command: {option}"));
+    let picture = text
+        .split("](")
+        .find_map(|rest| rest.strip_prefix("../").filter(|rest| rest.starts_with("pictures/")))
+        .and_then(|rest| rest.split(')').next())
+        .unwrap_or_else(|| panic!("no picture: {option}"));
+    let words: Vec<String> = command.split_whitespace().map(str::to_owned).collect();
+    assert_eq!(words[0], "tinta", "{option}: {command}");
+    Section { option: option.to_owned(), words, picture: root().join("docs").join(picture) }
 }
 
 /// The command without its option.
@@ -77,7 +84,8 @@ fn without(section: &Section) -> Vec<String> {
     let arg = command.get_arguments().find(|arg| arg.get_long() == Some(&section.option));
     let arg = arg.unwrap_or_else(|| panic!("tinta {} has no --{}", section.words[1], section.option));
     let option = format!("--{}", section.option);
-    let at = section.words.iter().position(|word| word.split('=').next() == Some(&option));
+    // The last: an option may be given more than once.
+    let at = section.words.iter().rposition(|word| word.split('=').next() == Some(&option));
     let at = at.unwrap_or_else(|| panic!("the command of {option} is without it"));
     let has_value = arg.get_action().takes_values() && section.words[at] == option && !arg.is_require_equals_set();
     let mut words = section.words.clone();

@@ -79,7 +79,7 @@ pub(super) fn figures() -> Vec<Figure> {
                     border: None,
                     ..Cartoon::default()
                 }),
-                "--no-borders --tone-thresholds 2,0.65",
+                "--no-borders --tones tone-thresholds=2,0.65",
             )]),
         ),
         figure(

@@ -14,7 +14,7 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
     let base = Charcoal { texture_size: size, ..Charcoal::default() };
     let options = |style: &str, more: &str| {
         let stretched = if size == Charcoal::default().texture_size { String::new() } else { size.to_string() };
-        let texture = if stretched.is_empty() { stretched } else { format!(" --texture-size {stretched}") };
+        let texture = if stretched.is_empty() { stretched } else { format!(" --grain texture-size={stretched}") };
         format!("--style {style}{texture}{more}")
     };
     let drawn = |file: &str, label, model, shot, charcoal: Charcoal, more: &str| {
@@ -75,7 +75,7 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
              The report shows the picture of the work it follows; ours is the bust.",
             vec![
                 face("valente-4-left", "diffuse light", base.clone(), "").showing(Show::Diffuse, "diffuse"),
-                face("valente-4-right", "contrast enhanced, m = 3", contrast(3.0), " --contrast-exponent 3")
+                face("valente-4-right", "contrast enhanced, m = 3", contrast(3.0), " --contrast contrast-exponent=3")
                     .showing(Show::Cem, "cem"),
             ],
         ),
@@ -105,7 +105,7 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
                     "valente-8",
                     "saturated coordinate",
                     Charcoal { cet_coordinate: CetCoordinate::Saturated, ..saturated() },
-                    " --saturation 1.2 --cet-coordinate saturated",
+                    " --saturation 1.2 --grain cet-coordinate=saturated",
                 ),
                 face("valente-8-published", "published coordinate", saturated(), " --saturation 1.2"),
             ],

@@ -9,8 +9,8 @@ use crate::measure::{
 use tinta::cli::progress::TimedProgress;
 use tinta::cli::say;
 use tinta::edges::SilhouetteRule;
-use tinta::recipe::option_words;
-use tinta::settings::{HasSettings, Kind, OptionValue, Options};
+use tinta::recipe::option_word;
+use tinta::settings::{HasSettings, Kind, Options};
 use tinta::{LoadOptions, Renderer, Result, Style};
 
 /// Timed frames of a setting.
@@ -115,9 +115,6 @@ fn scene_options(options: &Options) -> String {
         LoadOptions::table().settings.iter().any(|setting| setting.name == name && setting.kind == Kind::Flag)
     };
     let kept = options.iter().filter(|(name, _)| !is_flag(name));
-    kept.flat_map(|(name, value)| match value {
-        OptionValue::Text(value) => vec![format!("--{name}={value}")],
-        switch => option_words(name, switch),
-    })
-    .fold(String::new(), |options, word| options + " " + &tinta::shell::quoted(&word))
+    kept.filter_map(|(name, value)| option_word(name, value))
+        .fold(String::new(), |options, word| options + " " + &tinta::shell::quoted(&word))
 }

@@ -229,7 +229,7 @@ pub(super) fn settings(styles: &[StyleName], is_quick: bool) -> Result<Vec<Measu
     let faithful = of_defaults(false).map(|options| (options, true));
     faithful
         .chain(others.map(|options| (options, false)))
-        .map(|(options, is_faithful)| setting(options, is_faithful))
+        .map(|(options, is_faithful)| setting(&options, is_faithful))
         .filter(|setting| match setting {
             Ok((name, _)) => styles.is_empty() || styles.contains(name),
             Err(_) => true,
@@ -260,15 +260,18 @@ pub(super) fn varied(styles: &[StyleName], vary: &str) -> Result<Vec<MeasuredSty
     }
     let each = having.iter().flat_map(|style| values.split(',').map(move |value| (style, value)));
     let words = each.map(|(style, value)| format!("--style {} --{option} {}", style.name(), value.trim()));
-    words.map(|text| Ok(setting(text, false)?.1)).collect()
+    words.map(|text| Ok(setting(&text, false)?.1)).collect()
 }
 
-fn setting(text: String, is_faithful: bool) -> Result<(StyleName, MeasuredStyle)> {
+fn setting(text: &str, is_faithful: bool) -> Result<(StyleName, MeasuredStyle)> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let mut options: Options = words
         .chunks(2)
         .filter_map(|pair| Some((pair.first()?.strip_prefix("--")?.to_owned(), OptionValue::text(*pair.get(1)?))))
         .collect();
+    let given = options.iter().filter(|(name, _)| *name != "style").flat_map(|(name, value)| option_words(name, value));
+    let style = options.get("style").into_iter().flat_map(|style| option_words("style", style));
+    let text = style.chain(given).collect::<Vec<_>>().join(" ");
     // The submission of vertices is not part of a drawing.
     let submission = match options.remove("submission") {
         Some(OptionValue::Text(how)) => {
