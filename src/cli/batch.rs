@@ -4,7 +4,6 @@
 //! job that crashes the driver ends one worker and no other job. Each result is recorded at once.
 
 pub(super) mod job_options;
-mod staging;
 #[cfg(test)]
 mod tests;
 mod worker;
