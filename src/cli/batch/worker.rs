@@ -4,7 +4,7 @@ use super::super::signals;
 use super::super::{Program, Task, Verdict, messages, models};
 use super::JobOptions;
 use std::io::{BufRead, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Receiver;
@@ -13,7 +13,6 @@ use tinta::batch::{Job, JobCommand, Outcome, Run, Status, place_in, written};
 use tinta::recipe::Driver;
 use tinta::renderer::milliseconds_since;
 use tinta::request::Session;
-use tinta::settings::OptionValue;
 use tinta::{Error, Renderer, Result};
 
 /// Does jobs until standard input ends.
@@ -120,14 +119,10 @@ fn task(command: JobCommand, options: &JobOptions, program: &Program) -> Result<
 
 /// Makes the folders that outputs lie in.
 fn make_folders(job: &Job, folder: &Path) -> Result<()> {
-    for (key, value) in &job.options {
-        let OptionValue::Text(output) = value else { continue };
-        if !tinta::batch::OUTPUTS.contains(&key.as_str()) {
-            continue;
-        }
+    for (_, output) in job.outputs() {
         let Ok(place) = place_in(folder, output) else { continue };
-        let parent: PathBuf = place.parent().unwrap_or(folder).to_path_buf();
-        std::fs::create_dir_all(&parent).map_err(|error| {
+        let parent = place.parent().unwrap_or(folder);
+        std::fs::create_dir_all(parent).map_err(|error| {
             let problem = format!("the folder cannot be created ({error}); choose another");
             Error::output(parent, problem).because(&error)
         })?;
