@@ -139,43 +139,20 @@ impl Staged {
     ///
     /// [`Error::File`] when the disk is full, or the folder gone.
     pub fn new(path: &Path, bytes: &[u8]) -> Result<Self> {
-        let mut staged = Self::begin(path)?;
-        staged.add(bytes)?;
-        staged.settle()?;
-        Ok(staged)
-    }
-
-    /// Starts empty: [`Staged::add`] writes, and [`Staged::settle`] comes before [`Staged::put_in_place`].
-    ///
-    /// # Errors
-    ///
-    /// As [`Staged::new`].
-    pub(crate) fn begin(path: &Path) -> Result<Self> {
-        let temporary = StagedFile::open(&resolved(path)).map_err(|error| refused(path, &error))?;
+        let write = || {
+            let mut temporary = StagedFile::open(&resolved(path))?;
+            let file = temporary.file();
+            file.write_all(bytes)?;
+            // A replaced file keeps its permissions. The replacement must reach the disk first: otherwise a power cut could
+            // destroy both. A new file replaces nothing, so it need not wait.
+            if let Ok(metadata) = path.metadata() {
+                file.set_permissions(metadata.permissions())?;
+                file.sync_data()?;
+            }
+            Ok(temporary)
+        };
+        let temporary = write().map_err(|error| refused(path, &error))?;
         Ok(Self { path: path.to_owned(), temporary })
-    }
-
-    /// Writes further contents.
-    ///
-    /// # Errors
-    ///
-    /// As [`Staged::new`].
-    pub(crate) fn add(&mut self, bytes: &[u8]) -> Result<()> {
-        self.temporary.file().write_all(bytes).map_err(|error| refused(&self.path, &error))
-    }
-
-    /// Flushes the contents to the disk if they replace a file.
-    ///
-    /// # Errors
-    ///
-    /// As [`Staged::new`].
-    pub(crate) fn settle(&mut self) -> Result<()> {
-        let Ok(metadata) = self.path.metadata() else { return Ok(()) };
-        // A replaced file keeps its permissions. The replacement must reach the disk first: otherwise a power cut could destroy
-        // both. A new file replaces nothing, so it need not wait.
-        let file = self.temporary.file();
-        let settled = file.set_permissions(metadata.permissions()).and_then(|()| file.sync_data());
-        settled.map_err(|error| refused(&self.path, &error))
     }
 
     /// Gives the contents their name; follows a link, replaces an old file.

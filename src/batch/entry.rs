@@ -1,6 +1,6 @@
 //! A journal entry: the result of one finished job.
 
-use super::job::{Asked, Job, JobCommand};
+use super::job::{Job, JobCommand};
 use super::named_outputs::NamedOutput;
 use super::output_path::place_in;
 use crate::recipe::{Driver, FileRecord};
@@ -80,7 +80,6 @@ impl Outcome {
 
 /// A job and its result: a line of a slice's file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(from = "Line")]
 pub struct Entry {
     /// The job's name.
     pub id: String,
@@ -90,36 +89,24 @@ pub struct Entry {
     pub job: String,
     /// The command.
     pub command: JobCommand,
-    /// The result.
-    #[serde(flatten)]
-    pub outcome: Outcome,
-}
-
-/// An entry for reading, with all keys in one struct; this is several times as fast as serde's flattened keys.
-#[derive(Deserialize)]
-struct Line {
-    id: String,
-    line: u64,
-    job: String,
-    command: JobCommand,
-    status: Status,
-    error: Option<Failure>,
-    remarks: Vec<String>,
-    outputs: Vec<Written>,
-    run: Run,
-}
-
-impl From<Line> for Entry {
-    fn from(read: Line) -> Self {
-        let Line { id, line, job, command, status, error, remarks, outputs, run } = read;
-        Self { id, line, job, command, outcome: Outcome { status, error, remarks, outputs, run } }
-    }
+    /// How it ended.
+    pub status: Status,
+    /// Why it failed, if it did.
+    pub error: Option<Failure>,
+    /// Remarks of the command, a sentence each.
+    pub remarks: Vec<String>,
+    /// Its output files, sorted by path.
+    pub outputs: Vec<Written>,
+    /// The part that differs each time.
+    pub run: Run,
 }
 
 impl Entry {
     /// Makes the entry of a job.
     pub fn new(job: &Job, outcome: Outcome) -> Self {
-        Self { id: job.id.clone(), line: job.line, job: job.sha256.clone(), command: job.command, outcome }
+        let Outcome { status, error, remarks, outputs, run } = outcome;
+        let (id, line, sha256, command) = (job.id.clone(), job.line, job.sha256.clone(), job.command);
+        Self { id, line, job: sha256, command, status, error, remarks, outputs, run }
     }
 
     /// Whether this entry marks the job as done, and its output files still exist with the same lengths.
@@ -127,21 +114,21 @@ impl Entry {
         let is_there = |file: &Written| {
             folder.join(&file.path).metadata().is_ok_and(|there| there.is_file() && there.len() == file.bytes)
         };
-        self.job == job.sha256 && self.outcome.status == Status::Done && self.outcome.outputs.iter().all(is_there)
+        self.job == job.sha256 && self.status == Status::Done && self.outputs.iter().all(is_there)
     }
 }
 
 /// Returns the existing output of a job: its files, those in its folders, the pictures of a pattern such as `frame-%04d.png`.
 pub fn written(job: &Job, folder: &Path) -> Vec<Written> {
     let mut files = Vec::new();
-    for named in NamedOutput::all(&Asked::of_job(job)) {
+    for named in NamedOutput::all(job) {
         let Ok(place) = place_in(folder, &named.output) else { continue };
         if place.is_dir() {
             files_in(&place, &mut files);
-        } else if named.output.contains('%') {
-            files.extend(numbered(&named, &place, folder));
-            files.push(place);
         } else {
+            if named.output.contains('%') {
+                files.extend(numbered(&named, &place, folder));
+            }
             files.push(place);
         }
     }

@@ -2,12 +2,14 @@
 
 use crate::files::shown;
 use crate::limits::{JOB_BYTES, JOB_ID_BYTES};
-use crate::settings::OptionValue;
-use serde::de::{Deserializer, MapAccess, Visitor};
+use crate::recipe::in_hexadecimal;
+use crate::settings::{OptionValue, Options};
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
-use std::fmt::{Formatter, Write};
+use std::collections::BTreeMap;
+use std::fmt::Formatter;
 
 /// The options that name a file or folder to write.
 pub const OUTPUTS: [&str; 3] = ["output", "dump", "save-preset"];
@@ -25,9 +27,8 @@ pub enum JobCommand {
 }
 
 impl JobCommand {
-    /// All of them, with their names in lists.
-    pub const ALL: [(&'static str, Self); 3] =
-        [("render", Self::Render), ("compare", Self::Compare), ("measure", Self::Measure)];
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Render, Self::Compare, Self::Measure];
 
     /// Its name in lists.
     pub fn name(self) -> &'static str {
@@ -50,8 +51,8 @@ pub struct Job {
     pub command: JobCommand,
     /// The models.
     pub models: Vec<String>,
-    /// Every other key, by name, as the line has it.
-    pub options: Vec<(String, OptionValue)>,
+    /// Every other key.
+    pub options: Options,
     /// SHA-256 of its content, hexadecimal: blanks and the order of its keys do not count.
     pub sha256: String,
     /// The content as JSON on one line, its keys sorted.
@@ -65,82 +66,29 @@ impl Job {
     ///
     /// A sentence without the file's name.
     pub fn parse(line: &[u8]) -> Result<Self, String> {
-        let keys = keys(line)?;
-        let json = sorted(&keys);
-        let sha256 = hexadecimal(&Sha256::digest(json.as_bytes()));
-        let Asked { id, command, models, options } = Asked::of_keys(keys)?;
-        Ok(Self { id, line: 0, command, models, options, sha256, json })
-    }
-}
-
-/// A line without its number and digest: enough to check it.
-pub(super) struct Asked {
-    pub id: String,
-    pub command: JobCommand,
-    models: Vec<String>,
-    options: Vec<(String, OptionValue)>,
-}
-
-impl Asked {
-    /// Takes a job's command and options.
-    pub(super) fn of_job(job: &Job) -> Self {
-        let Job { id, command, options, .. } = job.clone();
-        Self { id, command, models: Vec::new(), options }
-    }
-
-    /// Reads a line and refuses what [`Job::parse`] does.
-    pub(super) fn of_line(line: &[u8]) -> Result<Self, String> {
-        Self::of_keys(keys(line)?)
-    }
-
-    /// The options that name output files, with those names.
-    pub(super) fn outputs(&self) -> impl Iterator<Item = (&str, &str)> {
-        self.options.iter().filter_map(|(key, value)| match value {
-            OptionValue::Text(output) if OUTPUTS.contains(&key.as_str()) => Some((key.as_str(), output.as_str())),
-            _ => None,
-        })
-    }
-
-    /// The text that an option is given.
-    pub(super) fn text(&self, option: &str) -> Option<&str> {
-        self.options.iter().find_map(|(key, value)| match value {
-            OptionValue::Text(text) if key == option => Some(text.as_str()),
-            _ => None,
-        })
-    }
-
-    fn of_keys(mut keys: Vec<(String, Value)>) -> Result<Self, String> {
-        let mut take = |name: &str| {
-            let place = keys.iter().position(|(key, _)| key == name)?;
-            Some(keys.remove(place).1)
-        };
-        let id = match take("id") {
+        let mut keys = keys(line)?;
+        let json = serde_json::to_string(&keys).map_err(|error| error.to_string())?;
+        let id = match keys.remove("id") {
             Some(Value::String(id)) => id,
             Some(Value::Number(id)) if id.is_u64() || id.is_i64() => id.to_string(),
             Some(_) => return Err("id: write a text or a whole number".to_owned()),
             None => return Err("it has no id; give each job its own".to_owned()),
         };
         check_id(&id)?;
-        let command = match take("command") {
+        let command = match keys.remove("command") {
             Some(Value::String(name)) => JobCommand::ALL
-                .iter()
-                .find(|(known, _)| *known == name)
-                .map(|(_, command)| *command)
+                .into_iter()
+                .find(|command| command.name() == name)
                 .ok_or_else(|| format!("command: {} is not render, compare or measure", shown(&name)))?,
             Some(_) => return Err("command: write render, compare or measure".to_owned()),
             None => return Err("it has no command; write render, compare or measure".to_owned()),
         };
-        let models = match take("model") {
+        let models: Vec<String> = match keys.remove("model") {
             None => Vec::new(),
             Some(Value::String(model)) => vec![model],
-            Some(Value::Array(models)) => models
-                .into_iter()
-                .map(|model| match model {
-                    Value::String(model) => Ok(model),
-                    _ => Err("model: write a text, or several in brackets".to_owned()),
-                })
-                .collect::<Result<_, _>>()?,
-            Some(_) => return Err("model: write a text, or several in brackets".to_owned()),
+            Some(models) => {
+                serde_json::from_value(models).map_err(|_| "model: write a text, or several in brackets".to_owned())?
+            }
         };
         let options = keys.into_iter().map(|(key, value)| {
             let value = job_value(value).map_err(|problem| format!("{}: {problem}", shown(&key)))?;
@@ -150,12 +98,21 @@ impl Asked {
         if models.iter().any(|model| model == "-") {
             return Err("model: - is standard input, which jobs lack; name a file".to_owned());
         }
-        Ok(Self { id, command, models, options })
+        let sha256 = in_hexadecimal(&Sha256::digest(json.as_bytes()));
+        Ok(Self { id, line: 0, command, models, options, sha256, json })
+    }
+
+    /// The options that name output files, with those names.
+    pub fn outputs(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        OUTPUTS.into_iter().filter_map(|option| match self.options.get(option)? {
+            OptionValue::Text(output) => Some((option, output.as_str())),
+            _ => None,
+        })
     }
 }
 
-/// A line's keys in their order.
-fn keys(line: &[u8]) -> Result<Vec<(String, Value)>, String> {
+/// A line's keys.
+fn keys(line: &[u8]) -> Result<BTreeMap<String, Value>, String> {
     if line.len() > JOB_BYTES {
         return Err(format!("the line is longer than {JOB_BYTES} bytes, the limit for a job; make it shorter"));
     }
@@ -195,8 +152,8 @@ fn scalar(value: Value) -> Result<String, String> {
     }
 }
 
-/// A line's keys in their order, without repetition: JSON itself would silently keep the last one of each.
-struct Keys(Vec<(String, Value)>);
+/// A line's keys, none of them twice: JSON itself would silently keep the last one of each.
+struct Keys(BTreeMap<String, Value>);
 
 impl<'de> Deserialize<'de> for Keys {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
@@ -209,36 +166,18 @@ impl<'de> Deserialize<'de> for Keys {
             }
 
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Keys, A::Error> {
-                let mut keys: Vec<(String, Value)> = Vec::new();
-                while let Some(key) = map.next_entry::<String, Value>()? {
-                    keys.push(key);
+                let mut keys = BTreeMap::new();
+                while let Some((key, value)) = map.next_entry::<String, Value>()? {
+                    if keys.contains_key(&key) {
+                        return Err(A::Error::custom(format!("the key {} is given twice", shown(&key))));
+                    }
+                    keys.insert(key, value);
                 }
-                let mut names: Vec<&str> = keys.iter().map(|(key, _)| key.as_str()).collect();
-                names.sort_unstable();
-                match names.windows(2).find(|pair| pair[0] == pair[1]) {
-                    Some(pair) => Err(serde::de::Error::custom(format!("the key {} is given twice", shown(pair[0])))),
-                    None => Ok(Keys(keys)),
-                }
+                Ok(Keys(keys))
             }
         }
         from.deserialize_map(Each)
     }
-}
-
-/// The same content gives the same text in any order of keys.
-fn sorted(keys: &[(String, Value)]) -> String {
-    let mut keys: Vec<&(String, Value)> = keys.iter().collect();
-    keys.sort_by(|one, other| one.0.cmp(&other.0));
-    let text = |(key, value): &&(String, Value)| format!("{}:{value}", Value::String(key.clone()));
-    format!("{{{}}}", keys.iter().map(text).collect::<Vec<_>>().join(","))
-}
-
-/// Bytes as hexadecimal digits.
-pub(super) fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::with_capacity(bytes.len() * 2), |mut text, byte| {
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
 }
 
 #[cfg(test)]
@@ -267,7 +206,7 @@ mod tests {
             ("tone-levels", OptionValue::Texts(["0.5", "1", "2"].map(str::to_owned).to_vec())),
             ("fov", text("-10.5")),
         ];
-        assert_eq!(job.options, expected.map(|(key, value)| (key.to_owned(), value)));
+        assert_eq!(job.options, expected.map(|(key, value)| (key.to_owned(), value)).into());
     }
 
     #[test]

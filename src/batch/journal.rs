@@ -9,8 +9,6 @@ use super::slice::Slice;
 use crate::error::{Error, FileKind, Result};
 use crate::files;
 use crate::limits::BATCH_BYTES;
-use serde::Deserialize;
-use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Seek, SeekFrom, Write};
@@ -64,23 +62,12 @@ impl Journal {
     }
 }
 
-/// Cuts off everything after the last line's end, searching backwards from the file's end.
+/// Cuts off everything after the last line's end.
 fn cut_torn(file: &mut File) -> std::io::Result<()> {
-    let length = file.seek(SeekFrom::End(0))?;
-    let mut end = length;
     let mut bytes = Vec::new();
-    while end > 0 {
-        let start = end.saturating_sub(1 << 16);
-        bytes.clear();
-        file.seek(SeekFrom::Start(start))?;
-        file.take(end - start).read_to_end(&mut bytes)?;
-        if let Some(last) = bytes.iter().rposition(|byte| *byte == b'\n') {
-            end = start + last as u64 + 1;
-            break;
-        }
-        end = start;
-    }
-    if end < length { file.set_len(end) } else { Ok(()) }
+    file.read_to_end(&mut bytes)?;
+    let end = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
+    if end < bytes.len() { file.set_len(end as u64) } else { Ok(()) }
 }
 
 /// Opens the file for appending, for this run alone; `None` if another run has it open.
@@ -109,12 +96,6 @@ fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
     }
 }
 
-/// On other systems a second run is not detected.
-#[cfg(not(any(unix, windows)))]
-fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
-    OpenOptions::new().read(true).append(true).create(true).open(path).map(Some)
-}
-
 fn read(path: &Path) -> Result<Vec<u8>> {
     files::read(path, BATCH_BYTES).map_err(|failure| failure.into_error(FileKind::Batch, path, "a batch's record"))
 }
@@ -136,13 +117,6 @@ pub fn begun(folder: &Path) -> Vec<Slice> {
 ///
 /// [`Error::File`] for a file that cannot be read.
 pub fn done(folder: &Path, slice: Slice, jobs: &[Job]) -> Result<Vec<bool>> {
-    /// The parts of an entry that most callers need.
-    #[derive(Deserialize)]
-    struct Ended<'a> {
-        #[serde(borrow)]
-        job: Cow<'a, str>,
-        status: Status,
-    }
     let places: HashMap<&str, usize> =
         jobs.iter().enumerate().map(|(place, job)| (job.sha256.as_str(), place)).collect();
     let mut done = vec![false; jobs.len()];
@@ -151,40 +125,21 @@ pub fn done(folder: &Path, slice: Slice, jobs: &[Job]) -> Result<Vec<bool>> {
             continue;
         }
         for line in read(&folder.join(other.file_name()))?.split(|byte| *byte == b'\n') {
-            let Ok(Ended { job, status: Status::Done }) = serde_json::from_slice(line) else { continue };
-            let Some(place) = places.get(job.as_ref()).copied().filter(|place| !done[*place]) else { continue };
-            let entry = serde_json::from_slice::<Entry>(line);
-            done[place] = entry.is_ok_and(|entry| entry.is_done(&jobs[place], folder));
+            let Ok(entry) = serde_json::from_slice::<Entry>(line) else { continue };
+            let Some(place) = places.get(entry.job.as_str()) else { continue };
+            done[*place] = done[*place] || entry.is_done(&jobs[*place], folder);
         }
     }
     Ok(done)
 }
 
-/// All entries in a batch's folder, of any slices: the bytes, and the place of each job's entry in them.
+/// All entries in a batch's folder, of any slices.
 #[derive(Debug, Default)]
 pub struct Entries {
-    files: Vec<Vec<u8>>,
-    found: HashMap<Key, Found>,
+    /// By [`Entry::job`]: the line that counts with its status, and how many there are. A line takes half the memory of its entry.
+    found: HashMap<String, (Box<[u8]>, Status, usize)>,
     /// Whole lines that cannot be understood.
     pub damaged: usize,
-}
-
-/// The first half of a job's SHA-256: no two of even a billion jobs share it by chance.
-type Key = u128;
-
-fn key(job: &str) -> Option<Key> {
-    Key::from_str_radix(job.get(..32)?, 16).ok()
-}
-
-/// Where the entry that counts of a job is, and how many there are.
-#[derive(Debug, Clone, Copy)]
-struct Found {
-    file: u32,
-    /// Files have at most [`BATCH_BYTES`], which 32 bits count.
-    start: u32,
-    length: u32,
-    status: Status,
-    count: u32,
 }
 
 impl Entries {
@@ -196,54 +151,39 @@ impl Entries {
     pub fn read(folder: &Path) -> Result<Self> {
         let mut entries = Self::default();
         for slice in begun(folder) {
-            entries.add(read(&folder.join(slice.file_name()))?);
+            entries.add(&read(&folder.join(slice.file_name()))?);
         }
         Ok(entries)
     }
 
     /// Adds a file's entries; a last line without its end is being written, or was when a run was killed.
-    pub fn add(&mut self, bytes: Vec<u8>) {
-        let file = self.files.len() as u32;
-        let mut start = 0;
+    pub fn add(&mut self, bytes: &[u8]) {
         for line in bytes.split_inclusive(|byte| *byte == b'\n') {
-            let entry = serde_json::from_slice::<Entry>(line).ok();
-            match entry.and_then(|entry| Some((key(&entry.job)?, entry.outcome.status))) {
-                Some((job, status)) => {
-                    let here = Found { file, start, length: line.len() as u32, status, count: 1 };
-                    let before = self.found.get(&job).copied();
-                    self.found.insert(job, before.map_or(here, |before| before.then(here)));
-                }
-                None if line.ends_with(b"\n") && !line.trim_ascii().is_empty() => self.damaged += 1,
-                None => {}
+            let Ok(entry) = serde_json::from_slice::<Entry>(line) else {
+                self.damaged += usize::from(line.ends_with(b"\n") && !line.trim_ascii().is_empty());
+                continue;
+            };
+            let (counts, status, count) = self.found.entry(entry.job).or_insert((Box::default(), Status::Failed, 0));
+            *count += 1;
+            if entry.status == Status::Done || *status == Status::Failed {
+                (*counts, *status) = (line.into(), entry.status);
             }
-            start += line.len() as u32;
         }
-        self.files.push(bytes);
     }
 
     /// The result of a job in its current form: done if any entry says done, otherwise the last entry.
     pub fn of(&self, job: &Job) -> Option<Entry> {
-        let Found { file, start, length, .. } = *self.found.get(&key(&job.sha256)?)?;
-        let line = self.files.get(file as usize)?.get(start as usize..)?.get(..length as usize)?;
-        serde_json::from_slice(line).ok()
+        self.found.get(&job.sha256).and_then(|(line, ..)| serde_json::from_slice(line).ok())
     }
 
     /// Number of entries of a job in its current form.
     pub(crate) fn count_of(&self, job: &Job) -> usize {
-        key(&job.sha256).and_then(|key| self.found.get(&key)).map_or(0, |found| found.count as usize)
+        self.found.get(&job.sha256).map_or(0, |(.., count)| *count)
     }
 
     /// How many entries there are in all.
     pub fn count(&self) -> usize {
-        self.found.values().map(|found| found.count as usize).sum()
-    }
-}
-
-impl Found {
-    /// The one that counts of this and one that was written down later.
-    fn then(self, later: Self) -> Self {
-        let counts = if later.status == Status::Done || self.status == Status::Failed { later } else { self };
-        Self { count: self.count + 1, ..counts }
+        self.found.values().map(|(.., count)| count).sum()
     }
 }
 
@@ -303,9 +243,9 @@ mod tests {
         let mut entries = Entries::default();
         let failed = Entry::new(&job("a"), Outcome::failed("model", "no"));
         let mut done = failed.clone();
-        done.outcome.status = Status::Done;
+        done.status = Status::Done;
         for entry in [&failed, &done, &failed] {
-            entries.add(format!("{}\nnonsense\n", serde_json::to_string(entry).unwrap()).into_bytes());
+            entries.add(format!("{}\nnonsense\n", serde_json::to_string(entry).unwrap()).as_bytes());
         }
         assert_eq!(entries.of(&job("a")), Some(done));
         assert_eq!((entries.damaged, entries.count_of(&job("a")), entries.count_of(&job("b"))), (3, 3, 0));

@@ -1,18 +1,17 @@
 //! The list of a batch's jobs, a line each; blank lines are passed over.
 
-use super::job::{Asked, Job};
-use super::named_outputs::{Key, Lines, NamedOutput, Shared, key, problem};
+use super::job::Job;
+use super::named_outputs::{NamedOutput, first_conflict};
 use super::slice::Slice;
 use crate::error::{Error, FileKind, Result};
 use crate::files::{self, shown};
 use crate::limits::BATCH_BYTES;
 use crate::output::write_whole;
-use std::fs::File;
-use std::io::Read;
+use std::collections::HashMap;
 use std::path::Path;
 
 /// The list as a batch keeps it in its folder.
-pub const LIST_FILE: &str = "batch-list.jsonl";
+pub(super) const LIST_FILE: &str = "batch-list.jsonl";
 
 /// Jobs in the order of their list, without repeated names or output files. All lines are checked, but each becomes a job only
 /// when needed: a run may do a thousand of a million.
@@ -31,10 +30,27 @@ impl List {
     ///
     /// [`Error::File`] with the line that is invalid, or that has the name or an output of another.
     pub fn read(path: &Path) -> Result<Self> {
-        let name = path.display().to_string();
-        let bytes = files::read(path, BATCH_BYTES)
-            .map_err(|failure| failure.into_error(FileKind::Batch, path, "a list of jobs"))?;
-        Self::of_bytes(bytes, &name)
+        Self::of_bytes(read_list(path)?, &path.display().to_string())
+    }
+
+    /// Reads a list's bytes for a batch's folder, and says whether the list kept there has the same jobs in the same lines; `None`
+    /// if the folder keeps none.
+    ///
+    /// # Errors
+    ///
+    /// As [`List::read`].
+    pub fn for_folder(bytes: Vec<u8>, name: &str, folder: &Path) -> Result<(Self, Option<bool>)> {
+        let path = folder.join(LIST_FILE);
+        let kept = path.symlink_metadata().ok().map(|_| read_list(&path)).transpose()?;
+        // Nearly always the very same file, which was checked when it was kept: the slices of a long list begin at once.
+        if kept.as_ref() == Some(&bytes) {
+            return Ok((Self { count: lines(&bytes).count(), bytes }, Some(true)));
+        }
+        let list = Self::of_bytes(bytes, name)?;
+        let kept = kept.map(|kept| Self::of_bytes(kept, &path.display().to_string())).transpose()?;
+        let content = |list: &Self| list.jobs(Slice::WHOLE).map(|job| (job.line, job.sha256)).collect::<Vec<_>>();
+        let is_kept = kept.map(|kept| content(&kept) == content(&list));
+        Ok((list, is_kept))
     }
 
     /// Reads a list's bytes; `name` is its name in errors.
@@ -43,43 +59,28 @@ impl List {
     ///
     /// As [`List::read`].
     pub fn of_bytes(bytes: Vec<u8>, name: &str) -> Result<Self> {
-        let mut list = Self { count: 0, bytes };
-        let (mut ids, mut outputs, mut shared) = (Seen::default(), Seen::default(), Shared::default());
-        for (line, text) in list.lines() {
-            let asked = Asked::of_line(text).map_err(|problem| refused(name, Some(line), problem))?;
-            ids.add(&asked.id, line);
-            for named in NamedOutput::all(&asked) {
-                outputs.add(named.place(), line);
-                shared.note(&named, in_32_bits(line));
+        let refused = |line: Option<u64>, problem: String| Error::file(FileKind::Batch, name, problem).at(line);
+        let (mut ids, mut outputs, mut twice) = (HashMap::new(), Vec::new(), None);
+        for (line, text) in lines(&bytes) {
+            let job = Job { line, ..Job::parse(text).map_err(|problem| refused(Some(line), problem))? };
+            outputs.extend(NamedOutput::all(&job));
+            if let (Some(before), None) = (ids.insert(job.id.clone(), line), &twice) {
+                let id = shown(&job.id);
+                twice = Some((line, format!("the id {id} is already used by line {before}; choose another")));
             }
         }
-        list.count = ids.0.len();
-        let id = ids.first_twice();
-        let suspects = outputs.first_twice().into_iter().chain(list.suspects(shared));
-        let output = suspects.filter_map(|lines| Some((lines, list.clash(lines)?))).min_by_key(|((line, _), _)| *line);
-        match (id, output) {
-            (Some(id), output) if output.as_ref().is_none_or(|((line, _), _)| id.0 <= *line) => {
-                Err(list.refuse_id(name, id))
-            }
-            (_, Some(((line, _), problem))) => Err(refused(name, Some(line.into()), problem)),
-            _ if list.count == 0 => Err(refused(name, None, "it holds no job; write one per line".to_owned())),
-            _ => Ok(list),
+        match twice.into_iter().chain(first_conflict(outputs)).min_by_key(|(line, _)| *line) {
+            Some((line, problem)) => Err(refused(Some(line), problem)),
+            None if ids.is_empty() => Err(refused(None, "it holds no job; write one per line".to_owned())),
+            None => Ok(Self { count: ids.len(), bytes }),
         }
     }
 
     /// The jobs of a slice, in their order.
     pub fn jobs(&self, slice: Slice) -> impl Iterator<Item = Job> {
-        let lines = self.lines().enumerate().filter(move |(place, _)| slice.has(*place));
+        let lines = lines(&self.bytes).enumerate().filter(move |(place, _)| slice.has(*place));
         // Every line has been checked.
         lines.filter_map(|(_, (line, text))| Job::parse(text).ok().map(|job| Job { line, ..job }))
-    }
-
-    /// Whether both ask for the same, in the same order.
-    pub fn is_same(&self, other: &Self) -> bool {
-        fn content(list: &List) -> impl Iterator<Item = (u64, String)> {
-            list.jobs(Slice::WHOLE).map(|job| (job.line, job.sha256))
-        }
-        self.count == other.count && (self.bytes == other.bytes || content(self).eq(content(other)))
     }
 
     /// Keeps the list in the batch's folder as the record of its jobs.
@@ -90,122 +91,22 @@ impl List {
     pub fn keep(&self, folder: &Path) -> Result<()> {
         write_whole(&folder.join(LIST_FILE), &self.bytes)
     }
-
-    /// The list kept in a batch's folder; `None` if missing.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::File`] if it cannot be read.
-    pub fn kept(folder: &Path) -> Result<Option<Self>> {
-        let path = folder.join(LIST_FILE);
-        match path.symlink_metadata() {
-            Ok(_) => Self::read(&path).map(Some),
-            Err(_) => Ok(None),
-        }
-    }
-
-    /// Whether the list kept in a batch's folder has the same jobs; `None` if missing.
-    ///
-    /// # Errors
-    ///
-    /// As [`List::kept`].
-    pub fn is_kept(&self, folder: &Path) -> Result<Option<bool>> {
-        // Nearly always the very same file, which need not be understood again.
-        if has_bytes(&folder.join(LIST_FILE), &self.bytes) {
-            return Ok(Some(true));
-        }
-        Ok(Self::kept(folder)?.map(|kept| kept.is_same(self)))
-    }
-
-    /// The lines that are not blank, with their numbers.
-    fn lines(&self) -> impl Iterator<Item = (u64, &[u8])> {
-        let text = self.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&self.bytes);
-        let lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
-        (1..).zip(lines).filter(|(_, text)| !text.is_empty())
-    }
-
-    /// The parsed contents of a checked line.
-    fn asked(&self, line: u32) -> Option<Asked> {
-        let (_, text) = self.lines().find(|(number, _)| *number == u64::from(line))?;
-        Asked::of_line(text).ok()
-    }
-
-    fn refuse_id(&self, name: &str, (line, before): Lines) -> Error {
-        let id = self.asked(line).map_or_else(String::new, |asked| asked.id);
-        let problem = format!("the id {} is already used by line {before}; choose another", shown(&id));
-        refused(name, Some(line.into()), problem)
-    }
-
-    /// Lines that may write the same file by a number or in a folder; only the first few.
-    fn suspects(&self, mut shared: Shared) -> Vec<Lines> {
-        if shared.is_empty() {
-            return Vec::new();
-        }
-        shared.sort();
-        for (line, text) in self.lines() {
-            // Every line has been checked.
-            let Ok(asked) = Asked::of_line(text) else { continue };
-            NamedOutput::all(&asked).for_each(|named| shared.compare(&named, in_32_bits(line)));
-        }
-        let mut suspects = shared.suspects();
-        suspects.truncate(SUSPECTS);
-        suspects
-    }
-
-    /// The error for the later of two lines, if both write the same file.
-    fn clash(&self, (line, before): Lines) -> Option<String> {
-        problem(&self.asked(line)?, &self.asked(before)?, before)
-    }
 }
 
-/// Number of possibly conflicting lines compared by name; one is enough unless hashes collide.
-const SUSPECTS: usize = 8;
-
-/// A list has at most [`BATCH_BYTES`] lines, which 32 bits count.
-fn in_32_bits(line: u64) -> u32 {
-    u32::try_from(line).unwrap_or(u32::MAX)
+/// Reads a list's file, which [`List::of_bytes`] understands.
+///
+/// # Errors
+///
+/// [`Error::File`] if it cannot be read.
+pub fn read_list(path: &Path) -> Result<Vec<u8>> {
+    files::read(path, BATCH_BYTES).map_err(|failure| failure.into_error(FileKind::Batch, path, "a list of jobs"))
 }
 
-/// Names, or places of outputs, and the lines they stand in: 20 bytes each, however long they are.
-#[derive(Default)]
-struct Seen(Vec<(Key, u32)>);
-
-impl Seen {
-    fn add(&mut self, name: &str, line: u64) {
-        self.0.push((key(name), in_32_bits(line)));
-    }
-
-    /// The first line that repeats a name of an earlier line, or of itself; then the earlier line.
-    fn first_twice(mut self) -> Option<Lines> {
-        self.0.sort_unstable();
-        let twice = self.0.windows(2).filter(|pair| pair[0].0 == pair[1].0);
-        twice.map(|pair| (pair[1].1, pair[0].1)).min_by_key(|(line, _)| *line)
-    }
-}
-
-/// Whether a file has exactly these bytes; false if it cannot be read.
-fn has_bytes(path: &Path, bytes: &[u8]) -> bool {
-    // A pipe would be waited for.
-    if !path.metadata().is_ok_and(|metadata| metadata.is_file() && metadata.len() == bytes.len() as u64) {
-        return false;
-    }
-    let Ok(mut file) = File::open(path) else { return false };
-    let (mut chunk, mut rest) = (vec![0; 1 << 16], bytes);
-    loop {
-        match file.read(&mut chunk) {
-            Ok(0) => return rest.is_empty(),
-            Ok(count) => match rest.strip_prefix(&chunk[..count]) {
-                Some(after) => rest = after,
-                None => return false,
-            },
-            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
-            Err(_) => return false,
-        }
-    }
-}
-
-fn refused(name: &str, line: Option<u64>, problem: String) -> Error {
-    Error::file(FileKind::Batch, name, problem).at(line)
+/// The lines that are not blank, with their numbers.
+fn lines(bytes: &[u8]) -> impl Iterator<Item = (u64, &[u8])> {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
+    (1..).zip(lines).filter(|(_, text)| !text.is_empty())
 }
 
 #[cfg(test)]
@@ -332,16 +233,19 @@ mod tests {
     #[test]
     fn a_kept_list_is_the_list() {
         let folder = tempfile::tempdir().unwrap();
-        assert_eq!(List::kept(folder.path()).unwrap(), None);
-        let one = list(&format!("{}\n", job("a", "a.png"))).unwrap();
+        let read =
+            |text: &str, folder: &Path| List::for_folder(text.as_bytes().to_vec(), "jobs.jsonl", folder).unwrap();
+        let text = format!("{}\n", job("a", "a.png"));
+        let (one, is_kept) = read(&text, folder.path());
+        assert_eq!((one.count, is_kept), (1, None));
         one.keep(folder.path()).unwrap();
-        assert!(List::kept(folder.path()).unwrap().unwrap().is_same(&one));
-        assert!(!list(&job("a", "b.png")).unwrap().is_same(&one));
-        assert_eq!(one.is_kept(folder.path()).unwrap(), Some(true));
+        assert_eq!(List::read(&folder.path().join(LIST_FILE)).unwrap(), one);
+        assert_eq!(read(&text, folder.path()), (one, Some(true)));
         // Blanks do not count; other outputs and a different length do.
-        assert_eq!(list(&job("a", "a.png")).unwrap().is_kept(folder.path()).unwrap(), Some(true));
-        assert_eq!(list(&format!("{}\n", job("a", "b.png"))).unwrap().is_kept(folder.path()).unwrap(), Some(false));
-        assert_eq!(one.is_kept(&folder.path().join("other")).unwrap(), None);
+        assert_eq!(read(&job("a", "a.png"), folder.path()).1, Some(true));
+        assert_eq!(read(&format!("{}\n", job("a", "b.png")), folder.path()).1, Some(false));
+        assert_eq!(read(&format!("{text}{}", job("b", "b.png")), folder.path()).1, Some(false));
+        assert_eq!(read(&text, &folder.path().join("other")).1, None);
     }
 
     #[test]

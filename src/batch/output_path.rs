@@ -27,7 +27,7 @@ pub fn place_in(folder: &Path, output: &str) -> Result<PathBuf, String> {
 }
 
 /// Whether a batch keeps its own files under such a name: `batch-list.jsonl`, `batch-3-of-8.jsonl` and so on.
-pub fn is_own_file(name: &str) -> bool {
+fn is_own_file(name: &str) -> bool {
     name.starts_with("batch-") && (name.ends_with(".jsonl") || name.ends_with(".json"))
 }
 

@@ -4,7 +4,7 @@
 //! of many machines merge into the bytes of a single machine's run. Times, drivers and everything that contains a time go to
 //! `batch-times.jsonl`, also one line per job.
 
-use super::entry::{Failure, Outcome, Run, Status, Written};
+use super::entry::{Entry, Failure, Run, Status, Written};
 use super::job::{Job, JobCommand};
 use super::journal::Entries;
 use super::list::{LIST_FILE, List};
@@ -16,13 +16,10 @@ use serde::Serialize;
 use std::path::Path;
 
 /// The facts that are the same every time, one line per job.
-pub const SUMMARY_FILE: &str = "batch-summary.jsonl";
+const SUMMARY_FILE: &str = "batch-summary.jsonl";
 
 /// The facts that differ every time, one line per job.
-pub const TIMES_FILE: &str = "batch-times.jsonl";
-
-/// Bytes written at once.
-const WRITTEN_BYTES: usize = 1 << 20;
+const TIMES_FILE: &str = "batch-times.jsonl";
 
 /// The result of a batch.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -114,77 +111,61 @@ impl Summary {
     ///
     /// [`Error::File`] if the folder holds no batch, its files cannot be read, or the summary cannot be written.
     pub(crate) fn put_together(folder: &Path) -> Result<Self> {
-        let list = List::kept(folder)?.ok_or_else(|| {
-            Error::file(FileKind::Batch, folder.join(LIST_FILE), "there is no such file; name the folder of a batch")
-        })?;
-        let entries = Entries::read(folder)?;
-        let mut files = [Staged::begin(&folder.join(SUMMARY_FILE))?, Staged::begin(&folder.join(TIMES_FILE))?];
-        let mut texts = [String::new(), String::new()];
-        let summary = Self::new(&list, &entries, |lines| {
-            for ((text, line), file) in texts.iter_mut().zip(lines).zip(&mut files) {
-                text.push_str(&line);
-                if text.len() >= WRITTEN_BYTES {
-                    file.add(text.as_bytes())?;
-                    text.clear();
-                }
-            }
-            Ok(())
-        })?;
-        for (file, text) in files.iter_mut().zip(&texts) {
-            file.add(text.as_bytes())?;
-            file.settle()?;
+        let path = folder.join(LIST_FILE);
+        if path.symlink_metadata().is_err() {
+            return Err(Error::file(FileKind::Batch, path, "there is no such file; name the folder of a batch"));
         }
+        let (summary, [rows, times]) = Self::new(&List::read(&path)?, &Entries::read(folder)?);
+        let stage = |name: &str, text: String| Staged::new(&folder.join(name), text.as_bytes());
+        let files = [stage(SUMMARY_FILE, rows)?, stage(TIMES_FILE, times)?];
         files.into_iter().try_for_each(Staged::put_in_place)?;
         Ok(summary)
     }
 
-    /// Combines a list with the journal's entries. `take` receives each job's line of the summary and of the times; the latter is
-    /// empty for an unfinished job.
-    ///
-    /// # Errors
-    ///
-    /// Those of `take`.
-    pub fn new(list: &List, entries: &Entries, mut take: impl FnMut([String; 2]) -> Result<()>) -> Result<Self> {
-        let mut summary = Self {
-            jobs: list.count,
-            done: 0,
-            failed: 0,
-            missing: 0,
-            outdated: 0,
-            damaged: entries.damaged,
-            commands: Vec::new(),
-            failures: Vec::new(),
-            missing_jobs: Vec::new(),
-        };
-        let mut commands = JobCommand::ALL.map(|(_, command)| Tally { command, ..Tally::default() });
-        let mut current = 0;
+    /// Combines a list with the journal's entries; also the text of the summary, and of the times.
+    pub fn new(list: &List, entries: &Entries) -> (Self, [String; 2]) {
+        let mut texts = [String::new(), String::new()];
+        let (mut failures, mut missing_jobs, mut current) = (Vec::new(), Vec::new(), 0);
+        let mut commands = JobCommand::ALL.map(|command| {
+            (CommandSummary { command, done: 0, failed: 0, missing: 0, milliseconds: [0.0; 3] }, Vec::new())
+        });
         for job in list.jobs(Slice::WHOLE) {
-            let outcome = entries.of(&job).map(|entry| entry.outcome);
+            let entry = entries.of(&job);
+            let entry = entry.as_ref();
             current += entries.count_of(&job);
-            if let Some(tally) = commands.iter_mut().find(|tally| tally.command == job.command) {
-                tally.add(outcome.as_ref());
+            add_rows(&mut texts, &job, entry);
+            let (counts, times) = &mut commands[job.command as usize];
+            times.extend(entry.map(|entry| entry.run.milliseconds));
+            let named = |problem: &str| Named { line: job.line, id: job.id.clone(), problem: problem.to_owned() };
+            match entry {
+                None => {
+                    counts.missing += 1;
+                    missing_jobs.push(named(""));
+                }
+                Some(Entry { status: Status::Done, .. }) => counts.done += 1,
+                Some(Entry { error, .. }) => {
+                    counts.failed += 1;
+                    failures.push(named(error.as_ref().map_or("", |error| &error.problem)));
+                }
             }
-            take(lines(&job, outcome.as_ref()))?;
-            summary.name(job, outcome);
         }
-        summary.outdated = entries.count() - current;
-        summary.commands = commands.into_iter().filter_map(Tally::sum).collect();
-        let count = |of: fn(&CommandSummary) -> usize| summary.commands.iter().map(of).sum();
-        (summary.done, summary.failed, summary.missing) =
-            (count(|of| of.done), count(|of| of.failed), count(|of| of.missing));
-        Ok(summary)
-    }
-
-    /// Keeps the name of a job that is not done.
-    fn name(&mut self, job: Job, outcome: Option<Outcome>) {
-        let named = |problem| Named { line: job.line, id: job.id, problem };
-        match outcome {
-            None => self.missing_jobs.push(named(String::new())),
-            Some(Outcome { status: Status::Failed, error, .. }) => {
-                self.failures.push(named(error.map_or_else(String::new, |error| error.problem)));
-            }
-            Some(_) => {}
-        }
+        let commands = commands.into_iter().filter(|(counts, _)| counts.done + counts.failed + counts.missing > 0);
+        let commands = commands.map(|(counts, times)| {
+            let (sum, longest) = times.iter().fold((0.0, 0.0), |(sum, most), time| (sum + time, time.max(most)));
+            CommandSummary { milliseconds: [sum, median(times).unwrap_or_default(), longest], ..counts }
+        });
+        let summary = Self {
+            jobs: list.count,
+            done: list.count - failures.len() - missing_jobs.len(),
+            failed: failures.len(),
+            missing: missing_jobs.len(),
+            outdated: entries.count() - current,
+            damaged: entries.damaged,
+            commands: commands.collect(),
+            failures,
+            missing_jobs,
+        };
+        (summary, texts)
     }
 
     /// Whether every job is done.
@@ -193,79 +174,36 @@ impl Summary {
     }
 }
 
-/// A command's jobs while they are counted.
-#[derive(Debug)]
-struct Tally {
-    command: JobCommand,
-    jobs: usize,
-    done: usize,
-    milliseconds: Vec<f64>,
-}
-
-impl Default for Tally {
-    fn default() -> Self {
-        Self { command: JobCommand::Render, jobs: 0, done: 0, milliseconds: Vec::new() }
-    }
-}
-
-impl Tally {
-    fn add(&mut self, outcome: Option<&Outcome>) {
-        self.jobs += 1;
-        if let Some(outcome) = outcome {
-            self.done += usize::from(outcome.status == Status::Done);
-            self.milliseconds.push(outcome.run.milliseconds);
-        }
-    }
-
-    /// `None` for a command that no job is.
-    fn sum(self) -> Option<CommandSummary> {
-        let Self { command, jobs, done, milliseconds: times } = self;
-        let (sum, longest) = times.iter().fold((0.0, 0.0), |(sum, most), time: &f64| (sum + time, time.max(most)));
-        (jobs > 0).then(|| CommandSummary {
-            command,
-            done,
-            failed: times.len() - done,
-            missing: jobs - times.len(),
-            milliseconds: [sum, median(times).unwrap_or_default(), longest],
-        })
-    }
-}
-
-/// A job's lines of the summary and of the times.
-fn lines(job: &Job, outcome: Option<&Outcome>) -> [String; 2] {
-    let outputs = outcome.map_or(&[][..], |outcome| &outcome.outputs);
-    let remarks = outcome.map_or(&[][..], |outcome| &outcome.remarks);
+/// Adds a job's line to the summary and, if it has ended, to the times.
+fn add_rows([summary, times]: &mut [String; 2], job: &Job, entry: Option<&Entry>) {
+    let outputs = entry.map_or(&[][..], |entry| &entry.outputs);
+    let remarks = entry.map_or(&[][..], |entry| &entry.remarks);
     // A measurement first prints its expected time.
     let (same, differ) = if job.command == JobCommand::Measure { (&[][..], remarks) } else { (remarks, &[][..]) };
+    let is_timed = |file: &&Written| holds_times(job.command, &file.path);
+    let output = |file| {
+        let same = Some(file).filter(|file| !is_timed(file));
+        Output { path: &file.path, bytes: same.map(|file| file.bytes), sha256: same.map(|file| file.sha256.as_str()) }
+    };
     let row = Row {
         line: job.line,
         id: &job.id,
         job: &job.sha256,
         command: job.command,
-        status: match outcome.map(|outcome| outcome.status) {
+        status: match entry.map(|entry| entry.status) {
             None => "missing",
             Some(Status::Done) => "done",
             Some(Status::Failed) => "failed",
         },
-        error: outcome.and_then(|outcome| outcome.error.as_ref()),
+        error: entry.and_then(|entry| entry.error.as_ref()),
         remarks: same,
-        outputs: outputs
-            .iter()
-            .map(|file| {
-                let is_same = !holds_times(job.command, &file.path);
-                Output {
-                    path: &file.path,
-                    bytes: is_same.then_some(file.bytes),
-                    sha256: is_same.then_some(file.sha256.as_str()),
-                }
-            })
-            .collect(),
+        outputs: outputs.iter().map(output).collect(),
     };
-    let times = outcome.map_or_else(String::new, |outcome| {
-        let outputs = outputs.iter().filter(|file| holds_times(job.command, &file.path)).collect();
-        line_of(&TimesRow { line: job.line, id: &job.id, run: &outcome.run, remarks: differ, outputs })
-    });
-    [line_of(&row), times]
+    add_line(summary, &row);
+    if let Some(Entry { run, .. }) = entry {
+        let outputs = outputs.iter().filter(is_timed).collect();
+        add_line(times, &TimesRow { line: job.line, id: &job.id, run, remarks: differ, outputs });
+    }
 }
 
 /// Whether a file of a command holds times: a measurement's rows and pages, a comparison's sheet.
@@ -278,16 +216,15 @@ fn holds_times(command: JobCommand, path: &str) -> bool {
     }
 }
 
-fn line_of(row: &impl Serialize) -> String {
+fn add_line(text: &mut String, row: &impl Serialize) {
     // Only text and finite numbers, which JSON can represent.
-    let mut text = serde_json::to_string(row).unwrap_or_default();
+    text.push_str(&serde_json::to_string(row).unwrap_or_default());
     text.push('\n');
-    text
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::entry::Entry;
+    use super::super::entry::Outcome;
     use super::*;
 
     #[test]
@@ -306,17 +243,10 @@ mod tests {
             serde_json::to_string(&Entry::new(&jobs[place], outcome)).unwrap() + "\n"
         };
         let (mut one, mut other) = (Entries::default(), Entries::default());
-        (0..19).for_each(|place| one.add(entry(place, 1.0).into_bytes()));
-        (0..19).rev().for_each(|place| other.add(entry(place, place as f64).into_bytes()));
-        let summary = |entries: &Entries| {
-            let mut texts = [String::new(), String::new()];
-            let summary = Summary::new(&list, entries, |lines| {
-                texts.iter_mut().zip(lines).for_each(|(text, line)| text.push_str(&line));
-                Ok(())
-            });
-            (summary.unwrap(), texts)
-        };
-        let ((one, [rows, times]), (other, [other_rows, other_times])) = (summary(&one), summary(&other));
+        (0..19).for_each(|place| one.add(entry(place, 1.0).as_bytes()));
+        (0..19).rev().for_each(|place| other.add(entry(place, place as f64).as_bytes()));
+        let (one, [rows, times]) = Summary::new(&list, &one);
+        let (other, [other_rows, other_times]) = Summary::new(&list, &other);
         assert_eq!(rows, other_rows);
         assert_ne!(times, other_times);
         assert_eq!((rows.lines().count(), times.lines().count()), (20, 19));

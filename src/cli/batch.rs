@@ -4,7 +4,6 @@
 //! job that crashes the driver ends one worker and no other job. Each result is recorded at once.
 
 pub(super) mod job_options;
-mod staging;
 #[cfg(test)]
 mod tests;
 mod worker;
@@ -19,7 +18,7 @@ pub use job_options::JobOptions;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use tinta::batch::{Entry, Failure, Job, Journal, List, Outcome, Slice, Status, Summary, begun, done};
+use tinta::batch::{Entry, Failure, Job, Journal, List, Outcome, Slice, Status, Summary, begun, done, read_list};
 use tinta::limits::REMARKS;
 use tinta::{Error, Result};
 use worker_process::WorkerProcess;
@@ -91,48 +90,46 @@ pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<Verdict> {
     if arguments.worker {
         return worker::serve(folder, program).map(|()| Verdict::Good);
     }
-    let list = match arguments.list.as_deref().ok_or_else(none)? {
-        path if path == Path::new(standard_input::DASH) => {
-            List::of_bytes(standard_input::list()?, standard_input::NAME)?
-        }
-        path => List::read(path)?,
+    let (bytes, name) = match arguments.list.as_deref().ok_or_else(none)? {
+        path if path == Path::new(standard_input::DASH) => (standard_input::list()?, standard_input::NAME.to_owned()),
+        path => (read_list(path)?, path.display().to_string()),
     };
+    let (list, is_kept) = List::for_folder(bytes, &name, folder)?;
     super::make_folder(folder)?;
-    let Begun { journal, jobs, left } = begin(arguments, folder, list)?;
+    let (journal, jobs, left) = begin(arguments, folder, list, is_kept)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let workers = arguments.jobs.map_or(cores, |jobs| jobs as usize).min(left.len());
     let stop = Stop::on_signals();
-    let counts = carry_out(&left, folder, journal, workers, cores, &stop)?;
-    say(&in_words(&counts, jobs, jobs - left.len()));
-    if counts.ended() < left.len() {
-        let to_do = left.len() - counts.ended();
+    let Running { done, failed, .. } = carry_out(&left, folder, journal, workers, cores, &stop)?;
+    let before = jobs - left.len();
+    let before = if before > 0 { format!(", {before} were done before") } else { String::new() };
+    say(&format!("tinta: {done} of {jobs} jobs done{before}, {failed} failed"));
+    let to_do = left.len() - done - failed;
+    if to_do > 0 {
         say(&format!(
             "tinta: {}: stopped by a signal with {to_do} of {jobs} jobs left; continue with --resume",
             folder.display()
         ));
         return Ok(Verdict::Stopped { signal: stop.signal() });
     }
-    Ok(if counts.failed == 0 { Verdict::Good } else { Verdict::Different })
+    Ok(if failed == 0 { Verdict::Good } else { Verdict::Different })
 }
 
-/// The work of a run.
-struct Begun {
-    journal: Journal,
-    /// How many jobs the slice has.
-    jobs: usize,
-    /// The unfinished ones.
-    left: Vec<Job>,
-}
-
-/// Opens the slice's file, after checking that the list belongs to this folder. Only the unfinished jobs stay in memory.
-fn begin(arguments: &Arguments, folder: &Path, list: List) -> Result<Begun> {
+/// Opens the slice's file, after checking that the list belongs to this folder. Returns also how many jobs the slice has, and the
+/// unfinished ones, which alone stay in memory.
+fn begin(
+    arguments: &Arguments,
+    folder: &Path,
+    list: List,
+    is_kept: Option<bool>,
+) -> Result<(Journal, usize, Vec<Job>)> {
     let refuse = |problem: String| Err(Error::output(folder, problem));
     let slice = arguments.slice;
     let has_begun = begun(folder).iter().any(|other| *other == slice || other.count != slice.count);
     if has_begun && !arguments.resume {
         return refuse("this folder holds a batch; continue it with --resume, or name another folder".to_owned());
     }
-    match list.is_kept(folder)? {
+    match is_kept {
         Some(true) => {}
         Some(false) if !(arguments.resume && slice == Slice::WHOLE) => {
             return refuse(
@@ -150,28 +147,30 @@ fn begin(arguments: &Arguments, folder: &Path, list: List) -> Result<Begun> {
     let done = done(folder, slice, &jobs)?;
     let count = jobs.len();
     let left = jobs.into_iter().zip(done).filter(|(_, done)| !done).map(|(job, _)| job).collect();
-    Ok(Begun { journal, jobs: count, left })
+    Ok((journal, count, left))
 }
 
-/// How many jobs ended how.
-#[derive(Default)]
-struct Counts {
+/// A run: what its threads share, and what came of it.
+struct Running {
+    journal: Journal,
     done: usize,
     failed: usize,
-}
-
-impl Counts {
-    fn ended(&self) -> usize {
-        self.done + self.failed
-    }
-}
-
-/// Shared output of all workers' threads.
-struct Desk {
-    journal: Journal,
-    counts: Counts,
-    /// Why the run ends before its end.
+    /// Why it ends before its end.
     stop: Option<Error>,
+}
+
+impl Running {
+    /// Counts and records a job, and reports the reason for the first few failures.
+    fn note(&mut self, job: &Job, outcome: Outcome) -> Result<()> {
+        match outcome.status {
+            Status::Done => self.done += 1,
+            Status::Failed => self.failed += 1,
+        }
+        if let Some(Failure { problem, .. }) = outcome.error.as_ref().filter(|_| self.failed <= REMARKS) {
+            say(&format!("tinta: line {}, {}: {problem}", job.line, job.id));
+        }
+        self.journal.append(&Entry::new(job, outcome))
+    }
 }
 
 /// Does the jobs, so many at once; an error is one of the run itself, not of a job.
@@ -182,24 +181,27 @@ fn carry_out(
     workers: usize,
     cores: usize,
     stop: &Stop,
-) -> Result<Counts> {
+) -> Result<Running> {
     let progress = Progress::new("working", jobs.len() as u64);
-    let desk = Mutex::new(Desk { journal, counts: Counts::default(), stop: None });
+    let run = Mutex::new(Running { journal, done: 0, failed: 0, stop: None });
     let next = AtomicUsize::new(0);
-    let lock = || desk.lock().unwrap_or_else(PoisonError::into_inner);
+    let lock = || run.lock().unwrap_or_else(PoisonError::into_inner);
     let work = || {
-        let mut worker = None;
+        let mut worker: Option<WorkerProcess> = None;
         while !stop.is_asked() && lock().stop.is_none() {
             let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-            let ended = WorkerProcess::of(&mut worker, folder, workers, cores).and_then(|worker| worker.carry_out(job));
-            let mut desk = lock();
-            let noted = ended.and_then(|outcome| stop_on_full_disk(job, folder, outcome)).and_then(|outcome| {
-                note(&mut desk.counts, job, &outcome);
-                desk.journal.append(&Entry::new(job, outcome))
+            let ready = worker.take().map_or_else(|| WorkerProcess::start(folder, workers, cores), Ok);
+            let ended = ready.map(|ready| {
+                let outcome;
+                (worker, outcome) = ready.carry_out(job);
+                outcome
             });
+            let mut run = lock();
+            let noted = ended.and_then(|outcome| stop_on_full_disk(job, folder, outcome));
+            let noted = noted.and_then(|outcome| run.note(job, outcome));
             progress.step();
             if let Err(error) = noted {
-                desk.stop.get_or_insert(error);
+                run.stop.get_or_insert(error);
             }
         }
     };
@@ -212,11 +214,8 @@ fn carry_out(
         }
     });
     drop(progress);
-    let desk = desk.into_inner().unwrap_or_else(PoisonError::into_inner);
-    match desk.stop {
-        Some(error) => Err(error),
-        None => Ok(desk.counts),
-    }
+    let mut run = run.into_inner().unwrap_or_else(PoisonError::into_inner);
+    run.stop.take().map_or(Ok(run), Err)
 }
 
 /// A full disk is the run's error, not the job's: every later job would fail too. The job is not recorded; the next run does it.
@@ -233,25 +232,6 @@ fn stop_on_full_disk(job: &Job, folder: &Path, outcome: Outcome) -> Result<Outco
 
 /// [`Error::kind`] of [`Error::File`].
 const DISK_FULL: &str = "disk-full";
-
-/// Counts a job, and reports the reason for the first few failures.
-fn note(counts: &mut Counts, job: &Job, outcome: &Outcome) {
-    match outcome.status {
-        Status::Done => counts.done += 1,
-        Status::Failed => {
-            counts.failed += 1;
-            if counts.failed <= REMARKS {
-                let problem = outcome.error.as_ref().map_or("", |error| error.problem.as_str());
-                say(&format!("tinta: line {}, {}: {problem}", job.line, job.id));
-            }
-        }
-    }
-}
-
-fn in_words(counts: &Counts, jobs: usize, before: usize) -> String {
-    let before = if before > 0 { format!(", {before} were done before") } else { String::new() };
-    format!("tinta: {} of {jobs} jobs done{before}, {} failed", counts.done, counts.failed)
-}
 
 /// Combines the journals of all slices.
 fn sum_up(folder: &Path, json: bool) -> Result<Verdict> {

@@ -2,7 +2,6 @@
 
 use super::batch::job_options::JobOptions;
 use clap::{ArgMatches, FromArgMatches};
-use std::path::Path;
 use std::time::Instant;
 use tinta::request::Session;
 use tinta::{Error, Result};
@@ -38,8 +37,8 @@ pub struct Command {
     pub offers: fn(&str) -> Vec<&'static str>,
 }
 
-/// A job that was checked. It is given the folder that its output folder is written in until it is whole, if it writes one.
-pub type Task = Box<dyn FnOnce(Option<&Path>, &mut Session) -> Result<Verdict>>;
+/// A job that was checked.
+pub type Task = Box<dyn FnOnce(&mut Session) -> Result<Verdict>>;
 
 /// The parts of the run that a command may use.
 #[derive(Debug)]

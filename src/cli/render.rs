@@ -40,7 +40,7 @@ pub(super) const COMMAND: Command = Command {
     ],
     job: Some(|job| {
         let arguments = Arguments::of_job(job)?;
-        Ok(Box::new(move |_, session| run(&arguments, session)))
+        Ok(Box::new(move |session| run(&arguments, session)))
     }),
     ..Command::new("render", <Arguments as clap::Args>::augment_args, |matches, call| {
         run(&given::<Arguments>(matches)?, call.session)

@@ -181,28 +181,36 @@ fn workers_end_with_the_run_that_is_killed() {
 }
 
 #[test]
-fn a_measurement_that_is_killed_goes_on_where_it_was_and_appears_whole() {
+fn a_measurement_that_is_killed_goes_on_where_it_was() {
     let folder = Folder::new();
     let job = r#"{"id":"m","command":"measure","model":"builtin:open-box","output":"m","size":["32x32","40x40","48x48"],"styles":["phong","ink"],"frames":1}"#;
     let list = list(&folder, &[job.to_owned()]);
-    let out = folder.path("out");
+    let (out, rows_file) = (folder.path("out"), folder.path("out/m/results.jsonl"));
     let child = start(&["batch", &list, "-o", &out]);
-    let in_the_making = || {
-        let files = std::fs::read_dir(&out).into_iter().flatten().flatten();
-        files.map(|file| file.path()).find(|path| path.file_name().unwrap().to_str().unwrap().starts_with(".tinta-"))
-    };
-    while in_the_making().is_none() && !has_ended(&child) {
-        std::thread::yield_now();
-    }
-    let rows_file = in_the_making().unwrap().join("results.jsonl");
-    wait_for_lines(&child, rows_file.to_str().unwrap(), 1);
+    wait_for_lines(&child, &rows_file, 1);
     signal("KILL", child.id());
     drop(child.wait_with_output());
-    assert!(!Path::new(&folder.path("out/m")).exists(), "half a measurement has no name");
+    assert!(!Path::new(&folder.path("out/m/report.html")).exists(), "half a measurement has no report");
     let kept = std::fs::read_to_string(&rows_file).unwrap();
     done(&["batch", &list, "-o", &out, "--resume"]);
-    assert!(in_the_making().is_none());
-    let whole = std::fs::read_to_string(folder.path("out/m/results.jsonl")).unwrap();
+    let whole = std::fs::read_to_string(&rows_file).unwrap();
     let sound = &kept[..kept.rfind('\n').unwrap() + 1];
     assert!(whole.starts_with(sound) && whole.len() > sound.len(), "its first rows were not measured again");
+    assert!(Path::new(&folder.path("out/m/report.html")).exists());
+}
+
+#[test]
+fn a_merge_that_is_done_again_begins_anew() {
+    let folder = Folder::new();
+    let measure = r#"{"id":"m","command":"measure","model":"builtin:open-box","output":"m","size":["24x24"],"styles":["phong"],"frames":1}"#;
+    let out = folder.path("out");
+    done(&["batch", &list(&folder, &[measure.to_owned()]), "-o", &out]);
+    let rows = folder.path("out/m/results.jsonl");
+    let merge = format!(r#"{{"id":"both","command":"measure","merge":"{rows}","output":"both"}}"#);
+    let (list, out) = (list(&folder, &[merge]), folder.path("merged"));
+    done(&["batch", &list, "-o", &out]);
+    std::fs::remove_file(folder.path("merged/both/report.html")).unwrap();
+    done(&["batch", &list, "-o", &out, "--resume"]);
+    let [first, again] = [rows, folder.path("merged/both/results.jsonl")].map(|rows| std::fs::read(rows).unwrap());
+    assert!(first == again && Path::new(&folder.path("merged/both/report.html")).exists());
 }

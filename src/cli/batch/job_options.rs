@@ -29,10 +29,11 @@ const COMMON: [&str; 2] = ["preset", "camera"];
 impl JobOptions {
     /// The options of a job with its outputs placed in `folder`.
     pub(super) fn of(job: &Job, folder: &Path) -> Result<Self> {
-        let mut options = Options::new();
-        for (key, value) in &job.options {
-            let value = if OUTPUTS.contains(&key.as_str()) { placed(key, value, folder)? } else { value.clone() };
-            options.insert(key.clone(), value);
+        let mut options = job.options.clone();
+        for key in OUTPUTS {
+            if let Some(value) = options.get_mut(key) {
+                *value = placed(key, value, folder)?;
+            }
         }
         let command = command(job, &options);
         let output = match options.remove("output") {

@@ -3,9 +3,8 @@
 use super::super::signals;
 use super::super::{Program, Task, Verdict, messages, models};
 use super::JobOptions;
-use super::staging::{self, StagedFolder};
 use std::io::{BufRead, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Receiver;
@@ -14,7 +13,6 @@ use tinta::batch::{Job, JobCommand, Outcome, Run, Status, place_in, written};
 use tinta::recipe::Driver;
 use tinta::renderer::milliseconds_since;
 use tinta::request::Session;
-use tinta::settings::OptionValue;
 use tinta::{Error, Renderer, Result};
 
 /// Does jobs until standard input ends.
@@ -73,8 +71,7 @@ pub(super) fn carry_out(job: &Job, folder: &Path, program: &Program, session: &m
     };
     // Named from the batch's folder, which is another one on another machine.
     let prefix = format!("{}{}", folder.display().to_string().trim_end_matches('/'), std::path::MAIN_SEPARATOR);
-    let staged = staging::prefix(job);
-    let short = |sentence: String| messages::plain(&sentence).replace(&prefix, "").replace(&staged, "");
+    let short = |sentence: String| messages::plain(&sentence).replace(&prefix, "");
     let mut outcome = match result {
         Ok((Verdict::Good, _)) => Outcome { status: Status::Done, error: None, ..Outcome::failed("", "") },
         Ok((Verdict::Different | Verdict::Stopped { .. }, _)) => {
@@ -90,7 +87,7 @@ pub(super) fn carry_out(job: &Job, folder: &Path, program: &Program, session: &m
         outcome.outputs = written(job, folder);
         outcome.run.gl = gl;
     }
-    let printed = (!captured.printed.is_empty()).then(|| captured.printed.replace(&staged, ""));
+    let printed = Some(captured.printed).filter(|printed| !printed.is_empty());
     outcome.run = Run { milliseconds: milliseconds_since(start), tries, printed, gl: outcome.run.gl };
     outcome
 }
@@ -100,10 +97,8 @@ fn once(job: &Job, folder: &Path, program: &Program, session: &mut Session) -> R
     let options = JobOptions::of(job, folder)?;
     let task = task(job.command, &options, program)?;
     make_folders(job, folder)?;
-    let staged = StagedFolder::of(job, folder)?;
     session.take_used();
-    let verdict = task(staged.as_ref().map(StagedFolder::path), session)?;
-    staged.map_or(Ok(()), |staged| staged.put_in_place())?;
+    let verdict = task(session)?;
     let driver = session.take_used().map(|renderer| Driver::new(renderer.context()));
     Ok((verdict, driver))
 }
@@ -124,14 +119,10 @@ fn task(command: JobCommand, options: &JobOptions, program: &Program) -> Result<
 
 /// Makes the folders that outputs lie in.
 fn make_folders(job: &Job, folder: &Path) -> Result<()> {
-    for (key, value) in &job.options {
-        let OptionValue::Text(output) = value else { continue };
-        if !tinta::batch::OUTPUTS.contains(&key.as_str()) {
-            continue;
-        }
+    for (_, output) in job.outputs() {
         let Ok(place) = place_in(folder, output) else { continue };
-        let parent: PathBuf = place.parent().unwrap_or(folder).to_path_buf();
-        std::fs::create_dir_all(&parent).map_err(|error| {
+        let parent = place.parent().unwrap_or(folder);
+        std::fs::create_dir_all(parent).map_err(|error| {
             let problem = format!("the folder cannot be created ({error}); choose another");
             Error::output(parent, problem).because(&error)
         })?;

@@ -18,24 +18,8 @@ pub(super) struct WorkerProcess {
 const RASTER_THREADS: &str = "LP_NUM_THREADS";
 
 impl WorkerProcess {
-    /// The worker that is there, or a new one in its place.
-    pub(super) fn of<'w>(
-        place: &'w mut Option<Self>,
-        folder: &Path,
-        workers: usize,
-        cores: usize,
-    ) -> Result<&'w mut Self> {
-        // One that has lost its process takes no more jobs.
-        if place.as_ref().is_some_and(|worker| worker.jobs.is_none()) {
-            *place = None;
-        }
-        match place {
-            Some(worker) => Ok(worker),
-            None => Ok(place.insert(Self::start(folder, workers, cores)?)),
-        }
-    }
-
-    fn start(folder: &Path, workers: usize, cores: usize) -> Result<Self> {
+    /// Starts one of so many.
+    pub(super) fn start(folder: &Path, workers: usize, cores: usize) -> Result<Self> {
         let cannot = |error: std::io::Error| Error::CommandLine {
             problem: format!(
                 "no worker could be started ({error}); check the limits on processes, or give fewer --jobs"
@@ -56,30 +40,23 @@ impl WorkerProcess {
         }
     }
 
-    /// Has a job done. A worker that ends over it is the job's failure, and the last thing it does.
-    pub(super) fn carry_out(&mut self, job: &Job) -> Result<Outcome> {
-        let told = self
-            .jobs
-            .as_mut()
-            .map(|jobs| jobs.write_all(format!("{}\n", job.json).as_bytes()).and_then(|()| jobs.flush()));
+    /// Has a job done. A worker that ends over it is the job's failure, and does not come back.
+    pub(super) fn carry_out(mut self, job: &Job) -> (Option<Self>, Outcome) {
+        let told = self.jobs.as_mut().is_some_and(|jobs| jobs.write_all(format!("{}\n", job.json).as_bytes()).is_ok());
         let mut line = Vec::new();
-        if matches!(told, Some(Ok(()))) {
+        if told {
             // Unreadable output counts as missing.
             let _ = self.outcomes.read_until(b'\n', &mut line);
         }
         if let Ok(outcome) = serde_json::from_slice(&line) {
-            return Ok(outcome);
+            return (Some(self), outcome);
         }
-        self.jobs = None;
         let _ = self.child.kill();
         let ended = self.child.wait().map_or_else(|error| error.to_string(), in_words);
-        Ok(Outcome::failed(
-            "crash",
-            format!(
-                "its worker process ended ({ended}), perhaps because the driver crashed or memory ran out; run this job \
-                 alone"
-            ),
-        ))
+        let problem = format!(
+            "its worker process ended ({ended}), perhaps because the driver crashed or memory ran out; run this job alone"
+        );
+        (None, Outcome::failed("crash", problem))
     }
 }
 

@@ -27,7 +27,7 @@ pub(super) const COMMAND: Command = Command {
     examples: &["tinta compare builtin:gear -o both.png          compare lines of two styles"],
     job: Some(|job| {
         let arguments = Arguments::of_job(job)?;
-        Ok(Box::new(move |_, session| run(&arguments, session).map(|()| Verdict::Good)))
+        Ok(Box::new(move |session| run(&arguments, session).map(|()| Verdict::Good)))
     }),
     offers: of_table::<CompareSettings>,
     ..Command::new("compare", <Arguments as clap::Args>::augment_args, |matches, call| {

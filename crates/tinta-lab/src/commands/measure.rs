@@ -31,10 +31,7 @@ pub(super) const COMMAND: Command = Command {
     examples: &["tinta measure cow.obj -o cow --quick            measure error and run time"],
     job: Some(|job| {
         let (arguments, words) = (Arguments::of_job(job)?, job.command.clone());
-        Ok(Box::new(move |folder, session| {
-            let output = folder.map_or_else(|| arguments.output.clone(), Path::to_owned);
-            run(&arguments.resumed(output), &words, session).map(|()| Verdict::Good)
-        }))
+        Ok(Box::new(move |session| run(&arguments, &words, session).map(|()| Verdict::Good)))
     }),
     offers: of_table::<HowMeasured>,
     ..Command::new("measure", <Arguments as clap::Args>::augment_args, |matches, call| {
@@ -68,6 +65,10 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     subject: Chosen<OfSubject>,
+
+    /// A job's folder may hold the rows of an earlier try, which it continues or, to merge, replaces.
+    #[arg(skip)]
+    is_job: bool,
 }
 
 impl Arguments {
@@ -91,6 +92,7 @@ impl Arguments {
             preset: job.preset(),
             camera: job.camera(),
             subject: Chosen::of_options(&job.options),
+            is_job: true,
         };
         let is_named = |name: &str| job.options.contains_key(name);
         match arguments.models.is_empty() && !["suite", "merge", "against"].into_iter().any(is_named) {
@@ -99,14 +101,6 @@ impl Arguments {
             }
             false => Ok(arguments),
         }
-    }
-
-    /// The same, continuing in the folder: a job's folder exists from an earlier try, or is empty.
-    pub(super) fn resumed(mut self, output: PathBuf) -> Self {
-        if self.merge.is_empty() {
-            self.how.options.insert("resume".to_owned(), OptionValue::Switch(true));
-        }
-        Self { output, ..self }
     }
 
     /// Refuses conflicting options.
@@ -135,7 +129,7 @@ const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -> Result<()> {
     arguments.check()?;
     if !arguments.merge.is_empty() {
-        return Results::merged(&arguments.merge, &arguments.output)?.report(command);
+        return Results::merged(&arguments.merge, &arguments.output, arguments.is_job)?.report(command);
     }
     let (preset, camera) = (arguments.preset.preset.as_deref(), arguments.camera.camera.as_deref());
     let below = Below { camera, ..Below::default() };
@@ -192,7 +186,7 @@ fn measured(
     let expected = expected(renderer, &groups, settings.len(), how.frames)?;
     let seconds: f64 = expected.iter().copied().map(Steps::total).sum();
     // Only now, when the measuring alone can fail.
-    let mut results = Results::open(&arguments.output, asked.resume)?;
+    let mut results = Results::open(&arguments.output, asked.resume || arguments.is_job)?;
     results.refuse_other_terms(*against, how)?;
     tinta::cli::say(&format!(
         "tinta: {}, {}, {}, {} each: about {}{}",

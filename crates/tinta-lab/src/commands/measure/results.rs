@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use tinta::cli::make_folder;
 use tinta::cli::print;
+use tinta::record::ROWS_FILE;
 use tinta::{Error, Result, Size, StyleName};
 
 /// The rows of a folder so far, and the pictures that its report shows.
@@ -29,8 +30,8 @@ impl<'a> Results<'a> {
         Ok(Self { folder, log, rows, pictures: Vec::new() })
     }
 
-    /// The rows of several files together.
-    pub(super) fn merged(files: &[PathBuf], folder: &'a Path) -> Result<Self> {
+    /// The rows of several files together; `replaces` those that the folder holds.
+    pub(super) fn merged(files: &[PathBuf], folder: &'a Path, replaces: bool) -> Result<Self> {
         let mut rows: Vec<Row> = Vec::new();
         // Where the row of a key was first seen.
         let mut places: HashMap<String, usize> = HashMap::new();
@@ -53,6 +54,10 @@ impl<'a> Results<'a> {
                 }
                 rows.push(row);
             }
+        }
+        if replaces {
+            // If that fails, opening it says why.
+            let _ = std::fs::remove_file(folder.join(ROWS_FILE));
         }
         let mut results = Self::open(folder, false)?;
         rows.iter().try_for_each(|row| results.log.append(row))?;
