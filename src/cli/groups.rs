@@ -17,6 +17,9 @@ pub(super) struct Group<T: 'static> {
 /// Between an option's own help and that of the settings inside it.
 pub(super) const ALSO: &str = "; also ";
 
+/// The value's placeholder of an option without a setting of its own.
+pub(super) const HOLDING: &str = "NAME=VALUE";
+
 /// The options of these settings, in their order; an option without a setting of its own has the place of the first inside it.
 pub(super) fn groups<T>(settings: impl Iterator<Item = &'static Setting<T>>) -> Vec<Group<T>> {
     let mut groups: Vec<Group<T>> = Vec::new();
@@ -65,7 +68,7 @@ impl<T: Clone + Send + Sync + 'static> Group<T> {
             .help(in_groups(&help))
             .hide_short_help(!self.settings().any(|setting| setting.is_common))
             .action(ArgAction::Append)
-            .value_name(self.plain.map_or("NAME=VALUE", |plain| plain.value_name))
+            .value_name(self.plain.map_or(HOLDING, |plain| plain.value_name))
             .value_parser(check)
             .allow_hyphen_values(true)
     }

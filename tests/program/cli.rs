@@ -108,7 +108,7 @@ fn nonsensical_settings_are_refused_by_name() {
     render(&["--clip", "near=5", "--clip", "far=4"], &["--clip near and --clip far", "5 and 4 away"]);
     render(&["--clip", "near=0"], &["--clip near"]);
     render(&["--tones", "4"], &["--tones 4"]);
-    render(&["--tones", "tone-levels=1,2"], &["--tones tone-levels", "3 numbers"]);
+    render(&["--tones", "tone-levels=1,2"], &["tone-levels=1,2", "3 numbers"]);
     render(&["--detection-factor", "nan"], &["--detection-factor NaN"]);
     render(&["--weld", "2"], &["--weld 2"]);
     render(&["--normals", "smooth-angle=181"], &["--normals smooth-angle=181"]);

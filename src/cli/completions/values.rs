@@ -2,6 +2,7 @@
 //! for shells. Parsing and help do not use this module: it only makes the scripts.
 
 use super::super::Program;
+use super::super::groups::HOLDING;
 use clap::builder::{PossibleValuesParser, Resettable};
 use clap::{Arg, Command, ValueHint};
 use tinta::plan::Submission;
@@ -26,7 +27,9 @@ fn with_value(offers: fn(&str) -> Vec<&'static str>, arg: Arg) -> Arg {
         return arg;
     }
     let value_name = arg.get_value_names().unwrap_or_default().first().map_or("", |name| name.as_str());
-    let offered = arg.get_long().map(|option| offered(offers, option)).unwrap_or_default();
+    // One that only holds other settings takes their names alone.
+    let option = arg.get_long().filter(|_| value_name != HOLDING);
+    let offered = option.map(|option| offered(offers, option)).unwrap_or_default();
     if !offered.is_empty() {
         // A default need not be one of them: a view may be two angles.
         return arg.default_value(Resettable::Reset).value_parser(PossibleValuesParser::new(offered));
