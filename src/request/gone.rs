@@ -8,7 +8,8 @@ use crate::styles::StyleName;
 const CONTOURS: &str = "--style lines --classes silhouette,boundary,crease,suggestive draws suggestive contours";
 
 /// Options of earlier versions, and what took their place.
-const GONE: [(&str, &str); 6] = [
+const GONE: [(&str, &str); 7] = [
+    ("apparent-ridge-threshold", "apparent ridges are gone; --classes ridge,valley draws ridges in any view"),
     ("crease-by", "--exact-lines draws the lines that print drew by it, with --lasting-creases those of scans"),
     ("partial", "--within alone writes all lines, or no file if the time is over"),
     ("remove-specks", "--quality best removes specks, and exact lines have none"),

@@ -125,7 +125,8 @@ impl Ink {
                 "Width of the lines inside the outline: in pixels, in percent of the picture's height, or border \
                  (the outline's width)",
                 |ink: &mut Self| &mut ink.inner_width,
-            ).inside("border-width")
+            )
+            .inside("border-width")
             .ours("all lines are as wide"),
             Setting::field(
                 "quality",
@@ -141,7 +142,8 @@ impl Ink {
                 "Direction towards a distant light, in eye space, which gives a flat face one tone; auto (chosen so that \
                  about a fifth of the model is dark) or listing (the near light of three-pass)",
                 |ink: &mut Self| &mut ink.tone_light,
-            ).inside("light")
+            )
+            .inside("light")
             .ours("the three passes' light"),
             Setting::field(
                 "least-gap",
@@ -157,7 +159,8 @@ impl Ink {
                 "PIXELS",
                 "Addition to --least-gap per unit of slope; more draws fewer lines near outlines",
                 |ink: &mut Self| &mut ink.gap_per_slope,
-            ).inside("least-gap")
+            )
+            .inside("least-gap")
             .ours("the best of those measured (measuring.md)")
             .range(0.0, 5.0, 2),
         ];

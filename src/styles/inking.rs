@@ -171,7 +171,8 @@ impl Inking {
                 "FILE",
                 "Picture of four gradients, one above the other, dark at the left",
                 |inking: &mut Self| &mut inking.ramp,
-            ).inside("texture").ours("the text's texture was on its disk and is not at hand")
+            )
+            .inside("texture").ours("the text's texture was on its disk and is not at hand")
             .said("built in"),
             Setting::field(
                 "ramp-row",

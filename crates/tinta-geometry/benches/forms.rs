@@ -22,12 +22,11 @@ fn main() -> tinta_geometry::Result<()> {
     }
     let scene = Scene::new([mesh], &SceneSettings::default())?;
     let edges = [Class::Boundary, Class::NonManifold, Class::Silhouette, Class::Crease, Class::Intersection];
-    let sets: [(&str, &[Class]); 5] = [
+    let sets: [(&str, &[Class]); 4] = [
         ("edges", &[]),
         ("and suggestive contours", &[Class::Suggestive]),
         ("and ridges and valleys", &[Class::Ridge, Class::Valley]),
-        ("and apparent ridges", &[Class::ApparentRidge]),
-        ("all", &[Class::Suggestive, Class::Ridge, Class::Valley, Class::ApparentRidge, Class::Material]),
+        ("all", &[Class::Suggestive, Class::Ridge, Class::Valley, Class::Material]),
     ];
     for (name, more) in sets {
         let classes = ClassSet::of(&edges).or(ClassSet::of(more));

@@ -29,8 +29,7 @@ impl Charcoal {
         // The old name made our values look like the text's.
         .formerly(&[("published", "plain")])
         .ours("V, section 5 lists which parameters to raise and lower, not by how much");
-        let grain =
-            vec![
+        let grain = vec![
             recipe,
             Setting::field(
                 "seed",
@@ -53,7 +52,8 @@ impl Charcoal {
                 "PERCENT",
                 "Percentage of black pixels in the grain's texture, before --cet-exponent moves them; more is darker",
                 |charcoal: &mut Self| &mut charcoal.density_percent,
-            ).inside("grain")
+            )
+            .inside("grain")
             .deduced("V, figures 2 and 3: density 60, without a unit; read as percent (V10)")
             .range(0.0, 100.0, 0),
             Setting::field(
@@ -61,7 +61,8 @@ impl Charcoal {
                 "M",
                 "Exponent m that moves black pixels along t to t^m; more leaves fewer grains in light tones",
                 |charcoal: &mut Self| &mut charcoal.cet_exponent,
-            ).inside("grain")
+            )
+            .inside("grain")
             .deduced("V, figure 3: the middle one of three; the text does not say which the drawings have")
             .range(1.0, 20.0, 1)
             .labelled("grain exponent"),
@@ -70,7 +71,8 @@ impl Charcoal {
                 "PIXELS",
                 "Standard deviation of the blur of the grain's texture, in pixels; more makes the grain softer",
                 |charcoal: &mut Self| &mut charcoal.cet_blur_px,
-            ).inside("grain")
+            )
+            .inside("grain")
             .ours("V, section 3.1 blurs by a Gaussian of a width it does not print (V7)")
             .range(0.0, 5.0, 2)
             .labelled("grain blur"),
@@ -81,7 +83,8 @@ impl Charcoal {
                 "M",
                 "Exponent of the light's contrast; more darkens everything except the brightest parts",
                 |charcoal: &mut Self| &mut charcoal.contrast_exponent,
-            ).inside("contrast")
+            )
+            .inside("contrast")
             .ours("V, section 2.1.2 asks for more than 1 (V7)")
             .range(0.1, 6.0, 2),
             Setting::field(
@@ -118,7 +121,8 @@ impl Charcoal {
                 "Picture of the grain's texture, the darkest tone in its lowest row; replaces --density, --cet-exponent and \
                  --cet-blur",
                 |charcoal: &mut Self| &mut charcoal.cet,
-            ).inside("texture")
+            )
+            .inside("texture")
             .deduced("V, section 3.1 makes it in its program")
             .said("made from the seed")
             .labelled("grain"),
@@ -127,7 +131,8 @@ impl Charcoal {
                 "FILE",
                 "Picture of the noise that chooses the grain: the mean of red, green and blue is its place along the width",
                 |charcoal: &mut Self| &mut charcoal.noise_texture,
-            ).inside("texture")
+            )
+            .inside("texture")
             .deduced("V, section 3.1 makes it in its program")
             .said("made from the seed"),
             Setting::field(
@@ -135,7 +140,8 @@ impl Charcoal {
                 "FILE",
                 "Picture of the paper, stretched over the whole drawing; replaces --background",
                 |charcoal: &mut Self| &mut charcoal.paper,
-            ).inside("texture")
+            )
+            .inside("texture")
             .ours("V shows no paper that one could be made from (V7)")
             .said("made from the seed"),
             Setting::field(
@@ -143,14 +149,16 @@ impl Charcoal {
                 "WxH",
                 "Size of grain, noise and paper, stretched over the drawing; more is finer",
                 |charcoal: &mut Self| &mut charcoal.texture_size,
-            ).inside("grain")
+            )
+            .inside("grain")
             .ours("V gives no size (V7)"),
             Setting::field(
                 "cet-filter",
                 "FILTER",
                 "Filter of the grain's texture: linear, mipmap (blurs the grain away)",
                 |charcoal: &mut Self| &mut charcoal.cet_filter,
-            ).inside("grain")
+            )
+            .inside("grain")
             .printed("V, section 3: GL_LINEAR")
             .labelled("grain filter"),
             Setting::field(
@@ -158,7 +166,8 @@ impl Charcoal {
                 "LIGHT",
                 "Light that chooses the grain: original, saturated",
                 |charcoal: &mut Self| &mut charcoal.cet_coordinate,
-            ).inside("grain")
+            )
+            .inside("grain")
             .printed("V, section 3.3: cetCoord.t = origCeo")
             .labelled("grain chosen by"),
             Setting::field(
@@ -166,14 +175,16 @@ impl Charcoal {
                 "OPERATOR",
                 "Operator that enhances contrast: power (as published), sigmoid, bias",
                 |charcoal: &mut Self| &mut charcoal.operator,
-            ).inside("contrast")
+            )
+            .inside("contrast")
             .printed("V, section 2.1.2: b = a^m"),
             Setting::field(
                 "noise",
                 "WHERE",
                 "The noise is fixed to: screen (as published), object (turns with the model)",
                 |charcoal: &mut Self| &mut charcoal.noise,
-            ).inside("grain")
+            )
+            .inside("grain")
             .printed("V, section 3.3: the paper's coordinate"),
             Setting::field(
                 "improve",

@@ -46,8 +46,6 @@ crate::choices! {
         Ridge = "ridge",
         /// The same where the surface is concave.
         Valley = "valley",
-        /// An apparent ridge: the surface's view-dependent curvature is largest there (Judd et al. 2007).
-        ApparentRidge = "apparent-ridge",
         /// No edge of a surface: a curve that the model holds as such, or that a program gives.
         Curve = "curve",
         /// Likewise a single point, drawn as a dot.
@@ -74,7 +72,7 @@ impl ClassSet {
     pub const EDGES: Self = Self(Self::ALL.0 & !(1 << Class::Intersection as u8) & !Self::FORMS.0 & !Self::FREE.0);
 
     /// The classes of form lines, which cross faces where the surface's curvature requires it.
-    pub(crate) const FORMS: Self = Self::of(&[Class::Suggestive, Class::Ridge, Class::Valley, Class::ApparentRidge]);
+    pub(crate) const FORMS: Self = Self::of(&[Class::Suggestive, Class::Ridge, Class::Valley]);
 
     /// The classes that belong to no surface: the model's own curves and points. They hide nothing.
     pub const FREE: Self = Self::of(&[Class::Curve, Class::Point]);
@@ -139,7 +137,7 @@ impl ClassSet {
             Kind::Several(names.collect()),
             "Edges to draw: boundary, non-manifold, silhouette, crease (or convex-crease, concave-crease), material, texture, \
              normal, part, marked, the model's own curve and point, in style lines also intersection and the form lines suggestive, \
-             ridge, valley, apparent-ridge; separated by commas, or all",
+             ridge, valley; separated by commas, or all",
             move |of: &T| field(&mut of.clone()).text(),
             move |of: &mut T, text: &str| {
                 *field(of) = Self::parsed(text, all)?;
@@ -305,9 +303,6 @@ pub struct ClassCounts {
     pub ridge: usize,
     /// Likewise for valleys.
     pub valley: usize,
-    /// Likewise for apparent ridges.
-    #[serde(rename = "apparent-ridge")]
-    pub apparent_ridge: usize,
     /// Segments of curves; not counted among edges.
     pub curve: usize,
     /// Single points; likewise.
@@ -333,7 +328,6 @@ impl ClassCounts {
             Class::Suggestive => &mut self.suggestive,
             Class::Ridge => &mut self.ridge,
             Class::Valley => &mut self.valley,
-            Class::ApparentRidge => &mut self.apparent_ridge,
             Class::Curve => &mut self.curve,
             Class::Point => &mut self.point,
         }

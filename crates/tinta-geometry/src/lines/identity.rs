@@ -6,7 +6,7 @@
 //! - Edges whose class does not depend on the view form *curves*. A curve ends at corners, where more or fewer than
 //!   two edges of one class meet. A path stays on one curve, whether its segments are drawn as creases or as
 //!   silhouettes. Strokes on curves, intersections, ridges and valleys get their old numbers back when they reappear.
-//! - Other silhouettes, suggestive contours and apparent ridges slide over the surface. They are compared with
+//! - Other silhouettes and suggestive contours slide over the surface. They are compared with
 //!   strokes of the same class and object in the previous picture. Each point is matched to the nearest one there, at
 //!   most as far as the outline of a ball as large as the scene moves. A stroke that is missing from one picture
 //!   loses its number.
@@ -69,7 +69,7 @@ fn curve_of_class(class: Class) -> u32 {
 
 /// Whether the strokes of a group stay in place on the model.
 fn stands((_, curve): Group) -> bool {
-    ![Class::Silhouette, Class::Suggestive, Class::ApparentRidge].map(curve_of_class).contains(&curve)
+    ![Class::Silhouette, Class::Suggestive].map(curve_of_class).contains(&curve)
 }
 
 impl StrokeIds {

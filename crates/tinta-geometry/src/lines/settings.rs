@@ -113,7 +113,8 @@ impl LineSettings {
                  and those at the end of a flat face",
                 |lines: &Self| lines.lasting_creases,
                 |lines, is_on| lines.lasting_creases = is_on,
-            ).inside("crease-angle"),
+            )
+            .inside("crease-angle"),
             SilhouetteRule::setting(|lines: &mut Self| &mut lines.silhouette)
                 .refusing(|lines| not_published(lines.silhouette))
                 .offering(&["exact", "smooth"]),

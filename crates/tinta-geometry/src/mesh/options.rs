@@ -94,7 +94,8 @@ impl LoadOptions {
                 "Largest angle between two faces that computed normals round off, in degrees; more rounds off \
                  sharper edges",
                 |load: &mut Self| &mut load.smooth_angle_degrees,
-            ).inside("normals")
+            )
+            .inside("normals")
             .range(0.0, 180.0, 1),
             Setting::flag(
                 "strict",
@@ -109,7 +110,8 @@ impl LoadOptions {
                 "",
                 "Picture for all surfaces (PCX, PNG, TGA, BMP, JPEG, PPM)",
                 |load: &mut Self| &mut load.skin,
-            ).inside("texture")
+            )
+            .inside("texture")
             .said("the picture that the model names"),
             Setting::open_field(
                 "section",

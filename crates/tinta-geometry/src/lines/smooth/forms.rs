@@ -7,14 +7,11 @@
 //!   eye.
 //! - **Ridges and valleys** (Ohtake et al. 2004): where the larger principal curvature is greatest along its own
 //!   direction, in any view.
-//! - **Apparent ridges** (Judd et al. 2007): the same for the view-dependent curvature, which grows as the surface
-//!   turns away.
 //!
 //! Values at the vertices are interpolated linearly along each side of a face. Both faces at a side compute
 //! bit-identical points on it, so the segments connect. Lines end at creases, where the surface ends, and where they
 //! are weaker than their threshold.
 
-mod apparent;
 pub(in crate::lines) mod settings;
 #[cfg(test)]
 mod stiff_tests;
@@ -97,9 +94,8 @@ struct Forms<'a> {
     radial: Vec<Radial>,
     /// For ridges; valleys use strengths of the opposite sign.
     crests: Vec<Crest>,
-    apparent: Vec<Crest>,
-    /// The least strength of a ridge or valley, and of an apparent ridge, 1 / length.
-    least: [f64; 2],
+    /// The least strength of a ridge or valley, 1 / length.
+    least: f64,
 }
 
 /// The curvature along the view.
@@ -124,7 +120,7 @@ impl<'a> Forms<'a> {
             Eye::Direction(direction) => direction.normalize_or_zero(),
         };
         let least = forms.suggestive_threshold / (size * size);
-        let depends_on_view = count(&[Class::Suggestive, Class::ApparentRidge]);
+        let depends_on_view = count(&[Class::Suggestive]);
         let cosines = filled(depends_on_view, threads, 0.0, |vertex| to_eye(vertex).dot(all[vertex].normal));
         Self {
             mesh,
@@ -137,11 +133,7 @@ impl<'a> Forms<'a> {
                 let at = &all[vertex];
                 Crest { strength: at.principal[0], direction: at.directions[0], growth: at.derivative[0] }
             }),
-            apparent: match is_wanted(&[Class::ApparentRidge]) {
-                true => apparent::crests(mesh, curvatures, &cosines, to_eye, threads),
-                false => Vec::new(),
-            },
-            least: [forms.ridge_threshold / size, forms.apparent_ridge_threshold / size],
+            least: forms.ridge_threshold / size,
             cosines,
         }
     }
@@ -163,14 +155,8 @@ impl<'a> Forms<'a> {
         for (class, sign) in [(Class::Ridge, 1.0), (Class::Valley, -1.0)] {
             if self.classes.contains(class) {
                 let at = vertices.map(|vertex| self.crests[vertex].times(sign));
-                crests(&corners, place, at, self.least[0], |ends| add(class, ends));
+                crests(&corners, place, at, self.least, |ends| add(class, ends));
             }
-        }
-        if self.classes.contains(Class::ApparentRidge)
-            && vertices.iter().all(|vertex| side * self.cosines[*vertex] > apparent::LEAST_COSINE)
-        {
-            let at = vertices.map(|vertex| self.apparent[vertex]);
-            crests(&corners, place, at, self.least[1], |ends| add(Class::ApparentRidge, ends));
         }
     }
 }

@@ -13,8 +13,6 @@ pub struct FormSettings {
     pub suggestive_threshold: f64,
     /// Least curvature of a ridge or valley. Default 0.1; a larger value keeps only sharp ones.
     pub ridge_threshold: f64,
-    /// Least view-dependent curvature of an apparent ridge. Default 0.2; a larger value keeps only sharp ones.
-    pub apparent_ridge_threshold: f64,
     /// Angle between faces above which the smooth surface breaks. Default the listing's 66.4 degrees, because a
     /// coarse mesh of a round shape has many edges above the 30 degrees at which a drawing shows a crease. A larger
     /// angle smooths over sharper edges.
@@ -29,13 +27,7 @@ const LARGEST_SMOOTHING: f64 = 10.0;
 
 impl Default for FormSettings {
     fn default() -> Self {
-        Self {
-            suggestive_threshold: 0.01,
-            ridge_threshold: 0.1,
-            apparent_ridge_threshold: 0.2,
-            crease_angle: CreaseAngle::default(),
-            smoothing: 1.0,
-        }
+        Self { suggestive_threshold: 0.01, ridge_threshold: 0.1, crease_angle: CreaseAngle::default(), smoothing: 1.0 }
     }
 }
 
@@ -48,7 +40,8 @@ impl FormSettings {
                 "NUMBER",
                 "Least growth of the curvature along the view that makes a suggestive contour; more draws fewer",
                 |forms: &mut Self| &mut forms.suggestive_threshold,
-            ).inside("form-lines")
+            )
+            .inside("form-lines")
             .ours("the default of qrtsc, by the authors of suggestive contours")
             .range(0.0, 0.1, 3),
             Setting::field(
@@ -56,16 +49,9 @@ impl FormSettings {
                 "NUMBER",
                 "Least curvature of a ridge or valley; more draws fewer",
                 |forms: &mut Self| &mut forms.ridge_threshold,
-            ).inside("form-lines")
+            )
+            .inside("form-lines")
             .ours("the default of qrtsc")
-            .range(0.0, 1.0, 2),
-            Setting::field(
-                "apparent-ridge-threshold",
-                "NUMBER",
-                "Least curvature, as the eye sees it, of an apparent ridge; more draws fewer",
-                |forms: &mut Self| &mut forms.apparent_ridge_threshold,
-            ).inside("form-lines")
-            .ours("chosen by eye on public models")
             .range(0.0, 1.0, 2),
             Setting::field(
                 "surface-crease-angle",
@@ -73,7 +59,8 @@ impl FormSettings {
                 "Smallest angle between two faces that stays sharp in the smooth surface, in degrees; more smooths \
                  over sharper edges",
                 |forms: &mut Self| &mut forms.crease_angle,
-            ).inside("form-lines")
+            )
+            .inside("form-lines")
             .ours("Dachsbacher's crease angle: the faces of coarse round shapes meet at less")
             .said("66.4"),
             Setting::field(
@@ -81,20 +68,18 @@ impl FormSettings {
                 "EDGES",
                 "How far normals are smoothed before form lines are found, in edge lengths, 0 to 10; more draws fewer, longer lines",
                 |forms: &mut Self| &mut forms.smoothing,
-            ).inside("form-lines")
+            )
+            .inside("form-lines")
             .ours("chosen by eye on public models")
             .range(0.0, LARGEST_SMOOTHING, 1),
         ];
-        under("Style lines: form lines, with --classes suggestive, ridge, valley, apparent-ridge", settings).collect()
+        under("Style lines: form lines, with --classes suggestive, ridge, valley", settings).collect()
     }
 
     /// Refuses invalid thresholds.
     pub(in crate::lines) fn check(&self) -> Result<()> {
-        let thresholds = [
-            ("suggestive-threshold", self.suggestive_threshold),
-            ("ridge-threshold", self.ridge_threshold),
-            ("apparent-ridge-threshold", self.apparent_ridge_threshold),
-        ];
+        let thresholds =
+            [("suggestive-threshold", self.suggestive_threshold), ("ridge-threshold", self.ridge_threshold)];
         if let Some((name, value)) = thresholds.into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0)) {
             return Err(Error::value(name, value, "the threshold is a number, 0 or more"));
         }

@@ -12,7 +12,7 @@ fn whole() -> FormSettings {
     FormSettings { suggestive_threshold: 0.0, ..raw() }
 }
 
-const ALL: [Class; 4] = [Class::Suggestive, Class::Ridge, Class::Valley, Class::ApparentRidge];
+const ALL: [Class; 3] = [Class::Suggestive, Class::Ridge, Class::Valley];
 
 /// Three waves along x with this height; `more` is added to each height.
 fn waves(height: f64, more: impl Fn(DVec3) -> f64) -> Mesh {

@@ -148,15 +148,12 @@ fn ridges_and_valleys_of_waves_are_their_crests_and_troughs() {
         DVec3::new(x, 4.0 * v, 0.6 * x.cos())
     });
     let eye = Eye::Direction(DVec3::new(0.1, 0.2, 1.0));
-    for (class, at, count) in [(Class::Ridge, 0.0, 3.0), (Class::Valley, PI, 2.0), (Class::ApparentRidge, 0.0, 5.0)] {
-        let found = traced(&waves, class, eye, &FormSettings { apparent_ridge_threshold: 0.1, ..raw() });
+    for (class, at, count) in [(Class::Ridge, 0.0, 3.0), (Class::Valley, PI, 2.0)] {
+        let found = traced(&waves, class, eye, &raw());
         for end in found.iter().flatten() {
-            let period = if class == Class::ApparentRidge { PI } else { TAU };
-            let off = (end.x - at).rem_euclid(period);
-            // Seen obliquely, the largest curvature lies slightly beside the crest.
-            let near = if class == Class::ApparentRidge { 0.15 } else { 0.01 };
+            let off = (end.x - at).rem_euclid(TAU);
             let is_rim = end.x.abs() > 3.0 * PI - 0.4 || end.y < 0.3 || end.y > 3.7;
-            assert!(off.min(period - off) < near || is_rim, "{class:?}: {end}");
+            assert!(off.min(TAU - off) < 0.01 || is_rim, "{class:?}: {end}");
         }
         let inner: Vec<_> = found.into_iter().filter(|[from, _]| from.x.abs() < 3.0 * PI - 0.4).collect();
         assert!((length(&inner) - count * 4.0).abs() < 0.15 * count * 4.0, "{class:?}: {}", length(&inner));
@@ -187,7 +184,7 @@ fn balls_pipes_and_flat_faces_have_no_crests_and_no_suggestive_contours() {
     let pipe = grid([64, 10], [true, false], |u, v| DVec3::new((u * TAU).cos(), (u * TAU).sin(), 3.0 * v));
     let cube = ball(8, |point| point / point.abs().max_element());
     for (mesh, name) in [(sphere, "sphere"), (pipe, "pipe"), (cube, "cube")] {
-        for class in [Class::Suggestive, Class::Ridge, Class::Valley, Class::ApparentRidge] {
+        for class in [Class::Suggestive, Class::Ridge, Class::Valley] {
             for smoothing in [0.0, 1.0] {
                 let eye = Eye::Point(DVec3::new(4.0, 5.0, 6.0));
                 let found = traced(&mesh, class, eye, &FormSettings { smoothing, ..raw() });
@@ -209,14 +206,9 @@ fn raising_a_threshold_only_takes_away_and_scale_changes_nothing() {
         })
     };
     let eye = |scale: f64| Eye::Point(scale * DVec3::new(2.0, -3.0, 4.0));
-    for class in [Class::Suggestive, Class::Ridge, Class::Valley, Class::ApparentRidge] {
+    for class in [Class::Suggestive, Class::Ridge, Class::Valley] {
         let with = |factor: f64, scale: f64| {
-            let forms = FormSettings {
-                suggestive_threshold: 0.01 * factor,
-                ridge_threshold: 0.03 * factor,
-                apparent_ridge_threshold: 0.03 * factor,
-                ..raw()
-            };
+            let forms = FormSettings { suggestive_threshold: 0.01 * factor, ridge_threshold: 0.03 * factor, ..raw() };
             length(&traced(&bumpy(scale), class, eye(scale), &forms)) / scale
         };
         let lengths = [0.5, 1.0, 2.0, 4.0].map(|factor| with(factor, 1.0));
@@ -237,14 +229,9 @@ fn hostile_meshes_give_lines_with_finite_ends_or_none() {
     let triangles: Vec<[u32; 3]> =
         (0..58).map(|k| [k, k + 1, k + 2]).chain((0..50).map(|k| [k, k + 9, k + 5])).collect();
     let soup = Mesh::of_triangles("soup", points, &triangles, &LoadOptions::default()).unwrap();
-    let all = FormSettings {
-        suggestive_threshold: 0.0,
-        ridge_threshold: 0.0,
-        apparent_ridge_threshold: 0.0,
-        smoothing: 2.0,
-        ..FormSettings::default()
-    };
-    for class in [Class::Suggestive, Class::Ridge, Class::Valley, Class::ApparentRidge] {
+    let all =
+        FormSettings { suggestive_threshold: 0.0, ridge_threshold: 0.0, smoothing: 2.0, ..FormSettings::default() };
+    for class in [Class::Suggestive, Class::Ridge, Class::Valley] {
         for eye in [Eye::Point(soup.positions[3]), Eye::Direction(DVec3::Z), Eye::Point(DVec3::splat(1e9))] {
             let found = traced(&soup, class, eye, &all);
             assert!(found.iter().flatten().all(|end| end.is_finite()), "{class:?} {eye:?}");

@@ -104,10 +104,9 @@ fn every_class_together_is_drawn_and_the_default_is_without_form_lines() {
 fn thresholds_that_are_none_are_refused() {
     let scene = seen_from(vec![waves()], DVec3::Z * 20.0);
     type Change = fn(&mut FormSettings);
-    let wrong: [(&str, Change); 4] = [
+    let wrong: [(&str, Change); 3] = [
         ("suggestive-threshold", |forms| forms.suggestive_threshold = -1.0),
         ("ridge-threshold", |forms| forms.ridge_threshold = f64::NAN),
-        ("apparent-ridge-threshold", |forms| forms.apparent_ridge_threshold = f64::INFINITY),
         ("curvature-smoothing", |forms| forms.smoothing = 11.0),
     ];
     for (name, change) in wrong {
