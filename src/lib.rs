@@ -68,11 +68,16 @@
 //! | exact lines, SVG, hidden lines | [`lines`], [`VisibleLines`] |
 //! | styles and their buffers | [`styles`], [`Style`], [`Show`] |
 //! | a style of your own | [`plan`], and `examples/own_style.rs` |
-//! | contexts, drawing, timing | [`gl`], [`renderer`], [`Renderer`]; `drivers` checks a driver |
-//! | a view that is turned by hand, and by keys | [`orbit`], [`keys`] |
+//! | contexts, drawing, timing | [`Backend`], [`renderer`], [`Renderer`] |
 //! | pictures and animations | [`picture`], [`animation`] |
 //! | one drawing from layers of options, as every door asks for it | [`request`] |
 //! | presets, and pictures that can be made again | [`preset`], [`recipe`] |
+//!
+//! # What is stable
+//!
+//! What these pages show follows semantic versioning: structs of settings may gain fields and enums variants in a minor version, so
+//! end literals with `..Default::default()`, and matches with `_`. Everything else that is public is shared by tinta's own packages
+//! and may change at any time.
 //!
 //! # How it is built
 //!
@@ -83,7 +88,7 @@
 //!                                          └─► VisibleLines (exact, f64) ─► SVG, reference ──────────────┴─► Row ─► report
 //! ```
 //!
-//! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in [`gl`], except a
+//! Styles know no GL and `gl` knows no style; only a [`plan::Plan`] lies between them. All `unsafe` code is in `gl`, except a
 //! check of standard output before `main` (cargo feature `cli`). Everything else is tested without a context, a window or a
 //! clock.
 //!
@@ -111,29 +116,39 @@
 #[cfg(feature = "window")]
 use tinta_geometry::threads;
 use tinta_geometry::{bytes, clock, files, markup, values};
-pub use tinta_geometry::{
-    camera, choice, culling, doubled, edges, error, hidden_faces, limits, lines, scene, settings, tolerances,
-};
+#[doc(no_inline)]
+pub use tinta_geometry::{camera, edges, error, lines, scene, settings};
+#[doc(hidden)]
+pub use tinta_geometry::{choice, culling, doubled, hidden_faces, limits, tolerances};
 
+#[doc(hidden)]
 pub mod random;
+#[doc(hidden)]
 pub mod output;
 mod builtin;
 pub mod mesh;
 pub mod picture;
 
 // What to draw, as data.
+#[doc(hidden)]
 pub mod glsl;
 pub mod plan;
+#[doc(hidden)]
 pub mod textures;
 pub mod styles;
 
 // Drawing it.
+#[doc(hidden)]
 pub mod gl;
 pub mod renderer;
+#[doc(hidden)]
 pub mod pixel;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
+#[doc(hidden)]
 pub mod drivers;
+#[doc(hidden)]
 pub mod orbit;
+#[doc(hidden)]
 pub mod keys;
 #[cfg(feature = "animation")]
 pub mod animation;
@@ -141,20 +156,25 @@ pub mod animation;
 // Presets, which reproduce the settings of a picture.
 #[cfg(feature = "presets")]
 pub mod preset;
+#[doc(hidden)]
 pub mod shell;
 #[cfg(feature = "presets")]
 pub mod recipe;
+#[doc(hidden)]
 pub mod record;
 #[cfg(feature = "presets")]
 pub mod request;
 
 // What pages of HTML begin with.
+#[doc(hidden)]
 pub mod page;
 
 // Many at once, by hand, and by the command line, which speaks of the library as any program does.
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod batch;
 #[cfg(feature = "window")]
+#[doc(hidden)]
 pub mod window;
 #[cfg(feature = "cli")]
 #[doc(hidden)]

@@ -26,7 +26,9 @@
 // the documentation are shared with tinta and may change without notice.
 
 // The foundation.
+#[doc(hidden)]
 pub mod limits;
+#[doc(hidden)]
 pub mod tolerances;
 pub mod error;
 #[doc(hidden)]
@@ -53,11 +55,15 @@ pub mod settings;
 pub mod camera;
 pub mod mesh;
 pub mod edges;
+#[doc(hidden)]
 pub mod curvature;
 mod bvh;
+#[doc(hidden)]
 pub mod culling;
+#[doc(hidden)]
 pub mod doubled;
 pub mod scene;
+#[doc(hidden)]
 pub mod hidden_faces;
 pub mod lines;
 

@@ -52,27 +52,39 @@ mod visible_lines;
 mod why;
 mod write;
 
+#[doc(hidden)]
 pub use drawing::areas::Areas;
 pub use drawing::chain::{LinePath, chain};
+#[doc(hidden)]
 pub use drawing::curves::{Step, fitted};
+#[doc(hidden)]
 pub use drawing::drawn_layers::{DrawnLayer, GHOST_OPACITY, drawn_layers};
 pub use drawing::fills::{Fill, FillGroup, fills};
 pub use drawing::hatch::{Hatch, Hatching};
+#[doc(hidden)]
 pub use drawing::hatches::hatches;
+#[doc(hidden)]
 pub use drawing::key::{Key, KeyText};
 pub use drawing::layers::{ClassColors, ClassWidths, Layer, OfLayers};
 pub use drawing::length::{Length, Millimetres, Units, line_width};
 pub use drawing::page::{PageSize, Paper, Sheet, Turn};
+#[doc(hidden)]
 pub use drawing::painted::painted;
 pub use drawing::settings::{DrawingSettings, Hidden};
+#[doc(hidden)]
 pub use eye::cast::{Hit, first_hits};
+#[doc(hidden)]
 pub use identity::StrokeIds;
+#[doc(hidden)]
 pub use labels::Label;
+#[doc(hidden)]
 pub use parts::pattern::Pattern;
 pub use parts::rules::{PartRule, PartRules};
+#[doc(hidden)]
 pub use parts::scene_parts::ScenePart;
 pub use parts::style::{PartRole, PartStyle};
 pub use progress::{Phase, Progress};
+#[doc(hidden)]
 pub use regions::{
     Joined, Region, Regions, SeenFace, Surface, ToneLight, ToneRule, TonedSurface, chosen_light, ground_light,
     ground_shadow, lit_scene,
@@ -80,20 +92,25 @@ pub use regions::{
 pub use segment::LineSegment;
 pub use settings::LineSettings;
 pub use sheet::ProjectionAngle;
+#[doc(hidden)]
 pub use smooth::closed_forms;
 pub use smooth::forms::FormSettings;
+#[doc(hidden)]
 pub use smooth::silhouettes::{SmoothSilhouette, smooth_silhouettes};
+#[doc(hidden)]
 pub use smooth::visibility_events::{Inconsistency, InconsistencyKind, VisibilityChanges};
 pub use visible_lines::{LineTimes, VisibleLines};
 pub use why::{Hider, Why, WhyLine, WhyPiece};
 pub use write::dxf::{dxf, dxf_of_paths};
 #[cfg(feature = "pdf")]
 pub use write::pdf::{pdf, pdf_of_paths};
+#[doc(hidden)]
 pub use write::raster::{
     Raster, lay_area, lay_over, lay_strokes, lay_strokes_by, raster, raster_of_paths, raster_of_strokes,
 };
 pub use write::strokes::{Polyline, Strokes, strokes, strokes_of_paths};
 pub use write::svg::{svg, svg_of_paths};
+#[doc(hidden)]
 pub use write::turn_svg::TurnSvg;
 
 use crate::clock::{Instant, milliseconds_since};
