@@ -32,8 +32,8 @@ pub fn draw(model: &str, output: &str) -> tinta::Result<()> {
 /// One pass: clear, then all objects through both shaders, dots this far apart. Both shaders keep vertices and pixels in place:
 /// pruning may omit everything that a view cannot show.
 pub fn halftone(scene: &Scene, distance_px: f32) -> Plan {
-    let program = Program { vertex: VERTEX.0, fragments: vec![FRAGMENT.0] };
-    let uniforms = vec![Uniform { name: "distance", value: Value::Float(distance_px) }];
+    let program = Program::new(VERTEX.0, [FRAGMENT.0]);
+    let uniforms = vec![Uniform::new("distance", Value::Float(distance_px))];
     let objects =
         Draw { uniforms, facts: Facts::plain(), ..Draw::new(Geometry::Objects(Paint::Materials), Some(program)) };
     Plan::new(vec![Pass::new("halftone", vec![Step::clear(scene.background.clear_color()), Step::Draw(objects)])])

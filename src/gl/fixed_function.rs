@@ -17,7 +17,7 @@ pub(super) fn smooth(mark: Mark) -> Program {
         Mark::Lines => "fixed/smooth-line.frag",
         Mark::Points => "fixed/smooth-point.frag",
     };
-    Program { vertex: VERTEX, fragments: vec![fragment] }
+    Program::new(VERTEX, [fragment])
 }
 
 /// Returns the program of a draw; `None` for the pipeline.
@@ -26,10 +26,10 @@ pub(crate) fn program_of(draw: &Draw, has_pipeline: bool) -> Option<Program> {
     match &draw.program {
         program if has_pipeline => program.clone(),
         Some(program) if !program.fragments.is_empty() => Some(program.clone()),
-        Some(program) => Some(Program { vertex: program.vertex, fragments: fragments() }),
+        Some(program) => Some(Program::new(program.vertex.clone(), fragments())),
         None => match draw.geometry {
             Geometry::Edges { mark, is_smooth: true, line_drawing: LineDrawing::Gl, .. } => Some(smooth(mark)),
-            _ => Some(Program { vertex: VERTEX, fragments: fragments() }),
+            _ => Some(Program::new(VERTEX, fragments())),
         },
     }
 }

@@ -6,6 +6,7 @@ use super::{Gl, sources};
 use crate::error::{Error, Result};
 use crate::plan::{self, Sampling};
 use glow::HasContext;
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -132,7 +133,7 @@ impl Drop for Texture {
 pub(super) struct Program {
     live: Live,
     id: glow::Program,
-    locations: HashMap<&'static str, Option<glow::UniformLocation>>,
+    locations: HashMap<Cow<'static, str>, Option<glow::UniformLocation>>,
     /// Whether it last drew into textures; `None` before its first draw.
     into_textures: Option<bool>,
     /// Whether a uniform must change before the next draw.
@@ -179,12 +180,12 @@ impl Program {
     }
 
     /// Sets a uniform of this program, which is bound; a uniform that the driver optimised away is no error.
-    pub(super) fn set(&mut self, name: &'static str, value: plan::Value) {
+    pub(super) fn set(&mut self, name: &Cow<'static, str>, value: plan::Value) {
         let gl = &self.live.0.glow;
         let id = self.id;
         // SAFETY: the context is current, this program alive and bound.
         let location =
-            self.locations.entry(name).or_insert_with(|| unsafe { gl.get_uniform_location(id, name) }).as_ref();
+            self.locations.entry(name.clone()).or_insert_with(|| unsafe { gl.get_uniform_location(id, name) }).as_ref();
         let other = |x: f32| if x == 0.0 { 1.0 } else { 0.0 };
         // SAFETY: as above; the value has the type the shader declares, which a test of every program checks.
         unsafe {
@@ -215,7 +216,8 @@ impl Program {
         let id = self.id;
         // SAFETY: the context is current, this program alive and bound.
         unsafe {
-            let location = self.locations.entry(name).or_insert_with(|| gl.get_uniform_location(id, name)).as_ref();
+            let location =
+                self.locations.entry(name.into()).or_insert_with(|| gl.get_uniform_location(id, name)).as_ref();
             gl.uniform_1_i32(location, unit as i32);
         }
     }
@@ -318,7 +320,7 @@ mod tests {
             let gl = context.gl();
             let buffer = Buffer::new(gl, glow::ARRAY_BUFFER, &[0; 24]).unwrap();
             let texture = Texture::new(gl, glow::TEXTURE_2D, Sampling::NearestClamped).unwrap();
-            let shaders = plan::Program { vertex: "evangelista/map.vert", fragments: vec!["evangelista/map.frag"] };
+            let shaders = plan::Program::new("evangelista/map.vert", ["evangelista/map.frag"]);
             let program = Program::new(gl, &shaders).unwrap();
             let query = TimerQuery::new(gl).unwrap();
             query.begin();

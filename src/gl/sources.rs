@@ -34,14 +34,14 @@ impl Source {
 /// link parts.
 pub(super) fn of_program(gl: &Gl, program: &plan::Program) -> Result<Vec<Source>> {
     if HAS_PIPELINE {
-        return [program.vertex].iter().chain(&program.fragments).map(|path| of_shader(gl, path)).collect();
+        return [&program.vertex].into_iter().chain(&program.fragments).map(|path| of_shader(gl, path)).collect();
     }
-    [(Stage::Vertex, &[program.vertex][..]), (Stage::Fragment, &program.fragments)]
+    [(Stage::Vertex, std::slice::from_ref(&program.vertex)), (Stage::Fragment, &program.fragments[..])]
         .into_iter()
         .map(|(stage, paths)| {
             let texts: Vec<String> = paths.iter().map(|path| original(gl, path)).collect::<Result<_>>()?;
             let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
-            let (path, parts) = (paths.join(" + "), paths.iter().map(|path| (*path).to_owned()).collect());
+            let (path, parts) = (paths.join(" + "), paths.iter().map(|path| path.to_string()).collect());
             let refused = |log| Error::Shader { path: path.clone(), log };
             Ok(Source { kind: kind(stage), text: es::linked(stage, &texts).map_err(refused)?, path, parts })
         })

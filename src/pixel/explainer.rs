@@ -242,12 +242,13 @@ fn prepared<'a>(
     }
     let program = fixed_function::program_of(draw, false)
         .ok_or_else(|| Error::gl("explaining a pixel", "a draw has no shaders"))?;
-    let text = |path: &'static str| -> Result<(&'static str, &str)> {
+    fn text<'t>(path: &'t str, replaced: &'t HashMap<String, String>) -> Result<(&'t str, &'t str)> {
         let missing = || Error::gl("explaining a pixel", format!("{path} is no shader of tinta"));
         let replaced = replaced.get(path).map(String::as_str);
         replaced.or_else(|| glsl::source(path)).map(|text| (path, text)).ok_or_else(missing)
-    };
-    let fragments: Vec<(&str, &str)> = program.fragments.iter().map(|path| text(path)).collect::<Result<_>>()?;
+    }
+    let fragments: Vec<(&str, &str)> =
+        program.fragments.iter().map(|path| text(path, replaced)).collect::<Result<_>>()?;
     let stage = |texts: &[(&str, &str)]| tinta_glsl::Stage::new(texts).map_err(misunderstood);
     let material = draw.textures.iter().position(|(_, texture)| *texture == plan::Texture::Material);
     let samplers = (0_u32..)
@@ -256,7 +257,7 @@ fn prepared<'a>(
     Ok(Some(PreparedDraw {
         draw,
         program: program.to_string(),
-        vertex: stage(&[text(program.vertex)?])?,
+        vertex: stage(&[text(&program.vertex, replaced)?])?,
         fragment: stage(&fragments)?,
         triangles: Triangles::of(scene, draw, material, how.subpixel_bits, only_at),
         samplers: samplers.collect(),

@@ -216,7 +216,7 @@ impl PreparedDraw<'_> {
             plan::Value::Vec3(v) => Value::floats(&v.map(f64::from)),
         };
         let sampler = |number: usize| Value::new(Type::vector(Base::Sampler, 1), &[number as f64]);
-        let uniforms = self.draw.uniforms.iter().map(|uniform| (uniform.name, value(uniform.value)));
+        let uniforms = self.draw.uniforms.iter().map(|uniform| (&*uniform.name, value(uniform.value)));
         uniforms.chain(self.samplers.iter().enumerate().map(|(number, name)| (*name, sampler(number)))).collect()
     }
 

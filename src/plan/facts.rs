@@ -12,7 +12,7 @@ use std::fmt;
 /// ```
 /// use tinta::plan::{Draw, Facts, Geometry, Paint, Program};
 ///
-/// let program = Program { vertex: "own/dots.vert", fragments: vec!["own/dots.frag"] };
+/// let program = Program::new("own/dots.vert", ["own/dots.frag"]);
 /// let dots = Draw { facts: Facts::plain(), ..Draw::new(Geometry::Objects(Paint::Materials), Some(program)) };
 /// assert_eq!(dots.facts.to_string(), "keeps places, keeps pixels");
 /// ```
@@ -99,7 +99,7 @@ mod tests {
     use crate::plan::{Draw, Geometry, Pass, Plan, Step};
 
     fn program(vertex: &'static str, fragment: &'static str) -> Program {
-        Program { vertex, fragments: vec![fragment] }
+        Program::new(vertex, [fragment])
     }
 
     fn facts_after(facts: Facts, replaced: &str) -> Facts {
@@ -125,7 +125,7 @@ mod tests {
     fn fixed_functions_need_not_be_stated() {
         let fixed = Draw::new(Geometry::ScreenSquare, None);
         assert!(fixed.keeps_places() && fixed.keeps_pixels());
-        let half = Draw::new(Geometry::ScreenSquare, Some(Program { vertex: "a.vert", fragments: Vec::new() }));
+        let half = Draw::new(Geometry::ScreenSquare, Some(Program::new("a.vert", [""; 0])));
         assert!(!half.keeps_places() && half.keeps_pixels());
         let own = Draw::new(Geometry::ScreenSquare, Some(program("a.vert", "a.frag")));
         assert!(!own.keeps_places() && !own.keeps_pixels());

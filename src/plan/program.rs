@@ -3,22 +3,23 @@
 use super::target::TextureName;
 use crate::picture::Picture;
 use crate::scene::Size;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A vertex shader and the fragment shaders linked with it, by their paths below `glsl/`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Program {
     /// The vertex shader.
-    pub vertex: &'static str,
+    pub vertex: Cow<'static, str>,
     /// The fragment shaders: one with `main`, the others with the functions it declares; none for fixed-function fragments.
-    pub fragments: Vec<&'static str>,
+    pub fragments: Vec<Cow<'static, str>>,
 }
 
 /// A value for a shader.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Uniform {
     /// Its name in the shader.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Its value.
     pub value: Value,
 }
@@ -38,6 +39,23 @@ pub enum Value {
     TexelSize([f32; 2]),
     /// vec2: a place on the surface, in pixels from its lower left corner. In a tile it is counted from the tile's.
     PixelPlace([f32; 2]),
+}
+
+impl Program {
+    /// A vertex shader with fragment shaders.
+    pub fn new<S: Into<Cow<'static, str>>>(
+        vertex: impl Into<Cow<'static, str>>,
+        fragments: impl IntoIterator<Item = S>,
+    ) -> Self {
+        Self { vertex: vertex.into(), fragments: fragments.into_iter().map(Into::into).collect() }
+    }
+}
+
+impl Uniform {
+    /// A uniform with its value.
+    pub fn new(name: impl Into<Cow<'static, str>>, value: Value) -> Self {
+        Self { name: name.into(), value }
+    }
 }
 
 impl Value {
@@ -68,7 +86,7 @@ pub enum Texture {
 impl Program {
     /// Whether this is one of its shaders.
     pub(crate) fn has_shader(&self, path: &str) -> bool {
-        self.vertex == path || self.fragments.contains(&path)
+        self.vertex == path || self.fragments.iter().any(|fragment| fragment == path)
     }
 }
 

@@ -178,7 +178,7 @@ mod tests {
     use crate::plan::{Draw, Facts, Pass, Program};
 
     fn plan(reach_px: Option<u32>) -> Plan {
-        let program = Program { vertex: "a.vert", fragments: vec!["a.frag"] };
+        let program = Program::new("a.vert", ["a.frag"]);
         let filter = Draw {
             textures: vec![("map", Texture::BorderMap)],
             facts: Facts { reach_px, ..Facts::default() },

@@ -46,8 +46,8 @@ pub(super) fn remarks(plan: &Plan, own: &HashMap<String, String>) -> Vec<String>
     remarks
 }
 
-fn shaders(program: &Program) -> impl Iterator<Item = &'static str> {
-    [program.vertex].into_iter().chain(program.fragments.iter().copied())
+fn shaders(program: &Program) -> impl Iterator<Item = &str> {
+    [&program.vertex].into_iter().chain(&program.fragments).map(AsRef::as_ref)
 }
 
 /// The names of the uniforms that a shader declares without a value and uses.

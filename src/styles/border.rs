@@ -187,7 +187,7 @@ impl Border {
                         .then(|| "the detection factor is 0".to_owned()),
                     ..Facts::plain()
                 },
-                ..Draw::new(Geometry::ScreenSquare, Some(Program { vertex: "evangelista/border.vert", fragments }))
+                ..Draw::new(Geometry::ScreenSquare, Some(Program::new("evangelista/border.vert", fragments)))
             };
             (*pass, draw)
         };
@@ -218,14 +218,14 @@ impl Border {
     pub(super) fn uniforms(&self, scene: &Scene, surface: Size, encoding: MapEncoding) -> Vec<Uniform> {
         let scale = surface.width / scene.size.width;
         let mut uniforms = Self::published_uniforms(surface);
-        uniforms.push(Uniform { name: "detectionFactor", value: Value::Float(self.detection_factor) });
+        uniforms.push(Uniform::new("detectionFactor", Value::Float(self.detection_factor)));
         if self.width.is_some() || self.slope_threshold {
             uniforms.push(reach("reach", self.width_px(scene.size), scale, self.is_one_sided()));
         }
         if self.slope_threshold {
             let gap = [LEAST_GAP[0] * scale as f32, LEAST_GAP[1] * encoding.depth_step()];
             uniforms.push(lens::footprint(scene, surface, lens::DepthRange::of_camera(scene)));
-            uniforms.push(Uniform { name: "leastGap", value: Value::Vec2(gap) });
+            uniforms.push(Uniform::new("leastGap", Value::Vec2(gap)));
         }
         uniforms
     }
@@ -244,5 +244,5 @@ pub(super) fn taps(width_px: Option<u32>, scale: u32, one_sided: bool) -> [u32; 
 /// Returns [`taps`] for a shader.
 pub(super) fn reach(name: &'static str, width_px: Option<u32>, scale: u32, one_sided: bool) -> Uniform {
     let taps = taps(width_px, scale, one_sided);
-    Uniform { name, value: Value::Vec2(taps.map(|pixels| pixels as f32)) }
+    Uniform::new(name, Value::Vec2(taps.map(|pixels| pixels as f32)))
 }

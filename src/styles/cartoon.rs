@@ -137,7 +137,7 @@ impl Cartoon {
                 uniforms.extend(self.tones.uniforms(background));
                 textures.extend(self.tones.textures());
             }
-            let program = Program { vertex: "evangelista/two-pass.vert", fragments };
+            let program = Program::new("evangelista/two-pass.vert", fragments);
             let facts = Facts {
                 reach_px: Some(border.reach_px(scene, surface)),
                 // On the background every tone is 1.
@@ -223,7 +223,7 @@ impl Cartoon {
                 true => vec!["evangelista/toon.frag"],
                 false => vec!["evangelista/toon-settings.frag", self.tones.shader()],
             };
-            let program = Program { vertex: "evangelista/toon.vert", fragments };
+            let program = Program::new("evangelista/toon.vert", fragments);
             let facts = Facts {
                 // On the background every tone is 1: the published highlight's, or that of settings.
                 constant_color: background.then(|| scene.background.clear_color()),

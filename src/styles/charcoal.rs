@@ -248,7 +248,7 @@ impl Charcoal {
                 true => vec!["valente/paper.frag"],
                 false => vec!["valente/paper-even.frag", self.spread(), self.grain()],
             };
-            let program = Program { vertex: "valente/paper.vert", fragments };
+            let program = Program::new("valente/paper.vert", fragments);
             // The text draws it in 2D over the whole screen. Later draws are nearer, so it needs no depth.
             steps.push(Step::Draw(Draw {
                 uniforms: if is_published { Vec::new() } else { layout.places() },
@@ -272,7 +272,7 @@ impl Charcoal {
 
     /// The drawing itself.
     fn objects(&self, show: Show, is_sand: bool, layout: &Layout) -> Draw {
-        let uniform = |name, value| Uniform { name, value };
+        let uniform = |name: &'static str, value| Uniform::new(name, value);
         // The first light that is set; the second is read if both are.
         let lights = self.lights.iter().flatten().zip(["inputLight1", "inputLight2"]);
         let mut uniforms: Vec<Uniform> =
@@ -296,8 +296,8 @@ impl Charcoal {
             textures.push(("toothTexture", Texture::Picture(TOOTH)));
         }
         let program = match self.is_published(show) {
-            true if is_sand => Program { vertex: "valente/sand.vert", fragments: vec!["valente/sand.frag"] },
-            true => Program { vertex: "valente/charcoal.vert", fragments: vec!["valente/charcoal.frag"] },
+            true if is_sand => Program::new("valente/sand.vert", ["valente/sand.frag"]),
+            true => Program::new("valente/charcoal.vert", ["valente/charcoal.frag"]),
             false => {
                 uniforms.extend(layout.uniforms());
                 self.parts(show, is_sand)
@@ -378,7 +378,7 @@ impl Charcoal {
             Noise::Object => "valente/charcoal-object.vert",
             Noise::Screen => either(is_sand, "valente/sand.vert", "valente/charcoal.vert"),
         };
-        Program { vertex, fragments }
+        Program::new(vertex, fragments)
     }
 
     fn check(&self, show: Show, is_sand: bool) -> Result<()> {

@@ -94,11 +94,11 @@ impl Dietrich {
                 ));
             }
         };
-        let program = Program { vertex: "dietrich/dietrich.vert", fragments: vec!["dietrich/dietrich.frag"] };
+        let program = Program::new("dietrich/dietrich.vert", ["dietrich/dietrich.frag"]);
         let draw = Draw {
             uniforms: vec![
-                Uniform { name: "threshold", value: Value::Float(threshold) },
-                Uniform { name: "inkColor", value: Value::Vec3(self.ink.0) },
+                Uniform::new("threshold", Value::Float(threshold)),
+                Uniform::new("inkColor", Value::Vec3(self.ink.0)),
             ],
             cull_back_faces: self.cull_back_faces,
             facts: Facts::plain(),

@@ -234,7 +234,7 @@ impl Ink {
     /// Each pixel's plane.
     fn map_pass(&self, scene: &Scene, surface: Size, is_read: bool) -> Pass {
         let depth = DepthRange::of_scene(scene);
-        let program = Program { vertex: "improved/plane-map.vert", fragments: vec!["improved/plane-map.frag"] };
+        let program = Program::new("improved/plane-map.vert", ["improved/plane-map.frag"]);
         let objects = Draw {
             uniforms: vec![lens::footprint(scene, surface, depth), depth.of_distance(scene)],
             cull_back_faces: self.cull_back_faces,
@@ -256,12 +256,12 @@ impl Ink {
         let (program, uniforms, textures) = match self.tone_light {
             Some(light) => self.far_tones(light.towards(scene, self.tones.far_thresholds())),
             None if self.tones.are_published() => {
-                let program = Program { vertex: "evangelista/toon.vert", fragments: vec!["evangelista/toon.frag"] };
+                let program = Program::new("evangelista/toon.vert", ["evangelista/toon.frag"]);
                 (program, Vec::new(), Vec::new())
             }
             None => {
                 let fragments = vec!["evangelista/toon-settings.frag", self.tones.shader()];
-                let program = Program { vertex: "evangelista/toon.vert", fragments };
+                let program = Program::new("evangelista/toon.vert", fragments);
                 (program, self.tones.uniforms(false), self.tones.textures())
             }
         };
@@ -281,25 +281,25 @@ impl Ink {
 
     /// Tones by a light from a direction.
     fn far_tones(&self, light: [f32; 3]) -> (Program, Vec<Uniform>, Vec<(&'static str, Texture)>) {
-        let program = Program { vertex: "improved/tones-far.vert", fragments: vec!["improved/tones-far.frag"] };
+        let program = Program::new("improved/tones-far.vert", ["improved/tones-far.frag"]);
         let uniforms = vec![
-            Uniform { name: "lightDirection", value: Value::Vec3(unit(light).as_vec3().to_array()) },
-            Uniform { name: "toneThresholds", value: Value::Vec2(self.tones.far_thresholds()) },
-            Uniform { name: "toneLevels", value: Value::Vec3(self.tones.levels) },
+            Uniform::new("lightDirection", Value::Vec3(unit(light).as_vec3().to_array())),
+            Uniform::new("toneThresholds", Value::Vec2(self.tones.far_thresholds())),
+            Uniform::new("toneLevels", Value::Vec3(self.tones.levels)),
         ];
         (program, uniforms, Vec::new())
     }
 
     /// The filter over the whole picture.
     fn ink(&self, scene: &Scene, surface: Size) -> Draw {
-        let float = |name, value: f64| Uniform { name, value: Value::Float(value as f32) };
+        let float = |name: &'static str, value: f64| Uniform::new(name, Value::Float(value as f32));
         let (scale, width) = (self.supersample().factor(), self.line_width.pixels(scene.size));
         let inner_width = self.inner_width.unwrap_or(self.line_width).pixels(scene.size);
         let gap = [self.least_gap_px * scale as f32, self.gap_per_slope];
         let mut uniforms = vec![
             supersample::texture_unit(surface),
             lens::footprint(scene, surface, DepthRange::of_scene(scene)),
-            Uniform { name: "gapThreshold", value: Value::Vec2(gap) },
+            Uniform::new("gapThreshold", Value::Vec2(gap)),
             float("creaseCosine", self.crease_angle.cosine),
             reach("reach", Some(width), scale, false),
             reach("innerReach", Some(inner_width), scale, false),
@@ -307,7 +307,7 @@ impl Ink {
         let [before, behind] = taps(Some(width.max(inner_width)), scale, false);
         uniforms.extend(lens::rays(scene, surface));
         let fragments = vec!["improved/plane-ink.frag", "improved/ink-depth-map.frag", "improved/ink-turn-planes.frag"];
-        let program = Program { vertex: "evangelista/border.vert", fragments };
+        let program = Program::new("evangelista/border.vert", fragments);
         Draw {
             uniforms,
             textures: vec![("planeMap", map_texture(self.map_target.target()))],
@@ -326,12 +326,9 @@ impl Ink {
     /// Redraws the ink without its specks.
     fn without_specks(&self, scene: &Scene, surface: Size) -> Draw {
         let size = self.speck_size(scene);
-        let program = Program { vertex: "evangelista/border.vert", fragments: vec!["improved/specks.frag"] };
+        let program = Program::new("evangelista/border.vert", ["improved/specks.frag"]);
         Draw {
-            uniforms: vec![
-                supersample::texture_unit(surface),
-                Uniform { name: "speckSize", value: Value::Float(size as f32) },
-            ],
+            uniforms: vec![supersample::texture_unit(surface), Uniform::new("speckSize", Value::Float(size as f32))],
             textures: vec![("inkMask", Texture::BorderMap)],
             depth: Depth::Ignore,
             facts: Facts {

@@ -356,7 +356,7 @@ impl Inking {
                 pictures.push(PlanPicture { name: "ramp", picture, sampling: Sampling::NearestClamped });
                 textures.push(("ramp", Texture::Picture(0)));
                 if self.light == LightOn::VertexShader {
-                    program = Some(Program { vertex: "dachsbacher/ramp.vert", fragments: Vec::new() });
+                    program = Some(Program::new("dachsbacher/ramp.vert", [""; 0]));
                 }
                 all(Paint::Coordinates(gradients.coordinates(self.light == LightOn::Cpu)))
             }

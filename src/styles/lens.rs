@@ -46,7 +46,7 @@ impl DepthRange {
             Projection::Perspective { .. } => [far / range, -near * far / range, 0.0],
             Projection::Parallel { .. } => [-near / range, 0.0, 1.0 / range],
         };
-        Uniform { name: "depthOfDistance", value: Value::Vec3(terms.map(|term| term as f32)) }
+        Uniform::new("depthOfDistance", Value::Vec3(terms.map(|term| term as f32)))
     }
 }
 
@@ -63,15 +63,15 @@ pub(super) fn footprint(scene: &Scene, surface: Size, depth: DepthRange) -> Unif
         }
         Projection::Parallel { height } => [height / f64::from(surface.height) / range, 0.0],
     };
-    Uniform { name: "footprint", value: Value::Vec2(footprint.map(|number| number as f32)) }
+    Uniform::new("footprint", Value::Vec2(footprint.map(|number| number as f32)))
 }
 
 /// `pixelAngle` and `middle`: a filter computes the ray through each pixel from them.
 pub(super) fn rays(scene: &Scene, surface: Size) -> [Uniform; 2] {
     let middle = [surface.width as f32 * 0.5, surface.height as f32 * 0.5];
     [
-        Uniform { name: "pixelAngle", value: Value::Float(pixel_angle(scene, surface) as f32) },
-        Uniform { name: "middle", value: Value::PixelPlace(middle) },
+        Uniform::new("pixelAngle", Value::Float(pixel_angle(scene, surface) as f32)),
+        Uniform::new("middle", Value::PixelPlace(middle)),
     ]
 }
 

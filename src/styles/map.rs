@@ -33,7 +33,7 @@ impl MapEncoding {
             Self::Biased | Self::DepthTexture => ("improved/map-biased.vert", "evangelista/map.frag"),
             Self::Float16 | Self::Float => ("improved/map-float.vert", "improved/map-float.frag"),
         };
-        Program { vertex, fragments: vec![fragment] }
+        Program::new(vertex, [fragment])
     }
 
     /// The map's value for a pixel that neither object nor square covers: no normal, farthest depth.

@@ -141,7 +141,7 @@ impl Mrt {
             true => vec!["improved/two-targets.frag"],
             false => vec!["improved/two-targets-settings.frag", self.tones.shader()],
         };
-        let program = Program { vertex: "improved/two-targets.vert", fragments };
+        let program = Program::new("improved/two-targets.vert", fragments);
         let objects = Draw {
             uniforms: if published { Vec::new() } else { self.tones.uniforms(false) },
             textures: if published { Vec::new() } else { self.tones.textures() },

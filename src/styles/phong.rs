@@ -77,8 +77,8 @@ impl Phong {
                 "the style phong has no lines, tones or map; choose another style, or show final",
             ));
         }
-        let uniform = |name, value| Uniform { name, value: Value::Float(value) };
-        let program = Program { vertex: "phong/phong.vert", fragments: vec!["phong/phong.frag"] };
+        let uniform = |name: &'static str, value| Uniform::new(name, Value::Float(value));
+        let program = Program::new("phong/phong.vert", ["phong/phong.frag"]);
         let draw = Draw {
             uniforms: vec![
                 uniform("ambient", self.ambient),

@@ -57,11 +57,11 @@ impl Supersample {
             Target::Framebuffer => (vec![Step::CopyFramebuffer], Texture::BorderMap),
             Target::Textures(attachments) => (Vec::new(), Texture::Drawn(attachments.colors[0].name)),
         };
-        let program = Program { vertex: "evangelista/border.vert", fragments: vec!["improved/box-filter.frag"] };
+        let program = Program::new("evangelista/border.vert", ["improved/box-filter.frag"]);
         let square = Draw {
             uniforms: vec![
                 texture_unit(self.surface(picture)),
-                Uniform { name: "count", value: Value::Int(self.factor() as i32) },
+                Uniform::new("count", Value::Int(self.factor() as i32)),
             ],
             textures: vec![("samples", samples)],
             depth: Depth::Ignore,
@@ -76,5 +76,5 @@ impl Supersample {
 
 /// Returns the distance between texels of a texture of this size.
 pub(super) fn texture_unit(size: Size) -> Uniform {
-    Uniform { name: "textureUnit", value: Value::texel_size(size) }
+    Uniform::new("textureUnit", Value::texel_size(size))
 }

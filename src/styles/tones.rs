@@ -168,7 +168,11 @@ impl Tones {
             false => ("improved/tone-one.frag", "diffuse light and highlights"),
         };
         let mut program = program.clone();
-        program.fragments.iter_mut().filter(|fragment| **fragment == STEPS).for_each(|fragment| *fragment = part);
+        program
+            .fragments
+            .iter_mut()
+            .filter(|fragment| **fragment == STEPS)
+            .for_each(|fragment| *fragment = part.into());
         let because = format!("light ends at 1, and the thresholds are {diffuse} and {specular}");
         Some(Shorter { program, without, because })
     }
@@ -177,14 +181,14 @@ impl Tones {
     pub(super) fn uniforms(&self, background: bool) -> Vec<Uniform> {
         match self.lookup {
             ToneLookup::Steps => vec![
-                Uniform { name: "toneThresholds", value: Value::Vec2(self.thresholds()) },
-                Uniform { name: "toneLevels", value: Value::Vec3(if background { [1.0; 3] } else { self.levels }) },
+                Uniform::new("toneThresholds", Value::Vec2(self.thresholds())),
+                Uniform::new("toneLevels", Value::Vec3(if background { [1.0; 3] } else { self.levels })),
             ],
             ToneLookup::Texture => {
                 let texel = 1.0 / TABLE_SIZE as f32;
                 vec![
-                    Uniform { name: "toneTableScale", value: Value::Vec2([1.0 - texel, 0.5 * texel]) },
-                    Uniform { name: "toneGain", value: Value::Float(if background { 0.0 } else { 1.0 }) },
+                    Uniform::new("toneTableScale", Value::Vec2([1.0 - texel, 0.5 * texel])),
+                    Uniform::new("toneGain", Value::Float(if background { 0.0 } else { 1.0 })),
                 ]
             }
         }

@@ -3,6 +3,7 @@
 
 use crate::prune::{beside, every_rule};
 use crate::support::{BACKENDS, renderer, root, scene};
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use tinta::plan::prune::{Pruned, Pruning, Rule, prune};
 use tinta::plan::{Draw, Facts, Plan, Program, Step, Target};
@@ -124,10 +125,10 @@ fn whatever_shader_is_replaced_the_short_plan_draws_what_the_full_one_does() {
 /// The same plan with copies of its shaders under new names, and their texts.
 fn as_ones_own(mut plan: Plan) -> (Plan, HashMap<String, String>) {
     let mut texts = HashMap::new();
-    let mut own = |path: &mut &'static str| {
-        let name: &'static str = format!("own/{path}").leak();
-        texts.insert(name.to_owned(), tinta::glsl::source(path).unwrap().to_owned());
-        *path = name;
+    let mut own = |path: &mut Cow<'static, str>| {
+        let name = format!("own/{path}");
+        texts.insert(name.clone(), tinta::glsl::source(path).unwrap().to_owned());
+        *path = name.into();
     };
     let mut rename = |program: &mut Program| {
         own(&mut program.vertex);

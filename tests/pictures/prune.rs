@@ -154,9 +154,9 @@ fn light_is_left_out_where_no_tone_depends_on_it() {
     let scene = scene("builtin:bust", 64, 64);
     let shaders = |style: &Style| {
         let plan = pruned(&scene, style).plan;
-        let fragments: Vec<&str> = draws(&plan)
+        let fragments: Vec<String> = draws(&plan)
             .filter_map(|draw| draw.program.as_ref())
-            .flat_map(|program| program.fragments.clone())
+            .flat_map(|program| program.fragments.iter().map(ToString::to_string))
             .collect();
         fragments.join(" ")
     };
@@ -357,7 +357,7 @@ fn only_the_shaders_that_the_shorter_plan_names_are_compiled_warming_up_included
     renderer.render(&scene, &style).unwrap();
     assert_eq!(renderer.programs(), warm, "nothing is compiled when the models are there");
     let fragments = vec!["evangelista/toon-settings.frag", "improved/tone-one.frag"];
-    assert_eq!(warm, [tinta::plan::Program { vertex: "evangelista/toon.vert", fragments }]);
+    assert_eq!(warm, [tinta::plan::Program::new("evangelista/toon.vert", fragments)]);
 }
 
 #[test]

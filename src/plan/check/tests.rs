@@ -176,7 +176,7 @@ fn sizes_that_do_not_fit_are_found() {
 
 #[test]
 fn a_square_that_fills_the_picture_needs_no_clear() {
-    let program = Program { vertex: "own/square.vert", fragments: vec!["own/square.frag"] };
+    let program = Program::new("own/square.vert", ["own/square.frag"]);
     let square = Draw { depth: Depth::Ignore, ..Draw::new(Geometry::ScreenSquare, Some(program)) };
     let plan = Plan::new(vec![Pass::new("square", vec![Step::Draw(square)])]);
     assert_eq!(plan.check(&scene()), Ok(()));

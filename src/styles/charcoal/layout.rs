@@ -37,7 +37,7 @@ impl Layout {
         vec![
             vec2("noiseSpread", self.noise_spread),
             vec2("paperSpread", self.paper_spread),
-            Uniform { name: "samples", value: Value::Float(self.samples as f32) },
+            Uniform::new("samples", Value::Float(self.samples as f32)),
         ]
     }
 
@@ -50,9 +50,9 @@ impl Layout {
         let across = [x * shorter / sides[0] * 0.5, y * shorter / sides[1] * 0.5];
         let mut uniforms = self.places();
         uniforms.extend([
-            Uniform { name: "cetTexel", value: Value::Float(1.0 / self.cet.height as f32) },
+            Uniform::new("cetTexel", Value::Float(1.0 / self.cet.height as f32)),
             vec2("textureUnit", sides.map(|side| 1.0 / (side * self.samples as f32))),
-            Uniform { name: "corner", value: Value::PixelPlace([0.0; 2]) },
+            Uniform::new("corner", Value::PixelPlace([0.0; 2])),
             vec2("noiseScale", across),
             vec2("noiseSize", [self.noise.width as f32, self.noise.height as f32]),
             vec2("strokeScale", sides.map(|side| side / shorter)),
@@ -62,7 +62,7 @@ impl Layout {
 }
 
 fn vec2(name: &'static str, value: [f32; 2]) -> Uniform {
-    Uniform { name, value: Value::Vec2(value) }
+    Uniform::new(name, Value::Vec2(value))
 }
 
 fn shorter(picture: Size) -> f32 {

@@ -14,10 +14,10 @@ fn small() -> Size {
     }
 }
 
-fn fragments(charcoal: &Charcoal, show: Show) -> Vec<&'static str> {
+fn fragments(charcoal: &Charcoal, show: Show) -> Vec<String> {
     let plan = charcoal.charcoal(&scene(), show).unwrap();
     let last = plan.steps().filter_map(|(_, step)| if let Step::Draw(draw) = step { Some(draw) } else { None }).last();
-    last.unwrap().program.as_ref().unwrap().fragments.clone()
+    last.unwrap().program.as_ref().unwrap().fragments.iter().map(ToString::to_string).collect()
 }
 
 #[test]

@@ -59,7 +59,7 @@ pub struct ShaderRow {
     /// As in [`SHADERS`].
     pub name: &'static str,
     /// The fragment shaders below `glsl/`.
-    pub fragments: Vec<&'static str>,
+    pub fragments: Vec<String>,
     /// The article's number, million pixels a second.
     #[serde(rename = "paper_mpixels")]
     pub article_mpixels: Option<f64>,
@@ -117,7 +117,7 @@ pub(super) fn rows(contestants: &[Contestant]) -> Vec<ShaderRow> {
         });
         ShaderRow {
             name: shader.name,
-            fragments: draws.flat_map(|program| program.fragments.clone()).collect(),
+            fragments: draws.flat_map(|program| &program.fragments).map(ToString::to_string).collect(),
             article_mpixels: shader.article_mpixels,
             mpixels: (square_ms > 0.0).then_some(mpixels),
             square_ms,
