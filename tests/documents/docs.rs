@@ -384,7 +384,7 @@ fn every_public_module_has_an_example_that_is_compiled() {
         let names = public.filter_map(|pair| pair[1].strip_prefix("pub mod ")?.strip_suffix(';'));
         modules.extend(names.map(|name| format!("{folder}/{name}.rs")));
     }
-    assert!(modules.len() > 25, "only {modules:?} were found");
+    assert!(modules.len() > 20, "only {modules:?} were found");
     for module in modules {
         let text = std::fs::read_to_string(root().join(&module)).unwrap();
         let mut head = text.lines().take_while(|line| line.starts_with("//!"));

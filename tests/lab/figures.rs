@@ -216,7 +216,7 @@ fn a_model_with_a_texture_fills_the_figures_that_need_one() {
     let skin = folder.file("skin.ppm", b"P3 2 1 255 200 40 30 20 90 200\n");
     let output = folder.path("out");
     let figures = ["-o", &output, "--size", "48", "--only", "valente-9,valente-12"];
-    let said = run(&[&figures[..], &["--model", &model, "--skin", &skin]].concat());
+    let said = run(&[&figures[..], &["--model", &model, "--model-picture", &skin]].concat());
     assert_eq!(said, "");
     let page = std::fs::read_to_string(format!("{output}/index.html")).unwrap();
     assert!(page.contains(&format!("tinta render {model} --texture skin={skin} -o valente-9.png")), "{page}");
@@ -236,8 +236,8 @@ fn what_cannot_be_done_is_said_in_a_sentence() {
     refused_in_one_line(&["figures", "-o", &file], &["this is a file; name a folder"]);
     refused_in_one_line(&["figures", "-o", &format!("{file}/below")], &["the folder cannot be created"]);
     let bare = ["figures", "-o", &out, "--only", "valente-9", "--model", "builtin:ant"];
-    refused_in_one_line(&bare, &["--model builtin:ant: no picture for it was found", "--texture skin"]);
-    refused_in_one_line(&["figures", "-o", &out, "--skin", "a.png"], &["--model"]);
+    refused_in_one_line(&bare, &["--model builtin:ant: no picture for it was found", "--model-picture"]);
+    refused_in_one_line(&["figures", "-o", &out, "--model-picture", "a.png"], &["--model"]);
     refused_in_one_line(&["figures", "-o", &out, "--frames", "0"], &["--frames"]);
 }
 

@@ -58,7 +58,7 @@ pub(super) struct Arguments {
     model: Option<String>,
 
     /// Picture for all surfaces of that model (PCX, PNG, TGA, BMP, JPEG, PPM) [default: the picture that the model names]
-    #[arg(long, value_name = "FILE", requires = "model")]
+    #[arg(long = "model-picture", value_name = "FILE", requires = "model")]
     skin: Option<PathBuf>,
 
     /// OpenGL from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works) [default: auto]
@@ -185,7 +185,7 @@ impl Arguments {
             _ => Err(Error::value(
                 "model",
                 path,
-                "no picture for it was found, and these figures draw with a model's own; name one with --skin",
+                "no picture for it was found, and these figures draw with a model's own; name one with --model-picture",
             )),
         }
     }
@@ -194,7 +194,7 @@ impl Arguments {
     fn textured_name(&self) -> Option<String> {
         let model = quoted(self.model.as_deref().unwrap_or(BUILTIN_CHARACTER));
         Some(match &self.skin {
-            Some(skin) => format!("{model} --skin {}", quoted(&skin.to_string_lossy())),
+            Some(skin) => format!("{model} --texture skin={}", quoted(&skin.to_string_lossy())),
             None => model,
         })
     }
