@@ -15,7 +15,7 @@ use std::str::FromStr;
 use tinta::lines::Progress;
 use tinta::picture::Note;
 use tinta::recipe::KEYWORD;
-use tinta::settings::Options;
+use tinta::settings::{OptionValue, Options};
 use tinta::styles::is_ignored;
 use tinta::{Error, ParseError, Recipe, Size, Target, TextTarget};
 
@@ -121,7 +121,11 @@ pub(crate) fn picture_of(pixels: &PyReadonlyArray3<'_, u8>) -> PyResult<tinta::P
 
 /// Settings in the command line's notation, without its dashes.
 pub(crate) fn words(options: &Options) -> String {
-    let words = options.iter().flat_map(|(name, value)| tinta::recipe::option_words(name, value));
-    let plain = |word: String| word.strip_prefix("--").map_or_else(|| tinta::shell::quoted(&word), python_name);
-    words.map(plain).collect::<Vec<_>>().join(" ")
+    let word = |(name, value): (&String, &OptionValue)| match value {
+        OptionValue::Switch(false) => None,
+        OptionValue::Switch(true) => Some(python_name(name)),
+        OptionValue::Text(text) => Some(format!("{} {}", python_name(name), tinta::shell::quoted(text))),
+        OptionValue::Texts(texts) => Some(format!("{} {}", python_name(name), tinta::shell::quoted(&texts.join(",")))),
+    };
+    options.iter().filter_map(word).collect::<Vec<_>>().join(" ")
 }

@@ -114,7 +114,10 @@ pub(super) fn in_groups(sentence: &str) -> String {
     for part in parts {
         let end = part.find(|c: char| !c.is_ascii_lowercase() && !c.is_ascii_digit() && c != '-').unwrap_or(part.len());
         let (name, rest) = part.split_at(end);
-        let setting = Request::table().settings.iter().find(|setting| setting.name == name);
+        // Within a file's name it is no option.
+        let is_option =
+            (text.is_empty() || text.ends_with([' ', '(', '`'])) && !rest.starts_with(['/', '\\', '.', '_']);
+        let setting = Request::table().settings.iter().find(|setting| is_option && setting.name == name);
         let Some((setting, group)) = setting.and_then(|setting| Some((setting, setting.group?))) else {
             text += &format!("--{part}");
             continue;
@@ -170,6 +173,7 @@ mod tests {
             ("--near and --far: they are equal", "--clip near and --clip far: they are equal"),
             ("leave out --transparent, or --tones 2", "leave out --background transparent, or --tones 2"),
             ("a -- b --no-such", "a -- b --no-such"),
+            ("/a--near/b --near.obj: gone", "/a--near/b --near.obj: gone"),
         ] {
             assert_eq!(in_groups(plain), said);
         }
