@@ -32,6 +32,7 @@ mod quantize;
 
 pub use numbered::NumberedName;
 
+use crate::clock::Instant;
 use crate::error::{Error, Result};
 use crate::output::{check_file, write_whole};
 use crate::picture::{Picture, Target};
@@ -40,7 +41,6 @@ use crate::scene::Size;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
-use std::time::Instant;
 
 /// The destination of an animation, checked before the work.
 #[derive(Debug, Clone, PartialEq, Eq)]

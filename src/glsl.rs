@@ -17,8 +17,8 @@ pub type Source = (&'static str, &'static str);
 
 macro_rules! sources {
     ($($path:literal),* $(,)?) => {
-        /// All shaders; a test compares this with the folder.
-        pub const SOURCES: &[Source] = &[$(($path, include_str!(concat!("../glsl/", $path)))),*];
+        /// All shaders; a test compares this with the folder. Static: a program holds them once.
+        pub static SOURCES: &[Source] = &[$(($path, include_str!(concat!("../glsl/", $path)))),*];
     };
 }
 

@@ -94,16 +94,15 @@
 //!
 //! # Cargo features
 //!
-//! The default ones bring the program: `cli` the command line, `window` the window, `file-dialogue` the system's dialogue in it.
-//! For the library alone turn them off with `default-features = false`, which leaves a third of the crates, and choose:
+//! The default ones, `cli` and `window`, bring the program, and 176 crates instead of 73 (`cargo tree -e normal --no-dedupe`). For the
+//! library alone turn them off with `default-features = false`, and choose:
 //!
 //! | feature | what it brings |
 //! |---|---|
-//! | `animation` | GIF, APNG and numbered pictures of a turn |
-//! | `formats` | glTF models, JPEG pictures |
+//! | `gltf` | glTF models, JPEG pictures |
 //! | `pdf` | drawings as PDF |
-//! | `presets` | options as TOML files, and [`request`] |
-//! | `recipes` | the data in a picture that draw it again; brings `presets` |
+//! | `cli` | the command line and its batches; brings `gltf` and `pdf` |
+//! | `window` | the window; brings `gltf` |
 //!
 //! `examples/embedding/` is a program that uses tinta in this way.
 //! Error against run time is measured by the package `tinta-lab`, which lies above this one.
@@ -150,19 +149,15 @@ pub mod drivers;
 pub mod orbit;
 #[doc(hidden)]
 pub mod keys;
-#[cfg(feature = "animation")]
 pub mod animation;
 
 // Presets, which reproduce the settings of a picture.
-#[cfg(feature = "presets")]
 pub mod preset;
 #[doc(hidden)]
 pub mod shell;
-#[cfg(feature = "presets")]
 pub mod recipe;
 #[doc(hidden)]
 pub mod record;
-#[cfg(feature = "presets")]
 pub mod request;
 
 // What pages of HTML begin with.
@@ -182,7 +177,6 @@ pub mod cli;
 #[cfg(feature = "cli")]
 extern crate self as tinta;
 
-#[cfg(feature = "animation")]
 pub use animation::{AnimationTarget, AnimationWriter};
 pub use camera::{Camera, CameraSettings, View};
 pub use edges::EdgeList;
@@ -194,12 +188,9 @@ pub use lines::{DrawingSettings, LineSettings, VisibleLines};
 pub use mesh::{LoadOptions, Mesh, load};
 pub use output::TextTarget;
 pub use picture::{Picture, Target};
-#[cfg(feature = "presets")]
 pub use preset::Preset;
-#[cfg(feature = "presets")]
 pub use recipe::Recipe;
 pub use renderer::Renderer;
-#[cfg(feature = "presets")]
 pub use request::Request;
 pub use scene::{Background, Color, Scene, SceneSettings, Size};
 pub use styles::{Show, Style, StyleName};

@@ -27,7 +27,7 @@ pub use materials::{MaterialPictures, material_pictures};
 use crate::error::{Error, Result};
 use crate::output::{Staged, check_file, check_name, write_standard_output, write_whole};
 use crate::values::Size;
-#[cfg(feature = "formats")]
+#[cfg(feature = "gltf")]
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::{bmp::BmpEncoder, png, pnm, tga::TgaEncoder};
 use image::{ExtendedColorType, ImageEncoder};
@@ -120,7 +120,7 @@ impl Picture {
                 let (compression, filter) = (png::CompressionType::Fast, png::FilterType::Adaptive);
                 png::PngEncoder::new_with_quality(out, compression, filter).write_image(pixels, width, height, color)
             }
-            #[cfg(feature = "formats")]
+            #[cfg(feature = "gltf")]
             PictureFormat::Jpeg => JpegEncoder::new_with_quality(out, 92).write_image(pixels, width, height, color),
             PictureFormat::Bmp => BmpEncoder::new(out).write_image(pixels, width, height, color),
             PictureFormat::Tga => TgaEncoder::new(out).write_image(pixels, width, height, color),
@@ -198,7 +198,7 @@ pub enum PictureFormat {
     /// Portable Network Graphics, with alpha if the picture has any.
     Png,
     /// JPEG, quality 92, no alpha.
-    #[cfg(feature = "formats")]
+    #[cfg(feature = "gltf")]
     Jpeg,
     /// Windows bitmap, no alpha.
     Bmp,
@@ -211,9 +211,9 @@ pub enum PictureFormat {
 impl PictureFormat {
     const EXTENSIONS: &[(&'static str, Self)] = &[
         ("png", Self::Png),
-        #[cfg(feature = "formats")]
+        #[cfg(feature = "gltf")]
         ("jpg", Self::Jpeg),
-        #[cfg(feature = "formats")]
+        #[cfg(feature = "gltf")]
         ("jpeg", Self::Jpeg),
         ("bmp", Self::Bmp),
         ("tga", Self::Tga),

@@ -35,7 +35,7 @@ pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
 pub use format::{DrawingFormat, Wanted};
 #[cfg(feature = "cli")]
-pub(crate) use gone::{gone, gone_command};
+pub(crate) use gone::gone;
 pub use layers::{OF_PAPER, OptionLayer, ignored_remark, layers, pixels_on_paper};
 #[cfg(feature = "cli")]
 pub(crate) use layers::{OF_PATHS, unknown};

@@ -58,7 +58,6 @@ pub use charcoal::{
 pub use coarse::coarse;
 pub use dietrich::Dietrich;
 pub use far_light::FarLight;
-#[cfg(feature = "presets")]
 pub(crate) use ignored::is_of_exact_lines;
 pub use ignored::{is_ignored, is_of_lines_alone, is_of_vectors};
 pub use ink::{Ink, Quality};
@@ -250,7 +249,6 @@ impl Style {
     /// # Errors
     ///
     /// Those of the settings.
-    #[cfg(feature = "presets")]
     pub(crate) fn without_borders(&self) -> Result<Self> {
         let mut style = self.clone();
         let without = Options::from([("no-borders".to_owned(), OptionValue::Switch(true))]);

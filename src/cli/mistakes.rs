@@ -4,7 +4,7 @@
 use super::groups::inside_now;
 use super::help::options;
 use crate::choice::{meant_or, nearest, no_option};
-use crate::request::{gone, gone_command};
+use crate::request::gone;
 use clap::Command;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::ffi::OsString;
@@ -12,6 +12,16 @@ use std::path::Path;
 
 /// The longest part of clap's message that is printed, in characters.
 const LONGEST_SENTENCE: usize = 400;
+
+/// Commands of earlier versions, and what took their place.
+const GONE_COMMANDS: [(&str, &str); 6] = [
+    ("completions", "tinta generate bash prints completions, for zsh and fish too"),
+    ("edges", "tinta info MODEL counts a model's edges by class"),
+    ("looks", "tinta render MODEL --look all -o DIR draws every look, and tinta render --help lists them"),
+    ("man", "tinta generate man -o DIR writes the manual pages"),
+    ("provenance", "docs/texts/errata.md says whose each value is"),
+    ("textures", "tinta figures draws charcoal's textures and the ramp"),
+];
 
 /// Turns clap's error about these words, the program's name first, into a sentence; `whole` is the command that parsed them.
 pub(super) fn sentence(error: &clap::Error, whole: &Command, words: &[OsString]) -> String {
@@ -55,6 +65,12 @@ fn texts(error: &clap::Error, kind: ContextKind) -> Option<&[String]> {
         Some(ContextValue::Strings(texts)) => Some(texts),
         _ => None,
     }
+}
+
+/// What took the place of a command of an earlier version; `None` for any other name.
+fn gone_command(name: &str) -> Option<String> {
+    let (_, instead) = GONE_COMMANDS.iter().find(|(gone, _)| *gone == name)?;
+    Some(format!("the command {name} is gone; {instead}"))
 }
 
 fn unknown_command(error: &clap::Error, whole: &Command) -> Option<String> {

@@ -256,7 +256,7 @@ impl Resources {
             .ok_or_else(|| Error::gl("drawing", "a plan was carried out without being prepared"))?;
         program.bind(self.into_textures);
         for uniform in &draw.uniforms {
-            program.set(&uniform.name, self.tile.value(uniform.value));
+            program.set(uniform.name.clone(), self.tile.value(uniform.value));
         }
         for (unit, (sampler, _)) in (0..).zip(&draw.textures) {
             program.set_sampler(fixed_function::sampler(draw, &drawing, unit).unwrap_or(sampler), unit);

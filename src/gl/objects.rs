@@ -180,12 +180,12 @@ impl Program {
     }
 
     /// Sets a uniform of this program, which is bound; a uniform that the driver optimised away is no error.
-    pub(super) fn set(&mut self, name: &Cow<'static, str>, value: plan::Value) {
+    pub(super) fn set(&mut self, name: Cow<'static, str>, value: plan::Value) {
         let gl = &self.live.0.glow;
         let id = self.id;
         // SAFETY: the context is current, this program alive and bound.
         let location =
-            self.locations.entry(name.clone()).or_insert_with(|| unsafe { gl.get_uniform_location(id, name) }).as_ref();
+            self.locations.entry(name).or_insert_with_key(|name| unsafe { gl.get_uniform_location(id, name) }).as_ref();
         let other = |x: f32| if x == 0.0 { 1.0 } else { 0.0 };
         // SAFETY: as above; the value has the type the shader declares, which a test of every program checks.
         unsafe {

@@ -96,7 +96,7 @@ impl Resources {
         width_px: f32,
     ) -> Result<()> {
         if let Some(program) = self.programs.get_mut(&fixed_function::smooth(mark)) {
-            program.set(&"width".into(), Value::Float(width_px));
+            program.set("width".into(), Value::Float(width_px));
         }
         for run in runs {
             let object = scene.objects.get(run.object).ok_or_else(of_another_scene)?;

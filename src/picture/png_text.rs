@@ -4,7 +4,6 @@ use crate::values::Size;
 use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
 /// Memory limit for reading a text, bytes.
-#[cfg(feature = "presets")]
 const LARGEST_BYTES: usize = 4 << 20;
 
 /// Encodes with the image crate's settings used elsewhere, and adds a `tEXt` chunk; `text` is ASCII. Opaque pixels have three
@@ -29,13 +28,11 @@ pub(super) fn encode(
 }
 
 /// Whether a file begins like PNG.
-#[cfg(feature = "presets")]
 pub(crate) fn is_png(head: &[u8]) -> bool {
     head.starts_with(b"\x89PNG\r\n\x1a\n")
 }
 
 /// Returns the `tEXt` chunk of this keyword, if it precedes the pixels; the error is a sentence without the file's name.
-#[cfg(feature = "presets")]
 pub(crate) fn find(head: &[u8], keyword: &str) -> Result<Option<String>, String> {
     use png::{Decoder, Limits};
     let decoder = Decoder::new_with_limits(std::io::Cursor::new(head), Limits { bytes: LARGEST_BYTES });

@@ -15,8 +15,8 @@ pub struct Look {
     text: &'static str,
 }
 
-/// All looks. The first is the default.
-pub const LOOKS: [Look; 4] = [
+/// All looks. The first is the default. Static: a program holds their texts once.
+pub static LOOKS: [Look; 4] = [
     Look {
         name: "print",
         about: "ink for paper at any size: even lines, three tones, the model's own colours",

@@ -1,7 +1,7 @@
 //! The presets that ship: the articles' constants, each a TOML file in `presets/` that names its source.
 
-/// Their names and texts.
-pub const SHIPPED: [(&str, &str); 5] = [
+/// Their names and texts; static: a program holds them once.
+pub static SHIPPED: [(&str, &str); 5] = [
     ("paper:evangelista-three-pass", include_str!("../../presets/evangelista-three-pass.toml")),
     ("paper:evangelista-two-pass", include_str!("../../presets/evangelista-two-pass.toml")),
     ("paper:dachsbacher-inking", include_str!("../../presets/dachsbacher-inking.toml")),

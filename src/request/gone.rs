@@ -24,22 +24,6 @@ pub(crate) fn gone(option: &str) -> Option<String> {
     Some(format!("this option is gone; {instead}"))
 }
 
-/// Commands of earlier versions, and what took their place.
-const GONE_COMMANDS: [(&str, &str); 6] = [
-    ("completions", "tinta generate bash prints completions, for zsh and fish too"),
-    ("edges", "tinta info MODEL counts a model's edges by class"),
-    ("looks", "tinta render MODEL --look all -o DIR draws every look, and tinta render --help lists them"),
-    ("man", "tinta generate man -o DIR writes the manual pages"),
-    ("provenance", "docs/texts/errata.md says whose each value is"),
-    ("textures", "tinta figures draws charcoal's textures and the ramp"),
-];
-
-/// What took the place of a command of an earlier version; `None` for any other name.
-pub(crate) fn gone_command(name: &str) -> Option<String> {
-    let (_, instead) = GONE_COMMANDS.iter().find(|(gone, _)| *gone == name)?;
-    Some(format!("the command {name} is gone; {instead}"))
-}
-
 /// The style of this name, as the option names it.
 ///
 /// # Errors

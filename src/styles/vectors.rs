@@ -50,7 +50,6 @@ const LISTED_WIDTH: LineWidth = LineWidth::Pixels(2);
 
 impl Style {
     /// The far light of this style's tones and the cosines at which they begin; `None` for a style without.
-    #[cfg(feature = "presets")]
     pub(crate) fn far_tones(&self) -> Option<(FarLight, [f32; 2])> {
         match self {
             Self::Ink(ink) => ink.tone_light.map(|light| (light, ink.tones.far_thresholds())),

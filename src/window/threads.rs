@@ -2,7 +2,6 @@
 
 pub(super) mod coarse;
 pub(super) mod cost;
-#[cfg(feature = "file-dialogue")]
 pub(super) mod dialogue;
 pub(super) mod draw;
 pub(super) mod exact;

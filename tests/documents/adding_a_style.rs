@@ -119,16 +119,7 @@ fn the_page_adds_a_style_whose_setting_is_found_at_every_door_nightly() {
     lines_style().put_into(&folder);
     let build = folder.with_file_name("build");
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args([
-        "build",
-        "--offline",
-        "--locked",
-        "--bin",
-        "tinta",
-        "--no-default-features",
-        "--features",
-        "cli,measuring",
-    ]);
+    cargo.args(["build", "--offline", "--locked", "--bin", "tinta", "--no-default-features"]);
     succeeds(cargo.current_dir(&folder).env("CARGO_TARGET_DIR", &build));
     let tinta = |words: &str| {
         let mut command = Command::new(build.join("debug/tinta"));

@@ -120,8 +120,8 @@ impl Pane {
                     if let Step::Draw(draw) = step
                         && let Some(program) = &draw.program
                     {
-                        shaders.push(program.vertex);
-                        shaders.extend(&program.fragments);
+                        shaders.push(&program.vertex);
+                        shaders.extend(program.fragments.iter().map(|fragment| &**fragment));
                     }
                 }
                 shaders.dedup();

@@ -11,9 +11,7 @@
 //!
 //! # Cargo features
 //!
-//! No feature is on by default; then [`measure`] measures how far a picture's ink is from the exact lines. `measuring` adds
-//! reports, figures and stress, `judging` other programs' drawings, `cli` the commands, `window` the measure that the window
-//! shows.
+//! None is on by default. `cli` brings the commands, `window` the measure that the window shows.
 
 #![deny(unreachable_pub)]
 
@@ -25,13 +23,9 @@ mod canvas;
 #[cfg(feature = "cli")]
 pub mod contact_sheet;
 pub mod measure;
-#[cfg(feature = "judging")]
 pub mod judge;
-#[cfg(feature = "measuring")]
 pub mod report;
-#[cfg(feature = "measuring")]
 pub mod figures;
-#[cfg(feature = "measuring")]
 pub mod stress;
 #[cfg(feature = "window")]
 mod window;

@@ -22,28 +22,18 @@ mod error_picture;
 mod ink;
 mod reference;
 mod row;
-#[cfg(feature = "measuring")]
 mod drawn;
-#[cfg(feature = "measuring")]
 mod run;
-#[cfg(feature = "measuring")]
 mod shading;
-#[cfg(feature = "measuring")]
 mod tone_borders;
-#[cfg(feature = "measuring")]
 mod tones;
 
-#[cfg(feature = "measuring")]
 pub use drawn::{line_options, measure_lines};
 pub use error_picture::error_picture;
 pub use ink::{INK_FROM, Ink, InkVerdicts, Verdict};
-#[cfg(feature = "judging")]
 pub(crate) use reference::samples_of;
 pub use reference::{Reference, SOFT_CREASE_DEGREES, Sample};
 pub use row::{Against, LineError, PassRow, Row, RunTime, ToneBorderError, ToneError};
-#[cfg(feature = "measuring")]
 pub use run::{MeasureSettings, MeasureStep, Measured, MeasuredStyle, Subject, frames_a_turn, measure, turns};
-#[cfg(feature = "measuring")]
 pub(crate) use run::{quartiles, shading_of};
-#[cfg(feature = "measuring")]
 pub use tones::ReferenceLight;

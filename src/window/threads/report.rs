@@ -58,7 +58,6 @@ pub enum Report {
     /// The exact lines of a view, or the reason why they failed.
     Lines(Box<Result<Found>>),
     /// Chosen models, possibly none.
-    #[cfg(feature = "file-dialogue")]
     Chosen(Vec<String>),
     /// A model's file has changed.
     ModelChanged,

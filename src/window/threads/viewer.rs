@@ -168,7 +168,6 @@ impl Viewer {
         let effect = self.state.update(event);
         match effect {
             Some(Effect::Open(models)) => self.open(models),
-            #[cfg(feature = "file-dialogue")]
             Some(Effect::Browse) => crate::window::threads::dialogue::choose(&self.state.models, self.reporter.clone()),
             Some(Effect::Save(kind)) => self.save(kind),
             effect @ Some(Effect::FullScreen(_) | Effect::Quit) => return effect,
@@ -503,9 +502,7 @@ impl Viewer {
             }
             Report::Measured(number, errors) => self.costs.measured(number, errors),
             Report::Lines(found) => self.lines.take(*found),
-            #[cfg(feature = "file-dialogue")]
             Report::Chosen(models) if models.is_empty() => self.state.message = Some("no file was chosen".to_owned()),
-            #[cfg(feature = "file-dialogue")]
             Report::Chosen(models) => self.open(models),
             Report::ModelChanged => self.open(self.state.models.clone()),
             Report::ShadersChanged(shaders) => {

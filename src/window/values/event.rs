@@ -99,7 +99,6 @@ pub enum ViewerEvent {
     /// The same back to its default.
     ModelDefault(String),
     /// The system's dialogue to choose models in.
-    #[cfg(feature = "file-dialogue")]
     Browse,
     /// Models to show instead, by their paths.
     Open(Vec<String>),
@@ -128,7 +127,6 @@ impl ViewerEvent {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Effect {
     /// Let the user choose models.
-    #[cfg(feature = "file-dialogue")]
     Browse,
     /// Read these models.
     Open(Vec<String>),

@@ -380,7 +380,6 @@ impl ViewerState {
                 let side = |pixels: u32| pixels.clamp(1, LARGEST_SIDE);
                 self.area = Size { width: side(width), height: side(height) };
             }
-            #[cfg(feature = "file-dialogue")]
             ViewerEvent::Browse => return Ok(Some(Effect::Browse)),
             ViewerEvent::Open(models) => return Ok((!models.is_empty()).then_some(Effect::Open(models))),
             ViewerEvent::SavePicture => return Ok(Some(Effect::Save(Save::Picture))),

@@ -71,7 +71,6 @@ fn models(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
     let names = state.model_names().join(", ");
     match file(ui, "model", RichText::new(&names), &state.models.join(", ")) {
         Some(path) if !path.is_empty() => events.push(ViewerEvent::Open(vec![path])),
-        #[cfg(feature = "file-dialogue")]
         Some(_) => events.push(ViewerEvent::Browse),
         _ => {}
     }

@@ -4,7 +4,6 @@ use super::ink::Ink;
 use super::reference::{Reference, Sample, distance, fine_tree, samples_of, total};
 use super::run::quartiles;
 use super::{LineError, MeasureSettings, Measured, Row, RunTime, Subject, error_picture};
-use std::time::Instant;
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
 use tinta::error::Result;
 use tinta::lines::{DrawingSettings, LineSettings, Raster, VisibleLines, raster};
@@ -13,6 +12,7 @@ use tinta::renderer::{median, milliseconds_since};
 use tinta::scene::{Scene, Size};
 use tinta::settings::Value;
 use tinta::styles::StyleName;
+use tinta_geometry::clock::Instant;
 
 /// The options of `tinta render` for the silhouettes that a rule finds, with options of the scene.
 pub fn line_options(silhouette: SilhouetteRule, scene_options: &str) -> String {

@@ -5,7 +5,6 @@ use super::ink::Ink;
 use super::reference::Reference;
 use super::tones::ReferenceLight;
 use super::{PassRow, Row, RunTime};
-use std::time::Instant;
 use tinta::edges::{ClassSet, Classes, MeshEdges, Silhouettes};
 use tinta::error::{Error, Result};
 use tinta::lines::LineSettings;
@@ -16,6 +15,7 @@ use tinta::plan::{Plan, Submission};
 use tinta::renderer::{Renderer, median, milliseconds_since};
 use tinta::scene::{Scene, Size};
 use tinta::styles::{Show, Style};
+use tinta_geometry::clock::Instant;
 
 /// A style with settings, and the user's options for it.
 #[derive(Debug, Clone, PartialEq)]
