@@ -158,7 +158,7 @@ impl SceneSettings {
             "background",
             "COLOR",
             Color::kind(),
-            "Colour behind the scene: a CSS name, #rrggbb or rgb(r,g,b)",
+            "Colour behind the scene: a CSS name, #rrggbb, rgb(r,g,b), or transparent",
             move |scene: &Self| match (scene.background, default()) {
                 (Background::Color(color), _) | (Background::Transparent, Background::Color(color)) => color.text(),
                 _ => String::new(),
