@@ -1,4 +1,4 @@
-//! A step's shader as text, each line with what it did at the pixel.
+//! A step's shader as text, each line with its effect at the pixel.
 
 use super::{Event, Explanation, What};
 

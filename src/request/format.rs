@@ -1,4 +1,4 @@
-//! The format of a drawing of lines, and what is to be found for it.
+//! The format of a drawing of lines, and the parts to find for it.
 
 use super::Request;
 use crate::error::{Error, Result};
@@ -20,14 +20,14 @@ pub enum DrawingFormat {
     Picture,
 }
 
-/// What is to be found for a drawing besides what it shows.
+/// The parts to find for a drawing besides those it shows.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Wanted {
     /// Every piece of line: hidden ones, short ones, those of the outline marked.
     pub all: bool,
     /// Hidden lines, and the number of places where smooth silhouettes break.
     pub hidden: bool,
-    /// What a style of passes has as vectors: areas of tone, and exact lines above them.
+    /// The vectors of a style of passes: areas of tone, and exact lines above them.
     pub areas: bool,
 }
 
@@ -36,7 +36,7 @@ fn extension(output: &str) -> Option<&str> {
 }
 
 impl DrawingFormat {
-    /// What is found for a file of this format; `is_told`: its numbers are reported.
+    /// The parts found for a file of this format; `is_told`: its numbers are reported.
     pub fn wanted(self, is_told: bool) -> Wanted {
         Wanted { all: self == Self::Json, hidden: is_told, areas: true }
     }
@@ -97,7 +97,7 @@ impl DrawingFormat {
     }
 }
 
-/// What the formats are for.
+/// The use of each format.
 const EXTENSIONS: &str = "use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf or .json for lines, .gif or .apng for an \
                           animation";
 
