@@ -98,7 +98,7 @@ def test_the_wheel_brings_the_program():
         (("--look", "charcoal"), {"look": "charcoal"}),
         (("--style", "three-pass", "--tones", "2"), {"style": "three-pass", "tones": 2}),
         (("--style", "inking", "--line-width", "3", "--silhouette", "exact"), {"style": "inking", "line_width": 3.0, "silhouette": "exact"}),
-        (("--transparent", "--show", "borders", "--style", "two-pass"), {"transparent": True, "show": "borders", "style": "two-pass"}),
+        (("--background", "transparent", "--show", "borders", "--style", "two-pass"), {"transparent": True, "show": "borders", "style": "two-pass"}),
         (("--look", "print", "--style", "three-pass"), {"look": "print", "style": "three-pass"}),
         (("--preset", "paper:dachsbacher-inking"), {"preset": "paper:dachsbacher-inking"}),
         (("--backend", "surfaceless", "--style", "inking", "--joints", "off"), {"backend": "surfaceless", "style": "inking", "joints": False}),
@@ -138,7 +138,9 @@ def test_arrays_are_drawn_as_the_file_of_them(tinta, cube):
 
 
 def in_python(sentence):
-    """A sentence of the program as the package says it."""
+    """A sentence of the program as the package says it: there, a setting inside an option has its own name."""
+    inside = r"--(?:clip|page|texture) (dpi|far|margin|near|skin|width-mm)(=?)"
+    sentence = re.sub(inside, lambda name: f"--{name[1]}" + name[2].replace("=", " "), sentence)
     sentence = re.sub(r"--([a-z-]+) (A4|inking)\b", r'--\1="\2"', sentence)
     sentence = re.sub(r"--([a-z][a-z-]*)", lambda name: name[1].replace("-", "_"), sentence)
     return sentence.replace("style lines", "lines()").removeprefix("tinta: ")
@@ -148,19 +150,19 @@ def in_python(sentence):
     "words, settings",
     [
         (("--line-width", "0"), {"line_width": 0}),
-        (("--margin", "3"), {"margin": 3}),
+        (("--page", "margin=3"), {"margin": 3}),
         (("--line-width", "1mm"), {"line_width": "1mm"}),
         (("--fov", "180"), {"fov": 180}),
         (("--height", "3"), {"height": 3}),
-        (("--near", "5", "--far", "1"), {"near": 5, "far": 1}),
+        (("--clip", "near=5,far=1"), {"near": 5, "far": 1}),
         (("--copies", "0"), {"copies": 0}),
         (("--weld", "2"), {"weld": 2}),
         (("--eye", "0,0,0", "--target", "0,0,0"), {"eye": (0, 0, 0), "target": [0, 0, 0]}),
         (("--silhouette", "paper"), {"silhouette": "paper"}),
-        (("--skin", "nowhere.png"), {"skin": "nowhere.png"}),
+        (("--texture", "skin=nowhere.png"), {"skin": "nowhere.png"}),
         (("--min-length", "-1"), {"min_length": -1}),
-        (("--page", "9x9mm", "--margin", "6"), {"page": "9x9mm", "margin": 6}),
-        (("--width-mm", "0"), {"width_mm": 0}),
+        (("--page", "9x9mm,margin=6"), {"page": "9x9mm", "margin": 6}),
+        (("--page", "width-mm=0"), {"width_mm": 0}),
     ],
 )
 def test_refusals_are_the_same_sentences(tinta, words, settings):

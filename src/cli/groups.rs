@@ -142,7 +142,7 @@ pub(super) fn inside_now(name: &str) -> Option<String> {
     let setting = Request::table().settings.iter().find(|setting| setting.name == name)?;
     let group = setting.group?;
     let value = if setting.kind == Kind::Flag { String::new() } else { format!("={}", setting.value_name) };
-    Some(format!("this is a part of --{group} now; write --{group} {name}{value}"))
+    Some(format!("{name} is inside an option; write --{group} {name}{value}"))
 }
 
 #[cfg(test)]

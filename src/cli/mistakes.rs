@@ -93,8 +93,9 @@ fn unknown_option(error: &clap::Error, command: &Command, words: &[OsString]) ->
     if !name.starts_with('-') {
         return Some(surplus(command, &shortened(word)));
     }
-    if let Some(problem) = gone(name.trim_start_matches('-')).or_else(|| inside_now(name.trim_start_matches('-'))) {
-        return Some(format!("{name}: {problem}"));
+    let bare = name.trim_start_matches('-');
+    if let Some(problem) = gone(bare).map(|problem| format!("{name}: {problem}")).or_else(|| inside_now(bare)) {
+        return Some(problem);
     }
     let command_name = match command.get_name() {
         "tinta" => "tinta".to_owned(),
