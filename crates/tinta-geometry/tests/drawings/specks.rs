@@ -100,12 +100,14 @@ fn what_closes_a_line_stays_however_short_its_parts_are() {
     );
 }
 
+/// A line through these points.
+fn way(points: &[[f64; 2]]) -> Vec<LineSegment> {
+    points.windows(2).map(|pair| segment(Silhouette, true, pair[0], pair[1])).collect()
+}
+
 #[test]
 fn of_a_slivers_two_sides_one_stays() {
     let [from, to] = [[40.0, 20.0], [41.0, 20.0]];
-    let way = |points: &[[f64; 2]]| -> Vec<LineSegment> {
-        points.windows(2).map(|pair| segment(Silhouette, true, pair[0], pair[1])).collect()
-    };
     let sliver = [way(&[from, [40.5, 20.4], to]), way(&[from, to])].concat();
     let ends = [segment(Silhouette, true, [10.0, 20.0], from), segment(Silhouette, true, to, [70.0, 20.0])];
     let all: Vec<LineSegment> = sliver.iter().chain(&ends).cloned().collect();
@@ -115,6 +117,43 @@ fn of_a_slivers_two_sides_one_stays() {
     let large = [way(&[from, [40.5, 26.0], to]), way(&[from, to])].concat();
     let all: Vec<LineSegment> = large.iter().chain(&ends).cloned().collect();
     assert_eq!(kept(&all).len(), 5);
+}
+
+#[test]
+fn a_slivers_side_stays_if_its_way_around_is_long_narrow_or_in_a_crowd() {
+    let [from, to] = [[40.0, 20.0], [41.0, 20.0]];
+    let line = [way(&[[10.0, 20.0], from]), way(&[from, to]), way(&[to, [70.0, 20.0]])].concat();
+    let stays = |more: &[LineSegment], settings: &DrawingSettings| {
+        kept_with(&[&line[..], more].concat(), settings).contains(&[from, to].map(DVec2::from_array))
+    };
+    let settings = DrawingSettings::default();
+    let bent = |y: f64| way(&[from, [40.2, y], [40.5, y], to]);
+    assert!(!stays(&bent(20.5), &settings));
+    // All of it is within a width of the side.
+    let winding = way(&[from, [40.3, 20.7], [40.5, 20.1], [40.7, 20.7], to]);
+    assert!(stays(&winding, &settings), "2.8 pixels, lines of 2");
+    let as_boundary = |line: Vec<LineSegment>| -> Vec<LineSegment> {
+        line.into_iter().map(|segment| LineSegment { class: Boundary, ..segment }).collect()
+    };
+    let narrow = DrawingSettings { class_widths: "boundary=1.9".parse().unwrap(), ..DrawingSettings::default() };
+    assert!(!stays(&as_boundary(bent(20.5)), &settings));
+    assert!(stays(&as_boundary(bent(20.5)), &narrow));
+    // Many lines from one corner of the sliver.
+    let crowd = |count: u32| -> Vec<LineSegment> {
+        let ray = |k: u32| way(&[from, [10.0 + f64::from(k), 70.0]]);
+        [(0..count).flat_map(ray).collect(), bent(20.5)].concat()
+    };
+    assert!(!stays(&crowd(40), &settings));
+    assert!(stays(&crowd(80), &settings));
+}
+
+#[test]
+fn a_slivers_side_goes_beside_a_line_that_is_not_cut_there() {
+    let long = way(&[[10.0, 20.0], [70.0, 20.0]]);
+    let beside = way(&[[40.0, 20.0], [40.5, 20.4], [41.0, 20.0]]);
+    let far = way(&[[40.0, 20.0], [40.5, 22.0], [41.0, 20.0]]);
+    assert_eq!(kept(&[&long[..], &beside].concat()).len(), 1);
+    assert_eq!(kept(&[long, far].concat()).len(), 3);
 }
 
 #[test]

@@ -15,7 +15,7 @@
 
 mod doubled;
 mod strokes;
-mod shortest_path;
+mod way_around;
 
 use crate::bvh::steps;
 use crate::edges::ClassSet;
@@ -27,7 +27,6 @@ use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::progress::{Phase, Progress};
 use crate::threads::{cores, in_chunks};
 use glam::DVec2;
-use shortest_path::ShortestPaths;
 use strokes::{Branch, Stroke, Strokes};
 
 impl VisibleLines {
@@ -127,7 +126,6 @@ impl Strokes<'_> {
         });
         progress.go_on()?;
         let mut is_needed = vec![false; self.strokes.len()];
-        let mut paths = ShortestPaths::new(self);
         progress.begin(Phase::TooShort, sides.len());
         let mut before = steps();
         for (branch, places) in sides.into_iter().zip(places_touched.into_iter().flatten()) {
@@ -138,10 +136,10 @@ impl Strokes<'_> {
             if branch.strokes.iter().any(|stroke| is_needed[*stroke] || is_gone[*stroke]) {
                 continue;
             }
-            let Some([from, to]) = places else { continue };
+            let Some(places) = places else { continue };
             let may_use = |stroke: usize| !is_gone[stroke] && !branch.strokes.contains(&stroke);
-            if let Some(route) = paths.shortest(self, branch, [from, to], may_use) {
-                route.into_iter().for_each(|stroke| is_needed[stroke] = true);
+            if let Some(way) = self.way_around(branch, places, may_use) {
+                way.into_iter().for_each(|stroke| is_needed[stroke] = true);
                 branch.strokes.iter().for_each(|stroke| is_gone[*stroke] = true);
             }
         }
