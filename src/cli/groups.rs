@@ -142,7 +142,9 @@ pub(super) fn inside_now(name: &str) -> Option<String> {
     let setting = Request::table().settings.iter().find(|setting| setting.name == name)?;
     let group = setting.group?;
     let value = if setting.kind == Kind::Flag { String::new() } else { format!("={}", setting.value_name) };
-    Some(format!("{name} is inside an option; write --{group} {name}{value}"))
+    // Many programs mean a sheet by it.
+    let sheet = if name == "paper" { ", or --page A4 for a sheet of paper" } else { "" };
+    Some(format!("{name} is inside an option; write --{group} {name}{value}{sheet}"))
 }
 
 #[cfg(test)]

@@ -201,7 +201,11 @@ fn edges(model: &str, arguments: &Arguments) -> Result<()> {
     let mut counts = Classes::new(mesh, list, crease_angle, ClassSet::EDGES).counts();
     counts.silhouette = Silhouettes::new(mesh, list).find(mesh, list, scene.eye(object, rule), rule).len();
     if !arguments.json {
-        return super::print(&edges_in_words(list.len(), counts, list.reversed_edges()));
+        let (low, high) = mesh.bounds();
+        let names: Vec<&str> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
+        let size = format!("{:<16}{} to {}, in the coordinates of --eye\n", "size", low, high);
+        let parts = if names.is_empty() { String::new() } else { format!("{:<16}{}\n", "parts", names.join(", ")) };
+        return super::print(&(size + &parts + &edges_in_words(list.len(), counts, list.reversed_edges())));
     }
     let classes: Vec<Class> = ClassSet::EDGES.classes().collect();
     let classes = classes.into_iter().map(|class| (class.name().to_owned(), json!(*counts.of(class))));

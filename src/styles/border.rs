@@ -106,8 +106,7 @@ impl Border {
              pixels, as the filter draws them; 2 in style ink)",
             |border: &mut Self| &mut border.width,
         )
-        .printed("E, appendix 1: the filter reads the next pixels")
-        .common();
+        .printed("E, appendix 1: the filter reads the next pixels");
         under(CARTOON, filter).chain(under(IMAGE_SPACE, vec![width])).collect()
     }
 

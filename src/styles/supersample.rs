@@ -29,7 +29,6 @@ impl Supersample {
         Setting::field("supersample", "N", Self::HELP, field)
             .ours("no text draws larger than its picture")
             .said("1; ink --quality best: 2")
-            .common()
     }
 
     /// The factor.

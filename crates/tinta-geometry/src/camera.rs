@@ -258,8 +258,7 @@ impl CameraSettings {
                 "Fit of the model in the picture: middle (centre its bounding box, the same point in every view) or outline \
                  (centre its outline, which then fills the picture)",
                 |camera: &mut Self| &mut camera.framing,
-            )
-            .common(),
+            ),
             Setting::open_field(
                 "height",
                 "LENGTH",
@@ -275,10 +274,14 @@ impl CameraSettings {
                 |camera: &mut Self| &mut camera.eye,
             )
             .said("in direction --view, far enough to show the whole scene"),
-            Setting::open_field("target", "X,Y,Z", "centre", "Point that the camera looks at, in the coordinates of \
-                --eye", |camera: &mut Self| {
-                &mut camera.target
-            })
+            Setting::open_field(
+                "target",
+                "X,Y,Z",
+                "centre",
+                "Point that the camera looks at, in the coordinates of \
+                --eye",
+                |camera: &mut Self| &mut camera.target,
+            )
             .said("the scene's centre"),
             Setting::open_field("up", "X,Y,Z", "y", "Direction that is up in the picture", |camera: &mut Self| {
                 &mut camera.up

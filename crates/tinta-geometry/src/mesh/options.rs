@@ -69,8 +69,7 @@ impl LoadOptions {
                 "AXIS",
                 "Axis that points up in the file: auto (z in STL, MD2 and 3DS, else y), x, y, z, -x, -y, -z",
                 |load: &mut Self| &mut load.up_axis,
-            )
-            .common(),
+            ),
             Setting::field(
                 "weld",
                 "SHARE",
@@ -120,7 +119,8 @@ impl LoadOptions {
                 "Cut away all beyond a plane, such as x=12 or 1,1,0=5, in the coordinates of --eye; cut faces are the part section",
                 |load: &mut Self| &mut load.section,
             )
-            .said("nothing is cut away"),
+            .said("nothing is cut away")
+            .common(),
             Setting::flag(
                 "allow-external",
                 "Also read material files, data and pictures outside the model's folder",

@@ -67,7 +67,7 @@ impl Hatching {
             |hatching: &mut Self| &mut hatching.angle_degrees,
         )
         .inside("hatch");
-        vec![spacing.open(NONE).said("none, areas"), angle.range(-90.0, 90.0, 0)]
+        vec![spacing.open(NONE).said("none, areas").common(), angle.range(-90.0, 90.0, 0)]
     }
 
     /// Refuses a spacing outside `allowed`, millimetres without a size on paper, and angles beyond a full turn.

@@ -138,7 +138,8 @@ impl DrawingSettings {
                 svg.page_size = if text == UNSET { PageSize::Unset } else { PageSize::Paper(Paper::parse(text)?) };
                 Ok(())
             },
-        );
+        )
+        .common();
         let (name, value_name, help) = LINE_WIDTH;
         let (low, high, decimals) = LINE_WIDTH_RANGE;
         let settings = vec![
@@ -152,7 +153,8 @@ impl DrawingSettings {
                 "Hidden lines: none, dashed (grey) or ghost (faint; unbroken and in full colour with --pen); half as \
                  wide as the visible ones, or as --class-widths and the look say, in layers below them",
                 |svg: &mut Self| &mut svg.hidden,
-            ),
+            )
+            .common(),
             Setting::field(
                 "class-widths",
                 "WIDTHS",
