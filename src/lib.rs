@@ -94,7 +94,7 @@
 //!
 //! # Cargo features
 //!
-//! The default ones, `cli` and `window`, bring the program, and 176 crates instead of 73 (`cargo tree -e normal --no-dedupe`). For the
+//! The default ones, `cli` and `window`, bring the program, and 176 crates instead of 71 (`cargo tree -e normal --no-dedupe`). For the
 //! library alone turn them off with `default-features = false`, and choose:
 //!
 //! | feature | what it brings |
