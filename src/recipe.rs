@@ -322,16 +322,15 @@ pub fn option_words(name: &str, value: &OptionValue) -> Vec<String> {
         T::table().settings.iter().find(|setting| setting.name == name)?.group
     }
     let group = group::<Style>(name).or_else(|| group::<SceneSettings>(name)).or_else(|| group::<LoadOptions>(name));
-    match value {
-        OptionValue::Switch(false) => Vec::new(),
-        // Inside another option.
-        OptionValue::Switch(true) if let Some(group) = group => vec![format!("--{group}"), name.to_owned()],
-        OptionValue::Text(value) if let Some(group) = group => vec![format!("--{group}"), format!("{name}={value}")],
-        OptionValue::Switch(true) => vec![format!("--{name}")],
+    match (value, group) {
+        (OptionValue::Switch(false), _) => Vec::new(),
+        (OptionValue::Switch(true), Some(group)) => vec![format!("--{group}"), name.to_owned()],
+        (OptionValue::Switch(true), None) => vec![format!("--{name}")],
+        (OptionValue::Texts(values), _) => option_words(name, &OptionValue::Text(values.join(","))),
+        (OptionValue::Text(value), Some(group)) => vec![format!("--{group}"), format!("{name}={value}")],
         // As a separate word it would be parsed as an option.
-        OptionValue::Texts(values) => option_words(name, &OptionValue::Text(values.join(","))),
-        OptionValue::Text(value) if value.starts_with('-') => vec![format!("--{name}={value}")],
-        OptionValue::Text(value) => vec![format!("--{name}"), value.clone()],
+        (OptionValue::Text(value), None) if value.starts_with('-') => vec![format!("--{name}={value}")],
+        (OptionValue::Text(value), None) => vec![format!("--{name}"), value.clone()],
     }
 }
 
