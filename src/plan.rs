@@ -77,11 +77,7 @@ pub struct Pass {
 }
 
 /// One operation of GL.
-// With 32-bit addresses the variant is smaller.
-#[cfg_attr(
-    target_pointer_width = "64",
-    expect(clippy::large_enum_variant, reason = "most steps draw, and a plan has about ten: a box would save nothing")
-)]
+#[expect(clippy::large_enum_variant, reason = "most steps draw, and a plan has about ten: a box would save nothing")]
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Step {
