@@ -54,7 +54,7 @@ impl Picture {
     }
 
     /// Whether all its pixels are the same.
-    pub fn is_of_one_color(&self) -> bool {
+    pub(crate) fn is_of_one_color(&self) -> bool {
         // Bytes that equal those of the pixel before.
         self.pixels.get(4..).is_none_or(|rest| *rest == self.pixels[..rest.len()])
     }

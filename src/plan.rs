@@ -398,7 +398,7 @@ impl Plan {
     }
 
     /// Returns every set of textures that its passes draw into, once.
-    pub fn attachments(&self) -> Vec<&'static Attachments> {
+    pub(crate) fn attachments(&self) -> Vec<&'static Attachments> {
         let mut all = Vec::new();
         for pass in &self.passes {
             if let Target::Textures(attachments) = pass.target

@@ -14,6 +14,7 @@ mod regions;
 
 pub use camera::CameraRecord;
 pub use lines::{LineCounts, LinesMade, drawing_json};
+pub(crate) use regions::px_per_unit;
 pub use regions::regions_json;
 
 use crate::gl::ContextInfo;

@@ -296,7 +296,7 @@ impl Style {
             remarks.push(remark.to_owned());
         }
         let draws_curves = matches!(self, Self::Inking(_));
-        if !draws_curves && scene.objects.iter().any(|object| !object.mesh.curves.is_empty()) {
+        if !draws_curves && scene.objects.iter().any(|object| object.mesh.curves.has_own()) {
             remarks.push(
                 "the model's own curves and points are not drawn; --style lines draws them, and inking beside faces"
                     .to_owned(),

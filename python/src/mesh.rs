@@ -11,6 +11,7 @@ use pyo3::types::PyDict;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 use tinta::glam::{DVec3, Vec3};
+use tinta::mesh::Curves;
 use tinta::settings::{HasSettings, Options};
 use tinta::{LoadOptions, Request, Result, Scene, SceneSettings, load};
 
@@ -324,9 +325,9 @@ impl Mesh {
         let points_of = |array| checked_vertices(&vectors(array)).map_err(|problem| wrong("pickle", problem));
         let positions = points_of(vertices)?;
         let normals: Vec<f32> = normals.as_array().iter().copied().collect();
-        let (free, free_vertices, segments, points, labels) = curves;
-        let curves =
-            tinta::mesh::Curves { positions: points_of(free)?, file_vertices: free_vertices, segments, points, labels };
+        let (free, of_file, segments, points, labels) = curves;
+        let free = points_of(free)?;
+        let curves = Curves { positions: free, file_vertices: of_file, segments, points, labels, hatching: 0 };
         let mesh = tinta::Mesh {
             curves,
             marked: Vec::new(),

@@ -2,6 +2,7 @@
 
 use super::CameraRecord;
 use super::json::json;
+use crate::camera::Projection;
 use crate::error::Result;
 use crate::lines::{Region, Regions, Surface};
 use crate::scene::{Object, Scene};
@@ -26,6 +27,8 @@ struct RegionRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     face: Option<u32>,
     area_px: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    area: Option<f64>,
     loops: Vec<Vec<[f64; 2]>>,
 }
 
@@ -33,7 +36,7 @@ struct RegionRecord {
 /// per line of the text.
 ///
 /// A region has its `object`, `null` for background; its `material`, `tone` and `face`, each if all of the region has it in
-/// common; its area without holes, square pixels; its loops, the outer one first, then holes, which run the other way: corners in
+/// common; its area without holes, square pixels, and in parallel projection the same in square units of the model; its loops, the outer one first, then holes, which run the other way: corners in
 /// pixels, y down.
 ///
 /// # Errors
@@ -45,6 +48,14 @@ pub fn regions_json(regions: &Regions<Option<Surface>>, scene: &Scene) -> Result
     write_regions(regions, scene, &mut text)?;
     text.push_str("}\n");
     Ok(text)
+}
+
+/// The pixels of a length of the model, which all of a parallel projection has in common.
+pub(crate) fn px_per_unit(scene: &Scene) -> Option<f64> {
+    match scene.camera.projection {
+        Projection::Parallel { height } => Some(f64::from(scene.size.height) / height),
+        Projection::Perspective { .. } => None,
+    }
 }
 
 /// Writes the members `objects` and `regions` of a JSON object.
@@ -62,6 +73,7 @@ pub(super) fn write_regions(regions: &Regions<Option<Surface>>, scene: &Scene, t
             tone: seen.and_then(|surface| surface.tone),
             face: seen.and_then(|surface| surface.face),
             area_px: *area_px,
+            area: px_per_unit(scene).map(|px_per_unit| area_px / px_per_unit.powi(2)),
             loops: loops.iter().map(|corners| corners.iter().map(|corner| corner.to_array()).collect()).collect(),
         };
         text.push_str(if index == 0 { "\n" } else { ",\n" });

@@ -121,8 +121,9 @@ impl Request {
     pub fn models(&self, cache: &ModelCache) -> Result<ReadModels> {
         let start = Instant::now();
         let mut models = ReadModels { meshes: Vec::new(), files: Vec::new(), stages: Vec::new(), ms: 0.0 };
+        let read = self.read_to_scale()?;
         for path in &self.models {
-            let model = cache.read(path, &self.read)?;
+            let model = cache.read(path, &read)?;
             models.meshes.push(model.mesh.clone());
             models.files.extend(model.files.iter().cloned());
             for (stage, ms) in &model.stages {

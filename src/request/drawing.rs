@@ -7,14 +7,14 @@ use super::{DrawingFormat, Request, Wanted};
 use crate::edges::SilhouetteRule;
 use crate::error::{Error, Result};
 use crate::lines::{
-    DrawingSettings, Hidden, LinePath, LineSettings, Progress, Raster, Strokes, VisibleLines, chain, dxf_of_paths,
-    raster_of_paths, strokes_of_paths, svg_of_paths,
+    DrawingSettings, Hidden, LinePath, LineSettings, PageSize, Progress, Raster, Strokes, VisibleLines, chain,
+    dxf_of_paths, raster_of_paths, strokes_of_paths, svg_of_paths,
 };
 use crate::output::TextTarget;
 use crate::picture::{Note, Picture, Target};
 use crate::plan::Plan;
 use crate::recipe::Recipe;
-use crate::record::drawing_json;
+use crate::record::{drawing_json, px_per_unit};
 use crate::scene::{Scene, Unseen};
 use crate::settings::HasSettings;
 use crate::styles::{LineStyle, Show, Style, Vectors, ViewAreas};
@@ -271,10 +271,12 @@ impl Request {
         if self.is_of_areas_alone()? {
             return Ok(VisibleLines::none(scene.size));
         }
-        match style.sheet {
-            Some(angle) => VisibleLines::on_sheet(scene, &lines, angle, progress),
-            None => VisibleLines::with_progress(scene, &lines, progress),
+        if let Some(angle) = style.sheet {
+            return VisibleLines::on_sheet(scene, &lines, (angle, &style.drawing), progress);
         }
+        let mut found = VisibleLines::with_progress(scene, &lines, progress)?;
+        found.put_to_scale(px_per_unit(scene), &style.drawing)?;
+        Ok(found)
     }
 
     /// Makes the drawing of lines that [`Request::all_lines`] found: without those too short to see, with the areas below.
@@ -296,6 +298,11 @@ impl Request {
         };
         let mut remarks = scene.crack_remarks();
         remarks.extend(scene.far_remark());
+        let fills = matches!(style.drawing.page_size, PageSize::Paper(_)) && lines.px_per_mm.is_none();
+        if fills && self.options.contains_key("height") {
+            remarks
+                .push("--height does not set the scale, as the drawing fills its paper; --scale 1:1 does".to_owned());
+        }
         // Over a picture of pixels no areas are wanted.
         let vectors = if wanted.areas || self.style.lines().is_some() { self.vectors()? } else { None };
         let mut areas = vectors.as_ref().map(|vectors| vectors.areas(&scene, &lines, progress)).transpose()?;

@@ -6,6 +6,7 @@ use crate::camera;
 use crate::choice::meant_or;
 use crate::error::{Error, Result};
 use crate::lines::DrawingSettings;
+use crate::mesh::SectionPlane;
 use crate::preset::{LOOKS, Look, Preset};
 use crate::scene::SceneSettings;
 use crate::settings::{EXCLUSIVE, HasSettings, OptionValue, Options, refuse_exclusive};
@@ -58,7 +59,7 @@ impl Read {
             OptionLayer::Style(_) => Self { options: Options::new(), file: None, is_look: false },
             OptionLayer::Look(look) => of_file(&look.preset()?, true),
             OptionLayer::File(file) | OptionLayer::Camera(file) => of_file(file, false),
-            OptionLayer::Given(options) => Self { options: options.clone(), file: None, is_look: false },
+            OptionLayer::Given(options) => Self { options: given(options), file: None, is_look: false },
         })
     }
 
@@ -92,6 +93,18 @@ impl Read {
             checked => checked.map(|()| self),
         }
     }
+}
+
+/// Options as given by hand: a section is meant in the axes of the model's file.
+fn given(options: &Options) -> Options {
+    let mut options = options.clone();
+    if let Some(OptionValue::Text(plane)) = options.get_mut("section")
+        && plane.contains('=')
+        && !plane.starts_with(SectionPlane::OF_FILE)
+    {
+        plane.insert_str(0, SectionPlane::OF_FILE);
+    }
+    options
 }
 
 /// The error for an unknown option.
@@ -222,7 +235,7 @@ fn is_of_files(option: &str) -> bool {
 pub(crate) const OF_PATHS: [&str; 5] = ["provenance", "pen", "fit-curves", "hatch", "hatch-angle"];
 
 /// The options that are about paper.
-pub const OF_PAPER: [&str; 4] = ["page", "width-mm", "dpi", "margin"];
+pub const OF_PAPER: [&str; 6] = ["page", "width-mm", "dpi", "margin", "scale", "units"];
 
 /// The error about a paper size for pixels.
 pub fn pixels_on_paper(options: &Options) -> String {

@@ -4,12 +4,15 @@ use super::Request;
 use crate::camera::View;
 use crate::error::Result;
 use crate::lines::lit_scene;
-use crate::mesh::Mesh;
+use crate::mesh::{LoadOptions, Mesh};
 use crate::scene::Scene;
 use crate::settings::{OptionValue, Options, Value as _};
-use crate::styles::FarLight;
+use crate::styles::{FarLight, LineStyle};
 use std::borrow::Cow;
 use std::sync::Arc;
+
+/// Distance of the strokes on a cut of a drawing to scale, millimetres on paper.
+const HATCHING_MM: f64 = 2.5;
 
 /// The thickness of a sheet, as a share of its length.
 const FLAT: f64 = 1e-3;
@@ -21,8 +24,11 @@ impl Request {
     ///
     /// Those of [`Scene::new`].
     pub(crate) fn scene(&self, meshes: Vec<Arc<Mesh>>) -> Result<Scene> {
-        let mut scene = Scene::new(meshes, &self.scene)?;
         let mut settings = Cow::Borrowed(&self.scene);
+        if self.is_to_scale()? && !settings.camera.parallel {
+            settings.to_mut().camera.parallel = true;
+        }
+        let mut scene = Scene::new(meshes, &settings)?;
         if let Some(view) = self.view_of_sheet(&scene) {
             settings.to_mut().camera.view = view;
             scene = scene.seen_with(&settings)?;
@@ -31,6 +37,24 @@ impl Request {
             scene = scene.with_shadow_in_view(&settings, light)?;
         }
         Ok(self.lit(scene))
+    }
+
+    /// Whether one view is drawn to scale, which is a parallel projection's.
+    fn is_to_scale(&self) -> Result<bool> {
+        Ok(self.line_style()?.is_some_and(|style| style.drawing.scale.is_some() && style.sheet.is_none()))
+    }
+
+    /// How the models are read: with a cut's strokes as far apart on paper as they should be, if the drawing is to scale.
+    pub(super) fn read_to_scale(&self) -> Result<Cow<'_, LoadOptions>> {
+        let scale = |style: LineStyle| Some(style.drawing.scale?.of_model(HATCHING_MM, style.drawing.units));
+        let spacing = match (self.read.section, self.read.section_hatch) {
+            (Some(_), None) => self.line_style()?.and_then(scale),
+            _ => None,
+        };
+        Ok(match spacing {
+            Some(_) => Cow::Owned(LoadOptions { section_hatch: spacing, ..self.read.clone() }),
+            None => Cow::Borrowed(&self.read),
+        })
     }
 
     /// The view along the normal of models that are a flat sheet, in place of a look's: from there a sheet is seen as what it is.

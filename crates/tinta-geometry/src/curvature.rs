@@ -118,7 +118,7 @@ impl Curvatures {
     /// The unit of length for thresholds, in file units. Take the 10th percentile of all principal curvatures by
     /// absolute value: the unit is 1 % of its radius of curvature, and at most 5 % of the mesh's radius. The viewer
     /// by the authors of suggestive contours uses the same unit.
-    pub fn feature_size(&self) -> f64 {
+    pub(crate) fn feature_size(&self) -> f64 {
         self.feature_size
     }
 }

@@ -42,11 +42,13 @@ mod regions;
 mod segment;
 mod settings;
 mod sheet;
+mod sheet_text;
 mod smooth;
 #[cfg(test)]
 mod smooth_tests;
 #[cfg(test)]
 mod stiff_tests;
+mod to_scale;
 mod visible;
 mod visible_lines;
 mod why;
@@ -70,6 +72,7 @@ pub use drawing::length::{Length, Millimetres, Units, line_width};
 pub use drawing::page::{PageSize, Paper, Sheet, Turn};
 #[doc(hidden)]
 pub use drawing::painted::painted;
+pub use drawing::scale::{ModelUnit, Scale};
 pub use drawing::settings::{DrawingSettings, Hidden};
 #[doc(hidden)]
 pub use eye::cast::{Hit, first_hits};
@@ -173,6 +176,7 @@ impl VisibleLines {
             edges: candidates.counts,
             covered_triangles: objects.iter().map(ObjectEdges::covered).sum(),
             changes,
+            px_per_mm: None,
             times: LineTimes { topology_ms, silhouette_ms, visibility_ms, compared },
         })
     }

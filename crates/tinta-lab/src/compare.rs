@@ -47,12 +47,12 @@ impl InkMask {
     }
 
     /// A mask of these pixels' darkness, of 255, row by row from the top: ink is at least a quarter dark.
-    pub fn of_darkness(size: Size, darkness: &[u8]) -> Self {
+    pub(crate) fn of_darkness(size: Size, darkness: &[u8]) -> Self {
         Self::of_darkness_from(size, darkness, INK_FROM)
     }
 
     /// The same, with another least darkness of ink.
-    pub fn of_darkness_from(size: Size, darkness: &[u8], from: u8) -> Self {
+    pub(crate) fn of_darkness_from(size: Size, darkness: &[u8], from: u8) -> Self {
         Self { size, ink: darkness.iter().map(|darkness| *darkness >= from).collect() }
     }
 
@@ -74,7 +74,7 @@ impl InkMask {
     }
 
     /// The pixels that contain points, given from the upper left corner, y down; points outside the picture are left out.
-    pub fn of_points(size: Size, points: impl Iterator<Item = DVec2>) -> Self {
+    pub(crate) fn of_points(size: Size, points: impl Iterator<Item = DVec2>) -> Self {
         let mut ink = vec![false; size.pixel_count()];
         for point in points {
             let (x, y) = (point.x.floor(), point.y.floor());
@@ -96,7 +96,7 @@ impl InkMask {
     }
 
     /// Number of ink pixels without ink of the other picture, of the same size, within `radius_px`: ink that did not merely move.
-    pub fn count_far_from(&self, other: &Self, radius_px: u32) -> usize {
+    pub(crate) fn count_far_from(&self, other: &Self, radius_px: u32) -> usize {
         self.ink.iter().zip(other.grown(radius_px)).filter(|(ink, near)| **ink && !near).count()
     }
 

@@ -14,6 +14,7 @@ pub(super) mod layers;
 pub(super) mod length;
 pub(super) mod outline_runs;
 pub(super) mod page;
+pub(super) mod scale;
 pub(super) mod painted;
 pub(super) mod pen;
 pub(super) mod settings;

@@ -6,9 +6,14 @@
 use crate::camera::CameraSettings;
 use crate::edges::Class;
 use crate::error::{Error, Result};
+use crate::lines::drawing::scale::round_below;
+use crate::lines::drawing::settings::DrawingSettings;
+use crate::lines::sheet_text::{strokes, width_of};
 use crate::lines::{Label, LineSegment, LineSettings, Progress, VisibleLines};
 use crate::scene::{Scene, Size};
+use crate::settings::Value;
 use glam::{BVec3, DMat3, DVec2, DVec3};
+use std::f64::consts::TAU;
 
 crate::choices! {
     /// Where the other views lie around the front view (ISO 5456-2).
@@ -41,8 +46,12 @@ const GAP: f64 = 0.08;
 const STRIP: f64 = 0.08;
 const TICK: f64 = 0.01;
 
-/// Height of its number, likewise.
+/// Height of the numbers, and of the views' names, likewise.
 const DIGIT: f64 = 0.03;
+const NAME: f64 = 0.018;
+
+/// Sides of a ring in the symbol of the projection.
+const SIDES: u32 = 48;
 
 /// Most of the sheet's width that the scale bar takes.
 const BAR: f64 = 0.2;
@@ -55,6 +64,7 @@ const LEAST_PX: f64 = 32.0;
 
 /// A view before its lines are found.
 struct View {
+    name: &'static str,
     settings: CameraSettings,
     /// Width and height of the scene in it, file units.
     extent: DVec2,
@@ -71,7 +81,7 @@ impl VisibleLines {
     pub fn on_sheet(
         scene: &Scene,
         settings: &LineSettings,
-        angle: ProjectionAngle,
+        (angle, drawing): (ProjectionAngle, &DrawingSettings),
         progress: &Progress,
     ) -> Result<Self> {
         let corners = corners(scene);
@@ -89,7 +99,7 @@ impl VisibleLines {
             let axes = DMat3::from_mat4(camera.view_from_world());
             let reach = corners.iter().map(|corner| (axes * (*corner - centre)).truncate().abs());
             let extent = 2.0 * reach.fold(DVec2::ZERO, DVec2::max);
-            views.push(View { settings, extent, column, is_in_front_row });
+            views.push(View { name, settings, extent, column, is_in_front_row });
         }
         let layout = Layout::new(&views, scene, angle)?;
         let settings = LineSettings { counts_changes: false, ..settings.clone() };
@@ -103,8 +113,33 @@ impl VisibleLines {
             let lines = Self::with_progress(&seen, &settings, progress)?;
             sheet.put(lines, layout.middle_px(view) - px * 0.5);
         }
-        sheet.put_bar(&layout, scene.size);
+        sheet.put_names(&layout, &views);
+        let right_px = sheet.put_bar(&layout, &drawing.units.text(), scene.size);
+        sheet.put_scale(&layout, right_px, drawing)?;
+        sheet.put_symbol(&layout, angle);
         Ok(sheet)
+    }
+
+    /// Adds the name of each view below it.
+    fn put_names(&mut self, layout: &Layout, views: &[View]) {
+        let height = NAME * layout.side;
+        for view in views {
+            let name = view.name.to_uppercase();
+            let below = DVec2::Y * (view.extent.y * 0.5 * layout.px_per_unit + height);
+            let left = DVec2::X * (width_of(&name) * 0.5 * height);
+            self.put_strokes(strokes(&name, layout.middle_px(view) + below - left, height));
+        }
+    }
+
+    /// Puts the sheet to the scale of its settings, or on paper to the largest round one that fits, and writes it.
+    fn put_scale(&mut self, layout: &Layout, left_px: f64, drawing: &DrawingSettings) -> Result<()> {
+        let scale = drawing.scale.or_else(|| self.round_scale(layout.px_per_unit, drawing));
+        let Some(scale) = scale else { return Ok(()) };
+        let to_scale = DrawingSettings { scale: Some(scale), ..drawing.clone() };
+        self.put_to_scale(Some(layout.px_per_unit), &to_scale)?;
+        let text = format!("SCALE {}", scale.text());
+        self.put_strokes(strokes(&text, DVec2::new(left_px, layout.text_px), DIGIT * layout.side));
+        Ok(())
     }
 
     /// Adds the lines of a view, moved to its place. All views of a sheet have the same parts.
@@ -122,51 +157,54 @@ impl VisibleLines {
         self.times.compared += view.times.compared;
     }
 
-    /// Adds the scale bar, with its length in the model's units in strokes, which a pen and a picture of pixels draw too.
-    fn put_bar(&mut self, layout: &Layout, size: Size) {
-        let side = f64::from(size.width.min(size.height));
+    /// Adds the scale bar with its length in the model's units, in strokes, which a pen and a picture of pixels draw too; returns
+    /// where the next text begins.
+    fn put_bar(&mut self, layout: &Layout, unit: &str, size: Size) -> f64 {
+        let (side, digit) = (layout.side, DIGIT * layout.side);
         let length = round_below(BAR * f64::from(size.width) / layout.px_per_unit);
-        let from = DVec2::new(layout.origin_px.x, f64::from(size.height) - (BORDER + STRIP * 0.5) * side);
+        let from = DVec2::new(layout.origin_px.x, layout.text_px + 0.5 * digit);
         let to = from + DVec2::X * (length * layout.px_per_unit);
         let tick = DVec2::Y * (TICK * side);
-        let text = strokes(&length.to_string(), to + DVec2::new(0.5, -0.5) * (DIGIT * side), DIGIT * side);
-        for ends_px in [[from - tick, from + tick], [from, to], [to - tick, to + tick]].into_iter().chain(text) {
-            self.segments.push(LineSegment::new(Class::Curve, ends_px, [DVec3::ZERO; 2]));
+        self.put_strokes(vec![[from - tick, from + tick], [from, to], [to - tick, to + tick]]);
+        let text = format!("{length} {unit}");
+        let left = to.x + 0.5 * digit;
+        self.put_strokes(strokes(&text, DVec2::new(left, layout.text_px), digit));
+        left + (width_of(&text) + 1.5) * digit
+    }
+
+    /// Adds the symbol of the projection, at the right of the strip: a cut cone and its view from the left, which lies on the
+    /// right in first angle and on the left in third (ISO 5456-2).
+    fn put_symbol(&mut self, layout: &Layout, angle: ProjectionAngle) {
+        let unit = DIGIT * layout.side;
+        let right = layout.origin_px.x + layout.views_px().x;
+        let middle = layout.text_px + 0.5 * unit;
+        let centres = [right - 3.4 * unit, right - 0.8 * unit];
+        let [cone, rings] = match angle {
+            ProjectionAngle::First => centres,
+            ProjectionAngle::Third => [centres[1], centres[0]],
+        };
+        let at = |x: f64, y: f64| DVec2::new(cone + x * unit, middle + y * unit);
+        let corners = [at(-0.7, -0.4), at(0.7, -0.8), at(0.7, 0.8), at(-0.7, 0.4)];
+        self.put_strokes((0..4).map(|k| [corners[k], corners[(k + 1) % 4]]).collect());
+        for radius in [0.4, 0.8] {
+            let on = |k: u32| {
+                DVec2::new(rings, middle) + DVec2::from_angle(f64::from(k) * TAU / f64::from(SIDES)) * (radius * unit)
+            };
+            self.put_strokes((0..SIDES).map(|k| [on(k), on(k + 1)]).collect());
         }
     }
-}
 
-/// Returns a number in strokes, from its upper left corner: digits of two squares, one above the other.
-fn strokes(number: &str, from: DVec2, height: f64) -> Vec<[DVec2; 2]> {
-    /// The corners of each digit's one line: x in halves of the height, y from the top in tenths of it.
-    const DIGITS: [&[[i8; 2]]; 10] = [
-        &[[0, 0], [1, 0], [1, 10], [0, 10], [0, 0]],
-        &[[0, 2], [1, 0], [1, 10]],
-        &[[0, 0], [1, 0], [1, 5], [0, 5], [0, 10], [1, 10]],
-        &[[0, 0], [1, 0], [1, 5], [0, 5], [1, 5], [1, 10], [0, 10]],
-        &[[0, 0], [0, 5], [1, 5], [1, 0], [1, 10]],
-        &[[1, 0], [0, 0], [0, 5], [1, 5], [1, 10], [0, 10]],
-        &[[1, 0], [0, 0], [0, 10], [1, 10], [1, 5], [0, 5]],
-        &[[0, 0], [1, 0], [1, 10]],
-        &[[0, 5], [0, 0], [1, 0], [1, 10], [0, 10], [0, 5], [1, 5]],
-        &[[1, 5], [0, 5], [0, 0], [1, 0], [1, 10], [0, 10]],
-    ];
-    const POINT: &[[i8; 2]] = &[[0, 9], [0, 10]];
-    let mut left = 0.0;
-    let mut all = Vec::new();
-    for sign in number.chars() {
-        // The number is written without an exponent.
-        let digit = sign.to_digit(10).map(|digit| DIGITS[digit as usize]);
-        let at = |[x, y]: [i8; 2]| from + DVec2::new(left + f64::from(x) * 0.5, f64::from(y) * 0.1) * height;
-        all.extend(digit.unwrap_or(POINT).windows(2).map(|ends| [at(ends[0]), at(ends[1])]));
-        left += if digit.is_some() { 0.75 } else { 0.25 };
+    fn put_strokes(&mut self, strokes: Vec<[DVec2; 2]>) {
+        self.segments.extend(strokes.into_iter().map(|ends| LineSegment::new(Class::Curve, ends, [DVec3::ZERO; 2])));
     }
-    all
 }
 
 /// The places of the views on a sheet.
 struct Layout {
     px_per_unit: f64,
+    /// The sheet's shorter side, and the top of the text in the strip, pixels.
+    side: f64,
+    text_px: f64,
     /// The upper left corner of all views.
     origin_px: DVec2,
     gap_px: f64,
@@ -197,7 +235,15 @@ impl Layout {
         let units = DVec2::new(columns[0] + columns[1], rows[0] + rows[1]);
         let px_per_unit = (room / units).min_element();
         let origin_px = DVec2::splat(BORDER * side) + (room - units * px_per_unit) * 0.5;
-        Ok(Self { px_per_unit, origin_px, gap_px, columns, rows, front_row })
+        // At the strip's lower edge, below the names of the views.
+        let text_px = sheet.y - (BORDER + DIGIT) * side;
+        Ok(Self { px_per_unit, side, text_px, origin_px, gap_px, columns, rows, front_row })
+    }
+
+    /// Width and height of all views together, pixels.
+    fn views_px(&self) -> DVec2 {
+        let units = DVec2::new(self.columns[0] + self.columns[1], self.rows[0] + self.rows[1]);
+        units * self.px_per_unit + self.gap_px
     }
 
     /// The middle of a view, pixels.
@@ -224,14 +270,6 @@ fn corners(scene: &Scene) -> Vec<DVec3> {
     corners
 }
 
-/// The largest of 1, 2 and 5 times a power of ten that is no larger than a number above 0.
-fn round_below(number: f64) -> f64 {
-    let power = 10_f64.powf(number.log10().floor());
-    let digit = [5.0, 2.0].into_iter().find(|digit| digit * power <= number).unwrap_or(1.0);
-    // In decimal, so that it is written with few digits.
-    format!("{digit}e{}", power.log10().round()).parse().unwrap_or(number)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -246,15 +284,21 @@ mod tests {
 
     fn found(angle: ProjectionAngle) -> (VisibleLines, Layout, Vec<View>, Scene) {
         let scene = scene(Size { width: 900, height: 600 });
-        let lines = VisibleLines::on_sheet(&scene, &LineSettings::default(), angle, &Progress::default()).unwrap();
-        let view = |(name, column, is_in_front_row): (&str, usize, bool)| {
+        let lines = VisibleLines::on_sheet(
+            &scene,
+            &LineSettings::default(),
+            (angle, &DrawingSettings::default()),
+            &Progress::default(),
+        )
+        .unwrap();
+        let view = |(name, column, is_in_front_row): (&'static str, usize, bool)| {
             let corners = corners(&scene);
             let settings = CameraSettings { view: name.parse().unwrap(), parallel: true, ..CameraSettings::default() };
             let camera = settings.fit(scene.centre, scene.radius, 1.0, corners.iter().copied()).unwrap();
             let (low, high) = crate::mesh::bounds(&corners);
             let axes = DMat3::from_mat4(camera.view_from_world());
             let reach = corners.iter().map(|corner| (axes * (*corner - (low + high) * 0.5)).truncate().abs());
-            View { settings, extent: 2.0 * reach.fold(DVec2::ZERO, DVec2::max), column, is_in_front_row }
+            View { name, settings, extent: 2.0 * reach.fold(DVec2::ZERO, DVec2::max), column, is_in_front_row }
         };
         let views: Vec<View> = angle.views().into_iter().map(view).collect();
         let layout = Layout::new(&views, &scene, angle).unwrap();
@@ -290,28 +334,30 @@ mod tests {
 
     #[test]
     fn the_scale_bar_has_the_length_it_says() {
-        let (lines, layout, ..) = found(ProjectionAngle::Third);
-        let bar = lines.segments.iter().position(|segment| segment.ends_world == [DVec3::ZERO; 2]).unwrap();
+        let (lines, layout, views, _) = found(ProjectionAngle::Third);
+        // The names of the views come first.
+        let of_sheet = |segment: &LineSegment| segment.ends_world == [DVec3::ZERO; 2];
+        let names: usize = views.iter().map(|view| strokes(&view.name.to_uppercase(), DVec2::ZERO, 1.0).len()).sum();
+        let bar = lines.segments.iter().position(of_sheet).unwrap() + names;
         let drawn: Vec<_> = lines.segments[bar..].iter().map(|segment| segment.ends_px).collect();
         let length = drawn[1][0].distance(drawn[1][1]) / layout.px_per_unit;
         let said = format!("{}", (length * 1e9).round() * 1e-9);
-        let height = drawn[3..].iter().flatten().map(|end| end.y - drawn[3][0].y).fold(0.0, f64::max);
-        assert!(height > 5.0);
+        let height = DIGIT * layout.side;
         let corner = drawn[1][1] + DVec2::new(0.5, -0.5) * height;
-        let expected = strokes(&said, corner, height);
-        assert_eq!(expected.len(), drawn.len() - 3, "{said}");
+        let expected = strokes(&format!("{said} mm"), corner, height);
         let ends = expected.iter().flatten().zip(drawn[3..].iter().flatten());
         assert!(ends.into_iter().all(|(expected, drawn)| expected.distance(*drawn) < 1e-6), "{said}");
-        for (number, round) in [(7.3, 5.0), (4.99, 2.0), (1.0, 1.0), (0.034, 0.02), (99.0, 50.0), (1e-7, 1e-7)] {
-            assert_eq!(round_below(number), round);
-        }
     }
 
     #[test]
     fn a_sheet_without_room_is_refused() {
         let scene = scene(Size { width: 300, height: 30 });
-        let refused =
-            VisibleLines::on_sheet(&scene, &LineSettings::default(), ProjectionAngle::First, &Progress::default());
+        let refused = VisibleLines::on_sheet(
+            &scene,
+            &LineSettings::default(),
+            (ProjectionAngle::First, &DrawingSettings::default()),
+            &Progress::default(),
+        );
         assert!(refused.unwrap_err().to_string().contains("larger --size"));
     }
 }

@@ -35,6 +35,8 @@ pub struct VisibleLines {
     /// Where along silhouettes visibility begins and ends, if
     /// [`LineSettings::counts_changes`](super::LineSettings::counts_changes) is set.
     pub changes: Option<VisibilityChanges>,
+    /// Pixels of a millimetre on paper, of a drawing to scale.
+    pub px_per_mm: Option<f64>,
     /// Time and work of each step.
     pub times: LineTimes,
 }
@@ -64,6 +66,7 @@ impl VisibleLines {
             edges: ClassCounts::default(),
             covered_triangles: 0,
             changes: None,
+            px_per_mm: None,
             times: LineTimes::default(),
         }
     }

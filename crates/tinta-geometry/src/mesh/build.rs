@@ -139,7 +139,8 @@ impl Soup {
         if options.strict && !mesh.defects.is_empty() {
             return Err(Error::Strict { path: name.into(), defects: mesh.defects.to_string() });
         }
-        cut_open(mesh, name, options, remarks)
+        let turn = |axis| options.up_axis.to_y_up(self.turn.map_or(axis, |turn| turn(axis)));
+        cut_open(mesh, (name, options), turn, remarks)
     }
 
     /// The marked edges between positions, each once, ascending. A position's file vertex is the one that others are welded to.
@@ -278,10 +279,16 @@ impl Mesh {
     }
 }
 
-/// Cuts a mesh open at the options' plane, if they have one, with remarks.
-fn cut_open(mesh: Mesh, name: &str, options: &LoadOptions, remarks: &mut Vec<String>) -> Result<Mesh> {
+/// Cuts a mesh open at the options' plane, if they have one, with remarks; `turn` turns the file's axes into the world's.
+fn cut_open(
+    mesh: Mesh,
+    (name, options): (&str, &LoadOptions),
+    turn: impl Fn(DVec3) -> DVec3,
+    remarks: &mut Vec<String>,
+) -> Result<Mesh> {
     let Some(plane) = &options.section else { return Ok(mesh) };
-    let (mesh, cut) = mesh.section(plane)?;
+    let hatching = if plane.is_of_file { options.section_hatch } else { Some(0.0) };
+    let (mesh, cut) = mesh.section(&plane.in_world(turn), hatching)?;
     match cut {
         Cut::Closed => {}
         Cut::Gone => remarks.push(format!("{name}: it lies wholly in front of the section's plane, which cuts it away")),

@@ -17,9 +17,28 @@ pub struct Curves {
     pub points: Vec<u32>,
     /// Texts of points, each with the number of its point in `points`; no file gives any.
     pub labels: Vec<(u32, String)>,
+    /// How many of the last segments are strokes on a cut, not the model's own.
+    pub hatching: usize,
 }
 
 impl Curves {
+    /// Whether the model has curves or points of its own.
+    pub fn has_own(&self) -> bool {
+        self.segments.len() > self.hatching || !self.points.is_empty()
+    }
+
+    /// Adds strokes on a cut, with the next free vertex numbers of the file.
+    pub(super) fn add_hatching(&mut self, strokes: &[[DVec3; 2]], next_vertex: &mut u32) {
+        for ends in strokes {
+            let first = self.positions.len() as u32;
+            self.positions.extend(ends);
+            self.file_vertices.extend([*next_vertex, *next_vertex + 1]);
+            *next_vertex += 2;
+            self.segments.push([first, first + 1]);
+        }
+        self.hatching += strokes.len();
+    }
+
     /// Whether there is nothing to draw.
     pub fn is_empty(&self) -> bool {
         self.segments.is_empty() && self.points.is_empty()

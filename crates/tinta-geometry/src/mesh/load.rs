@@ -196,7 +196,7 @@ fn made(
 /// Turns the model from z up, this format's custom, unless an axis is given.
 fn from_z_up(mut soup: Soup, options: &LoadOptions) -> Soup {
     if options.up_axis == UpAxis::Auto {
-        soup.positions.iter_mut().for_each(|position| *position = UpAxis::Z.to_y_up(*position));
+        soup.turn_by(|position| UpAxis::Z.to_y_up(position));
     }
     soup
 }

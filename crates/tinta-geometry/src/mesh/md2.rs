@@ -129,13 +129,15 @@ pub(super) fn read(
 
     let names: Vec<String> = frames.clone().map(frame_name).collect();
     let between = options.model_frame.find(&names, path)?;
-    let placed = |position| if options.up_axis == UpAxis::Auto { to_y_up(position) } else { position };
     let mut soup = Soup {
-        positions: positions(frames, between, header.vertices).into_iter().map(placed).collect(),
+        positions: positions(frames, between, header.vertices),
         texture_coordinates: texels.map(|texel| texture_coordinate(texel, &header)).collect(),
         frames: names,
         ..Soup::default()
     };
+    if options.up_axis == UpAxis::Auto {
+        soup.turn_by(to_y_up);
+    }
     for triangle in triangles {
         match corners(triangle, &header) {
             Some(corners) => soup.corners.extend(corners),

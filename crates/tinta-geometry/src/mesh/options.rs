@@ -34,6 +34,8 @@ pub struct LoadOptions {
     pub allow_external: bool,
     /// The plane in front of which the model is cut away. Default: none.
     pub section: Option<SectionPlane>,
+    /// Spacing of the strokes on a cut in the file's axes, file units; 0 draws none. Default a sixtieth of the model.
+    pub section_hatch: Option<f64>,
 }
 
 impl Default for LoadOptions {
@@ -48,6 +50,7 @@ impl Default for LoadOptions {
             skin: None,
             allow_external: false,
             section: None,
+            section_hatch: None,
         }
     }
 }
@@ -116,11 +119,21 @@ impl LoadOptions {
                 "section",
                 "PLANE",
                 "",
-                "Cut away all beyond a plane, such as x=12 or 1,1,0=5, in the coordinates of --eye; cut faces are the part section",
+                "Cut away all beyond a plane, such as x=12 or 1,1,0=5, in the axes of the model's file; cut faces are hatched, and the part \
+                 section",
                 |load: &mut Self| &mut load.section,
             )
             .said("nothing is cut away")
             .common(),
+            Setting::open_field(
+                "section-hatch",
+                "SPACING",
+                "auto",
+                "Distance of the strokes on the cut of --section, in model units; 0 draws none",
+                |load: &mut Self| &mut load.section_hatch,
+            )
+            .inside("section")
+            .said("a sixtieth of the model, with --scale 2.5 mm on paper"),
             Setting::flag(
                 "allow-external",
                 "Also read material files, data and pictures outside the model's folder",

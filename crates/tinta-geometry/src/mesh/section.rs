@@ -6,6 +6,7 @@
 
 mod caps;
 mod cutter;
+mod hatching;
 mod rings;
 
 use super::{Curves, Mesh, NONE};
@@ -27,14 +28,20 @@ const AXES: [(&str, DVec3); 6] = [
     ("-z", DVec3::NEG_Z),
 ];
 
-/// A plane in world space: all points whose product with `normal` is `offset`. Everything with a larger product is cut away.
+/// A plane: all points whose product with `normal` is `offset`. Everything with a larger product is cut away.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionPlane {
     /// Its normal, of any length above 0.
     pub normal: DVec3,
     /// The product of its points with the normal, file units.
     pub offset: f64,
+    /// Whether its axes are those of the model's file as read, and its cut is hatched; otherwise it is in world space. Its text then
+    /// begins with [`SectionPlane::OF_FILE`].
+    pub is_of_file: bool,
 }
+
+/// Spacing of a cut's hatching where none is given, as a share of the cut model's diagonal.
+const SPACING: f64 = 1.0 / 60.0;
 
 impl Value for SectionPlane {
     fn kind() -> Kind {
@@ -44,11 +51,13 @@ impl Value for SectionPlane {
     fn text(&self) -> String {
         let axis = AXES.iter().find(|(_, axis)| *axis == self.normal);
         let normal = axis.map_or_else(|| self.normal.text(), |(name, _)| (*name).to_owned());
-        format!("{normal}={}", self.offset)
+        let of_file = if self.is_of_file { Self::OF_FILE } else { "" };
+        format!("{of_file}{normal}={}", self.offset)
     }
 
     fn parse(text: &str) -> std::result::Result<Self, Problem> {
         let problem = || "write an axis and where it is cut, such as x=12, or a normal and a number, such as 1,1,0=5";
+        let (is_of_file, text) = text.strip_prefix(Self::OF_FILE).map_or((false, text), |text| (true, text));
         let (normal, offset) = text.split_once('=').ok_or_else(|| problem().to_owned())?;
         let axis = AXES.iter().find(|(name, _)| *name == normal.trim());
         let normal = match axis {
@@ -56,7 +65,7 @@ impl Value for SectionPlane {
             None => DVec3::parse(normal.trim()).map_err(|_| problem().to_owned())?,
         };
         let offset: f64 = offset.trim().parse().map_err(|_| problem().to_owned())?;
-        let plane = Self { normal, offset };
+        let plane = Self { normal, offset, is_of_file };
         if plane.unit().is_none() {
             return Err(NO_PLANE.to_owned().into());
         }
@@ -65,10 +74,18 @@ impl Value for SectionPlane {
 }
 
 impl SectionPlane {
+    /// How the text of a plane begins whose axes are the file's.
+    pub const OF_FILE: &str = "file:";
+
+    /// The same plane in world space, into which a file's axes are turned so.
+    pub(super) fn in_world(&self, turn: impl Fn(DVec3) -> DVec3) -> Self {
+        Self { normal: if self.is_of_file { turn(self.normal) } else { self.normal }, ..*self }
+    }
+
     /// The same plane with a normal of length 1; `None` if its numbers give no plane.
     fn unit(&self) -> Option<Self> {
         let length = self.normal.length();
-        let unit = Self { normal: self.normal / length, offset: self.offset / length };
+        let unit = Self { normal: self.normal / length, offset: self.offset / length, ..*self };
         (unit.normal.is_finite() && unit.offset.is_finite()).then_some(unit)
     }
 }
@@ -87,12 +104,13 @@ pub enum Cut {
 }
 
 impl Mesh {
-    /// Cuts away the mesh in front of a plane, and closes the cut with faces of the part [`SECTION`].
+    /// Cuts away the mesh in front of a plane in world space, and closes the cut with faces of the part [`SECTION`]. `hatching` is the
+    /// spacing of the strokes on the cut, file units; 0 draws none, `None` chooses one.
     ///
     /// # Errors
     ///
     /// [`Error::Setting`] if the plane is none.
-    pub fn section(self, plane: &SectionPlane) -> Result<(Self, Cut)> {
+    pub fn section(self, plane: &SectionPlane, hatching: Option<f64>) -> Result<(Self, Cut)> {
         let Some(unit) = plane.unit() else {
             return Err(Error::setting("section", NO_PLANE));
         };
@@ -109,8 +127,10 @@ impl Mesh {
         }
         let mut cutter = Cutter::new(&self, sides);
         cutter.clip_faces(unit.normal);
-        let is_closed = cutter.close(unit.normal);
-        let curves = clipped(&self.curves, &of_curves, cutter.next_vertex);
+        let spacing = hatching.unwrap_or((high - low).length() * SPACING);
+        let (is_closed, strokes) = cutter.close(unit.normal, spacing);
+        let mut curves = clipped(&self.curves, &of_curves, cutter.next_vertex);
+        curves.add_hatching(&strokes, &mut cutter.next_vertex);
         let mesh = cutter.finished(&self, curves);
         let cut = match mesh.is_empty() {
             true => Cut::Gone,
@@ -123,7 +143,8 @@ impl Mesh {
 
 /// The curves and points behind the plane.
 fn clipped(curves: &Curves, sides: &[f64], mut next_vertex: u32) -> Curves {
-    let mut kept = Curves { segments: Vec::new(), points: Vec::new(), labels: Vec::new(), ..curves.clone() };
+    let mut kept =
+        Curves { segments: Vec::new(), points: Vec::new(), labels: Vec::new(), hatching: 0, ..curves.clone() };
     for [a, b] in &curves.segments {
         let [side_a, side_b] = [a, b].map(|end| sides[*end as usize]);
         if side_a <= 0.0 && side_b <= 0.0 {

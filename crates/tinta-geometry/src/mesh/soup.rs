@@ -43,6 +43,8 @@ pub(super) struct Soup {
     pub segments: Vec<[u32; 2]>,
     /// The positions of single points.
     pub points: Vec<u32>,
+    /// How the reader turned the positions from the file's axes.
+    pub turn: Option<fn(DVec3) -> DVec3>,
     /// The alternative up axis, for formats that do not name one.
     pub other_up: Option<UpAxis>,
     /// The files read besides the model's own: its material libraries, its data.
@@ -161,6 +163,12 @@ fn bytes_allowed(file_bytes: usize) -> usize {
 }
 
 impl Soup {
+    /// Turns all positions from the file's axes.
+    pub(super) fn turn_by(&mut self, turn: fn(DVec3) -> DVec3) {
+        self.positions.iter_mut().for_each(|position| *position = turn(*position));
+        self.turn = Some(turn);
+    }
+
     /// Returns the number of polygons.
     pub(super) fn polygon_count(&self) -> usize {
         if self.polygon_sizes.is_empty() { self.corners.len() / 3 } else { self.polygon_sizes.len() }

@@ -121,7 +121,7 @@ pub(super) fn read(
     })?;
     let mut soup = contents.with_materials(path, remarks);
     if options.up_axis == UpAxis::Auto {
-        soup.positions.iter_mut().for_each(|position| *position = UpAxis::Z.to_y_up(*position));
+        soup.turn_by(|position| UpAxis::Z.to_y_up(position));
     }
     if options.skin.is_none() {
         skin::find_all(&mut soup, folder, path, remarks);

@@ -102,7 +102,7 @@ fn assert_near(found: f64, expected: f64, what: &str) {
 
 #[track_caller]
 fn closed_cut(mesh: &Mesh, plane: &SectionPlane) -> Mesh {
-    let (cut, how) = mesh.clone().section(plane).unwrap();
+    let (cut, how) = mesh.clone().section(plane, Some(0.0)).unwrap();
     assert_eq!(how, Cut::Closed, "{}", plane.text());
     assert_closed(&cut, &plane.text());
     let lengths = [&cut.triangle_normals, &cut.triangles].map(Vec::len);
@@ -164,8 +164,8 @@ fn the_two_sides_of_many_planes_make_up_a_sphere() {
     for _ in 0..300 {
         let normal = DVec3::new(random(), random(), random());
         let offset = random() * 0.9 * normal.length();
-        let front = SectionPlane { normal, offset };
-        let back = SectionPlane { normal: -normal, offset: -offset };
+        let front = SectionPlane { normal, offset, is_of_file: false };
+        let back = SectionPlane { normal: -normal, offset: -offset, is_of_file: false };
         let sides = [&front, &back].map(|plane| closed_cut(&sphere, plane));
         assert_near(volume(&sides[0]) + volume(&sides[1]), whole, "sides");
         assert_near(cap_area(&sides[0]), cap_area(&sides[1]), "caps");
@@ -206,10 +206,10 @@ fn planes_through_vertices_edges_and_faces_cut_too() {
 fn a_plane_that_meets_nothing_changes_nothing_and_one_that_leaves_nothing_is_refused() {
     let cube = prism(&square(1.0), 2.0);
     for text in ["y=2", "y=3", "-x=1", "1,1,1=9"] {
-        assert_eq!(cube.clone().section(&plane(text)).unwrap(), (cube.clone(), Cut::Missed), "{text}");
+        assert_eq!(cube.clone().section(&plane(text), Some(0.0)).unwrap(), (cube.clone(), Cut::Missed), "{text}");
     }
     for text in ["y=-1", "-y=-2.5"] {
-        let (nothing, cut) = cube.clone().section(&plane(text)).unwrap();
+        let (nothing, cut) = cube.clone().section(&plane(text), Some(0.0)).unwrap();
         assert_eq!((nothing.triangles.len(), cut), (0, Cut::Gone), "{text}");
         let settings = SceneSettings::default();
         let error = Scene::new([nothing.clone()], &settings).unwrap_err().to_string();
@@ -226,7 +226,7 @@ fn an_open_surface_is_cut_and_has_no_cap() {
     cube.triangles.remove(8);
     cube.triangle_normals.remove(8);
     cube.file_faces.remove(8);
-    let (cut, how) = cube.section(&plane("y=1")).unwrap();
+    let (cut, how) = cube.section(&plane("y=1"), Some(0.0)).unwrap();
     assert_eq!((how, cap_area(&cut)), (Cut::Open, 0.0));
     assert!(cut.positions.iter().all(|position| position.y <= 1.0));
 }
@@ -236,7 +236,7 @@ fn curves_end_at_the_plane_and_points_beyond_it_go_with_their_labels() {
     let curves = [vec![-DVec3::X, DVec3::X * 3.0, DVec3::Y]];
     let points = [DVec3::X * 2.0, DVec3::ZERO];
     let mesh = Mesh::of_curves("c", &curves, &points, &["far", "near"], &LoadOptions::default()).unwrap();
-    let (cut, _) = mesh.section(&plane("x=1")).unwrap();
+    let (cut, _) = mesh.section(&plane("x=1"), Some(0.0)).unwrap();
     let Curves { positions, segments, points, labels, .. } = &cut.curves;
     assert_eq!(segments.len(), 2);
     let highest = positions.iter().map(|it| it.x).fold(f64::MIN, f64::max);
@@ -253,8 +253,8 @@ fn planes_are_written_as_they_are_read_and_others_are_refused() {
     for text in ["", "x", "x=", "w=1", "x=nan", "x=inf", "0,0,0=1", "nan,0,1=2", "1,2=3"] {
         assert!(SectionPlane::parse(text).is_err(), "{text}");
     }
-    let nan = SectionPlane { normal: DVec3::NAN, offset: 0.0 };
-    assert!(prism(&square(1.0), 2.0).section(&nan).unwrap_err().to_string().starts_with("section"));
+    let nan = SectionPlane { normal: DVec3::NAN, offset: 0.0, is_of_file: false };
+    assert!(prism(&square(1.0), 2.0).section(&nan, Some(0.0)).unwrap_err().to_string().starts_with("section"));
 }
 
 #[test]
@@ -262,7 +262,7 @@ fn the_lines_of_the_cut_are_the_sections() {
     let mut parts_seen = 0;
     for text in ["y=0.5", "x=0.25", "1,1,0=0.75", "z=-0.5"] {
         let plane = plane(text);
-        let (mesh, cut) = prism(&square(1.0), 1.0).section(&plane).unwrap();
+        let (mesh, cut) = prism(&square(1.0), 1.0).section(&plane, Some(0.0)).unwrap();
         assert_eq!(cut, Cut::Closed, "{text}");
         for view in ["30,20", "-60,-15", "200,40"] {
             let camera = CameraSettings { view: view.parse().unwrap(), ..CameraSettings::default() };
@@ -279,4 +279,44 @@ fn the_lines_of_the_cut_are_the_sections() {
         }
     }
     assert!(parts_seen > 40, "{parts_seen}");
+}
+
+#[test]
+fn a_cut_in_the_axes_of_the_file_is_turned_with_it_and_hatched() {
+    use tinta_geometry::mesh::{LoadOptions, read_bytes};
+    // A tetrahedron in a format whose z points up; the plane is below its tip.
+    let facets = [
+        [[0, 0, 0], [0, 1, 0], [1, 0, 0]],
+        [[0, 0, 0], [1, 0, 0], [0, 0, 1]],
+        [[0, 0, 0], [0, 0, 1], [0, 1, 0]],
+        [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ];
+    let facet = |corners: &[[i32; 3]; 3]| {
+        let vertices: String = corners.iter().map(|[x, y, z]| format!("vertex {x} {y} {z}\n")).collect();
+        format!("facet normal 0 0 0\nouter loop\n{vertices}endloop\nendfacet\n")
+    };
+    let text = format!("solid t\n{}endsolid t\n", facets.iter().map(facet).collect::<String>());
+    let read = |section: &str, section_hatch: Option<f64>| {
+        let options = LoadOptions { section: Some(plane(section)), section_hatch, ..LoadOptions::default() };
+        read_bytes(text.as_bytes(), "t.stl", &[], &options).unwrap().mesh
+    };
+    let top = |mesh: &Mesh| mesh.positions.iter().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max);
+    let of_file = read("file:z=0.5", Some(0.02));
+    assert!((top(&of_file) - 0.5).abs() < 1e-12, "z of the file is y of the world");
+    assert!(of_file.curves.hatching > 10 && !of_file.curves.has_own());
+    // The strokes lie on the cut, a triangle of half the size.
+    assert!(of_file.curves.positions.iter().all(|point| (point.y - 0.5).abs() < 1e-12));
+    let length: f64 = of_file
+        .curves
+        .segments
+        .iter()
+        .map(|[a, b]| of_file.curves.positions[*a as usize].distance(of_file.curves.positions[*b as usize]))
+        .sum();
+    assert!((length * 0.02 - 0.125).abs() < 0.02, "{length}");
+    assert_eq!(read("file:z=0.5", Some(0.0)).curves.hatching, 0);
+    // In the coordinates of the world, as recorded before, nothing is hatched.
+    let of_world = read("y=0.5", None);
+    assert_eq!((top(&of_world), of_world.curves.hatching), (0.5, 0));
+    assert_eq!((&of_world.triangles, &of_world.positions), (&of_file.triangles, &of_file.positions));
+    assert_eq!(plane("file:1,2,0=5").text(), "file:1,2,0=5");
 }

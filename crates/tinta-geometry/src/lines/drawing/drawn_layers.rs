@@ -150,7 +150,7 @@ pub(in crate::lines) fn page(lines: &VisibleLines, areas: Option<&Areas>, settin
         |segment: &LineSegment| looks[segment.look as usize].draws(segment.is_visible) && !segment.is_covered;
     let drawn = lines.segments.iter().filter(|segment| is_drawn(segment));
     let corners = areas.and_then(|areas| areas.corners_px);
-    Page::new(lines.size, drawn, corners, settings.page_size, settings.margin.0)
+    Page::new(lines.size, drawn, corners, settings.page_size, settings.margin.0, lines.px_per_mm)
 }
 
 impl DrawnLayer {

@@ -220,13 +220,15 @@ pub(in crate::lines) struct Page {
 }
 
 impl Page {
-    /// The page of a drawing of a picture's size; the drawn lines and the corners around its areas matter only if a sheet is to be filled.
+    /// The page of a drawing of a picture's size; the drawn lines and the corners around its areas matter only for a sheet, which
+    /// they fill, or on which a millimetre is as many pixels as `to_scale` says.
     pub(in crate::lines) fn new<'a>(
         Size { width, height }: Size,
         drawn: impl Iterator<Item = &'a LineSegment>,
         areas_px: Option<[DVec2; 2]>,
         size: PageSize,
         margin: f64,
+        to_scale: Option<f64>,
     ) -> Self {
         let picture = DVec2::new(f64::from(width), f64::from(height));
         let units = |px_per_mm| Units { px_per_mm, height_px: picture.y };
@@ -249,7 +251,7 @@ impl Page {
                 let paper_mm = DVec2::from_array(paper.sides_mm(high - low));
                 // A horizontal or vertical line has an extent of 0 in one direction.
                 let room = (paper_mm - 2.0 * margin) / (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
-                let px_per_mm = 1.0 / room.min_element();
+                let px_per_mm = to_scale.unwrap_or(1.0 / room.min_element());
                 let extent_px = paper_mm * px_per_mm;
                 let origin_px = (low + high - extent_px) * 0.5;
                 Self { origin_px, extent_px, lengths: paper_mm, unit: "mm", units: units(Some(px_per_mm)) }
@@ -303,7 +305,7 @@ mod tests {
     }
 
     fn page(line: &LineSegment, size: PageSize, margin: f64) -> Page {
-        Page::new(SIZE, std::iter::once(line), None, size, margin)
+        Page::new(SIZE, std::iter::once(line), None, size, margin, None)
     }
 
     #[test]
@@ -347,11 +349,11 @@ mod tests {
         assert_fits([[0.0, 0.0], [600.0, 400.0]], "100x300mm", 49.0, [100.0, 300.0]);
         assert_fits([[10.0, 50.0], [20.0, 50.0]], "letter", 15.0, [279.4, 215.9]);
         // An empty drawing shows the whole picture.
-        let nothing = Page::new(SIZE, std::iter::empty(), None, sheet("A4"), 15.0);
+        let nothing = Page::new(SIZE, std::iter::empty(), None, sheet("A4"), 15.0, None);
         assert_eq!(nothing.units.px_per_mm, Some(600.0 / 267.0));
         // Areas without lines fill it too.
         let corners = Some([DVec2::ZERO, DVec2::new(267.0, 100.0)]);
-        let areas = Page::new(SIZE, std::iter::empty(), corners, sheet("A4"), 15.0);
+        let areas = Page::new(SIZE, std::iter::empty(), corners, sheet("A4"), 15.0, None);
         assert_eq!(areas.units.px_per_mm, Some(1.0));
     }
 

@@ -7,6 +7,7 @@ use crate::lines::drawing::hatch::Hatching;
 use crate::lines::drawing::layers::{ClassColors, ClassWidths, Layer};
 use crate::lines::drawing::length::{LINE_WIDTH, LINE_WIDTH_RANGE, LINE_WIDTH_SAID, Length, Millimetres, Units};
 use crate::lines::drawing::page::{PageSize, Paper};
+use crate::lines::drawing::scale::{ModelUnit, Scale};
 use crate::scene::{Background, Color};
 use crate::settings::{HasSettings, Kind, Setting, Table, Value, under, within};
 use std::sync::LazyLock;
@@ -42,6 +43,10 @@ pub struct DrawingSettings {
     pub page_size: PageSize,
     /// Margin around the drawing on [`PageSize::Paper`]. Default 15 millimetres.
     pub margin: Millimetres,
+    /// Lengths on [`PageSize::Paper`] over those of the model, in parallel projection. Default none: the drawing fills the paper.
+    pub scale: Option<Scale>,
+    /// The unit of the model's numbers. Default millimetres.
+    pub units: ModelUnit,
     /// Whether each path names its class, object, mesh edges and angles; all its points are then written. Default
     /// false.
     pub has_provenance: bool,
@@ -69,6 +74,8 @@ impl Default for DrawingSettings {
             background: Background::Color(WHITE),
             page_size: PageSize::Unset,
             margin: Millimetres(15.0),
+            scale: None,
+            units: ModelUnit::Mm,
             has_provenance: false,
             tapers: false,
             is_for_pen: false,
@@ -187,6 +194,18 @@ impl DrawingSettings {
             dpi.open(UNSET).said("none, sizes are in pixels"),
             paper.open(UNSET).said("none, sizes are in pixels"),
             Setting::field("margin", "MM", "Free border of --page, in millimetres", |svg: &mut Self| &mut svg.margin).inside("page"),
+            Setting::open_field(
+                "scale",
+                "PAPER:MODEL",
+                UNSET,
+                "Lengths on the paper of --page over those of the model, in parallel projection: 1:2, 2:1, 1:2.5; a sheet takes the \
+                 largest round one that fits",
+                |svg: &mut Self| &mut svg.scale,
+            )
+            .said("none, the drawing fills its paper"),
+            Setting::field("units", "UNIT", "Unit of the model's numbers, for --scale: mm, cm, m, in", |svg: &mut Self| {
+                &mut svg.units
+            }),
             Setting::flag(
                 "provenance",
                 "Write each path's class, object, mesh edges and angles into the file, and keep all points",
@@ -282,6 +301,10 @@ impl DrawingSettings {
         }
         if self.margin != Self::default().margin && !matches!(self.page_size, PageSize::Paper(_)) {
             return Err(Error::setting("margin", "only a sheet of paper has a margin; add --page A4, or leave it out"));
+        }
+        if let Some(scale) = self.scale.filter(|_| !matches!(self.page_size, PageSize::Paper(_))) {
+            let problem = "only a sheet of paper has a scale; add --page A4, or leave it out";
+            return Err(Error::value("scale", scale.text(), problem));
         }
         self.page_size.check(self.margin)
     }

@@ -87,6 +87,7 @@ impl VisibleLines {
             looks: self.looks.clone(),
             edges: self.edges,
             changes: self.changes.clone(),
+            px_per_mm: self.px_per_mm,
             covered_triangles: self.covered_triangles,
             times: self.times,
         }

@@ -90,6 +90,7 @@ fn creases(of: &[[f64; 2]]) -> VisibleLines {
         segments: of.iter().map(crease).collect(),
         edges: ClassCounts::default(),
         changes: None,
+        px_per_mm: None,
         covered_triangles: 0,
         labels: Vec::new(),
         parts: Vec::new(),

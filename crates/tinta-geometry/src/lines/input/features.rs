@@ -279,18 +279,23 @@ impl LineInput<'_> {
                 let world = curves.positions[position as usize] + object.object.offset;
                 space.lifted(space.view(world), settings.on_surface)
             };
-            let free = |class: Class, positions: [u32; 2]| Feature {
+            let free = |class: Class, part: u32, positions: [u32; 2]| Feature {
                 class: Some(class),
                 object: number as u32,
-                part: scene_parts.of_curves(number),
+                part,
                 edge: Some(positions.map(|position| curves.file_vertices[position as usize])),
                 ..Feature::new(Own::Free, positions.map(view))
             };
+            let (part, of_cut) = (scene_parts.of_curves(number), scene_parts.of_cut(number));
+            let (own, strokes) = curves.segments.split_at(curves.segments.len() - curves.hatching);
             if is_wanted(number, Class::Curve) {
-                features.extend(curves.segments.iter().map(|ends| free(Class::Curve, *ends)));
+                features.extend(own.iter().map(|ends| free(Class::Curve, part, *ends)));
+            }
+            if scene_parts.classes(of_cut).contains(Class::Curve) {
+                features.extend(strokes.iter().map(|ends| free(Class::Curve, of_cut, *ends)));
             }
             if is_wanted(number, Class::Point) {
-                features.extend(curves.points.iter().map(|point| free(Class::Point, [*point; 2])));
+                features.extend(curves.points.iter().map(|point| free(Class::Point, part, [*point; 2])));
             }
         }
         Ok(features)

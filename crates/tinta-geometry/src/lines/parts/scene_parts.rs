@@ -80,7 +80,9 @@ impl SceneParts {
         let named: Vec<Named> = rules.iter().map(|rule| rule.pattern.named(mesh)).collect();
         is_used.iter_mut().zip(&named).for_each(|(is_used, named)| *is_used |= named.is_any());
         let mut add = |key: [u32; 2]| {
-            let mut style = PartStyle::default();
+            let is_cut = mesh.curves.hatching > 0 && names(mesh, key).name == SECTION;
+            let name = if is_cut { SECTION.to_owned() } else { String::new() };
+            let mut style = PartStyle { name, is_cut, ..PartStyle::default() };
             for (rule, _) in rules.iter().zip(&named).filter(|(_, named)| named.holds(key)) {
                 style = rule.style.over(&style);
             }
@@ -118,6 +120,13 @@ impl SceneParts {
     /// The part of an object's curves and points.
     pub(in crate::lines) fn of_curves(&self, object: usize) -> u32 {
         self.number(object, WHOLE)
+    }
+
+    /// The part of the strokes on an object's cut.
+    pub(in crate::lines) fn of_cut(&self, object: usize) -> u32 {
+        let Numbers { first, others } = &*self.of_objects[object];
+        let cuts = others.values().copied().filter(|part| self.list[*part as usize].name == SECTION);
+        cuts.min().unwrap_or(*first)
     }
 
     fn number(&self, object: usize, key: [u32; 2]) -> u32 {

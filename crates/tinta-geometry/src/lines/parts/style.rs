@@ -40,7 +40,15 @@ pub struct PartStyle {
     pub crease_angle: Option<CreaseAngle>,
     /// Its role.
     pub role: Option<PartRole>,
+    /// Whether it is the hatched cut of a section: its lines are then twice as wide unless `line_width` is set.
+    pub is_cut: bool,
 }
+
+/// Width of the lines of a hatched cut.
+const CUT_WIDTH: Length = Length::Times(2.0);
+
+/// Width of the strokes on it.
+const STROKE_WIDTH: Length = Length::Times(0.7);
 
 /// The text of an unset value.
 const UNSET: &str = "auto";
@@ -96,9 +104,15 @@ impl PartStyle {
 
     /// This style over another: what it leaves unset is the other's.
     pub(super) fn over(&self, below: &Self) -> Self {
-        let between = if below.name.is_empty() || self.name.is_empty() { "" } else { " + " };
+        let name = match (below.name.as_str(), self.name.as_str()) {
+            (below, "") => below.to_owned(),
+            ("", own) => own.to_owned(),
+            (below, own) if below == own => own.to_owned(),
+            (below, own) => format!("{below} + {own}"),
+        };
         Self {
-            name: format!("{}{between}{}", below.name, self.name),
+            name,
+            is_cut: self.is_cut || below.is_cut,
             color: self.color.or(below.color),
             line_width: self.line_width.or(below.line_width),
             hidden: self.hidden.or(below.hidden),
@@ -110,7 +124,7 @@ impl PartStyle {
 
     /// Whether it changes how lines are drawn, and not only which.
     pub(super) fn changes_drawing(&self) -> bool {
-        self.color.is_some() || self.line_width.is_some() || self.hidden.is_some()
+        self.color.is_some() || self.line_width.is_some() || self.hidden.is_some() || self.is_cut
     }
 
     /// Whether its hidden lines are drawn.
@@ -127,6 +141,10 @@ impl PartStyle {
         own.hidden = self.hidden.unwrap_or(own.hidden);
         if let Some(color) = self.color {
             own.class_colors = ClassColors(OfLayers::of_visible(color));
+        }
+        if self.is_cut && self.line_width.is_none() {
+            own.class_widths = ClassWidths(OfLayers::of_visible(CUT_WIDTH));
+            own.class_widths.0.set_class(Class::Curve, STROKE_WIDTH);
         }
         if self.line_width.is_some() {
             own.line_width = self.line_width;

@@ -135,6 +135,7 @@ mod tests {
             segments: vec![segment(20.0, true), segment(60.0, false)],
             edges: Default::default(),
             changes: None,
+            px_per_mm: None,
             covered_triangles: 0,
             labels: Vec::new(),
             parts: Vec::new(),

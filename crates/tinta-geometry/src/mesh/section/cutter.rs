@@ -1,6 +1,7 @@
 //! A mesh being cut: the faces behind the plane, whole or clipped, and the caps that close them.
 
 use super::caps::{self, Cap};
+use super::hatching::{self, upright};
 use crate::mesh::{Curves, Mesh, NONE, NamedPart, Shells};
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, HashMap};
@@ -148,12 +149,13 @@ impl Cutter {
         [position, normal, coordinate]
     }
 
-    /// Adds the caps; returns whether they close the whole cut.
-    pub(super) fn close(&mut self, normal: DVec3) -> bool {
-        let across = normal.any_orthonormal_vector();
-        let up = normal.cross(across);
+    /// Adds the caps; returns whether they close the whole cut, and the strokes that hatch it at this spacing, 0 for none.
+    pub(super) fn close(&mut self, normal: DVec3, spacing: f64) -> (bool, Vec<[DVec3; 2]>) {
+        // Strokes rise to the right where the cut stands upright.
+        let [up, across] = upright(normal);
         let mut is_closed = true;
-        for (_, sides) in self.open_sides() {
+        let mut strokes = Vec::new();
+        for (number, (_, sides)) in self.open_sides().into_iter().enumerate() {
             let origin = self.mesh.positions[sides[0].ends[0] as usize];
             let in_plane = |position: u32| {
                 let point = self.mesh.positions[position as usize] - origin;
@@ -165,13 +167,17 @@ impl Cutter {
             if caps.is_empty() {
                 continue;
             }
+            if spacing > 0.0 {
+                let sides = ends.iter().map(|ends| ends.map(|end| self.mesh.positions[end as usize]));
+                strokes.extend(hatching::strokes(sides, [across, up], spacing, number));
+            }
             self.mesh.marked.extend(ends.iter().map(|[a, b]| [*a.min(b), *a.max(b)]));
             let from: HashMap<[u32; 2], u32> = sides.iter().map(|side| (side.ends, side.from)).collect();
             for cap in caps {
                 self.add_cap(&cap, from.get(&cap.side).copied().unwrap_or(0), normal);
             }
         }
-        is_closed
+        (is_closed, strokes)
     }
 
     /// The sides in the plane at which each solid is open, the way its caps run along them: with the solid at their left, seen from
