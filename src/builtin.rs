@@ -48,7 +48,7 @@ pub struct Named {
 }
 
 /// All built-in models; static, so that a program holds their files once.
-pub static BUILTINS: [Builtin; 10] = [
+pub static BUILTINS: [Builtin; 13] = [
     Builtin {
         name: "bust",
         what: "a portrait bust",
@@ -73,6 +73,27 @@ pub static BUILTINS: [Builtin; 10] = [
         source: Source::File(
             include_bytes!("../models/gear.obj"),
             &[("gear.mtl", include_bytes!("../models/gear.mtl"))],
+        ),
+    },
+    Builtin {
+        name: "car",
+        what: "a car of parts that touch and overlap",
+        source: Source::File(include_bytes!("../models/car.obj"), &[("car.mtl", include_bytes!("../models/car.mtl"))]),
+    },
+    Builtin {
+        name: "case",
+        what: "a case with drawers that lie flush in its frame",
+        source: Source::File(
+            include_bytes!("../models/case.obj"),
+            &[("case.mtl", include_bytes!("../models/case.mtl"))],
+        ),
+    },
+    Builtin {
+        name: "plates",
+        what: "two plates whose holes are filled by pins",
+        source: Source::File(
+            include_bytes!("../models/plates.obj"),
+            &[("plates.mtl", include_bytes!("../models/plates.mtl"))],
         ),
     },
     Builtin {

@@ -42,13 +42,14 @@ const OTHER_SHADE: u8 = 3;
 const OTHER_SHARE: f64 = 0.005;
 
 /// The reference pictures, drawn by llvmpipe of Mesa 22.3.6 on EGL and looked at once.
-const REFERENCES: [(StyleName, &[u8]); 9] = [
+const REFERENCES: [(StyleName, &[u8]); 10] = [
     (StyleName::Phong, include_bytes!("drivers/phong.png")),
     (StyleName::ThreePass, include_bytes!("drivers/three-pass.png")),
     (StyleName::TwoPass, include_bytes!("drivers/two-pass.png")),
     (StyleName::Mrt, include_bytes!("drivers/mrt.png")),
     (StyleName::Inking, include_bytes!("drivers/inking.png")),
     (StyleName::Dietrich, include_bytes!("drivers/dietrich.png")),
+    (StyleName::BackFaces, include_bytes!("drivers/back-faces.png")),
     (StyleName::Ink, include_bytes!("drivers/ink.png")),
     (StyleName::Charcoal, include_bytes!("drivers/charcoal.png")),
     (StyleName::Sand, include_bytes!("drivers/sand.png")),

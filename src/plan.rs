@@ -77,11 +77,7 @@ pub struct Pass {
 }
 
 /// One operation of GL.
-// With 32-bit addresses the variant is smaller.
-#[cfg_attr(
-    target_pointer_width = "64",
-    expect(clippy::large_enum_variant, reason = "most steps draw, and a plan has about ten: a box would save nothing")
-)]
+#[expect(clippy::large_enum_variant, reason = "most steps draw, and a plan has about ten: a box would save nothing")]
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Step {
@@ -126,6 +122,8 @@ pub struct Draw {
     pub cull_back_faces: bool,
     /// Whether of doubled faces, two that lie on each other, the one turned away is skipped ([`Part::is_doubled`]).
     pub culls_doubled_faces: bool,
+    /// Draw nothing but the edges of faces turned away from the eye, as lines of this width in pixels (glPolygonMode).
+    pub back_faces_as_lines: Option<f32>,
     /// glPolygonOffset's factor and units: how far faces are pushed back, by their slope and in steps of depth.
     pub polygon_offset: Option<[f32; 2]>,
     /// The pixels it may change; `None` for all.
@@ -168,6 +166,7 @@ impl Draw {
             blend: Blend::Replace,
             cull_back_faces: false,
             culls_doubled_faces: false,
+            back_faces_as_lines: None,
             polygon_offset: None,
             scissor: None,
             faces: None,
@@ -213,11 +212,22 @@ pub enum Paint {
     Materials,
     /// One colour for all: red, green, blue, alpha.
     Uniform([f32; 4]),
+    /// White, with a number for each object and material as alpha ([`Paint::number`]).
+    Numbers,
     /// White, with a coordinate for each vertex for the first texture unit: a list per object, in the scene's order, with an
     /// entry for each of [`crate::mesh::VertexArrays::vertices`].
     Coordinates(Arc<Vec<Arc<Vec<[f32; 2]>>>>),
     /// A colour for each vertex, mixed across each face: red, green, blue, alpha, in lists like those of coordinates.
     Colors(Arc<Vec<Arc<Vec<[f32; 4]>>>>),
+}
+
+impl Paint {
+    /// The number of an object's material, in steps of 1/255: neighbours in the scene differ, and none is the background's 1.
+    pub(crate) fn number(object: usize, material: u32) -> f32 {
+        // Primes to 255: all numbers come before one is repeated.
+        let steps = (object * 89 + material.wrapping_add(1) as usize * 34) % 255;
+        steps as f32 / 255.0
+    }
 }
 
 /// Edges of one object in one colour.
@@ -362,7 +372,8 @@ impl Draw {
 
     /// Whether every pixel of a face is drawn at the face's depth: stated, or by the fixed-function pipeline.
     pub(crate) fn keeps_pixels(&self) -> bool {
-        self.program.as_ref().is_none_or(|program| program.fragments.is_empty()) || self.facts.keeps_pixels
+        let is_fixed = self.program.as_ref().is_none_or(|program| program.fragments.is_empty());
+        self.back_faces_as_lines.is_none() && (is_fixed || self.facts.keeps_pixels)
     }
 }
 

@@ -21,6 +21,7 @@
 //! # }
 //! ```
 
+mod back_faces;
 mod border;
 mod cartoon;
 mod charcoal;
@@ -49,6 +50,7 @@ mod tones;
 mod vectors;
 
 pub use crate::lines::ClassColors;
+pub use back_faces::BackFaces;
 pub use border::{Border, Filter};
 pub use cartoon::Cartoon;
 pub use charcoal::{
@@ -146,6 +148,17 @@ row::styles! {
         shows: LINE_SHOWS,
         origin: Origin::Named,
         mark: Some(Mark { rgb: [204, 121, 167], outline: Outline::Polygon { corners: 3, turn: PI } }),
+    }
+
+    /// Tones with the rims of thick lines around the faces turned away: the outline by two passes that Evangelista et al. name
+    /// beside their filter.
+    BackFaces(BackFaces) {
+        name: "back-faces",
+        draw: Draw::Plan(BackFaces::plan),
+        has_lines: |back_faces| back_faces.line_width > 0.0,
+        shows: LINE_SHOWS,
+        origin: Origin::Named,
+        mark: Some(Mark { rgb: [230, 159, 0], outline: Outline::Polygon { corners: 3, turn: PI / 2.0 } }),
     }
 
     /// Ink where the surface ends or turns, found by its planes: Evangelista's passes with a map and a filter that answer to

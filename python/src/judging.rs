@@ -12,10 +12,17 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::Value;
 use tinta::plan::Submission;
+use tinta::pixel::LineTolerance;
 use tinta::settings::{OptionValue, Options};
 use tinta::{Backend, Error, ParseError, Result, Show, Style, StyleName};
 use tinta_lab::compare::{Agreement, InkMask};
 use tinta_lab::measure::{MeasureSettings, MeasuredStyle, Subject};
+
+/// The tolerance that is this share of a picture's height.
+fn share(tolerance: f64) -> PyResult<LineTolerance> {
+    let parsed = tolerance.to_string().parse();
+    parsed.map_err(|ParseError(problem)| raised(Error::value("tolerance", tolerance, problem)))
+}
 
 /// Measures settings on meshes together: a row each. Every item of `asked` is a style with its settings.
 #[pyfunction]
@@ -30,7 +37,7 @@ pub(crate) fn measure<'py>(
     backend: Option<&str>,
 ) -> PyResult<Vec<Bound<'py, PyDict>>> {
     let backend: Backend = named("backend", backend)?;
-    let how = MeasureSettings { tolerance_px: tolerance, frames, ..MeasureSettings::default() };
+    let how = MeasureSettings { tolerance: share(tolerance)?, frames, ..MeasureSettings::default() };
     how.check().map_err(raised)?;
     let settings: Vec<MeasuredStyle> = match asked.is_empty() {
         true => {
@@ -100,13 +107,11 @@ pub(crate) fn compare<'py>(
     given: &Bound<'py, PyDict>,
     left: &str,
     right: &str,
-    tolerance: u32,
+    tolerance: f64,
     backend: Option<&str>,
 ) -> PyResult<(Bound<'py, PyDict>, Vec<Bound<'py, PyAny>>)> {
     let backend: Backend = named("backend", backend)?;
-    if tolerance > 64 {
-        return Err(wrong("tolerance", format!("{tolerance} is more than 64 pixels")));
-    }
+    let tolerance = share(tolerance)?;
     let Asked { request, .. } =
         Asked::new("compare", &meshes, given, &Basis { style: Some(left), ..Basis::default() })?;
     let style = |argument: &str, name: &str| -> PyResult<Style> {
@@ -125,7 +130,7 @@ pub(crate) fn compare<'py>(
             |style: &Style, show| -> Result<tinta::Picture> { renderer.draw(&scene, &style.plan(&scene, show)?) };
         let [left, right] = &styles;
         let inks = [draw(left, Show::Borders)?, draw(right, Show::Borders)?].map(|ink| InkMask::of(&ink));
-        let agreement = Agreement::of(&inks[0], &inks[1], tolerance)
+        let agreement = Agreement::of(&inks[0], &inks[1], tolerance.px(scene.size).round() as u32)
             .ok_or_else(|| Error::setting("size", "the two pictures came out in different sizes; choose another"))?;
         let pictures = [draw(left, Show::Final)?, draw(right, Show::Final)?, agreement.picture(scene.size)];
         Ok((pictures, agreement.numbers))

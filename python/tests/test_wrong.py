@@ -84,7 +84,7 @@ WRONG = [
     (lambda: tn.render(V, F, size=32, transparent=True).save("a.jpg"), OSError, r"no transparency"),
     (lambda: tn.render(V, F, camera=np.diag([2.0, 1, -1, 1])), ValueError, r"camera: pictures are drawn with square pixels"),
     (lambda: tn.measure(V, F, frames=0), ValueError, r"frames 0: at least one frame"),
-    (lambda: tn.measure(V, F, tolerance=-1), ValueError, r"tolerance -1: it is a number of pixels"),
+    (lambda: tn.measure(V, F, tolerance=-1), ValueError, r"tolerance -1: it is a share of the picture"),
     (lambda: tn.measure(V, F, styles=["inc"]), ValueError, r"style inc: did you mean ink\?"),
     (lambda: tn.compare(V, F, left="phong"), ValueError, r"left: style phong has no lines to compare"),
 ]

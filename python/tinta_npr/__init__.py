@@ -188,7 +188,7 @@ def render(
     return Picture(drawn.pixels, drawn.recipe)
 
 
-def measure(mesh, faces=None, *, styles=(), frames=21, tolerance=2.0, camera=None, backend=None, name=None, **settings):
+def measure(mesh, faces=None, *, styles=(), frames=21, tolerance=1 / 256, camera=None, backend=None, name=None, **settings):
     """Measure styles: the share of visible lines each draws, its false lines, and its time per frame.
 
     Parameters
@@ -200,7 +200,7 @@ def measure(mesh, faces=None, *, styles=(), frames=21, tolerance=2.0, camera=Non
     frames : int
         Number of timed frames for each style.
     tolerance : float
-        Distance within which ink and line count as the same, pixels.
+        Distance within which ink and line count as the same, as a share of the picture's height, up to 1/32.
 
     Returns
     -------
@@ -218,7 +218,7 @@ def measure(mesh, faces=None, *, styles=(), frames=21, tolerance=2.0, camera=Non
 
 
 def compare(
-    mesh, faces=None, *, left="three-pass", right="inking", tolerance=2, camera=None, backend=None, name=None, **settings
+    mesh, faces=None, *, left="three-pass", right="inking", tolerance=1 / 256, camera=None, backend=None, name=None, **settings
 ):
     """Draw a mesh in two styles, and show which lines both drew.
 
@@ -228,8 +228,8 @@ def compare(
         As in `tinta_npr.render`.
     left, right : str
         Two of `tinta_npr.STYLES` that draw lines.
-    tolerance : int
-        Distance within which two styles' ink counts as the same, pixels, up to 64.
+    tolerance : float
+        Distance within which two styles' ink counts as the same, as a share of the picture's height, up to 1/32.
 
     Returns
     -------
@@ -241,7 +241,7 @@ def compare(
     --------
     """
     meshes, settings, _ = _drawn("compare", mesh, faces, name, camera, settings, (left, None, None))
-    return Comparison(*_native.compare(meshes, settings, left, right, int(tolerance), backend))
+    return Comparison(*_native.compare(meshes, settings, left, right, float(tolerance), backend))
 
 
 def _one(mesh, faces, name, settings, function):

@@ -8,8 +8,8 @@ use super::legacy::{self, MODELVIEW, PROJECTION};
 use super::meshes::of_another_scene;
 use super::objects::Buffer;
 use super::quads::{line_quads, point_quads};
-use crate::error::Result;
-use crate::plan::{EdgeRun, Mark, Submission};
+use crate::error::{Error, Result};
+use crate::plan::{Draw, EdgeRun, Mark, Submission};
 use crate::scene::Scene;
 use glam::{Mat4, Vec3};
 use glow::HasContext;
@@ -42,6 +42,37 @@ fn each_once(numbers: &[u32]) -> Vec<u32> {
 }
 
 impl Resources {
+    /// Refuses faces as lines where the driver has none of this width, and in a browser, which has none at all.
+    pub(super) fn check_back_faces(&self, draw: &Draw) -> Result<()> {
+        let info = &self.gl.info;
+        let has_lines = |width_px: f32| self.has_pipeline && info.draws_lines(width_px);
+        match draw.back_faces_as_lines.filter(|width_px| !has_lines(*width_px)) {
+            None => Ok(()),
+            Some(width_px) => {
+                let instead = if self.has_pipeline { "give a smaller one" } else { "choose another style" };
+                let problem = format!("{} does not draw faces as lines of this width; {instead}", info.renderer);
+                Err(Error::value("line-width", width_px, problem))
+            }
+        }
+    }
+
+    /// Sets which faces are drawn, and whether filled or as lines.
+    pub(super) fn set_sides(&self, draw: &Draw) {
+        let (gl, as_lines) = (&self.gl.glow, draw.back_faces_as_lines);
+        // SAFETY: the context is current; the names are of GL 2.1.
+        unsafe {
+            gl.cull_face(if as_lines.is_some() { glow::FRONT } else { glow::BACK });
+            if self.has_pipeline {
+                gl.polygon_mode(glow::FRONT_AND_BACK, if as_lines.is_some() { glow::LINE } else { glow::FILL });
+            }
+            if let Some(width_px) = as_lines {
+                gl.disable(glow::LINE_SMOOTH);
+                gl.line_width(width_px);
+            }
+        }
+        self.gl.cull(draw.cull_back_faces || as_lines.is_some());
+    }
+
     /// GL_LINES or GL_POINTS.
     pub(super) fn draw_edges(
         &mut self,

@@ -180,6 +180,7 @@ impl Resources {
         self.bind_program(draw)?;
         match &draw.geometry {
             Geometry::Objects(paint) => {
+                self.check_back_faces(draw)?;
                 let material_unit = draw.textures.iter().position(|(_, texture)| *texture == plan::Texture::Material);
                 if material_unit.is_some_and(|unit| unit as u32 >= legacy::FIXED_UNITS) {
                     return Err(Error::gl("drawing", "a plan reads the models' own pictures by a third unit"));
@@ -305,9 +306,8 @@ impl Resources {
                     gl.depth_mask(false);
                 }
             }
-            gl.cull_face(glow::BACK);
             gl.front_face(glow::CCW);
-            self.gl.cull(draw.cull_back_faces);
+            self.set_sides(draw);
             match draw.polygon_offset {
                 Some([factor, units]) => {
                     gl.enable(glow::POLYGON_OFFSET_FILL);

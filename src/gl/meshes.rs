@@ -123,7 +123,7 @@ impl Resources {
                     self.gl.cull(draw.cull_back_faces || part.is_doubled);
                 }
                 // SAFETY: the context is current.
-                unsafe { self.gl.legacy.color(color_of(paint, scene, object, part)) };
+                unsafe { self.gl.legacy.color(color_of(paint, scene, number, part)) };
                 if self.submission != Submission::Buffers {
                     let has_normals = draw.program.is_some();
                     let faces = RunOfFaces { object, listed, part, lists, material_unit, has_normals };
@@ -213,13 +213,15 @@ fn buffer_of<'a, T>(present: &'a [OfVertices<T>], list: &Arc<Vec<T>>) -> Result<
 }
 
 /// The colour of a part that its vertices do not colour.
-fn color_of(paint: &Paint, scene: &Scene, object: &Object, part: &Part) -> [f32; 4] {
+fn color_of(paint: &Paint, scene: &Scene, number: usize, part: &Part) -> [f32; 4] {
+    let object = &scene.objects[number];
     match paint {
         Paint::Materials => {
             let Color([red, green, blue]) = scene.material_color(&object.mesh, part.material);
             [red, green, blue, 1.0]
         }
         Paint::Uniform(color) => *color,
+        Paint::Numbers => [1.0, 1.0, 1.0, Paint::number(number, part.material)],
         Paint::Coordinates(_) | Paint::Colors(_) => [1.0; 4],
     }
 }
@@ -237,7 +239,7 @@ impl<'a> PaintLists<'a> {
             lists.get(object).filter(|list| list.len() == vertex_count).ok_or_else(of_another_scene)
         }
         Ok(match paint {
-            Paint::Materials | Paint::Uniform(_) => Self::default(),
+            Paint::Materials | Paint::Uniform(_) | Paint::Numbers => Self::default(),
             Paint::Coordinates(lists) => {
                 Self { coordinates: Some(list(lists, object, vertex_count)?), ..Self::default() }
             }

@@ -237,7 +237,7 @@ fn prepared<'a>(
     (how, only_at): (Recomputation, Option<[u32; 2]>),
 ) -> Result<Option<PreparedDraw<'a>>> {
     let Some((pass, Step::Draw(draw))) = all_steps(plan).nth(number) else { return Ok(None) };
-    if matches!(draw.geometry, Geometry::Edges { .. }) {
+    if matches!(draw.geometry, Geometry::Edges { .. }) || draw.back_faces_as_lines.is_some() {
         return Ok(None);
     }
     let program = fixed_function::program_of(draw, false)

@@ -124,7 +124,7 @@ impl<'a> Triangles<'a> {
         match paint {
             Paint::Coordinates(lists) => coordinates[0] = lists.get(number).map_or(&[], |list| list.as_slice()),
             Paint::Colors(lists) => colors = lists.get(number).map_or(&[], |list| list.as_slice()),
-            Paint::Materials | Paint::Uniform(_) => {}
+            Paint::Materials | Paint::Uniform(_) | Paint::Numbers => {}
         }
         if let Some(slot) = unit.and_then(|unit| coordinates.get_mut(unit)) {
             *slot = &arrays.texture_coordinates;
@@ -145,6 +145,7 @@ impl<'a> Triangles<'a> {
                     [red, green, blue, 1.0]
                 }
                 Paint::Uniform(color) => *color,
+                Paint::Numbers => [1.0, 1.0, 1.0, Paint::number(number, part.material)],
                 Paint::Coordinates(_) | Paint::Colors(_) => [1.0; 4],
             };
             let first = part.first as usize;

@@ -2,6 +2,7 @@
 
 use super::explainer::Explainer;
 use super::recomputation::Recomputation;
+use super::tolerance::LineTolerance;
 use crate::error::Result;
 use crate::lines::VisibleLines;
 use crate::plan::Plan;
@@ -14,9 +15,6 @@ use serde::Serialize;
 
 /// Least darkness of a pixel of ink, of 255: a quarter, to include faint lines.
 pub const INK_FROM: u8 = 64;
-
-/// Ink this close to a visible line draws it, pixels: half the width of the published borders, and their shift of one.
-pub const LINE_TOLERANCE_PX: f64 = 2.0;
 
 /// A line this close to a pixel's middle runs through the pixel: half its diagonal.
 const THROUGH_PX: f64 = std::f64::consts::FRAC_1_SQRT_2;
@@ -77,7 +75,7 @@ pub fn against_lines(scene: &Scene, values: &[StepValues], lines: &VisibleLines,
     let drawn = darkness_of(values, at).unwrap_or_default();
     let is_near = |limit: f64| distance_px.is_some_and(|distance| distance <= limit);
     let verdict = match drawn >= INK_FROM {
-        true if is_near(LINE_TOLERANCE_PX) => Verdict::Right,
+        true if is_near(LineTolerance::default().px(scene.size)) => Verdict::Right,
         true => Verdict::Invented,
         false if !is_near(THROUGH_PX) => Verdict::Empty,
         false if nearest.is_some_and(|(_, place)| has_ink_near(scene, values, place)) => Verdict::Right,
@@ -127,7 +125,8 @@ fn darkness([red, green, blue, _]: [f64; 4]) -> u8 {
 
 /// Whether any pixel is ink whose middle is near a place of the picture, y down.
 fn has_ink_near(scene: &Scene, values: &[StepValues], place: DVec2) -> bool {
-    let reach = LINE_TOLERANCE_PX.ceil() as i64;
+    let tolerance_px = LineTolerance::default().px(scene.size);
+    let reach = tolerance_px.ceil() as i64;
     let (column, row) = (place.x.floor() as i64, place.y.floor() as i64);
     (-reach..=reach).any(|dy| {
         (-reach..=reach).any(|dx| {
@@ -136,7 +135,7 @@ fn has_ink_near(scene: &Scene, values: &[StepValues], place: DVec2) -> bool {
             let up = i64::from(scene.size.height) - 1 - y;
             let pixel = u32::try_from(x).ok().zip(u32::try_from(up).ok());
             let is_ink = pixel.and_then(|(x, y)| darkness_of(values, [x, y])).is_some_and(|dark| dark >= INK_FROM);
-            is_ink && middle.distance(place) <= LINE_TOLERANCE_PX
+            is_ink && middle.distance(place) <= tolerance_px
         })
     })
 }

@@ -68,6 +68,7 @@ impl fmt::Display for Draw {
         match &self.geometry {
             Geometry::Objects(Paint::Materials) => write!(out, "draw the objects")?,
             Geometry::Objects(Paint::Uniform([r, g, b, a])) => write!(out, "draw the objects in ({r}, {g}, {b}, {a})")?,
+            Geometry::Objects(Paint::Numbers) => write!(out, "draw the objects in their numbers")?,
             Geometry::Objects(Paint::Coordinates(_)) => write!(out, "draw the objects by texture coordinates")?,
             Geometry::Objects(Paint::Colors(_)) => write!(out, "draw the objects in colours of their vertices")?,
             Geometry::Edges { runs, mark, width_px, is_smooth, line_drawing } => {
@@ -102,14 +103,7 @@ impl fmt::Display for Draw {
             Depth::Equal => write!(out, ", where depth is equal")?,
             Depth::Ignore => write!(out, ", no depth test")?,
         }
-        if self.cull_back_faces {
-            write!(out, ", back faces left out")?;
-        } else if self.culls_doubled_faces {
-            write!(out, ", of doubled faces the back ones left out")?;
-        }
-        if let Some([factor, units]) = self.polygon_offset {
-            write!(out, ", pushed back by ({factor}, {units})")?;
-        }
+        write_sides(out, self)?;
         match self.blend {
             Blend::Replace => {}
             Blend::Over => write!(out, ", blended")?,
@@ -139,6 +133,22 @@ impl fmt::Display for Program {
         write!(out, "{}", self.vertex)?;
         self.fragments.iter().try_for_each(|fragment| write!(out, " + {fragment}"))
     }
+}
+
+/// Which faces are drawn, how and where.
+fn write_sides(out: &mut fmt::Formatter<'_>, draw: &Draw) -> fmt::Result {
+    if draw.cull_back_faces {
+        write!(out, ", back faces left out")?;
+    } else if draw.culls_doubled_faces {
+        write!(out, ", of doubled faces the back ones left out")?;
+    }
+    if let Some(width_px) = draw.back_faces_as_lines {
+        write!(out, ", back faces alone, as lines of {width_px} px")?;
+    }
+    if let Some([factor, units]) = draw.polygon_offset {
+        write!(out, ", pushed back by ({factor}, {units})")?;
+    }
+    Ok(())
 }
 
 fn write_scissor(out: &mut fmt::Formatter<'_>, scissor: Option<Rectangle>) -> fmt::Result {

@@ -143,9 +143,10 @@ impl Border {
     /// A filter's shader and the shaders it calls.
     fn parts(&self, filter: &'static str, encoding: MapEncoding) -> [&'static str; 4] {
         let tap = if self.width.is_some() { "improved/tap-apart.frag" } else { "evangelista/tap-next.frag" };
-        let depth = match self.slope_threshold {
-            true => "improved/slope-threshold.frag",
-            false => "evangelista/depth-as-filtered.frag",
+        let depth = match (encoding, self.slope_threshold) {
+            (MapEncoding::Numbers, _) => "improved/numbers-differ.frag",
+            (_, true) => "improved/slope-threshold.frag",
+            (_, false) => "evangelista/depth-as-filtered.frag",
         };
         [filter, tap, encoding.shader(), depth]
     }

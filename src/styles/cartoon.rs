@@ -160,6 +160,10 @@ impl Cartoon {
             ));
         }
         self.tones.check()?;
+        if self.map_encoding == MapEncoding::Numbers && self.border.is_some_and(|border| border.slope_threshold) {
+            let problem = "a map of numbers has no depth; leave out one of the two";
+            return Err(Error::settings(&["slope-threshold", "map-encoding"], problem));
+        }
         match self.border {
             Some(border) => border.check()?,
             None if show == Show::Borders => {
@@ -203,7 +207,7 @@ impl Cartoon {
             let facts = Facts::constant(encoding.background());
             steps.push(Step::Draw(Draw { depth: Depth::Ignore, facts, ..square }));
         }
-        steps.push(Step::Draw(draw(Geometry::Objects(Paint::Materials))));
+        steps.push(Step::Draw(draw(Geometry::Objects(encoding.paint()))));
         // The picture of a map is in the framebuffer.
         let target = if is_read { encoding.target(self.map_target) } else { Target::Framebuffer };
         if is_read && target == Target::Framebuffer {

@@ -27,6 +27,19 @@ impl Default for Dietrich {
     }
 }
 
+/// Returns the setting of the ink's colour.
+pub(super) fn ink_color<T: Clone + 'static>(field: fn(&mut T) -> &mut Color) -> Setting<T> {
+    let set = move |style: &mut T, text: &str| {
+        // Recordings of earlier versions have red, green and blue from 0 to 1.
+        *field(style) = <[f32; 3]>::parse(text).map(Color).or_else(|_| Color::parse(text))?;
+        Ok(())
+    };
+    let help = "The ink's colour: a CSS name, #rrggbb or rgb(r,g,b)";
+    Setting::of("ink-color", "COLOR", Color::kind(), help, move |style: &T| field(&mut style.clone()).text(), set)
+        .said("black")
+        .labelled("ink colour")
+}
+
 impl Dietrich {
     /// Its settings.
     pub(super) fn settings() -> Vec<Setting<Self>> {
@@ -45,19 +58,8 @@ impl Dietrich {
             cull(|dietrich: &mut Self| &mut dietrich.cull_back_faces),
             Supersample::setting(|dietrich: &mut Self| &mut dietrich.supersample),
         ];
-        let color = Setting::of(
-            "ink-color",
-            "COLOR",
-            Color::kind(),
-            "The ink's colour: a CSS name, #rrggbb or rgb(r,g,b)",
-            |dietrich: &Self| dietrich.ink.text(),
-            |dietrich, text| {
-                // Recordings of earlier versions have red, green and blue from 0 to 1.
-                dietrich.ink = <[f32; 3]>::parse(text).map(Color).or_else(|_| Color::parse(text))?;
-                Ok(())
-            },
-        )
-        .ours("the text names the method and prints no colour");
+        let color =
+            ink_color(|dietrich: &mut Self| &mut dietrich.ink).ours("the text names the method and prints no colour");
         let own = vec![
             Setting::field(
                 "ink-threshold",
@@ -67,7 +69,7 @@ impl Dietrich {
             )
             .ours("D, Alternative techniques: a chosen threshold, not printed")
             .range(0.0, 1.0, 3),
-            color.said("black").labelled("ink colour"),
+            color,
         ];
         under(ALL_STYLES, common).chain(under("Style dietrich", own)).collect()
     }

@@ -1,7 +1,7 @@
 //! The ramp's gradient for each surface of a scene, and the brightness of its vertices: the texture coordinates of the text's
 //! section "Painting".
 
-use super::ramp::{ROWS, Ramp, RampRow, WIDTH, gradient};
+use super::ramp::{Ramp, RampRow, WIDTH, gradient};
 use crate::mesh::VertexArrays;
 use crate::picture::Picture;
 use crate::scene::{Color, Object, Scene, Size};
@@ -36,15 +36,15 @@ impl<'a> Gradients<'a> {
 
     /// Returns their number.
     fn count(&self) -> u32 {
-        self.own.as_ref().map_or(ROWS, |(bases, _)| bases.len() as u32)
+        self.own.as_ref().map_or(self.ramp.rows, |(bases, _)| bases.len() as u32)
     }
 
     /// The row of a surface.
     fn row(&self, object: usize, material: u32) -> u32 {
         let mesh = || &self.scene.objects[object].mesh;
         match self.row {
-            RampRow::Object => (object % ROWS as usize) as u32,
-            RampRow::Row(row) => u32::from(row) % ROWS,
+            RampRow::Object => (object % self.ramp.rows as usize) as u32,
+            RampRow::Row(row) => u32::from(row) % self.ramp.rows,
             RampRow::Material => {
                 let given = mesh().materials.get(material as usize).and_then(|material| material.color.map(Color));
                 let color = if self.scene.recolor { Some(self.scene.color) } else { given };
@@ -175,7 +175,7 @@ mod tests {
         let size = Size { width: 10, height: 8 };
         let pixel = |place: u32| [(place % 10) as u8, (place / 10) as u8, 7, 255];
         let picture = Picture { size, pixels: (0..80).flat_map(pixel).collect() };
-        let ramp = Ramp { picture: Arc::new(picture), path: None };
+        let ramp = Ramp { picture: Arc::new(picture), rows: 4, path: None };
         let scene = Scene::new(vec![Arc::new(Mesh::triangle())], &SceneSettings::default()).unwrap();
         let gradients = |row| Gradients::new(&scene, &ramp, RampRow::Row(row));
         for row in 0..4 {

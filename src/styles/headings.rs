@@ -3,7 +3,8 @@
 use crate::settings::Setting;
 
 /// The headings of the settings, in this order.
-pub(super) const HEADINGS: [&str; 7] = [ALL_STYLES, CARTOON, INKING, "Style dietrich", IMAGE_SPACE, INK, CHARCOAL];
+pub(super) const HEADINGS: [&str; 8] =
+    [ALL_STYLES, CARTOON, INKING, "Style dietrich", "Style back-faces", IMAGE_SPACE, INK, CHARCOAL];
 
 pub(super) const ALL_STYLES: &str = "All styles";
 pub(super) const CARTOON: &str = "Styles three-pass, two-pass and mrt (published values are the paper's)";

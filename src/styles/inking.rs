@@ -313,6 +313,12 @@ impl Inking {
                 "its gradients are made of the materials' colours and none is read from a picture; leave out this or --ramp",
             ));
         }
+        if let RampRow::Row(row) = self.ramp_row
+            && u32::from(row) >= self.ramp.rows
+        {
+            let problem = format!("this ramp's gradients are 0 to {}", self.ramp.rows - 1);
+            return Err(Error::value("ramp-row", row, problem));
+        }
         if self.polygon_offset.iter().any(|number| !number.is_finite()) {
             return Err(Error::setting("polygon-offset", "its two numbers must be finite"));
         }

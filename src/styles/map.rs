@@ -1,6 +1,6 @@
 //! The map of the cartoon styles: how normals and depth are stored between the passes (errata E6 to E8).
 
-use crate::plan::{Attachment, Attachments, Format, Program, SettingValue, Target, Texture, TextureName};
+use crate::plan::{Attachment, Attachments, Format, Paint, Program, SettingValue, Target, Texture, TextureName};
 use crate::settings::Setting;
 
 tinta_geometry::choices! {
@@ -18,13 +18,16 @@ tinta_geometry::choices! {
         Float = "float",
         /// Normals as 0.5 n + 0.5, depth from a copy of the depth buffer.
         DepthTexture = "depth-texture",
+        /// Normals as 0.5 n + 0.5 and, instead of depth, a number for each object and material: the map of Mitchell 2002, whose
+        /// filter sees where two objects touch.
+        Numbers = "numbers",
     }
 }
 
 impl MapEncoding {
     /// The setting's help text.
     pub(super) const HELP: &'static str = "Storage of normals and depth: paper, biased (0.5 n + 0.5), float16, float, \
-         depth-texture (biased, depth from the depth buffer); mrt has paper only";
+         depth-texture (biased, depth from the depth buffer), numbers (biased, objects' numbers instead of depth); mrt has paper only";
 
     /// Returns the shaders that write it.
     pub(super) fn program(self) -> Program {
@@ -32,15 +35,21 @@ impl MapEncoding {
             Self::Published => ("evangelista/map.vert", "evangelista/map.frag"),
             Self::Biased | Self::DepthTexture => ("improved/map-biased.vert", "evangelista/map.frag"),
             Self::Float16 | Self::Float => ("improved/map-float.vert", "improved/map-float.frag"),
+            Self::Numbers => ("improved/map-numbers.vert", "improved/map-numbers.frag"),
         };
         Program::new(vertex, [fragment])
+    }
+
+    /// What the objects are drawn in.
+    pub(super) fn paint(self) -> Paint {
+        if self == Self::Numbers { Paint::Numbers } else { Paint::Materials }
     }
 
     /// The map's value for a pixel that neither object nor square covers: no normal, farthest depth.
     pub(super) fn empty(self) -> [f32; 4] {
         match self {
             Self::Published | Self::Float16 | Self::Float => [0.0, 0.0, 0.0, 1.0],
-            Self::Biased | Self::DepthTexture => [0.5, 0.5, 0.5, 1.0],
+            Self::Biased | Self::DepthTexture | Self::Numbers => [0.5, 0.5, 0.5, 1.0],
         }
     }
 
@@ -48,7 +57,7 @@ impl MapEncoding {
     pub(super) fn background(self) -> [f32; 4] {
         match self {
             Self::Published | Self::Float16 | Self::Float => [0.0, 0.0, 1.0, 1.0],
-            Self::Biased | Self::DepthTexture => [0.5, 0.5, 1.0, 1.0],
+            Self::Biased | Self::DepthTexture | Self::Numbers => [0.5, 0.5, 1.0, 1.0],
         }
     }
 
@@ -57,7 +66,7 @@ impl MapEncoding {
         match self {
             Self::Float16 => Target::Textures(&FLOAT16_MAP),
             Self::Float => Target::Textures(&FLOAT_MAP),
-            Self::Published | Self::Biased | Self::DepthTexture => map_target.target(),
+            Self::Published | Self::Biased | Self::DepthTexture | Self::Numbers => map_target.target(),
         }
     }
 
@@ -74,7 +83,7 @@ impl MapEncoding {
     pub(super) fn shader(self) -> &'static str {
         match self {
             Self::Published | Self::Float16 | Self::Float => "evangelista/texel-map.frag",
-            Self::Biased => "improved/texel-biased.frag",
+            Self::Biased | Self::Numbers => "improved/texel-biased.frag",
             Self::DepthTexture => "improved/texel-depth-texture.frag",
         }
     }
@@ -82,7 +91,7 @@ impl MapEncoding {
     /// Returns the smallest step of its depths.
     pub(super) fn depth_step(self) -> f32 {
         match self {
-            Self::Published | Self::Biased => 1.0 / 255.0,
+            Self::Published | Self::Biased | Self::Numbers => 1.0 / 255.0,
             // The last of 11 binary digits between 0.5 and 1, where most of a scene's window depth lies.
             Self::Float16 => 1.0 / 2048.0,
             Self::Float | Self::DepthTexture => 1.0 / 16_777_216.0,

@@ -1,6 +1,6 @@
 //! The ramp texture of the text's section "Painting": gradients of a few flat tones, one per row, indexed by the light.
 
-use crate::error::{Error, ParseError, Result};
+use crate::error::{ParseError, Result};
 use crate::picture::Picture;
 use crate::scene::{Color, Size};
 use crate::settings::{Kind, Problem, Value};
@@ -9,17 +9,19 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::{Arc, LazyLock};
 
-/// Rows of a ramp, as in the text's picture.
-pub(super) const ROWS: u32 = 4;
+/// Gradients of a ramp, as in the text's picture.
+const ROWS: u32 = 4;
 
 /// The light at which a gradient shows its base colour.
 pub(super) const MIDDLING_LIGHT: f32 = 0.6;
 
-/// A picture of four gradients one above the other, dark at the left.
+/// A picture of gradients one above the other, dark at the left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ramp {
-    /// The picture; each quarter of its height is a gradient, the first at the top.
+    /// The picture; its gradients are equally high, the first at the top.
     pub picture: Arc<Picture>,
+    /// The number of gradients: four, as in the text, or as many as the picture has bands of equal rows.
+    pub rows: u32,
     /// Its source file; `None` for the built-in one.
     pub path: Option<PathBuf>,
 }
@@ -28,7 +30,7 @@ impl Default for Ramp {
     /// Four gradients of three tones, our own.
     fn default() -> Self {
         static BUILT_IN: LazyLock<Arc<Picture>> = LazyLock::new(|| Arc::new(built_in()));
-        Self { picture: BUILT_IN.clone(), path: None }
+        Self { picture: BUILT_IN.clone(), rows: ROWS, path: None }
     }
 }
 
@@ -37,9 +39,9 @@ impl Ramp {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] when it cannot be read or has fewer rows than gradients.
+    /// [`Error::File`] when it cannot be read.
     pub fn read(path: &Path) -> Result<Self> {
-        Self::of(Picture::read(path)?, path)
+        Ok(Self::of(Picture::read(path)?, path))
     }
 
     /// A picture's bytes as a ramp; `name` is for messages.
@@ -48,17 +50,12 @@ impl Ramp {
     ///
     /// Those of [`Ramp::read`].
     pub fn from_bytes(bytes: &[u8], name: &str) -> Result<Self> {
-        Self::of(Picture::from_bytes(bytes, name)?, Path::new(name))
+        Ok(Self::of(Picture::from_bytes(bytes, name)?, Path::new(name)))
     }
 
-    fn of(picture: Picture, path: &Path) -> Result<Self> {
-        if picture.size.height < ROWS {
-            return Err(Error::picture(
-                path,
-                format!("a ramp has {ROWS} gradients, one above the other; make it at least {ROWS} pixels high"),
-            ));
-        }
-        Ok(Self { picture: Arc::new(picture), path: Some(path.to_path_buf()) })
+    fn of(picture: Picture, path: &Path) -> Self {
+        let rows = bands(&picture).unwrap_or(ROWS.min(picture.size.height));
+        Self { picture: Arc::new(picture), rows, path: Some(path.to_path_buf()) }
     }
 }
 
@@ -67,13 +64,32 @@ impl Ramp {
     pub(super) fn nearest_row(&self, color: Color) -> u32 {
         let Size { width, height } = self.picture.size;
         let distance = |row: &u32| {
-            let y = (row * 2 + 1) * height / (ROWS * 2);
+            let y = (row * 2 + 1) * height / (self.rows * 2);
             let pixel = self.picture.pixel((MIDDLING_LIGHT * width as f32) as i64, y.into());
             let squares = pixel.iter().zip(color.0).map(|(a, b)| (f32::from(*a) / 255.0 - b).powi(2));
             squares.sum::<f32>()
         };
-        (0..ROWS).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or_default()
+        (0..self.rows).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or_default()
     }
+}
+
+/// The number of a picture's bands of equal rows, if all are equally high; `None` for other pictures, and for a tall picture whose
+/// rows all differ, like a photograph's.
+fn bands(picture: &Picture) -> Option<u32> {
+    /// The most bands of a single row.
+    const MOST_THIN: u32 = 16;
+    let Size { width, height } = picture.size;
+    let mut lines = picture.pixels.chunks_exact(width as usize * 4).peekable();
+    let mut highs = vec![0_u32];
+    while let Some(line) = lines.next() {
+        *highs.last_mut()? += 1;
+        if lines.peek().is_some_and(|next| *next != line) {
+            highs.push(0);
+        }
+    }
+    let is_thick = highs.first().is_some_and(|high| *high > 1);
+    let are_equal = highs.windows(2).all(|pair| pair[0] == pair[1]);
+    (are_equal && (is_thick || height <= MOST_THIN)).then_some(highs.len() as u32)
 }
 
 /// The name of the built-in ramp.
@@ -106,7 +122,7 @@ impl Serialize for Ramp {
 
 impl Value for RampRow {
     fn kind() -> Kind {
-        Kind::Choice(vec!["material", "object", "own", "0", "1", "2", "3"])
+        Kind::Text { offered: &["material", "object", "own", "0", "1", "2", "3"], example: "2" }
     }
 
     fn text(&self) -> String {
@@ -133,7 +149,7 @@ pub enum RampRow {
     Object,
     /// Each of a material's colours in the tones of the built-in ramp; [`Ramp`] is ignored.
     Own,
-    /// This one for all, 0 to 3.
+    /// This one for all, from 0 at the top.
     Row(u8),
 }
 
@@ -145,12 +161,9 @@ impl FromStr for RampRow {
             "material" => Ok(Self::Material),
             "object" => Ok(Self::Object),
             "own" => Ok(Self::Own),
-            _ => text
-                .parse()
-                .ok()
-                .filter(|row| u32::from(*row) < ROWS)
-                .map(Self::Row)
-                .ok_or_else(|| format!("choose material, object, own, or a row from 0 to {}", ROWS - 1).into()),
+            _ => text.parse().map(Self::Row).map_err(|_| {
+                "choose material, object, own, or the number of a gradient, from 0 at the top".to_owned().into()
+            }),
         }
     }
 }
@@ -206,11 +219,25 @@ mod tests {
     }
 
     #[test]
-    fn a_colours_row_is_the_nearest_and_a_row_is_one_of_four() {
+    fn a_picture_has_as_many_gradients_as_bands_of_one_height() {
+        let rows = |width: u32, lines: &[u8]| {
+            let pixels = lines.iter().flat_map(|line| [*line; 4].repeat(width as usize)).collect();
+            Ramp::of(Picture { size: Size { width, height: lines.len() as u32 }, pixels }, Path::new("x")).rows
+        };
+        assert_eq!(rows(3, &[7]), 1);
+        assert_eq!(rows(1, &[7, 8]), 2);
+        assert_eq!(rows(2, &[1, 1, 2, 2, 3, 3, 1, 1, 5, 5, 6, 6]), 6);
+        // Unequal bands, and a tall picture of rows that all differ, are quarters.
+        assert_eq!(rows(2, &[1, 1, 1, 2, 3, 3]), 4);
+        assert_eq!(rows(2, &(0..64).collect::<Vec<u8>>()), 4);
+    }
+
+    #[test]
+    fn a_colours_row_is_the_nearest_and_a_row_is_a_number() {
         for (row, base) in BASES.iter().enumerate() {
             assert_eq!(Ramp::default().nearest_row(Color(*base)), row as u32);
         }
         assert_eq!("2".parse(), Ok(RampRow::Row(2)));
-        assert!("4".parse::<RampRow>().is_err());
+        assert!("-1".parse::<RampRow>().is_err() && "256".parse::<RampRow>().is_err());
     }
 }

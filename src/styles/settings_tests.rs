@@ -131,7 +131,7 @@ fn what_no_text_says_is_not_written() {
 fn other_ramp() -> Ramp {
     let mut picture = (*Ramp::default().picture).clone();
     picture.pixels[0] ^= 1;
-    Ramp { picture: Arc::new(picture), path: None }
+    Ramp { picture: Arc::new(picture), rows: 4, path: None }
 }
 
 #[test]

@@ -204,7 +204,10 @@ fn cargo_fault(words: &[&str], manifest: &str, sources: &str) -> Option<String> 
                 .iter()
                 .any(|folder| root().join(format!("{folder}/{name}.rs")).exists()),
             "--example" => {
-                manifest.contains(&format!("name = \"{name}\"")) || root().join(format!("examples/{name}.rs")).exists()
+                manifest.contains(&format!("name = \"{name}\""))
+                    || ["examples", "crates/tinta-lab/examples"]
+                        .iter()
+                        .any(|folder| root().join(format!("{folder}/{name}.rs")).exists())
             }
             "--test" => {
                 manifest.contains(&format!("[[test]]\nname = \"{name}\""))

@@ -6,7 +6,19 @@ use tinta_lab::measure::Row;
 
 /// A run small enough for a test.
 fn run(folder: &str, more: &[&str]) -> std::process::Output {
-    let base = ["measure", "builtin:open-box", "-o", folder, "--quick", "--size", "64", "--frames", "2"];
+    let base = [
+        "measure",
+        "builtin:open-box",
+        "-o",
+        folder,
+        "--quick",
+        "--size",
+        "64",
+        "--frames",
+        "2",
+        "--tolerance",
+        "1/32",
+    ];
     tinta(&[&base[..], more].concat())
 }
 
@@ -31,8 +43,15 @@ fn a_run_leaves_rows_a_table_plots_and_a_page() {
     let style = |name: &str| rows.iter().find(|row| row.style == name && row.is_faithful).unwrap();
     for row in &rows {
         assert_eq!((row.size, row.time.frames_ms.len()), ([64, 64], 2));
-        assert!(row.time.median_ms > 0.0 && row.time.first_frame_ms > 0.0 && !row.time.passes.is_empty());
+        assert!(row.time.median_ms > 0.0 && row.time.passes.is_empty() == (row.style == "print"));
+        assert_eq!(row.time.processor_ms.len(), 2);
+        // Each row can be quoted.
+        assert!(row.conditions.date.len() == 10 && !row.gl_version.is_empty(), "{:?}", row.conditions);
     }
+    let own: Vec<&str> = rows.iter().filter(|row| row.has_own_reference).map(|row| row.style.as_str()).collect();
+    assert!(own.contains(&"print") && own.contains(&"inking") && !own.contains(&"ink"), "{own:?}");
+    let print = rows.iter().find(|row| row.style == "print").unwrap();
+    assert!(print.is_pruned && print.lines.as_ref().unwrap().f1 > 0.98, "{:?}", print.lines);
     assert!(style("phong").lines.is_none() && style("charcoal").lines.is_none());
     assert!(style("three-pass").tones.is_some() && style("inking").tones.is_none());
     assert!(style("inking").time.edges_ms > 0.0 && style("three-pass").time.edges_ms == 0.0);
@@ -100,7 +119,7 @@ fn what_cannot_be_measured_is_refused() {
         (&["measure", "-o", &out][..], &["a model is missing"][..]),
         (&["measure", "no-such.obj", "-o", &out], &["no-such.obj"]),
         (&["measure", "builtin:gear", "-o", &file], &["file", "name a folder"]),
-        (&["measure", "builtin:gear", "-o", &out, "--tolerance", "0"], &["--tolerance 0"]),
+        (&["measure", "builtin:gear", "-o", &out, "--tolerance", "0"], &["'0' for '--tolerance"]),
         (&["measure", "builtin:gear", "-o", &out, "--tolerance", "nan"], &["--tolerance"]),
         (&["measure", "builtin:gear", "-o", &out, "--styles", "oil"], &["oil", "three-pass"]),
         (&["measure", "builtin:gear", "-o", &out, "--size", "0x0"], &["0x0"]),

@@ -25,7 +25,8 @@ fn picture(svg: &str) -> Picture {
 }
 
 fn judged(picture: &Picture, reference: &Reference, fits: bool) -> Judgement {
-    let settings = JudgeSettings { fits, ..JudgeSettings::default() };
+    // Two pixels.
+    let settings = JudgeSettings { fits, tolerance: format!("1/{}", SIDE / 2).parse().unwrap() };
     judge(&InkColor::Dark.of(picture), reference, &settings).unwrap()
 }
 
@@ -137,7 +138,7 @@ fn what_a_style_draws_is_judged_as_it_is_measured() {
         let style = format!("--style={}", name.name());
         let words = ["render", "builtin:gear", "-o", &path, &style, "--show", "borders", "--size", "120"];
         done(&words);
-        let output = tinta(&["judge", &path, "--model", "builtin:gear", "--json"]);
+        let output = tinta(&["judge", &path, "--model", "builtin:gear", "--tolerance", "1/60", "--json"]);
         let record: Value = serde_json::from_slice(&output.stdout).unwrap();
         for (key, expected) in [("f1", measured.f1), ("recall", measured.recall), ("precision", measured.precision)] {
             let value = record["lines"][key].as_f64().unwrap();
@@ -192,7 +193,8 @@ fn a_camera_of_another_program_is_read_from_its_file() {
         clip_from_world.chunks(4).map(|row| row.iter().map(f64::to_string).collect::<Vec<_>>().join(" ")).collect();
     std::fs::write(&matrix, numbers.join("\n")).unwrap();
     let judged = |more: &[&str], code: i32| {
-        let output = tinta(&[&["judge", &picture, "--model", "builtin:gear", "--json"], more].concat());
+        let output =
+            tinta(&[&["judge", &picture, "--model", "builtin:gear", "--tolerance", "1/50", "--json"], more].concat());
         assert_eq!(output.status.code(), Some(code), "{}", String::from_utf8_lossy(&output.stderr));
         serde_json::from_slice::<Value>(&output.stdout).unwrap()["lines"]["f1"].as_f64().unwrap()
     };
@@ -294,7 +296,7 @@ fn a_picture_is_judged_from_where_it_was_drawn_and_one_from_elsewhere_is_said() 
     drawn(&elsewhere, &["--view", "70,40", "--fov", "20"]);
     drawn(&here, &[]);
     let judged = |drawings: &[&str], more: &[&str]| {
-        let output = tinta(&[&["judge", "--json"], drawings, &model[..], more].concat());
+        let output = tinta(&[&["judge", "--json", "--tolerance", "1/80"], drawings, &model[..], more].concat());
         let last = String::from_utf8(output.stdout.clone()).unwrap();
         let last = last.rsplit("\n{").next().map(|record| format!("{{{}", record.trim_start_matches('{'))).unwrap();
         let record: Value = serde_json::from_str(&last).unwrap();

@@ -203,16 +203,16 @@ fn the_command_writes_its_rows_and_says_how_it_went() {
     };
     let (code, out, _) = run(&["-o", "out", "--only", "T-junctions"]);
     assert_eq!(code, Some(0), "{out}");
-    assert!(out.starts_with("1 cases, 22 pictures and refusals: 22 as they must be, 0 not"), "{out}");
+    assert!(out.starts_with("1 cases, 24 pictures and refusals: 24 as they must be, 0 not"), "{out}");
     let json: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(folder.path().join("out/stress.json")).unwrap()).unwrap();
     let rows = json["cases"].as_array().unwrap();
-    assert_eq!(rows.len(), 22);
+    assert_eq!(rows.len(), 24);
     for key in ["name", "group", "style", "backend", "verdict", "expected", "figures"] {
         rows.iter().for_each(|row| assert!(!row[key].is_null(), "{key}"));
     }
     let table = std::fs::read_to_string(folder.path().join("out/stress.md")).unwrap();
-    assert_eq!(table.lines().filter(|line| line.contains("T-junctions")).count(), 22);
+    assert_eq!(table.lines().filter(|line| line.contains("T-junctions")).count(), 24);
     let (code, _, message) = run(&["-o", "out", "--only", "no such case"]);
     assert_eq!(code, Some(2));
     assert!(message.contains("--only no such case: no case has this in its name"), "{message}");

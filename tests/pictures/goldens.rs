@@ -241,6 +241,16 @@ fn bust_dietrich() {
 }
 
 #[test]
+fn bust_back_faces() {
+    golden("bust-back-faces", BUST, &Style::named(StyleName::BackFaces), Show::Final);
+}
+
+#[test]
+fn bust_numbers() {
+    golden("bust-numbers", BUST, &encoded(MapEncoding::Numbers, false), Show::Borders);
+}
+
+#[test]
 fn every_golden_has_its_test() {
     let names = names(Goldens::Styles);
     let tests = include_str!("goldens.rs");

@@ -60,7 +60,8 @@ fn a_plane_at_a_grazing_angle_draws_no_ink_where_the_threshold_knows_its_slope()
         let sobel = Border { filter: Filter::Sobel, detection_factor: 1.0, ..Border::default() };
         let published = inner_ink(&mut renderer, &scene, &three_pass(sobel, MapEncoding::Published), 3);
         assert!(published > 10.0, "a gradient answers to the slope: {published}");
-        for (name, encoding) in MapEncoding::ALL {
+        let with_depth = MapEncoding::ALL.into_iter().filter(|(_, encoding)| *encoding != MapEncoding::Numbers);
+        for (name, encoding) in with_depth {
             let threshold = Border { slope_threshold: true, ..sobel };
             let found = inner_ink(&mut renderer, &scene, &three_pass(threshold, encoding), 3);
             assert_eq!(found, 0.0, "{name}, parallel {parallel}");

@@ -410,7 +410,7 @@ fn nonsense_is_refused_by_the_options_name() {
     assert!(refused(Inking { polygon_offset: [f32::NAN, 5.0], ..base() }, Show::Final).starts_with("polygon-offset"));
     assert!(refused(base(), Show::Map).starts_with("show"));
     let picture = Arc::new(Picture { size: Size { width: 1, height: 4 }, pixels: vec![90; 16] });
-    let ramp = Ramp { picture, path: None };
+    let ramp = Ramp { picture, rows: 4, path: None };
     let both = refused(Inking { ramp_row: RampRow::Own, ramp, ..base() }, Show::Final);
     assert!(both.starts_with("ramp-row own: ") && both.contains("leave out this or --ramp"), "{both}");
     assert!(refused(Inking { is_inked: false, ..base() }, Show::Borders).starts_with("show borders"));

@@ -36,7 +36,7 @@ const MISTAKES: [(&str, &str); 99] = [
     ("render triangle.obj -o out.png -size 64", "tinta render has no option -size; did you mean --size?"),
     (
         "render triangle.obj -o out.png --style toon",
-        "invalid value 'toon' for '--style <STYLE>': choose one of phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand, lines; see --help",
+        "invalid value 'toon' for '--style <STYLE>': choose one of phong, three-pass, two-pass, mrt, inking, dietrich, back-faces, ink, charcoal, sand, lines; see --help",
     ),
     (
         "render triangle.obj -o out.png --style suggestive",
@@ -288,7 +288,7 @@ const MISTAKES: [(&str, &str); 99] = [
     ("render builtin:gaer -o out.png", "builtin:gaer: there is no such built-in model; did you mean builtin:gear?"),
     (
         "render builtin:cow -o out.png",
-        "builtin:cow: there is no such built-in model; choose one of builtin:bust, builtin:open-box, builtin:ant, builtin:gear, builtin:soldier, builtin:sphere, builtin:ellipsoid, builtin:torus, builtin:superquadric, builtin:patch",
+        "builtin:cow: there is no such built-in model; choose one of builtin:bust, builtin:open-box, builtin:ant, builtin:gear, builtin:car, builtin:case, builtin:plates, builtin:soldier, builtin:sphere, builtin:ellipsoid, builtin:torus, builtin:superquadric, builtin:patch",
     ),
     (
         "render - -o out.png",
@@ -304,10 +304,13 @@ const MISTAKES: [(&str, &str); 99] = [
     ),
     (
         "compare triangle.obj -o out.png --left phong",
-        "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, ink, print, technical",
+        "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, back-faces, ink, print, technical",
     ),
     ("measure triangle.obj", "--output is missing; name the folder to write into: -o results; see --help"),
-    ("measure triangle.obj -o out --tolerance 0", "--tolerance 0: it is a number of pixels above 0 and at most 1000"),
+    (
+        "measure triangle.obj -o out --tolerance 0",
+        "invalid value '0' for '--tolerance <SHARE>': it is a share of the picture's height, above 0 and at most 1/32; 1/256 are 2 pixels of 512; see --help",
+    ),
     ("batch jobs.jsonl -o out", "jobs.jsonl: line 1: it has no command; write render, compare or measure"),
     ("batch typo.jsonl -o out", "typo.jsonl: line 1: model: - is standard input, which jobs lack; name a file"),
     ("batch none.jsonl -o out", "none.jsonl: there is no such file; check the name"),

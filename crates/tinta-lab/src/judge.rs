@@ -46,37 +46,22 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 use tinta::error::{Error, Result};
 use tinta::lines::LineSegment;
-use tinta::pixel::LINE_TOLERANCE_PX;
+use tinta::pixel::LineTolerance;
+use tinta::scene::Size;
 
 /// How a drawing is judged.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JudgeSettings {
-    /// Distance within which ink and line count as the same, pixels. Default 2.
-    pub tolerance_px: f64,
+    /// Distance within which ink and line count as the same.
+    pub tolerance: LineTolerance,
     /// Whether to try a small shift, another scale and a mirror image first. Default no.
     pub fits: bool,
 }
 
-impl Default for JudgeSettings {
-    fn default() -> Self {
-        Self { tolerance_px: LINE_TOLERANCE_PX, fits: false }
-    }
-}
-
 impl JudgeSettings {
-    /// Refuses invalid distances.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Setting`].
-    pub fn check(&self) -> Result<()> {
-        match self.tolerance_px > 0.0 && self.tolerance_px <= 1000.0 {
-            true => Ok(()),
-            false => {
-                let problem = "it is a number of pixels above 0 and at most 1000";
-                Err(Error::value("tolerance", self.tolerance_px, problem))
-            }
-        }
+    /// The tolerance in pixels of a drawing: at least one, because a small drawing of others is no finer.
+    pub(crate) fn tolerance_px(&self, size: Size) -> f64 {
+        self.tolerance.px(size).max(1.0)
     }
 }
 
@@ -141,15 +126,14 @@ const NEAR_PX: f64 = 2.0;
 ///
 /// # Errors
 ///
-/// [`Error::Setting`] for ink of another size than the reference, or an invalid tolerance.
+/// [`Error::Setting`] for ink of another size than the reference.
 pub fn judge(ink: &Ink, reference: &Reference, settings: &JudgeSettings) -> Result<Judgement> {
-    let tolerance_px = settings.tolerance_px;
+    let tolerance_px = settings.tolerance_px(reference.size);
     if ink.size != reference.size {
         let problem =
             format!("the drawing has {} px and the scene {} px; give the drawing's", ink.size, reference.size);
         return Err(Error::setting("size", problem));
     }
-    settings.check()?;
     let fit = settings.fits.then(|| Fit::of(ink, reference));
     let moved = fit.as_ref().map(|fit| reference.moved(|px| fit.apply(px)));
     let reference = moved.as_ref().unwrap_or(reference);

@@ -18,7 +18,9 @@
 //! # }
 //! ```
 
+mod conditions;
 mod error_picture;
+mod frames;
 mod ink;
 mod reference;
 mod row;
@@ -28,12 +30,14 @@ mod shading;
 mod tone_borders;
 mod tones;
 
+pub use conditions::Conditions;
 pub use drawn::{line_options, measure_lines};
-pub use error_picture::error_picture;
+pub(crate) use error_picture::error_picture;
+pub(crate) use frames::{FrameTimes, quartiles};
 pub use ink::{INK_FROM, Ink, InkVerdicts, Verdict};
 pub(crate) use reference::samples_of;
-pub use reference::{Reference, SOFT_CREASE_DEGREES, Sample};
+pub use reference::{Reference, Sample};
 pub use row::{Against, LineError, PassRow, Row, RunTime, ToneBorderError, ToneError};
+pub(crate) use run::shading_of;
 pub use run::{MeasureSettings, MeasureStep, Measured, MeasuredStyle, Subject, frames_a_turn, measure, turns};
-pub(crate) use run::{quartiles, shading_of};
 pub use tones::ReferenceLight;

@@ -32,7 +32,7 @@ pub use html::html;
 pub use info::{ReportInfo, ReportPicture};
 pub use log::{RowLog, read_rows, rows_of_bytes};
 pub use plot::plot;
-pub use settings::{Machine, Measure, Point, Points, Time, machines, pareto, points};
+pub use settings::{Machine, Measure, Point, Points, machines, pareto, points};
 pub use tinta::record::ROWS_FILE;
 
 use crate::measure::Row;
@@ -90,12 +90,8 @@ pub fn write(folder: &Path, rows: &[Row], info: &ReportInfo) -> Result<()> {
         let suffix = if machines.len() > 1 { format!("-machine-{}", number + 1) } else { String::new() };
         for (name, measure) in Measure::ALL {
             let subtitle = plot::subtitle(machine, measure);
-            // The first picture's time only for lines: the edge list is a part of it.
-            let times = if measure == Measure::Lines { &Time::ALL[..] } else { &Time::ALL[..1] };
-            for (of_time, time) in times.iter().copied() {
-                if let Some(svg) = plot(&points(&machine.rows, measure, time), measure, Shape::Wide, &subtitle)? {
-                    staged.push(stage(&format!("plot-{name}{of_time}{suffix}.svg"), &svg)?);
-                }
+            if let Some(svg) = plot(&points(&machine.rows, measure), measure, Shape::Wide, &subtitle)? {
+                staged.push(stage(&format!("plot-{name}{suffix}.svg"), &svg)?);
             }
         }
     }

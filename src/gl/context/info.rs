@@ -81,6 +81,12 @@ impl ContextInfo {
         is_software(&self.renderer)
     }
 
+    /// Whether GL draws lines of this width without smoothing.
+    pub(crate) fn draws_lines(&self, width_px: f32) -> bool {
+        let [narrowest, widest] = self.aliased_line_width;
+        (narrowest..=widest).contains(&width_px)
+    }
+
     /// Whether GL draws lines, and points to join them, at this width; it draws other widths at the nearest it can.
     pub fn draws_edges(&self, width_px: f32, is_smooth: bool) -> bool {
         let ranges = match is_smooth {

@@ -121,7 +121,7 @@ fn places(target: Target) -> Vec<Place> {
 
 /// Whether a draw changes pixels only where the camera has objects.
 pub(super) fn stays_in_objects(draw: &Draw) -> bool {
-    draw.is_of_objects() && draw.keeps_places()
+    draw.is_of_objects() && draw.keeps_places() && draw.back_faces_as_lines.is_none()
 }
 
 /// Whether a draw is a square that gives every pixel a colour, whatever it held.

@@ -1,7 +1,12 @@
 //! `tinta compare`: draws one scene in two styles and overlays their lines.
 
+mod alone;
+
+use super::measure::{TOLERANCE, exact_lines};
 use crate::compare::{Agreement, AgreementNumbers, BOTH_COLOR, InkMask, LEFT_COLOR, RIGHT_COLOR};
 use crate::contact_sheet::{Caption, Panel, sheet};
+use crate::measure::Reference;
+use alone::alone_on_lines;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -12,14 +17,14 @@ use tinta::cli::inputs::Inputs;
 use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, PresetFile, Selection};
 use tinta::cli::{Command, Verdict, given};
 use tinta::gl::ContextInfo;
-use tinta::lines::Progress;
+use tinta::pixel::LineTolerance;
 use tinta::preset::{LOOKS, Look};
 use tinta::record::{CameraRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
-use tinta::request::{DrawingFile, DrawingFormat, Request, Session, Wanted, ignored_remark};
+use tinta::request::{Request, Session, ignored_remark};
 use tinta::settings::{HasSettings, Kind, Setting, Table};
 use tinta::styles::is_of_lines_alone;
-use tinta::{Error, Picture, Renderer, Result, Scene, Show, StyleName, Target};
+use tinta::{Error, LineSettings, Picture, Renderer, Result, Scene, Show, StyleName, Target};
 use tinta::{SceneSettings, Size, Style};
 
 /// The command.
@@ -79,7 +84,7 @@ impl Arguments {
 pub(super) struct CompareSettings {
     left: Side,
     right: Side,
-    tolerance_px: u32,
+    tolerance: LineTolerance,
     frames: u32,
     json: bool,
 }
@@ -87,7 +92,7 @@ pub(super) struct CompareSettings {
 impl Default for CompareSettings {
     fn default() -> Self {
         let [left, right] = [StyleName::ThreePass, StyleName::Inking].map(Side::Style);
-        Self { left, right, tolerance_px: 2, frames: 11, json: false }
+        Self { left, right, tolerance: LineTolerance::default(), frames: 11, json: false }
     }
 }
 
@@ -182,12 +187,6 @@ fn style(
 
 fn settings() -> Vec<Setting<CompareSettings>> {
     static LEFT: LazyLock<String> = LazyLock::new(|| format!("Style or look on the left: {}", Side::list()));
-    let tolerance = Setting::field(
-        "tolerance",
-        "PIXELS",
-        "Distance within which two styles' ink counts as the same, in pixels, up to 64",
-        |how: &mut CompareSettings| &mut how.tolerance_px,
-    );
     let frames = Setting::field(
         "frames",
         "N",
@@ -197,7 +196,7 @@ fn settings() -> Vec<Setting<CompareSettings>> {
     vec![
         style("left", &LEFT, |how| &mut how.left),
         style("right", "Style or look on the right", |how| &mut how.right),
-        tolerance.whole(0..=64).range(0.0, 64.0, 0),
+        Setting::field("tolerance", "SHARE", TOLERANCE, |how: &mut CompareSettings| &mut how.tolerance),
         frames.whole(1..=1_000_000).range(1.0, 101.0, 0),
         Setting::flag("json", "Print one JSON record", |how: &CompareSettings| how.json, |how, is_on| how.json = is_on),
     ]
@@ -233,6 +232,8 @@ struct ComparisonRecord {
     right: DrawingRecord,
     /// Pixels of ink, and how many both have.
     agreement: AgreementNumbers,
+    /// Of the ink that the left and the right side draw alone, the pixels within the tolerance of an exact visible line.
+    alone_on_lines_px: [usize; 2],
 }
 
 /// Frames drawn before measuring.
@@ -290,7 +291,8 @@ fn compare(
     let renderer = request.renderer(session)?;
     let left = Drawing::of(scene, left, renderer, how.frames)?;
     let right = Drawing::of(&scenes[1], right, renderer, how.frames)?;
-    let agreement = Agreement::of(&left.ink, &right.ink, how.tolerance_px)
+    let tolerance_px = how.tolerance.px(scene.size);
+    let agreement = Agreement::of(&left.ink, &right.ink, tolerance_px.round() as u32)
         .ok_or_else(|| Error::setting("size", "the two pictures came out in different sizes; choose another"))?;
     let map = agreement.picture(scene.size);
     let models: Vec<ModelRecord> = scene.objects[..count].iter().map(|object| ModelRecord::new(&object.mesh)).collect();
@@ -303,6 +305,11 @@ fn compare(
         left: left.record,
         right: right.record,
         agreement: agreement.numbers,
+        alone_on_lines_px: alone_on_lines(
+            &agreement,
+            &Reference::of(scene, &LineSettings::as_published())?,
+            tolerance_px,
+        ),
     };
     let panels = [
         panel(names[0], &record.left, left.picture),
@@ -390,15 +397,6 @@ fn timed(frames: u32, mut frame: impl FnMut() -> Result<()>) -> Result<Summary> 
     (0..frames).map(|_| time()).collect::<Result<Vec<f64>>>().map(Summary::new)
 }
 
-/// The exact lines alone.
-fn exact_lines(scene: &Scene, side: &Request) -> Result<Picture> {
-    let lines = side.drawn_lines(scene.clone(), Wanted::default(), &Progress::default())?;
-    match lines.written(DrawingFormat::Picture, None, None)? {
-        DrawingFile::Picture(picture, _) => Ok(picture),
-        DrawingFile::Bytes(_) => Err(Error::setting("o", "lines are compared as pixels")),
-    }
-}
-
 fn panel(name: &str, record: &DrawingRecord, picture: Picture) -> Panel {
     Panel { title: name.to_owned(), subtitle: format!("{:.1} ms a frame", record.frame_ms.median), picture }
 }
@@ -408,6 +406,11 @@ fn captions(record: &ComparisonRecord, [left, right]: [&str; 2], names_of_models
     let percent = |share: Option<f64>| share.map_or("nothing".to_owned(), |share| format!("{:.1} %", share * 100.0));
     let (left_shared, right_shared) = (percent(record.agreement.left_shared), percent(record.agreement.right_shared));
     let line = |swatch: Option<[u8; 3]>, text: String| Caption { swatch, text };
+    let right_of = |alone: usize, on_lines: usize| match alone {
+        0 => String::new(),
+        _ => format!(", {:.0} % of them on an exact line", on_lines as f64 / alone as f64 * 100.0),
+    };
+    let [left_right, right_right] = record.alone_on_lines_px;
     let first = &names_of_models[0];
     let file = Path::new(first).file_name().map_or(first.as_str().into(), |name| name.to_string_lossy());
     let others = match names_of_models.len() - 1 {
@@ -416,8 +419,14 @@ fn captions(record: &ComparisonRecord, [left, right]: [&str; 2], names_of_models
     };
     vec![
         line(Some(BOTH_COLOR), format!("both: {left_shared} of {left}'s ink, {right_shared} of {right}'s")),
-        line(Some(LEFT_COLOR), format!("only {left}: {only_left_px} of its {left_px} px")),
-        line(Some(RIGHT_COLOR), format!("only {right}: {only_right_px} of its {right_px} px")),
+        line(
+            Some(LEFT_COLOR),
+            format!("only {left}: {only_left_px} of its {left_px} px{}", right_of(only_left_px, left_right)),
+        ),
+        line(
+            Some(RIGHT_COLOR),
+            format!("only {right}: {only_right_px} of its {right_px} px{}", right_of(only_right_px, right_right)),
+        ),
         line(
             None,
             format!(

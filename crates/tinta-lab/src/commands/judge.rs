@@ -13,6 +13,7 @@ use tinta::cli::models::load_meshes;
 use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, Selection};
 use tinta::cli::{Command, Verdict, given};
 use tinta::glam::DVec2;
+use tinta::pixel::LineTolerance;
 use tinta::recipe::{Recipe, option_words};
 use tinta::request::{Request, Session};
 use tinta::settings::{HasSettings as _, Setting};
@@ -47,9 +48,9 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "INK", default_value = "dark", hide_default_value = true)]
     ink: InkColor,
 
-    /// Distance within which ink and line count as the same, in pixels [default: 2]
-    #[arg(long, value_name = "PIXELS", default_value = "2", hide_default_value = true, allow_hyphen_values = true)]
-    tolerance: f64,
+    /// Distance within which ink and line count as the same, as a share of the picture's height, at least a pixel [default: 1/256]
+    #[arg(long, value_name = "SHARE", default_value = "1/256", hide_default_value = true, allow_hyphen_values = true)]
+    tolerance: LineTolerance,
 
     /// Look for a shift of up to 5 % of the diagonal, a scale of up to 1.1 and a mirror image first, and print the result [default: off]
     #[arg(long)]
@@ -114,8 +115,7 @@ const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -> Result<Verdict> {
     let mut verdict = Verdict::Good;
     let names = names(arguments)?;
-    let settings = JudgeSettings { tolerance_px: arguments.tolerance, fits: arguments.fit };
-    settings.check()?;
+    let settings = JudgeSettings { tolerance: arguments.tolerance, fits: arguments.fit };
     let drawings = arguments.drawings.iter().map(|path| drawing::read(path, arguments.size));
     let drawings = drawings.collect::<Result<Vec<_>>>()?;
     // A picture by tinta is judged from where it was drawn.
@@ -161,8 +161,8 @@ pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -
                 seconds: arguments.seconds.get(index).copied().unwrap_or_default(),
             };
             let errors = match &judgement.fit {
-                Some(fit) => error_picture(&ink, &reference.moved(|px| fit.apply(px)), settings.tolerance_px),
-                None => error_picture(&ink, reference, settings.tolerance_px),
+                Some(fit) => error_picture(&ink, &reference.moved(|px| fit.apply(px)), settings.tolerance_px(ink.size)),
+                None => error_picture(&ink, reference, settings.tolerance_px(ink.size)),
             };
             folder.add(entry.row(scene, &judgement), [picture, &errors])?;
         }

@@ -2,6 +2,7 @@
 
 pub(super) mod errors;
 mod groups;
+mod look;
 mod measuring;
 mod results;
 mod settings;
@@ -9,8 +10,10 @@ mod words;
 
 use crate::measure::{Against, MeasuredStyle};
 use groups::{all_surfaces, expected, groups};
+pub(super) use look::exact_lines;
 use measuring::Measuring;
 use results::Results;
+pub(super) use settings::TOLERANCE;
 use settings::{HowMeasured, OfHow, Suite, setting_of};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -174,7 +177,7 @@ fn measured(
     command: &str,
     session: &mut Session,
 ) -> Result<()> {
-    let measuring = Measuring::asked(asked, &request.options, own_setting)?;
+    let measuring = Measuring::asked(asked, request, own_setting)?;
     let Measuring { settings, how, against, .. } = &measuring;
     let named = arguments.models.iter().map(String::as_str);
     let surfaces = if *against == Against::Smooth && arguments.models.is_empty() { all_surfaces() } else { Vec::new() };

@@ -1,12 +1,12 @@
 //! Frames that take turns, which makes a busy moment hit all settings alike, and comparisons of them by the quartiles of the
 //! turns.
 
-use crate::measure::quartiles;
+use crate::measure::{FrameTimes, quartiles};
 use serde::Serialize;
 use std::sync::Arc;
 use tinta::error::Result;
 use tinta::plan::Plan;
-use tinta::renderer::{Renderer, median, processor_milliseconds};
+use tinta::renderer::{Renderer, median};
 use tinta::scene::Scene;
 use tinta::styles::{Show, Style};
 
@@ -61,12 +61,12 @@ pub(super) fn gain_percent(one: &Series, other: &Series) -> Interval {
 pub(super) struct Contestant {
     pub(super) scene: Arc<Scene>,
     pub(super) plan: Plan,
-    pub(super) times: Series,
+    pub(super) times: FrameTimes,
 }
 
 impl Contestant {
     pub(super) fn new(scene: &Arc<Scene>, plan: Plan) -> Self {
-        Self { scene: scene.clone(), plan, times: Series::default() }
+        Self { scene: scene.clone(), plan, times: FrameTimes::default() }
     }
 
     pub(super) fn styled(scene: &Arc<Scene>, style: &Style) -> Result<Self> {
@@ -74,8 +74,8 @@ impl Contestant {
     }
 
     pub(super) fn series(&self) -> Series {
-        let median_ms = median(self.times.frames_ms.clone()).unwrap_or_default();
-        Series { median_ms, ..self.times.clone() }
+        let FrameTimes { frames_ms, processor_ms } = self.times.clone();
+        Series { median_ms: median(frames_ms.clone()).unwrap_or_default(), frames_ms, processor_ms }
     }
 }
 
@@ -86,7 +86,6 @@ pub(super) fn take_turns(
     frames: usize,
     step: &mut impl FnMut(),
 ) -> Result<()> {
-    let is_program = renderer.context().is_software();
     if let Some(first) = contestants.first() {
         renderer.raise_clock(&first.scene, &first.plan)?;
     }
@@ -95,10 +94,7 @@ pub(super) fn take_turns(
             // A frame that follows one of another kind also clears up after that one: up to a fifth of a large scene's frame on a
             // software renderer. Each frame therefore follows an untimed one of its kind, as in an animation.
             renderer.time_frames(scene, plan, 0, 1)?;
-            let before = processor_milliseconds().filter(|_| is_program);
-            times.frames_ms.extend(renderer.time_frames(scene, plan, 0, 1)?);
-            let after = processor_milliseconds();
-            times.processor_ms.extend(before.zip(after).map(|(before, after)| after - before));
+            times.add_frame(renderer, scene, plan)?;
         }
         step();
     }

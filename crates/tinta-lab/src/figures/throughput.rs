@@ -107,7 +107,8 @@ pub(super) fn rows(contestants: &[Contestant]) -> Vec<ShaderRow> {
     let Some((without, with)) = contestants.split_last() else { return Vec::new() };
     let row = |(shader, contestant): (Shader, &Contestant)| {
         let with_square = contestant.series();
-        let pairs = with_square.cost_ms().iter().zip(without.times.cost_ms());
+        let without = without.series();
+        let pairs = with_square.cost_ms().iter().zip(without.cost_ms());
         let squares_ms: Vec<f64> = pairs.map(|(with, without)| with - without).collect();
         let square_ms = tinta::renderer::median(squares_ms.clone()).unwrap_or_default();
         let mpixels = contestant.scene.size.pixel_count() as f64 / square_ms * 1e-3;

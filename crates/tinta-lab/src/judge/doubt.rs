@@ -34,8 +34,11 @@ const SHADED: f64 = 0.5;
 /// or have false ones, rarely both.
 const AGREEING: f64 = 0.35;
 
+/// Distance within which ink and lines agree, pixels.
+const NEAR_PX: f64 = 2.0;
+
 impl Doubt {
-    /// The reason against judging this ink by these lines, given their agreement within the tolerance.
+    /// The reason against judging this ink by these lines, given their agreement.
     pub(super) fn of(ink: &Ink, reference: &Reference, lines: &LineError) -> Option<Self> {
         let shaded = share_in_areas(ink);
         if shaded > SHADED {
@@ -46,8 +49,7 @@ impl Doubt {
         if drawn.count() == 0 || wanted.count() == 0 {
             return None;
         }
-        let [near_lines, near_ink] =
-            [&wanted, &drawn].map(|mask| share_near(mask, &[&drawn, &wanted], lines.tolerance_px));
+        let [near_lines, near_ink] = [&wanted, &drawn].map(|mask| share_near(mask, &[&drawn, &wanted], NEAR_PX));
         let beyond_chance = |share: f64, chance: f64| ((share - chance) / (1.0 - chance).max(f64::EPSILON)).max(0.0);
         let agreeing = beyond_chance(lines.precision, near_lines).max(beyond_chance(lines.recall, near_ink));
         (agreeing < AGREEING).then_some(Self::Elsewhere(agreeing))

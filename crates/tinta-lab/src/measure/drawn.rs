@@ -2,17 +2,13 @@
 
 use super::ink::Ink;
 use super::reference::{Reference, Sample, distance, fine_tree, samples_of, total};
-use super::run::quartiles;
-use super::{LineError, MeasureSettings, Measured, Row, RunTime, Subject, error_picture};
+use super::{FrameTimes, LineError, MeasureSettings, Measured, Row, RunTime, Subject, error_picture};
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
 use tinta::error::Result;
 use tinta::lines::{DrawingSettings, LineSettings, Raster, VisibleLines, raster};
 use tinta::picture::Picture;
-use tinta::renderer::{median, milliseconds_since};
-use tinta::scene::{Scene, Size};
 use tinta::settings::Value;
 use tinta::styles::StyleName;
-use tinta_geometry::clock::Instant;
 
 /// The options of `tinta render` for the silhouettes that a rule finds, with options of the scene.
 pub fn line_options(silhouette: SilhouetteRule, scene_options: &str) -> String {
@@ -34,41 +30,22 @@ pub fn measure_lines(
 ) -> Result<Measured> {
     let classes = ClassSet::of(&[Class::Silhouette]);
     let settings = LineSettings { classes, silhouette, finds_hidden: false, ..LineSettings::default() };
-    let start = Instant::now();
     let lines = VisibleLines::of(&subject.scene, &settings)?;
-    let first_frame_ms = milliseconds_since(start);
-    let mut frames_ms = Vec::new();
+    let mut times = FrameTimes::default();
     for _ in 0..frames {
-        let start = Instant::now();
-        VisibleLines::of(&subject.scene, &settings)?;
-        frames_ms.push(milliseconds_since(start));
+        times.add_work(|| VisibleLines::of(&subject.scene, &settings).map(drop))?;
     }
     let Raster { size, pixels } = raster(&lines, &DrawingSettings::default())?;
     let drawing = Picture { size, pixels };
-    let error_picture = error_picture(&Ink::on_white(&drawing), &subject.reference, how.tolerance_px);
-    let Size { width, height } = subject.scene.size;
+    let tolerance_px = how.tolerance.px(size);
+    let error_picture = error_picture(&Ink::on_white(&drawing), &subject.reference, tolerance_px);
     let row = Row {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        machine: how.machine.clone(),
-        renderer: "none".to_owned(),
-        model: subject.model.clone(),
-        triangles: Scene::triangle_count(&subject.scene),
-        size: [width, height],
         style: StyleName::Lines.name().to_owned(),
         options,
-        is_faithful: false,
-        lines: Some(error(&lines, &subject.reference, how.tolerance_px)),
-        tones: None,
-        time: RunTime {
-            load_ms: subject.load_ms,
-            edges_ms: subject.edges_ms,
-            plan_ms: 0.0,
-            first_frame_ms,
-            median_ms: median(frames_ms.clone()).unwrap_or_default(),
-            quartiles_ms: quartiles(&frames_ms),
-            frames_ms,
-            passes: Vec::new(),
-        },
+        has_own_reference: silhouette == SilhouetteRule::Exact,
+        lines: Some(error(&lines, &subject.reference, tolerance_px)),
+        time: RunTime::new([subject.load_ms, subject.edges_ms, 0.0], times, Vec::new()),
+        ..subject.row(how)
     };
     Ok(Measured { row, drawing, error_picture: Some(error_picture) })
 }

@@ -5,7 +5,7 @@ use super::reference::Reference;
 use tinta::picture::Picture;
 
 /// Agreed ink black, missed lines red, invented ink blue, ink that does not count grey.
-pub fn error_picture(ink: &Ink, reference: &Reference, tolerance_px: f64) -> Picture {
+pub(crate) fn error_picture(ink: &Ink, reference: &Reference, tolerance_px: f64) -> Picture {
     const AGREED: [u8; 4] = [0, 0, 0, 255];
     const INVENTED: [u8; 4] = [30, 90, 230, 255];
     const IGNORED: [u8; 4] = [190, 190, 190, 255];

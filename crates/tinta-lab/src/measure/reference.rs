@@ -16,7 +16,7 @@ const STEP_PX: f64 = 0.125;
 const FINE_STEP_PX: f64 = 1.0 / 128.0;
 
 /// Creases between this angle and the reference's own threshold are ignored: filters of a picture may respond to any angle.
-pub const SOFT_CREASE_DEGREES: f64 = 20.0;
+pub(super) const SOFT_CREASE_DEGREES: f64 = 20.0;
 
 /// The visible lines of a scene.
 #[derive(Debug)]

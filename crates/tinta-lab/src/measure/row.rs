@@ -1,7 +1,10 @@
 //! One measured setting: error and time together, as a line of `results.jsonl`.
 
+use super::Conditions;
+use super::frames::{FrameTimes, quartiles};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use tinta::renderer::median;
 
 /// A setting on a model: how wrong and how slow.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -12,6 +15,12 @@ pub struct Row {
     pub machine: String,
     /// GL_RENDERER; `none` for lines found without GL.
     pub renderer: String,
+    /// GL_VERSION; empty without GL.
+    #[serde(default)]
+    pub gl_version: String,
+    /// Date, commit, processor, load.
+    #[serde(flatten)]
+    pub conditions: Conditions,
     /// The model as the user named it.
     pub model: String,
     /// Triangles drawn.
@@ -24,6 +33,12 @@ pub struct Row {
     pub options: String,
     /// Whether these are the published program's own settings.
     pub is_faithful: bool,
+    /// Whether steps that this scene does not need were left out, as `tinta render` does.
+    #[serde(default)]
+    pub is_pruned: bool,
+    /// Whether the style draws the very lines that it is judged by: its error then says little.
+    #[serde(default)]
+    pub has_own_reference: bool,
     /// How well its lines are those of the reference; `None` for a style without lines.
     pub lines: Option<LineError>,
     /// The agreement of its tones with the reference's; `None` for a style without separate tones.
@@ -128,16 +143,27 @@ pub struct RunTime {
     pub edges_ms: f64,
     /// Making the plan, edges ready.
     pub plan_ms: f64,
-    /// The first frame, the driver's compiling included.
-    pub first_frame_ms: f64,
     /// The frames after warm-up, each ended by reading the picture back; in the order measured.
     pub frames_ms: Vec<f64>,
-    /// Their median.
+    /// Processor time of each, all threads; empty where a device draws or the system does not tell it.
+    #[serde(default)]
+    pub processor_ms: Vec<f64>,
+    /// The median of the frames.
     pub median_ms: f64,
     /// Their lower and upper quartile.
     pub quartiles_ms: [f64; 2],
     /// Each pass.
     pub passes: Vec<PassRow>,
+}
+
+impl RunTime {
+    /// Times of frames, after those of reading the model, finding its edges and making the plan.
+    pub(crate) fn new([load_ms, edges_ms, plan_ms]: [f64; 3], frames: FrameTimes, passes: Vec<PassRow>) -> Self {
+        let FrameTimes { frames_ms, processor_ms } = frames;
+        let median_ms = median(frames_ms.clone()).unwrap_or_default();
+        let quartiles_ms = quartiles(&frames_ms);
+        Self { load_ms, edges_ms, plan_ms, frames_ms, processor_ms, median_ms, quartiles_ms, passes }
+    }
 }
 
 /// A pass's median times, milliseconds.

@@ -4,15 +4,15 @@ use super::error_picture::error_picture;
 use super::ink::Ink;
 use super::reference::Reference;
 use super::tones::ReferenceLight;
-use super::{PassRow, Row, RunTime};
-use tinta::edges::{ClassSet, Classes, MeshEdges, Silhouettes};
+use super::{Conditions, FrameTimes, PassRow, Row, RunTime};
+use tinta::edges::{ClassSet, Classes, MeshEdges, SilhouetteRule, Silhouettes};
 use tinta::error::{Error, Result};
 use tinta::lines::LineSettings;
 use tinta::lines::closed_forms::ClosedForm;
 use tinta::picture::Picture;
-use tinta::pixel::LINE_TOLERANCE_PX;
+use tinta::pixel::LineTolerance;
 use tinta::plan::{Plan, Submission};
-use tinta::renderer::{Renderer, median, milliseconds_since};
+use tinta::renderer::{Renderer, milliseconds_since};
 use tinta::scene::{Scene, Size};
 use tinta::styles::{Show, Style};
 use tinta_geometry::clock::Instant;
@@ -61,8 +61,8 @@ pub struct Measured {
 /// How settings are measured: repetitions and tolerances.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasureSettings {
-    /// Distance within which ink and line count as the same, pixels. Default 2.
-    pub tolerance_px: f64,
+    /// Distance within which ink and line count as the same.
+    pub tolerance: LineTolerance,
     /// Frames of each setting that are timed. Default 21.
     pub frames: usize,
     /// The machine's name in the rows.
@@ -73,7 +73,7 @@ impl Default for MeasureSettings {
     fn default() -> Self {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let machine = format!("{} {}, {threads} threads", std::env::consts::OS, std::env::consts::ARCH);
-        Self { tolerance_px: LINE_TOLERANCE_PX, frames: 21, machine }
+        Self { tolerance: LineTolerance::default(), frames: 21, machine }
     }
 }
 
@@ -82,12 +82,8 @@ impl MeasureSettings {
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for an invalid tolerance, and for zero frames.
+    /// [`Error::Setting`] for zero frames.
     pub fn check(&self) -> Result<()> {
-        if !(self.tolerance_px > 0.0 && self.tolerance_px <= 1000.0) {
-            let problem = "it is a number of pixels above 0 and at most 1000";
-            return Err(Error::value("tolerance", self.tolerance_px, problem));
-        }
         match self.frames {
             0 => Err(Error::value("frames", "0", "at least one frame is needed to time one")),
             _ => Ok(()),
@@ -133,11 +129,35 @@ impl Subject {
         let edges_ms = milliseconds_since(start);
         Ok(Self { model: model.to_owned(), scene, reference, light, load_ms, edges_ms })
     }
+
+    /// A row without a style, errors and times, drawn without GL.
+    pub(crate) fn row(&self, how: &MeasureSettings) -> Row {
+        let Size { width, height } = self.scene.size;
+        Row {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            machine: how.machine.clone(),
+            renderer: "none".to_owned(),
+            gl_version: String::new(),
+            conditions: Conditions::now(),
+            model: self.model.clone(),
+            triangles: self.scene.triangle_count(),
+            size: [width, height],
+            style: String::new(),
+            options: String::new(),
+            is_faithful: false,
+            is_pruned: false,
+            has_own_reference: false,
+            lines: None,
+            tones: None,
+            time: RunTime::new([self.load_ms, 0.0, 0.0], FrameTimes::default(), Vec::new()),
+        }
+    }
 }
 
 /// A setting on its way.
 struct Contestant {
     plan: Plan,
+    frames: FrameTimes,
     measured: Measured,
 }
 
@@ -182,22 +202,22 @@ pub fn measure(
     for turn in 0..turns(how.frames) {
         let frames = FRAMES_A_TURN.min(how.frames - turn * FRAMES_A_TURN);
         for contestant in &mut contestants {
-            let times = renderer.time_frames(&subject.scene, &contestant.plan, 1, frames)?;
-            contestant.measured.row.time.frames_ms.extend(times);
+            let Contestant { plan, frames: times, .. } = contestant;
+            renderer.time_frames(&subject.scene, plan, 0, 1)?;
+            (0..frames).try_for_each(|_| times.add_frame(renderer, &subject.scene, plan))?;
             step(MeasureStep::Turn);
         }
     }
     for contestant in &mut contestants {
-        let time = &mut contestant.measured.row.time;
         let passes = renderer.time_passes(&subject.scene, &contestant.plan, FRAMES_A_TURN)?;
         let row = |pass: tinta::renderer::PassTime| PassRow {
             name: pass.name.to_owned(),
             cpu_ms: pass.cpu_ms,
             gpu_ms: pass.gpu_ms,
         };
-        time.passes = passes.into_iter().map(row).collect();
-        time.median_ms = median(time.frames_ms.clone()).unwrap_or_default();
-        time.quartiles_ms = quartiles(&time.frames_ms);
+        let RunTime { load_ms, edges_ms, plan_ms, .. } = contestant.measured.row.time;
+        let (frames, passes) = (std::mem::take(&mut contestant.frames), passes.into_iter().map(row).collect());
+        contestant.measured.row.time = RunTime::new([load_ms, edges_ms, plan_ms], frames, passes);
     }
     Ok((contestants.into_iter().map(|contestant| contestant.measured).collect(), left_out))
 }
@@ -224,9 +244,7 @@ fn contestant(
     let start = Instant::now();
     let plan = Plan { submission: setting.submission, ..style.plan(scene, Show::Final)? };
     let plan_ms = milliseconds_since(start);
-    let start = Instant::now();
     let drawing = renderer.draw(scene, &plan)?;
-    let first_frame_ms = milliseconds_since(start);
     renderer.time_frames(scene, &plan, WARM_UP, 1)?;
     let ink = Ink::of_style(renderer, scene, style)?;
     let shown = shading_of(style);
@@ -237,41 +255,26 @@ fn contestant(
             subject.light.error(&picture, style, scene, &subject.reference)?
         }
     };
-    let Size { width, height } = scene.size;
+    let tolerance_px = how.tolerance.px(scene.size);
+    let edges_ms = if matches!(style, Style::Inking(_)) { subject.edges_ms } else { 0.0 };
+    let context = renderer.context();
     let row = Row {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        machine: how.machine.clone(),
-        renderer: renderer.context().renderer.clone(),
-        model: subject.model.clone(),
-        triangles: scene.triangle_count(),
-        size: [width, height],
+        renderer: context.renderer.clone(),
+        gl_version: context.version.clone(),
         style: style.name().to_owned(),
         options: setting.options.clone(),
         is_faithful: setting.is_faithful,
-        lines: ink.as_ref().map(|ink| ink.error(&subject.reference, how.tolerance_px)),
+        has_own_reference: matches!(style, Style::Inking(inking) if inking.silhouette == SilhouetteRule::Exact),
+        lines: ink.as_ref().map(|ink| ink.error(&subject.reference, tolerance_px)),
         tones,
-        time: RunTime {
-            load_ms: subject.load_ms,
-            edges_ms: if matches!(style, Style::Inking(_)) { subject.edges_ms } else { 0.0 },
-            plan_ms,
-            first_frame_ms,
-            frames_ms: Vec::new(),
-            median_ms: 0.0,
-            quartiles_ms: [0.0; 2],
-            passes: Vec::new(),
-        },
+        time: RunTime::new([subject.load_ms, edges_ms, plan_ms], FrameTimes::default(), Vec::new()),
+        ..subject.row(how)
     };
-    let error_picture = ink.map(|ink| error_picture(&ink, &subject.reference, how.tolerance_px));
-    Ok(Contestant { plan, measured: Measured { row, drawing, error_picture } })
+    let error_picture = ink.map(|ink| error_picture(&ink, &subject.reference, tolerance_px));
+    Ok(Contestant { plan, frames: FrameTimes::default(), measured: Measured { row, drawing, error_picture } })
 }
 
 /// The picture of a style that its shading alone makes.
 pub(crate) fn shading_of(style: &Style) -> Show {
     if style.has_tones() { Show::Tones } else { Show::Final }
-}
-
-pub(crate) fn quartiles(times: &[f64]) -> [f64; 2] {
-    let mut sorted = times.to_vec();
-    sorted.sort_unstable_by(f64::total_cmp);
-    [1, 3].map(|quarter| sorted.get(sorted.len() * quarter / 4).copied().unwrap_or_default())
 }

@@ -1,7 +1,9 @@
 //! Fixed values, and their origins.
 
 use tinta::settings::Provenance;
-use tinta::styles::StyleName::{self, Charcoal, Dietrich, Ink, Inking, Mrt, Phong, Sand, ThreePass, TwoPass};
+use tinta::styles::StyleName::{
+    self, BackFaces, Charcoal, Dietrich, Ink, Inking, Mrt, Phong, Sand, ThreePass, TwoPass,
+};
 
 /// A value that no setting changes.
 #[derive(Debug, Clone, Copy)]
@@ -200,6 +202,13 @@ pub const CONSTANTS: &[Constant] = &[
         "both",
         Provenance::ours("the text is silent; open models show their insides"),
         "Insides would be black",
+    ),
+    constant(
+        &[BackFaces],
+        "depth of the lines",
+        "tested by GL_LESS, not written",
+        Provenance::ours("E, section 2, names the method without its calls"),
+        "GL_LEQUAL would add lines within surfaces that an open model shows from behind",
     ),
     constant(
         VALENTE,

@@ -50,6 +50,8 @@ pub const SHADERS: &[ShaderNumbers] = &[
     ours("fixed/smooth-point.frag", &["0.5"], "half a disc"),
     ours("improved/box-filter.frag", &["0.5", "4"], "the middle of a texel; up to 4 x 4 samples a pixel"),
     ours("improved/map-biased.vert", &["0.5"], "normals from -1 to 1 into 0 to 1"),
+    ours("improved/map-numbers.vert", &["0.5"], "normals from -1 to 1 into 0 to 1"),
+    ours("improved/numbers-differ.frag", &["0.5", "255.0"], "half a step of the numbers, which 8 bits store"),
     ours("improved/ink-depth-map.frag", &["1.5"], "rounding of two depths of 16 bits"),
     ours("improved/ink-depth-map.frag", &["255.0", "65280.0", "65535.0"], "how plane-map.frag stores depth"),
     ours("improved/plane-ink.frag", &["2.0"], "how plane-map.frag stores slopes"),

@@ -1,7 +1,8 @@
 //! The page's answer in a sentence: the recommended setting.
 
 use super::frame::short;
-use super::settings::{Point, Points};
+use super::plot::fronts;
+use super::settings::{OWN_MARK, Point, Points};
 use std::collections::BTreeSet;
 
 /// Loss of F1 that speed may cost.
@@ -14,10 +15,47 @@ pub(super) fn answer(lines: &Points) -> Option<String> {
     let of_size = |size: &[u32; 2]| {
         let points: Vec<&Point> = lines.points.iter().filter(|point| point.size == *size).collect();
         let place = if sizes.len() > 1 { format!("At {}×{}: ", size[0], size[1]) } else { String::new() };
-        best(&points, lines.models.len()).map(|best| place + &best)
+        let text = best(&points, lines.models.len())?;
+        let others: Vec<&Point> = points.iter().copied().filter(|point| !point.has_own_reference).collect();
+        let other = match text.contains(OWN_MARK) {
+            true => best(&others, lines.models.len()).map(|best| format!(" {OWN} {best}")),
+            false => None,
+        };
+        Some(place + &text + &other.unwrap_or_default())
     };
     let all: Vec<String> = sizes.iter().filter_map(of_size).collect();
     (!all.is_empty()).then(|| all.join(" "))
+}
+
+/// Explains [`OWN_MARK`], before the answer among the other settings.
+const OWN: &str = "A setting with † draws the lines that it is judged by. Without these:";
+
+/// The best lines for each time: every setting on the front, from the fastest, in a sentence.
+pub(super) fn budgets(lines: &Points) -> Vec<(&Point, String)> {
+    let sentence = |point: &Point| {
+        let [fast, slow] = point.times_ms.map(short);
+        let spread = match point.errors {
+            [low, high] if low < high => format!(" (quartiles of the models {:.3} to {:.3})", 1.0 - high, 1.0 - low),
+            _ => String::new(),
+        };
+        let place = format!("{}×{}", point.size[0], point.size[1]);
+        format!(
+            "{place}, for {} ms a frame (quartiles {fast} to {slow}): {}, F1 {}{spread}",
+            short(point.time_ms),
+            point.name,
+            f1(point),
+        )
+    };
+    let front = fronts(&lines.points).concat();
+    front.into_iter().map(|index| (&lines.points[index], sentence(&lines.points[index]))).collect()
+}
+
+/// Not rounded up to 1, which only lines without error have.
+fn f1(point: &Point) -> String {
+    match point.error {
+        error if error > 0.0 && error < 0.0005 => format!("{:.5}", 1.0 - error),
+        error => format!("{:.3}", 1.0 - error),
+    }
 }
 
 /// The answer at one size.
@@ -27,11 +65,6 @@ fn best(points: &[&Point], models: usize) -> Option<String> {
     let good: Vec<&Point> = points.iter().copied().filter(|point| point.error - best <= EQUALLY_GOOD + 1e-12).collect();
     let fastest = good.iter().copied().min_by(|a, b| a.time_ms.total_cmp(&b.time_ms))?;
     let mean = if models > 1 { format!(", means over {models} models") } else { String::new() };
-    // Not rounded up to 1, which only lines without error have.
-    let f1 = |point: &Point| match point.error {
-        error if error > 0.0 && error < 0.0005 => format!("{:.5}", 1.0 - error),
-        error => format!("{:.3}", 1.0 - error),
-    };
     let numbers = |point: &Point| format!("F1 {} in {} ms a frame", f1(point), short(point.time_ms));
     let mut text = format!("The best lines for the least time: {} ({}{mean}).", fastest.name, numbers(fastest));
     let noisy = good.iter().filter(|point| **point != fastest && point.is_as_fast_as(fastest));
@@ -49,7 +82,6 @@ fn best(points: &[&Point], models: usize) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::settings::Time;
     use super::*;
 
     fn point(name: &str, is_faithful: bool, time_ms: f64, f1: f64) -> Point {
@@ -61,6 +93,8 @@ mod tests {
             name,
             style,
             is_faithful,
+            has_own_reference: false,
+            options: String::new(),
             size: [512; 2],
             time_ms,
             times_ms,
@@ -71,7 +105,7 @@ mod tests {
 
     fn of(points: &[Point], models: usize) -> Option<String> {
         let models = (0..models).map(|number| number.to_string()).collect();
-        answer(&Points { points: points.to_vec(), models, left_out: 0, time: Time::Frame })
+        answer(&Points { points: points.to_vec(), models, left_out: 0 })
     }
 
     #[test]

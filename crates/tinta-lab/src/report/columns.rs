@@ -1,8 +1,9 @@
 //! The columns of the reports: one list for `results.csv`, the page's table and the meaning of each.
 
-use crate::measure::{LineError, Row, ToneError};
+use crate::measure::{LineError, Row, ToneError, quartiles};
 use std::borrow::Cow;
 use tinta::edges::Class;
+use tinta::renderer::median;
 
 /// One column of every report.
 pub struct Column {
@@ -86,6 +87,15 @@ fn text(text: &str) -> Value {
     Value::Text(text.to_owned())
 }
 
+/// A text that older rows lack.
+fn known(it: &str) -> Value {
+    if it.is_empty() { Value::Missing } else { text(it) }
+}
+
+fn yes(is_so: bool) -> Value {
+    text(if is_so { "yes" } else { "no" })
+}
+
 /// The mean of distances, of which the second number is that of 95 %.
 fn mean(distances: Option<[f64; 2]>) -> Option<f64> {
     distances.map(|[mean, _]| mean)
@@ -101,7 +111,7 @@ fn setting_columns() -> Vec<Column> {
         main("style", "Style", 0, Source::Row(|row| text(&row.style))).says("The style drawn."),
         main("options", "Setting", 0, Source::Row(|row| text(&row.options)))
             .says("The options that make this setting; tinta render takes them."),
-        main("faithful", "Published", 0, Source::Row(|row| text(if row.is_faithful { "yes" } else { "no" })))
+        main("faithful", "Published", 0, Source::Row(|row| yes(row.is_faithful)))
             .says("Whether these are the published program's own settings."),
         column("triangles", "Triangles", 0, Source::Row(|row| Value::Number(row.triangles as f64)))
             .says("Triangles drawn."),
@@ -113,6 +123,19 @@ fn setting_columns() -> Vec<Column> {
         column("renderer", "Renderer", 0, Source::Row(|row| text(&row.renderer)))
             .says("The OpenGL renderer (GL_RENDERER); none for lines found without OpenGL."),
         column("version", "Version", 0, Source::Row(|row| text(&row.version))).says("The version of tinta."),
+        column("commit", "Commit", 0, Source::Row(|row| known(&row.conditions.commit)))
+            .says("The commit that it was built from."),
+        column("date", "Date", 0, Source::Row(|row| known(&row.conditions.date)))
+            .says("The day of the measurement, UTC."),
+        column("processor", "Processor", 0, Source::Row(|row| known(&row.conditions.processor)))
+            .says("The processor's name, where the system tells it."),
+        column("load", "Load", 1, Source::Row(|row| row.conditions.load.map_or(Value::Missing, Value::Number)))
+            .says("Processes that wanted a processor during the minute before, on average."),
+        column("gl_version", "OpenGL", 0, Source::Row(|row| known(&row.gl_version))).says("GL_VERSION, the driver's."),
+        column("pruned", "Pruned", 0, Source::Row(|row| yes(row.is_pruned)))
+            .says("Whether steps that the scene does not need were left out, as tinta render does."),
+        column("own_reference", "Judged by own lines", 0, Source::Row(|row| yes(row.has_own_reference)))
+            .says("Whether the style draws the very lines that it is judged by: its F1 is near 1 by construction."),
     ]
 }
 
@@ -137,8 +160,22 @@ fn time_columns() -> Vec<Column> {
         .says("Three quarters of the frames took no longer, milliseconds."),
         column("frames", "Frames", 0, Source::Row(|row| Value::Number(row.time.frames_ms.len() as f64)))
             .says("Frames measured after warm-up; the time of each stands in results.jsonl."),
-        column("first_frame_ms", "First frame, ms", 2, Source::Row(|row| Value::Number(row.time.first_frame_ms)))
-            .says("The first frame, the driver's compiling of shaders included, milliseconds."),
+        column("processor_ms", "Processor, ms", 2, Source::Row(|row| processor(row, median)))
+            .says("Median processor time of a frame, all threads, milliseconds; empty where a device draws."),
+        column(
+            "processor_lower_quartile_ms",
+            "Processor, lower quartile, ms",
+            2,
+            Source::Row(|row| processor(row, |times| Some(quartiles(&times)[0]))),
+        )
+        .says("A quarter of the frames took no more processor time, milliseconds."),
+        column(
+            "processor_upper_quartile_ms",
+            "Processor, upper quartile, ms",
+            2,
+            Source::Row(|row| processor(row, |times| Some(quartiles(&times)[1]))),
+        )
+        .says("Three quarters of the frames took no more processor time, milliseconds."),
         column("load_ms", "Load, ms", 2, Source::Row(|row| Value::Number(row.time.load_ms)))
             .says("Reading the model, milliseconds."),
         column("edges_ms", "Edges, ms", 2, Source::Row(|row| Value::Number(row.time.edges_ms)))
@@ -150,6 +187,12 @@ fn time_columns() -> Vec<Column> {
              milliseconds.",
         ),
     ]
+}
+
+/// A figure of the frames' processor times.
+fn processor(row: &Row, figure: impl Fn(Vec<f64>) -> Option<f64>) -> Value {
+    let times = Some(row.time.processor_ms.clone()).filter(|times| !times.is_empty());
+    times.and_then(figure).map_or(Value::Missing, Value::Number)
 }
 
 fn passes(row: &Row) -> Value {

@@ -3,14 +3,14 @@
 //! It is HTML and well-formed XML, checkable by an XML parser, and it forbids itself the network. Without scripts everything is
 //! shown; `page.js` hides unchosen rows and sorts.
 
-use super::answer::answer;
+use super::answer::{answer, budgets};
 use super::columns::{Column, Value, columns};
 use super::convergence::{curves, plot as convergence_plot, surfaces};
 use super::frame::Shape;
 use super::info::ReportInfo;
 use super::plot::{plot, subtitle};
 use super::ratios::ratios;
-use super::settings::{Machine, Measure, Time, machines, model_names, models, points};
+use super::settings::{Machine, Measure, Point, Points, machines, model_names, models, points};
 use crate::measure::{Against, Row};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -35,7 +35,7 @@ pub fn html(rows: &[Row], info: &ReportInfo) -> Result<String> {
     page.push_str(&heading(rows, &models, &machines));
     page.push_str("<main>\n");
     page.push_str(&choices(rows, &models, &machines));
-    page.push_str(&plots(&models, &machines)?);
+    page.push_str(&plots(rows, &models, &machines)?);
     page.push_str(&convergence(&machines)?);
     page.push_str(&machine_table(&machines));
     page.push_str(&pictures(info, &models));
@@ -84,7 +84,7 @@ fn heading(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
 fn answers(machines: &[Machine<'_>]) -> String {
     let mut text = String::new();
     for machine in machines {
-        let Some(answer) = answer(&points(&machine.rows, Measure::Lines, Time::Frame)) else { continue };
+        let Some(answer) = answer(&points(&machine.rows, Measure::Lines)) else { continue };
         let place = if machines.len() > 1 { format!("On {}: ", machine.name) } else { String::new() };
         let _ = writeln!(text, "<p class=\"answer\">{}</p>", escaped(&format!("{place}{answer}")));
     }
@@ -117,29 +117,31 @@ fn choices(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> String {
     )
 }
 
-fn plots(models: &[&str], machines: &[Machine<'_>]) -> Result<String> {
+fn plots(rows: &[Row], models: &[&str], machines: &[Machine<'_>]) -> Result<String> {
     let mut text =
         "<section id=\"plots\">\n<h2>Error against run time</h2>\n<p>A mark is a setting; the lower and the \
                     farther left, the better. Both axes are logarithmic. Bars are quartiles: of a frame's time, and of the models' errors.</p>\n<div class=\"plots\">\n"
             .to_owned();
     for machine in machines {
         for model in std::iter::once(None).chain(models.iter().copied().filter(|_| models.len() > 1).map(Some)) {
-            let rows = machine.rows.iter().copied().filter(|row| model.is_none_or(|model| row.model == model));
-            let shown = Machine { name: machine.name.clone(), rows: rows.collect() };
-            // The first picture only where it tells most: for lines, over all models.
-            let first = (Measure::Lines, Time::FirstPicture);
-            let frames = Measure::ALL.map(|(_, measure)| (measure, Time::Frame));
-            for (measure, time) in frames.into_iter().chain(Some(first).filter(|_| model.is_none())) {
-                let points = points(&shown.rows, measure, time);
+            let of_model = machine.rows.iter().copied().filter(|row| model.is_none_or(|model| row.model == model));
+            let shown = Machine { name: machine.name.clone(), rows: of_model.collect() };
+            for (_, measure) in Measure::ALL {
+                let points = points(&shown.rows, measure);
                 let subtitle = subtitle(&shown, measure);
                 let of_shape = |shape| plot(&points, measure, shape, &subtitle);
                 if let (Some(wide), Some(narrow)) = (of_shape(Shape::Wide)?, of_shape(Shape::Narrow)?) {
                     let _ = write!(
                         text,
                         "<figure class=\"plot\" data-model=\"{}\" data-machine=\"{}\">\n<div class=\"wide\">{wide}</div>\n\
-                         <div class=\"narrow\">{narrow}</div>\n</figure>\n",
+                         <div class=\"narrow\">{narrow}</div>\n{}</figure>\n",
                         escaped(model.unwrap_or_default()),
                         escaped(&machine.name),
+                        if measure == Measure::Lines {
+                            best_for_each_time(&points, &shown, rows)
+                        } else {
+                            String::new()
+                        },
                     );
                 }
             }
@@ -147,6 +149,23 @@ fn plots(models: &[&str], machines: &[Machine<'_>]) -> Result<String> {
     }
     text.push_str("</div>\n</section>\n");
     Ok(text)
+}
+
+/// The settings on the front, below their plot; each links its rows in the table, to be cited.
+fn best_for_each_time(points: &Points, machine: &Machine<'_>, rows: &[Row]) -> String {
+    let entry = |(point, sentence): (&Point, String)| {
+        let is_its = |row: &Row| {
+            (&row.style, &row.options, row.size) == (&point.style, &point.options, point.size)
+                && points.models.contains(&row.model)
+                && machine.rows.iter().any(|other| std::ptr::eq(*other, row))
+        };
+        let numbers = (1..).zip(rows).filter(|(_, row)| is_its(row));
+        let links: Vec<String> = numbers.map(|(number, _)| format!("<a href=\"#row-{number}\">{number}</a>")).collect();
+        let what = if links.len() == 1 { "row" } else { "rows" };
+        format!("<li>{}; {what} {}</li>\n", escaped(&sentence), links.join(", "))
+    };
+    let entries: String = budgets(points).into_iter().map(entry).collect();
+    format!("<details><summary>The best for each time, to cite</summary>\n<ul>\n{entries}</ul>\n</details>\n")
 }
 
 /// Error against the number of triangles; empty unless a surface was measured with several meshes.
@@ -298,17 +317,16 @@ fn row_table(rows: &[Row], machines: &[Machine<'_>]) -> String {
     };
     let is_missing = |column: &Column| rows.iter().all(|row| column.value(row) == Value::Missing);
     let is_number = |column: &Column| rows.iter().any(|row| matches!(column.value(row), Value::Number(_)));
-    let heads: Vec<Head<'_>> = columns
-        .iter()
-        .map(|column| Head {
-            title: &column.title,
-            meaning: &column.meaning,
-            is_number: is_number(column),
-            is_main: (column.is_main && !is_missing(column))
-                || (machines.len() > 1 && column.name == "machine")
-                || (column.name == "width_px" && differs(column)),
-        })
-        .collect();
+    let number = Head { title: "Row", meaning: "The row's number, to cite.", is_number: true, is_main: true };
+    let heads = std::iter::once(number).chain(columns.iter().map(|column| Head {
+        title: &column.title,
+        meaning: &column.meaning,
+        is_number: is_number(column),
+        is_main: (column.is_main && !is_missing(column))
+            || (machines.len() > 1 && column.name == "machine")
+            || (column.name == "width_px" && differs(column)),
+    }));
+    let heads: Vec<Head<'_>> = heads.collect();
     let cell = |column: &Column, row: &Row| match column.value(row) {
         Value::Text(text) if column.name == "model" => {
             Cell { text: names.get(&*text).cloned().unwrap_or(text), number: None, is_code: false }
@@ -319,20 +337,21 @@ fn row_table(rows: &[Row], machines: &[Machine<'_>]) -> String {
         }
         Value::Missing => Cell { text: String::new(), number: None, is_code: false },
     };
-    let table_rows = rows.iter().map(|row| {
+    let table_rows = (1..).zip(rows).map(|(number, row)| {
         let names: Vec<&str> = machines
             .iter()
             .filter(|machine| machine.rows.iter().any(|other| std::ptr::eq(*other, row)))
             .map(|machine| machine.name.as_str())
             .collect();
         let attributes = format!(
-            " data-model=\"{}\" data-style=\"{}\" data-machine=\"{}\"",
+            " id=\"row-{number}\" data-model=\"{}\" data-style=\"{}\" data-machine=\"{}\"",
             escaped(&row.model),
             escaped(&row.style),
             // A row without GL belongs to every renderer of its machine.
             escaped(if names.len() == 1 { names[0] } else { "" }),
         );
-        (attributes, columns.iter().map(|column| cell(column, row)).collect())
+        let number = Cell { text: number.to_string(), number: Some(f64::from(number)), is_code: false };
+        (attributes, std::iter::once(number).chain(columns.iter().map(|column| cell(column, row))).collect())
     });
     format!(
         "<section id=\"rows\">\n<h2>All settings</h2>\n<p class=\"table-line\"><span id=\"count\" role=\"status\">{} rows</span> \
@@ -352,6 +371,15 @@ fn run(rows: &[Row], info: &ReportInfo, machines: &[Machine<'_>]) -> String {
         let renderers: BTreeSet<&str> = renderers.filter(|renderer| !machine.name.ends_with(renderer)).collect();
         let renderer = renderers.into_iter().map(|name| format!("; renderer {name}")).collect::<String>();
         entries.push(("Machine".to_owned(), escaped(&format!("{}{renderer}", machine.name))));
+    }
+    let processors: BTreeSet<(&str, &str, &str)> = rows
+        .iter()
+        .map(|row| (&*row.conditions.processor, &*row.gl_version, &*row.conditions.commit))
+        .filter(|it| it != &("", "", ""))
+        .collect();
+    for (processor, gl_version, commit) in processors {
+        let facts = [processor, &format!("OpenGL {gl_version}"), &format!("commit {commit}")];
+        entries.push(("Processor, driver, commit".to_owned(), escaped(&facts.join("; "))));
     }
     entries.extend(info.notes.iter().map(|(name, value)| (escaped(name), escaped(value))));
     let models = distinct(rows, |row| &row.model).into_iter().map(escaped).collect::<Vec<_>>().join(", ");

@@ -6,10 +6,11 @@
 use super::frame::{Layout, MARGIN, Scale, Shape, grid, short};
 use super::labels::{Rectangle, place};
 use super::marks;
-use super::settings::{Machine, Measure, Point, Points, Time, model_names, pareto, points};
+use super::settings::{Machine, Measure, Point, Points, model_names, pareto, points};
 use super::svg_canvas::{Anchor, Axes, MIDDLE, SvgCanvas, text_width, wrapped};
+use crate::measure::{LineError, Row};
 use plotters::style::RGBColor;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use tinta::error::Result;
 
 /// Quartiles, and curves over picture sizes.
@@ -21,7 +22,7 @@ const LONGEST_LABEL: usize = 46;
 
 /// The plot's subject: the models and the machine.
 pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
-    let Points { models, left_out, .. } = points(&machine.rows, measure, Time::Frame);
+    let Points { points, models, left_out } = points(&machine.rows, measure);
     let names = model_names(models.iter().map(String::as_str));
     let models: Vec<String> = models.iter().map(|model| names[model.as_str()].clone()).collect();
     let what = match &models[..] {
@@ -33,7 +34,20 @@ pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
         1 => "; 1 setting not measured on all of them is left out".to_owned(),
         count => format!("; {count} settings not measured on all of them are left out"),
     };
-    format!("{what}{missing}; on {}", machine.name)
+    let lines = machine.rows.iter().filter_map(|row| row.lines.as_ref().map(|lines| (row, lines)));
+    let share = |(row, lines): (&&Row, &LineError)| (f64::from(row.size[1]) / lines.tolerance_px).round() as u64;
+    let shares: BTreeSet<u64> = lines.map(share).collect();
+    let terms = match measure {
+        Measure::Lines if points.iter().any(|point| point.has_own_reference) => {
+            "; † draws the lines that it is judged by"
+        }
+        _ => "",
+    };
+    let tolerance: String = match measure {
+        Measure::Lines => shares.iter().map(|share| format!("; ink counts within 1/{share} of the height")).collect(),
+        _ => String::new(),
+    };
+    format!("{what}{missing}{tolerance}{terms}; on {}", machine.name)
 }
 
 /// Draws the points; `None` without any.
@@ -42,7 +56,7 @@ pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
 ///
 /// [`tinta::Error::File`] should the drawing fail.
 pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> Result<Option<String>> {
-    let (time, points) = (points.time, &points.points);
+    let points = &points.points;
     if points.is_empty() {
         return Ok(None);
     }
@@ -63,7 +77,7 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
 
     let mut svg = String::new();
     let canvas = SvgCanvas::new(&mut svg, layout.width as u32, bottom.ceil() as u32)?;
-    let axes = [format!("↑ {}", measure.axis()), format!("{} →", time.axis())];
+    let axes = [format!("↑ {}", measure.axis()), "time of a frame, ms (median) →".to_owned()];
     layout.name(&canvas, &inner, measure.title(), &subtitle_lines, &axes)?;
     grid(&canvas, &marked.axes, &marked.scale, &inner, &layout)?;
     marked.draw(&canvas)?;
@@ -86,8 +100,10 @@ struct Marked<'a> {
     scale: Scale,
     axes: Axes,
     middles: Vec<(f64, f64)>,
+    /// The settings on the front of their size.
     front: Vec<usize>,
-    steps: Vec<(f64, f64)>,
+    /// The border of each size.
+    steps: Vec<Vec<(f64, f64)>>,
 }
 
 impl<'a> Marked<'a> {
@@ -96,9 +112,11 @@ impl<'a> Marked<'a> {
         let axes = scale.axes(inner);
         let middle = |point: &Point| axes.pixel(point.time_ms, scale.drawn_error(point.error));
         let middles: Vec<(f64, f64)> = points.iter().map(middle).collect();
-        let front = front(points);
-        let steps = steps(&front.iter().map(|index| middles[*index]).collect::<Vec<_>>(), inner);
-        Self { points, scale, axes, middles, front, steps }
+        let fronts = fronts(points);
+        let of_front =
+            |front: &Vec<usize>| steps(&front.iter().map(|index| middles[*index]).collect::<Vec<_>>(), inner);
+        let steps = fronts.iter().map(of_front).collect();
+        Self { points, scale, axes, middles, front: fronts.concat(), steps }
     }
 
     /// Draws quartiles, curves, the front and the marks.
@@ -117,7 +135,7 @@ impl<'a> Marked<'a> {
         for curve in curves(points) {
             canvas.line(&curve.iter().map(|index| middles[*index]).collect::<Vec<_>>(), CURVE, 1)?;
         }
-        canvas.line(steps, MIDDLE, 2)?;
+        steps.iter().try_for_each(|steps| canvas.line(steps, MIDDLE, 2))?;
         // Hollow marks first, to put the published settings above them.
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_by_key(|index| (front.contains(index), points[*index].is_faithful));
@@ -146,13 +164,20 @@ fn curves(points: &[Point]) -> Vec<Vec<usize>> {
     curves
 }
 
-/// The front's points from the fastest to the most exact; the first of equal ones.
-fn front(points: &[Point]) -> Vec<usize> {
-    let all: Vec<(f64, f64)> = points.iter().map(|point| (point.time_ms, point.error)).collect();
-    let mut front: Vec<usize> = (0..all.len()).zip(pareto(&all)).filter(|(_, is_on)| *is_on).map(|(i, _)| i).collect();
-    front.sort_by(|a, b| all[*a].0.total_cmp(&all[*b].0).then(all[*b].1.total_cmp(&all[*a].1)));
-    front.dedup_by(|later, earlier| all[*later] == all[*earlier]);
-    front
+/// The points on the front of each size of pictures, from the fastest to the most exact; the first of equal ones.
+pub(super) fn fronts(points: &[Point]) -> Vec<Vec<usize>> {
+    let sizes: BTreeSet<[u32; 2]> = points.iter().map(|point| point.size).collect();
+    let place = |index: usize| (points[index].time_ms, points[index].error);
+    let of_size = |size: [u32; 2]| {
+        let of_size: Vec<usize> = (0..points.len()).filter(|index| points[*index].size == size).collect();
+        let is_on = pareto(&of_size.iter().map(|index| place(*index)).collect::<Vec<_>>());
+        let mut front: Vec<usize> =
+            of_size.into_iter().zip(is_on).filter_map(|(index, is_on)| is_on.then_some(index)).collect();
+        front.sort_by(|a, b| place(*a).0.total_cmp(&place(*b).0).then(place(*b).1.total_cmp(&place(*a).1)));
+        front.dedup_by(|later, earlier| place(*later) == place(*earlier));
+        front
+    };
+    sizes.into_iter().map(of_size).collect()
 }
 
 /// The border between the reached and the unreached times and errors.
@@ -190,7 +215,8 @@ impl Label {
 fn labels(marked: &Marked<'_>, inner: &Rectangle, layout: &Layout, shape: Shape) -> Vec<Label> {
     let Marked { points, front, middles, steps, .. } = marked;
     let lines: Vec<Rectangle> = steps
-        .windows(2)
+        .iter()
+        .flat_map(|steps| steps.windows(2))
         .map(|pair| Rectangle {
             left: pair[0].0.min(pair[1].0) - 1.0,
             top: pair[0].1.min(pair[1].1) - 1.0,
@@ -261,7 +287,7 @@ fn legend(points: &[Point], layout: &Layout) -> Vec<Item> {
     if !curves(points).is_empty() {
         items.push((Mark::Line(CURVE), "a setting at several sizes or values".to_owned()));
     }
-    items.push((Mark::Front, "Pareto front: no setting is both faster and closer".to_owned()));
+    items.push((Mark::Front, "Pareto front of a size: no setting is both faster and closer".to_owned()));
     let mut left = MARGIN;
     let mut line = 0;
     let mut placed = Vec::new();

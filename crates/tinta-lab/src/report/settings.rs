@@ -50,36 +50,13 @@ impl Measure {
     }
 }
 
-/// The time that a plot shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Time {
-    /// A frame, its plan made: what an animation repeats.
-    Frame,
-    /// The first picture: model and edges read, plan made, shaders compiled, one frame drawn.
-    FirstPicture,
-}
-
-impl Time {
-    /// Both, with the ends of their file names.
-    pub const ALL: [(&'static str, Self); 2] = [("", Self::Frame), ("-first-picture", Self::FirstPicture)];
-
-    /// Lower quartile, median, upper quartile, milliseconds; one number where it was measured once.
-    fn of(self, row: &Row) -> [f64; 3] {
-        let time = &row.time;
-        match (self, time.quartiles_ms) {
-            (Self::FirstPicture, _) => [time.load_ms + time.edges_ms + time.plan_ms + time.first_frame_ms; 3],
-            // A row of an older version lacks quartiles.
-            (Self::Frame, [low, high]) if low > 0.0 => [low, time.median_ms, high],
-            (Self::Frame, _) => [time.median_ms; 3],
-        }
-    }
-
-    /// The time's axis.
-    pub(super) fn axis(self) -> &'static str {
-        match self {
-            Self::Frame => "time of a frame, ms (median)",
-            Self::FirstPicture => "time of the first picture, ms",
-        }
+/// Lower quartile, median, upper quartile of a row's frames, milliseconds; one number where it was measured once.
+fn times_of(row: &Row) -> [f64; 3] {
+    let time = &row.time;
+    match time.quartiles_ms {
+        // A row of an older version lacks quartiles.
+        [low, high] if low > 0.0 => [low, time.median_ms, high],
+        _ => [time.median_ms; 3],
     }
 }
 
@@ -152,6 +129,10 @@ pub struct Point {
     pub style: String,
     /// Whether these are the published program's settings.
     pub is_faithful: bool,
+    /// Whether it draws the very lines that it is judged by.
+    pub has_own_reference: bool,
+    /// The options of its rows.
+    pub options: String,
     /// Its name without the picture's size, and its name without the numbers of its options: the points of a curve share one.
     pub curves: [String; 2],
     /// Width and height of the picture.
@@ -173,6 +154,9 @@ impl Point {
     }
 }
 
+/// Follows the name of a setting that draws the very lines that it is judged by.
+pub(super) const OWN_MARK: &str = " †";
+
 /// A plot's points, with the models of their means.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Points {
@@ -182,16 +166,14 @@ pub struct Points {
     pub models: Vec<String>,
     /// Settings not measured on all of them, which a mean would compare unfairly.
     pub left_out: usize,
-    /// The time of the points.
-    pub time: Time,
 }
 
 /// A point for each setting of these rows, which are one machine's: the setting's mean over the models most settings share.
-pub fn points(rows: &[&Row], measure: Measure, time: Time) -> Points {
+pub fn points(rows: &[&Row], measure: Measure) -> Points {
     let rows: Vec<&Row> = rows
         .iter()
         .copied()
-        .filter(|row| measure.error(row).is_some_and(f64::is_finite) && time.of(row)[1] > 0.0)
+        .filter(|row| measure.error(row).is_some_and(f64::is_finite) && times_of(row)[1] > 0.0)
         .collect();
     // If a setting was measured twice on a model, the last row counts.
     let mut by_setting: BTreeMap<SettingKey<'_>, BTreeMap<&str, &Row>> = BTreeMap::new();
@@ -216,7 +198,7 @@ pub fn points(rows: &[&Row], measure: Measure, time: Time) -> Points {
         let (Some(first), true) = (of_models.first(), of_models.len() == shared.len()) else { continue };
         let count = of_models.len() as f64;
         let [low, middle, high] =
-            [0, 1, 2].map(|at: usize| (of_models.iter().map(|row| time.of(row)[at].ln()).sum::<f64>() / count).exp());
+            [0, 1, 2].map(|at: usize| (of_models.iter().map(|row| times_of(row)[at].ln()).sum::<f64>() / count).exp());
         let errors: Vec<f64> = of_models.iter().filter_map(|row| measure.error(row)).collect();
         let error = errors.iter().sum::<f64>() / count;
         let size = first.size;
@@ -225,8 +207,10 @@ pub fn points(rows: &[&Row], measure: Measure, time: Time) -> Points {
         let words = |is_kept: &dyn Fn(&str) -> bool| {
             names[key].split(' ').filter(|word| is_kept(word.trim_end_matches(','))).collect::<Vec<_>>().join(" ")
         };
+        let own = if first.has_own_reference && measure == Measure::Lines { OWN_MARK } else { "" };
         points.push(Point {
-            name: names[key].clone(),
+            name: format!("{}{own}", names[key]),
+            options: first.options.clone(),
             curves: [
                 words(&without).trim_end_matches([',', ':']).to_owned(),
                 words(&|word| word.parse::<f64>().is_err()),
@@ -234,6 +218,7 @@ pub fn points(rows: &[&Row], measure: Measure, time: Time) -> Points {
             size,
             style: first.style.clone(),
             is_faithful: first.is_faithful,
+            has_own_reference: first.has_own_reference,
             time_ms: middle,
             times_ms: [low, high],
             error,
@@ -242,7 +227,7 @@ pub fn points(rows: &[&Row], measure: Measure, time: Time) -> Points {
     }
     let left_out = order.len() - points.len();
     let models = models(&rows).into_iter().filter(|model| shared.contains(model)).map(str::to_owned).collect();
-    Points { points, models, left_out, time }
+    Points { points, models, left_out }
 }
 
 /// The key of a setting on a machine.
@@ -269,7 +254,13 @@ pub(super) fn short_names<'a>(rows: &[&'a Row]) -> BTreeMap<SettingKey<'a>, Stri
             *option == format!("style {style}") || *option == *style || *option == size
         };
         let mut parts = vec![(*style).to_owned()];
-        parts.extend(options_of(options).into_iter().filter(|option| tells_apart(option) && !is_said_already(option)));
+        // A look is what its name says; its options put it into the measured view.
+        let is_look = options.starts_with("--look ");
+        parts.extend(
+            options_of(options)
+                .into_iter()
+                .filter(|option| !is_look && tells_apart(option) && !is_said_already(option)),
+        );
         if has_sizes {
             parts.push(format!("{}×{}", size[0], size[1]));
         }

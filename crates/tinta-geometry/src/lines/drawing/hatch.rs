@@ -48,8 +48,7 @@ impl Hatching {
             "SPACING",
             Kind::Text { offered: &[AUTO, "1mm", "6x"], example: "8x" },
             "Distance between strokes that draw the tones of --look print and other styles with tones, in place of areas: pixels \
-             of --size, millimetres (1mm), widths of a stroke (8x), or auto (6x); the brightest tone has no strokes, the darkest \
-             of three has crossed ones",
+             of --size, millimetres (1mm), widths of a stroke (8x), or auto (6x)",
             |hatching: &Self| hatching.spacing.map_or(NONE.to_owned(), |spacing| spacing.text()),
             |hatching, text| {
                 hatching.spacing = match text {

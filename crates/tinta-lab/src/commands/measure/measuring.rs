@@ -1,6 +1,7 @@
 //! Measures a group: references once, then the settings in turns, and the exact lines by their rules.
 
 use super::groups::{Group, KINDS};
+use super::look::measure_look;
 use super::results::Results;
 use super::settings::{HowMeasured, settings, smooth_inking, varied};
 use crate::measure::{
@@ -9,9 +10,11 @@ use crate::measure::{
 use tinta::cli::progress::TimedProgress;
 use tinta::cli::say;
 use tinta::edges::SilhouetteRule;
-use tinta::recipe::option_word;
+use tinta::preset::LOOKS;
+use tinta::recipe::{option_word, option_words};
+use tinta::request::{OptionLayer, Request};
 use tinta::settings::{HasSettings, Kind, Options};
-use tinta::{LoadOptions, Renderer, Result, Style};
+use tinta::{LoadOptions, Renderer, Result, SceneSettings, Style};
 
 /// Timed frames of a setting.
 const FRAMES: [usize; 2] = [21, 7];
@@ -29,13 +32,15 @@ pub(super) struct Measuring {
     pub(super) against: Against,
     /// The options that every row of the run has.
     of_scene: String,
+    /// The default look as users call it, and its row's options.
+    look: Option<(Request, String)>,
 }
 
 impl Measuring {
     /// The measurement as requested, with the options of the scene; `own_setting` is a preset's style.
-    pub(super) fn asked(asked: &HowMeasured, of_scene: &Options, own_setting: Option<MeasuredStyle>) -> Result<Self> {
+    pub(super) fn asked(asked: &HowMeasured, request: &Request, own_setting: Option<MeasuredStyle>) -> Result<Self> {
         let how = MeasureSettings {
-            tolerance_px: asked.tolerance_px,
+            tolerance: asked.tolerance,
             frames: asked.frames.map_or(FRAMES[usize::from(asked.quick)], |frames| frames as usize),
             machine: asked
                 .machine
@@ -44,7 +49,7 @@ impl Measuring {
                 .unwrap_or_else(|| MeasureSettings::default().machine),
         };
         how.check()?;
-        let of_scene = scene_options(of_scene);
+        let of_scene = scene_options(&request.options);
         let against = asked.against.unwrap_or_default();
         let mut settings = match &asked.vary {
             Some(vary) => varied(&asked.styles, vary)?,
@@ -58,7 +63,9 @@ impl Measuring {
             settings.push(setting);
         }
         settings.iter_mut().for_each(|setting| setting.options.push_str(&of_scene));
-        Ok(Self { settings, how, against, of_scene })
+        let has_look = against == Against::Lines && asked.vary.is_none() && asked.styles.is_empty();
+        let look = has_look.then(|| look(request)).transpose()?;
+        Ok(Self { settings, how, against, of_scene, look })
     }
 
     /// Measures the group of this number, except settings already in the results.
@@ -82,6 +89,7 @@ impl Measuring {
             self.settings.iter().filter(|setting| !is_known(&setting.options)).cloned().collect();
         let rules = self.rules().into_iter().filter(|(_, options)| !is_known(options));
         let rules: Vec<(SilhouetteRule, String)> = rules.collect();
+        let look = self.look.as_ref().filter(|(_, options)| !is_known(options));
         progress.skip(errors, self.settings.len() - left.len());
         progress.skip(turn, (self.settings.len() - left.len()) * turns(self.how.frames));
         // Settings take turns in groups: rows reach the disk soon and an interruption costs little.
@@ -91,6 +99,9 @@ impl Measuring {
             progress.skip(turn, left_out.len() * turns(self.how.frames));
             left_out.iter().for_each(|reason| say(&format!("tinta: {reason}")));
             measured.into_iter().try_for_each(|measured| results.keep(measured))?;
+        }
+        if let Some((request, options)) = look {
+            results.keep(measure_look(renderer, &subject, (LOOKS[0].name, request), options.clone(), &self.how)?)?;
         }
         for (rule, options) in rules {
             results.keep(measure_lines(&subject, rule, options, FRAMES_OF_LINES, &self.how)?)?;
@@ -106,6 +117,18 @@ impl Measuring {
         };
         rules.iter().map(|rule| (*rule, line_options(*rule, &self.of_scene))).collect()
     }
+}
+
+/// The default look, with the options that draw it in the measured view.
+fn look(measured: &Request) -> Result<(Request, String)> {
+    let (request, _) = Request::from_layers(&[OptionLayer::Look(LOOKS[0])])?;
+    let mut options = SceneSettings::table().options(&measured.scene, &request.scene)?;
+    options.extend(LoadOptions::table().options(&measured.read, &request.read)?);
+    // Each row names its size.
+    options.remove("size");
+    let words = options.iter().flat_map(|(name, value)| option_words(name, value));
+    let text = words.fold(format!("--look {}", LOOKS[0].name), |text, word| text + " " + &tinta::shell::quoted(&word));
+    Ok((request, text))
 }
 
 /// The user's options of camera and model, which are needed to draw a row again.

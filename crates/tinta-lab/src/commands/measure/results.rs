@@ -104,8 +104,10 @@ impl<'a> Results<'a> {
         }
         let differs = |row: &Row| {
             let tolerance = row.lines.as_ref().map(|lines| lines.tolerance_px);
+            let [width, height] = row.size;
+            let now = how.tolerance.px(Size { width, height });
             let is_of_frames = row.style != StyleName::Lines.name() && row.time.frames_ms.len() != how.frames;
-            tolerance.is_some_and(|tolerance| tolerance != how.tolerance_px) || is_of_frames
+            tolerance.is_some_and(|tolerance| (tolerance - now).abs() > 1e-9) || is_of_frames
         };
         match self.rows.iter().find(|row| differs(row)) {
             None => Ok(()),

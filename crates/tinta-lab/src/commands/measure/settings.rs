@@ -3,7 +3,7 @@
 use crate::measure::{Against, MeasuredStyle};
 use std::sync::LazyLock;
 use tinta::cli::options::Selection;
-use tinta::pixel::LINE_TOLERANCE_PX;
+use tinta::pixel::LineTolerance;
 use tinta::plan::Submission;
 use tinta::recipe::option_words;
 use tinta::request::{Request, ignored_remark};
@@ -22,7 +22,7 @@ pub(in crate::commands) struct HowMeasured {
     pub vary: Option<String>,
     pub frames: Option<u32>,
     pub quick: bool,
-    pub tolerance_px: f64,
+    pub tolerance: LineTolerance,
     pub resume: bool,
     pub machine: Option<String>,
     pub backend: Backend,
@@ -38,7 +38,7 @@ impl Default for HowMeasured {
             vary: None,
             frames: None,
             quick: false,
-            tolerance_px: LINE_TOLERANCE_PX,
+            tolerance: LineTolerance::default(),
             resume: false,
             machine: None,
             backend: Backend::default(),
@@ -51,6 +51,7 @@ tinta_geometry::choices! {
     pub(in crate::commands) enum Suite {
         Papers = "papers",
         Solids = "solids",
+        Assemblies = "assemblies",
         All = "all",
     }
 }
@@ -58,10 +59,19 @@ tinta_geometry::choices! {
 impl Suite {
     /// Their names.
     pub(super) fn models(self) -> &'static [&'static str] {
-        const ALL: [&str; 4] = ["builtin:bust", "builtin:ant", "builtin:gear", "builtin:open-box"];
+        const ALL: [&str; 7] = [
+            "builtin:bust",
+            "builtin:ant",
+            "builtin:gear",
+            "builtin:open-box",
+            "builtin:car",
+            "builtin:case",
+            "builtin:plates",
+        ];
         match self {
             Self::Papers => &ALL[..2],
-            Self::Solids => &ALL[2..],
+            Self::Solids => &ALL[2..4],
+            Self::Assemblies => &ALL[4..],
             Self::All => &ALL,
         }
     }
@@ -124,6 +134,10 @@ fn styles() -> settings::Setting<HowMeasured> {
     )
 }
 
+/// Help of the tolerance.
+pub(in crate::commands) const TOLERANCE: &str =
+    "Distance within which ink and line count as the same, as a share of the picture's height, up to 1/32";
+
 fn of_how() -> Vec<settings::Setting<HowMeasured>> {
     type Of = settings::Setting<HowMeasured>;
     let vary = Of::open_field(
@@ -138,7 +152,7 @@ fn of_how() -> Vec<settings::Setting<HowMeasured>> {
         .like("desk");
     let against = "What lines are compared with: the exact lines of the models (lines), or the true contour of smooth surfaces (smooth), \
                    whose models are built-in ones, by default all of them with about 1,000, 10,000 and 100,000 triangles";
-    let suite = "Set of built-in models: papers (bust, ant), solids (gear, open box), all";
+    let suite = "Set of built-in models: papers (bust, ant), solids (gear, open box), assemblies (car, case, plates: parts that touch, fill and overlap one another), all";
     let backend = "OpenGL from: egl, surfaceless, osmesa, wgl, cgl, auto (the first that works)";
     vec![
         Of::open_field("against", "WHAT", "", against, |how| &mut how.against).said("lines").common(),
@@ -149,9 +163,7 @@ fn of_how() -> Vec<settings::Setting<HowMeasured>> {
         frames.whole(1..=100_000).range(1.0, 101.0, 0).said("21, with --quick 7").common(),
         Of::flag("quick", "Measure fewer settings and frames", |how| how.quick, |how, is_on| how.quick = is_on)
             .common(),
-        Of::field("tolerance", "PIXELS", "Distance within which ink and line count as the same, in pixels", |how| {
-            &mut how.tolerance_px
-        }),
+        Of::field("tolerance", "SHARE", TOLERANCE, |how| &mut how.tolerance),
         Of::flag(
             "resume",
             "Continue an interrupted run in the same folder",
@@ -166,8 +178,9 @@ fn of_how() -> Vec<settings::Setting<HowMeasured>> {
 
 /// The additional settings of a quick measurement.
 const QUICK: [&str; 10] = [
-    "--style ink",
-    "--style ink --quality best",
+    // The creases of the reference, which are the texts' own.
+    "--style ink --crease-angle 66.42182",
+    "--style ink --crease-angle 66.42182 --quality best",
     "--style three-pass --map-encoding float --slope-threshold on",
     "--style three-pass --filter sobel",
     "--style three-pass --detection-factor 1",

@@ -113,7 +113,9 @@ fn rendered(name: String, drawing: Drawing) -> Case {
 fn encodings() -> Vec<Variant> {
     let filters = [("", false), ("--slope-threshold on ", true)];
     let three_passes = filters.iter().flat_map(|(option, slope_threshold)| {
-        MapEncoding::ALL.iter().map(move |(name, encoding)| {
+        // A map of numbers has no depth.
+        let with_depth = MapEncoding::ALL.iter().filter(|(_, encoding)| *encoding != MapEncoding::Numbers);
+        with_depth.map(move |(name, encoding)| {
             let border = Border { detection_factor: 1.0, slope_threshold: *slope_threshold, ..Border::default() };
             let cartoon = Cartoon { border: Some(border), map_encoding: *encoding, ..Cartoon::default() };
             let name = format!("three-pass --detection-factor 1 {option}--map-encoding {name}");
