@@ -18,6 +18,7 @@ pub(super) enum Script {
     Bash,
     Zsh,
     Fish,
+    Powershell,
     Man,
 }
 
@@ -37,6 +38,7 @@ pub(super) fn script(shell: Script, program: &Program) -> String {
         Script::Bash => bash(&command, &written(Written::Bash)),
         Script::Zsh => zsh(&written(Written::Zsh)),
         Script::Fish => fish(&command, &written(Written::Fish)),
+        Script::Powershell => written(Written::PowerShell),
         Script::Man => String::new(),
     }
 }

@@ -8,7 +8,7 @@ use tinta::{Result, TextTarget};
 /// The command.
 pub(super) const COMMAND: Command = Command {
     examples: &[
-        "tinta generate bash                             print completions; zsh, fish",
+        "tinta generate bash                             print completions; zsh, fish, powershell",
         "tinta generate man -o man                       write the manual pages",
     ],
     ..Command::new("generate", <Arguments as clap::Args>::augment_args, |matches, call| {
@@ -22,6 +22,7 @@ pub(super) const COMMAND: Command = Command {
   tinta generate bash > ~/.local/share/bash-completion/completions/tinta
   tinta generate zsh > ~/.zfunc/_tinta          with fpath+=~/.zfunc before compinit in ~/.zshrc
   tinta generate fish > ~/.config/fish/completions/tinta.fish
+  tinta generate powershell >> $PROFILE
   tinta generate man -o ~/.local/share/man/man1
 
 The folders of shells must exist: mkdir -p creates them. The manual pages are tinta.1, and one for each command, such as \

@@ -202,7 +202,7 @@ mod tests {
             ("tinta generate bahs", "invalid value 'bahs' for '<WHAT>': did you mean bash?"),
             (
                 "tinta generate nushell",
-                "invalid value 'nushell' for '<WHAT>': choose one of bash, zsh, fish, man; see --help",
+                "invalid value 'nushell' for '<WHAT>': choose one of bash, zsh, fish, powershell, man; see --help",
             ),
             (
                 "tinta render a.obj -o a.png --style three_pass",

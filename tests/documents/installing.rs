@@ -42,7 +42,7 @@ const TYPED: [(&str, &[&str], &str); 8] = [
     ("tinta render --style=tw", &["two-pass"], "ink"),
     ("tinta render buil", &["builtin:bust", "builtin:open-box"], "cow.obj"),
     ("tinta info c", &["cow.obj"], "builtin:bust"),
-    ("tinta generate ", &["bash", "zsh", "fish"], "cow.obj"),
+    ("tinta generate ", &["bash", "zsh", "fish", "powershell"], "cow.obj"),
 ];
 
 /// Checks answers; some shells omit the part already on the line.

@@ -1,6 +1,6 @@
 //! Every licence that must be passed on is: tinta's own in each package for a registry, those of all crates beside each program.
 
-use crate::support::root;
+use crate::support::{root, skip};
 use std::collections::BTreeSet;
 use std::fs::Permissions;
 use std::os::unix::fs::PermissionsExt;
@@ -62,6 +62,24 @@ fn the_licences_beside_the_program_are_those_of_all_its_crates_each_with_a_text(
         .collect();
     assert_eq!(listed, needed);
     assert!(needed.iter().any(|name| name.starts_with("resvg ")), "the program's own crates too");
+}
+
+#[test]
+fn the_sbom_lists_the_compiled_crates_alone_and_names_no_path() {
+    if Command::new("python3").arg("--version").output().is_err() {
+        skip("the SBOM: python3 is not installed");
+        return;
+    }
+    let output = Command::new(root().join("scripts/sbom")).output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(!text.contains(&root().display().to_string()) && !text.contains("file://"), "{text}");
+    let sbom: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let components = sbom["components"].as_array().unwrap();
+    let names: BTreeSet<&str> = components.iter().filter_map(|component| component["name"].as_str()).collect();
+    assert!(["tinta", "glow", "resvg"].iter().all(|name| names.contains(name)), "{names:?}");
+    // Macros run while it is compiled, and tests are no part of it.
+    assert!(["serde_derive", "syn", "proptest"].iter().all(|name| !names.contains(name)), "{names:?}");
 }
 
 #[test]

@@ -3,12 +3,14 @@
 use crate::support::root;
 
 /// The runners in use. Those of withdrawn systems, such as macos-13, wait for ever.
-const RUNNERS: [&str; 5] = ["ubuntu-latest", "windows-latest", "macos-latest", "macos-15-intel", "${{ matrix.os }}"];
+const RUNNERS: [&str; 6] =
+    ["ubuntu-latest", "ubuntu-24.04-arm", "windows-latest", "macos-latest", "macos-15-intel", "${{ matrix.os }}"];
 
-/// Every workflow by its name.
+/// Every workflow by its name, and the steps that several share.
 fn workflows() -> Vec<(String, String)> {
     let files = std::fs::read_dir(root().join(".github/workflows")).unwrap().map(|file| file.unwrap().path());
-    files.map(|path| (path.display().to_string(), std::fs::read_to_string(path).unwrap())).collect()
+    let shared = [root().join(".github/actions/prepare/action.yml")];
+    files.chain(shared).map(|path| (path.display().to_string(), std::fs::read_to_string(path).unwrap())).collect()
 }
 
 /// What follows this key, in every line that has it.
@@ -42,7 +44,10 @@ fn every_action_is_pinned_by_a_commit() {
     let mut count = 0;
     for (name, text) in workflows() {
         for action in values(&text, "uses:") {
-            assert!(is_pinned(action), "{name}: {action}");
+            match action.strip_prefix("./") {
+                Some(own) => assert!(root().join(own).exists(), "{name}: there is no {own}"),
+                None => assert!(is_pinned(action), "{name}: {action}"),
+            }
             count += 1;
         }
     }
@@ -61,7 +66,14 @@ fn the_scripts_of_every_job_exist_and_features_and_the_oldest_rust_have_jobs() {
             }
         }
     }
-    for needed in ["scripts/features", "scripts/oldest-rust", "scripts/test", "scripts/test-elsewhere"] {
+    for needed in [
+        "scripts/features",
+        "scripts/oldest-rust",
+        "scripts/python",
+        "scripts/test",
+        "scripts/test-elsewhere",
+        "scripts/web",
+    ] {
         assert!(scripts.iter().any(|script| script == needed), "no job runs {needed}");
     }
 }

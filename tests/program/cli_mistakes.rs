@@ -317,7 +317,10 @@ const MISTAKES: [(&str, &str); 99] = [
     ("again notes.txt", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),
     ("again notes.txt -o out.png", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),
     ("generate man -o triangle.obj", "-o triangle.obj: this is a file; name a folder"),
-    ("generate nushell", "invalid value 'nushell' for '<WHAT>': choose one of bash, zsh, fish, man; see --help"),
+    (
+        "generate nushell",
+        "invalid value 'nushell' for '<WHAT>': choose one of bash, zsh, fish, powershell, man; see --help",
+    ),
     ("generate bahs", "invalid value 'bahs' for '<WHAT>': did you mean bash?"),
 ];
 

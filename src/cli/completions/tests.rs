@@ -3,7 +3,7 @@
 use super::*;
 use crate::cli::help;
 
-const SHELLS: [Script; 3] = [Script::Bash, Script::Zsh, Script::Fish];
+const SHELLS: [Script; 4] = [Script::Bash, Script::Zsh, Script::Fish, Script::Powershell];
 
 fn whole() -> Command {
     let mut whole = Program::default().command_line().disable_help_subcommand(true);
@@ -20,6 +20,7 @@ fn part(shell: Script, script: &str, command: &str) -> String {
     match shell {
         Script::Bash => between(&format!("\n        tinta__subcmd__{command})\n"), "\n            ;;"),
         Script::Zsh => between(&format!("({command})\n_arguments"), "\n;;"),
+        Script::Powershell => between(&format!("\n        'tinta;{command}' {{"), "\n            break"),
         Script::Man => String::new(),
         Script::Fish => {
             let start = format!("complete -c tinta -n \"__fish_tinta_using_subcommand {command}\"");
@@ -40,6 +41,7 @@ fn every_command_and_long_option_is_in_every_script() {
                 Script::Bash => script.contains(&format!("tinta,{name})")),
                 Script::Zsh => script.contains(&format!("'{name}:")),
                 Script::Fish => script.contains(&format!("-a \"{name}\" -d ")),
+                Script::Powershell => script.contains(&format!("::new('{name}', '{name}', ")),
                 Script::Man => false,
             };
             assert!(is_named, "{shell:?} does not know {name}");
@@ -49,6 +51,7 @@ fn every_command_and_long_option_is_in_every_script() {
                     Script::Bash => part.split([' ', '"', '\n']).any(|word| word == format!("--{option}")),
                     Script::Zsh => part.contains(&format!("--{option}[")) || part.contains(&format!("--{option}=[")),
                     Script::Fish => part.contains(&format!(" -l {option} ")),
+                    Script::Powershell => part.contains(&format!("::new('--{option}', ")),
                     Script::Man => false,
                 };
                 assert!(is_there, "{shell:?} does not know {name} --{option}");
