@@ -3,6 +3,7 @@
 import copy
 import io
 import itertools
+import json
 import pickle
 
 import numpy as np
@@ -205,6 +206,9 @@ def test_results_are_copied_and_pickled(cube):
 def test_lines_are_saved_to_paths_and_open_files(cube, tmp_path):
     lines = tn.lines(*cube)
     for format, begin in [("svg", b"<?xml"), ("pdf", b"%PDF"), ("png", b"\x89PNG"), ("json", b"{")]:
+        text = io.StringIO()
+        lines.save(text, format="svg")
+        assert text.getvalue() == lines.svg()
         opened = io.BytesIO()
         lines.save(opened, format=format)
         lines.save(tmp_path / f"cube.{format}")
@@ -251,6 +255,9 @@ def test_layers_are_the_drawing(cube):
 def test_a_notebook_shows_lines_and_pictures(cube):
     assert tn.lines(*cube)._repr_svg_().startswith("<?xml")
     picture = tn.render(*cube, size=32)
+    assert json.loads(json.dumps([picture.mean(), picture.max(), picture.std()])) == pytest.approx([np.mean(np.asarray(picture)), 255, np.std(np.asarray(picture))])
+    assert np.ma.masked_equal(picture, 255).min() == picture.min()
+    assert type(picture.mean(axis=2)) is type(picture) and type(picture.sum()) is int
     assert picture._repr_png_().startswith(b"\x89PNG") and picture[0]._repr_png_() is None
     picture.save("cube.png")
     picture.save("cube.jpg")

@@ -5,6 +5,7 @@ import numpy as np
 
 def rows(argument, values, width):
     """An array (N, width) of float64."""
+    unmasked(argument, values)
     try:
         array = np.asarray(values)
     except (ValueError, TypeError):
@@ -16,8 +17,16 @@ def rows(argument, values, width):
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
+def unmasked(argument, values):
+    """Refuses numpy's masked values, which a plain array would show as if they were none."""
+    rows = values if isinstance(values, (list, tuple)) and values and isinstance(values[0], np.ma.MaskedArray) else [values]
+    if any(np.ma.is_masked(row) for row in rows):
+        raise ValueError(f"{argument}: some values are masked; leave their rows out, or fill them")
+
+
 def vector(argument, values):
     """Three finite numbers."""
+    unmasked(argument, values)
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{argument}: these are of type {array.dtype}; give real numbers")
@@ -30,6 +39,7 @@ def vector(argument, values):
 
 def corners(values):
     """Faces as a flat array of corners, and the number of corners of each; `None` if all are triangles."""
+    unmasked("faces", values)
     try:
         array = np.asarray(values)
     except (ValueError, TypeError):

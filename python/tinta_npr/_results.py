@@ -187,7 +187,8 @@ class Lines:
     def save(self, file, *, format=None, title=None, **settings):
         """Write a file: .svg, .pdf, .png or .json. Settings as in `svg`.
 
-        `file` is a path, whose file appears whole or not at all, or an object with ``write``, opened for bytes. `format` is
+        `file` is a path, whose file appears whole or not at all, or an object with ``write``, opened for bytes, or
+        for text where the format is one. `format` is
         ``"svg"``, ``"pdf"``, ``"png"`` or ``"json"``; by default a path's ending, and SVG for an object.
 
         Settings
@@ -397,8 +398,16 @@ def _place(file, format):
 
 
 def _written(file, path, content):
-    """Writes a path's file, or to an object."""
-    file.write(content) if hasattr(file, "write") else _native.write(path, content)
+    """Writes a path's file, or to an object, opened for bytes or, unless the content is binary, for text."""
+    if not hasattr(file, "write"):
+        _native.write(path, content)
+        return
+    try:
+        file.write(content)
+    except TypeError:
+        if content.startswith((b"%PDF", b"\x89PNG")):
+            raise TypeError("file: it is open for text, and this format is binary; open it for bytes (\"wb\", io.BytesIO)") from None
+        file.write(content.decode())
 
 
 class Edges:
@@ -421,6 +430,9 @@ class Edges:
 class Picture(np.ndarray):
     """A picture: an array (H, W, 4) of uint8, red, green, blue, alpha, the top row first."""
 
+    # A masked array of it, as matplotlib makes one, holds a plain array: it takes no plain numbers for results.
+    _baseclass = np.ndarray
+
     def __new__(cls, pixels, recipe=None):
         picture = np.asarray(pixels).view(cls)
         picture.recipe = recipe
@@ -429,6 +441,10 @@ class Picture(np.ndarray):
     def __array_finalize__(self, source):
         # An array derived from a picture, such as a part of it, does not match the recipe.
         self.recipe = None
+
+    def __array_wrap__(self, array, context=None, return_scalar=False):
+        # A mean or a maximum of all is a number of Python's, as JSON takes it.
+        return array.item() if np.ndim(array) == 0 else super().__array_wrap__(array, context)
 
     def __reduce__(self):
         make, arguments, state = super().__reduce__()
