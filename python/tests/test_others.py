@@ -301,6 +301,20 @@ class TestMatplotlib:
             expected = {tuple(round(255 * part) for part in to_rgba(color)) for color in (short, "r")}
             assert {tuple(round(255 * part) for part in color) for color in drawn.get_colors()} == expected
 
+    def test_labels_and_widths_are_matplotlibs(self, cube):
+        figure, ax = self.plt.subplots()
+        solid = self.plt.figure().add_subplot(projection="3d")
+        for axes in (ax, solid):
+            lines = tn.mpl.draw(axes, *cube, label="edges", linewidth=1.5)
+            assert set(lines.get_linewidths()) == {1.5}
+            areas = tn.mpl.fill(axes, *cube, colors=np.full((6, 4), 0.5), label="faces", lw=2)
+            assert set(areas.get_linewidths()) == {2}
+            line, area = axes.legend().legend_handles
+            assert line.get_linewidth() == 1.5 and area.get_facecolor() == (0.5, 0.5, 0.5, 0.5) and area.get_width() > area.get_height()
+            assert set(tn.mpl.fill(axes, *cube, colors=np.full((6, 4), 0.5)).get_linewidths()) == {0}, "no net"
+        with pytest.raises(TypeError, match="linewidth: .* give one of them"):
+            tn.mpl.draw(ax, *cube, line_width=1, lw=1)
+
     def test_lines_that_are_found_are_drawn_with_labels_at_their_points(self, cube):
         vertices, faces = cube
         lines = tn.lines(vertices, faces, view="iso", size=(300, 200))
