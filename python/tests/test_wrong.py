@@ -44,7 +44,7 @@ WRONG = [
     (lambda: tn.lines(np.array(V)), TypeError, r"faces: they are missing"),
     (lambda: tn.lines(V), TypeError, r"mesh: these are vertices without faces"),
     (lambda: tn.lines([]), ValueError, r"mesh: the list is empty"),
-    (lambda: tn.lines(7), TypeError, r"mesh: give vertices and faces, a path, or a mesh .*, not int"),
+    (lambda: tn.lines(7), TypeError, r"mesh: give vertices and faces, a path, a mesh .*, or a part of build123d or CadQuery, not int"),
     (lambda: tn.lines(None), TypeError, "mesh: it is missing; give a mesh, curves or points"),
     (lambda: tn.lines("nowhere.obj"), FileNotFoundError, r"nowhere.obj: there is no such file"),
     (lambda: tn.lines("builtin:bost"), ValueError, r"builtin:bust"),

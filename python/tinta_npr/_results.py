@@ -49,13 +49,16 @@ class Lines:
         self._classes = classes
         self.size = self._found.size
         self.counts = self._found.counts()
-        self.camera = self._found.camera()
         self.labels = self._found.labels()
 
     def __getattr__(self, name):
         if name == "_found":
             self._found = _native.lines(*self._asked)
             return self._found
+        if name == "camera":
+            # A sheet of views has none.
+            self.camera = self._found.camera()
+            return self.camera
         # A drawing needs no hidden pieces: they are found on the first access to the arrays.
         if name not in _ARRAYS:
             raise AttributeError(f"{type(self).__name__} has no attribute {name}")
