@@ -90,3 +90,22 @@ def counted(cells):
     is_corner = np.ones(cells.size, dtype=bool)
     is_corner[starts] = False
     return cells[is_corner], cells[starts]
+
+
+def same_places(points, distance=0.0):
+    """Points within a distance of one another count as one: the first of each, and the number among these of each point."""
+    groups = np.empty(points.shape, dtype=np.int64)
+    for axis, values in enumerate(points.T):
+        order = np.argsort(values)
+        groups[order, axis] = np.cumsum(np.diff(values[order], prepend=values[order[:1]]) > distance)
+    _, first, numbers = np.unique(groups, axis=0, return_index=True, return_inverse=True)
+    return first, numbers.ravel()
+
+
+def sides(corners, sizes):
+    """The two corners of each side of faces, the lower first, each side once: (K, 2)."""
+    sizes = np.full(len(corners) // 3, 3) if sizes is None else sizes
+    following = np.arange(1, len(corners) + 1)
+    ends = np.cumsum(sizes)
+    following[ends - 1] = ends - sizes
+    return np.unique(np.sort(np.column_stack([corners, corners[following]]), axis=1), axis=0)

@@ -8,6 +8,7 @@ once. So the seam of a cylinder, whose sides meet in one face, is none.
 import numpy as np
 
 from . import _native
+from ._arrays import same_places
 
 #: The distance between a curve and its chords, a share of the diagonal of the object's box, and the angle between two chords, radians.
 _CHORD, _ANGLE = 1e-4, 0.1
@@ -87,21 +88,12 @@ def _triangles(shape):
         triangles.append(np.array(cut, dtype=np.int64) + count)
         faces += [number] * len(cut)
         count += len(corners)
-    points, numbers = _welded(np.concatenate(points), _SAME * diagonal)
+    points = np.concatenate(points)
+    first, numbers = same_places(points, _SAME * diagonal)
     triangles, faces = numbers[np.concatenate(triangles)], np.array(faces, dtype=np.int64)
     # At a pole, two corners are one.
     kept = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
-    return points, triangles[kept], faces[kept]
-
-
-def _welded(points, distance):
-    """Points without repetition, and the number among them of each given one."""
-    groups = np.empty(points.shape, dtype=np.int64)
-    for axis, values in enumerate(points.T):
-        order = np.argsort(values)
-        groups[order, axis] = np.cumsum(np.diff(values[order], prepend=values[order[:1]]) > distance)
-    _, first, numbers = np.unique(groups, axis=0, return_index=True, return_inverse=True)
-    return points[first], numbers.ravel()
+    return points[first], triangles[kept], faces[kept]
 
 
 def _mesh(points, triangles, faces, name, reading):
