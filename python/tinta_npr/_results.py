@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from . import _native
+from . import _native, _units
 from ._arrays import rows as _rows
 
 
@@ -166,6 +166,25 @@ class Lines:
         """
         return Regions(self, by, settings, style, look)
 
+    def visible_area(self, by="face"):
+        """The surface that is seen, in the model's units: of the faces themselves, not of their picture.
+
+        A triangle seen nearly from its side, as at a contour, may count wrongly as a whole.
+
+        Parameters
+        ----------
+        by : {"face", "material", "object"}
+
+        Returns
+        -------
+        dict
+            Surfaces by (object, face), by (object, material), or by object; only of those that are seen. Faces and materials have the
+            numbers of `Regions`.
+        """
+        if by not in ("face", "material", "object"):
+            raise ValueError(f"by {by}: choose one of face, material, object")
+        return _units.seen_surfaces(self, by)
+
     def project(self, points):
         """Where points of the mesh's space are in the picture, for labels.
 
@@ -294,6 +313,27 @@ class Regions:
 
     def _repr_svg_(self):
         return self.svg()
+
+    def polygons(self, units="pixels"):
+        """The areas as polygons with holes, as shapely takes them.
+
+        Parameters
+        ----------
+        units : {"pixels", "model"}
+            Pixels, y down; or the model's units, along the picture's right and upper side from the model's origin: from above x and y of a
+            z-up model. The second needs a parallel projection.
+
+        Returns
+        -------
+        list of N tuples (ndarray (K, 2), list of ndarray (K, 2))
+            Of each area the outer ring and the holes: ``shapely.Polygon(*areas.polygons()[0])``. No ring touches itself.
+        """
+        if units not in ("pixels", "model"):
+            raise ValueError(f"units {units}: choose one of pixels, model")
+        if units == "model" and self.lines._moved_from_mesh is not None:
+            raise ValueError("units: this camera's matrix has units of its own; ask for pixels, or give another camera")
+        placed = _units.on_the_drawing(self.lines.camera, self.size) if units == "model" else np.asarray
+        return [(placed(outer), [placed(hole) for hole in holes]) for outer, *holes in self.loops]
 
     def of_faces(self, values):
         """The values of the faces that the areas show.
