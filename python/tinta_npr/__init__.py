@@ -7,7 +7,8 @@
     tinta_npr.pv.export_svg(plotter, "scene.svg")   # the scene of a PyVista plotter
     tinta_npr.mpl.draw(ax, mesh)                    # into matplotlib's axes, as vectors
 
-A mesh is a pair of arrays (vertices, faces), the path of a model file, or an object of trimesh, PyVista, VTK, meshio or Open3D.
+A mesh is a pair of arrays (vertices, faces), the path of a model file, an object of trimesh, PyVista, VTK, meshio or Open3D, or a part of
+build123d or CadQuery.
 """
 
 import atexit as _atexit
