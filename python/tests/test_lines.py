@@ -217,6 +217,13 @@ def test_lines_are_saved_to_paths_and_open_files(cube, tmp_path):
     assert b"<title>A cube" in (tmp_path / "cube").read_bytes()
 
 
+def test_a_sheet_is_asked_for_with_the_lines_or_with_the_file(cube):
+    lines = tn.lines(*cube, sheet="third", hidden="dashed")
+    assert lines.svg() == tn.lines(*cube).svg(sheet="third", hidden="dashed") and repr(lines)
+    with pytest.raises(ValueError, match="sheet: a sheet has four cameras"):
+        lines.camera
+
+
 def test_edges_have_their_classes_and_faces(cube):
     vertices, faces = cube
     edges = tn.edges(vertices, faces[:5])
