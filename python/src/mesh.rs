@@ -8,6 +8,7 @@ use crate::work::done;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 use tinta::glam::{DVec3, Vec3};
@@ -215,12 +216,19 @@ impl Mesh {
         Ok(Self::new(mesh, None, self.options.clone(), self.files.clone(), self.remarks.clone()))
     }
 
-    /// This mesh, made of the triangles of another, with the numbers of the other's given faces.
+    /// This mesh, made of the triangles of another, with the numbers of the other's given faces and with its marked edges.
     fn with_faces_of(&self, other: &Self) -> Self {
-        let face = |triangle: u32| other.mesh.file_face(self.mesh.file_face(triangle));
-        let file_faces = (0..self.mesh.triangles.len() as u32).map(face).collect();
-        let mesh = tinta::Mesh { file_faces, ..(*self.mesh).clone() };
-        Self::new(mesh, None, self.options.clone(), self.files.clone(), self.remarks.clone())
+        let faces = self.given_faces().map(|triangle| other.mesh.file_face(triangle)).collect();
+        self.marked(faces, other.mesh.marked.iter().copied())
+    }
+
+    /// This mesh with other numbers of its given faces, one for each of them, and with marked edges, each by the numbers of its ends in
+    /// the given mesh. Edges of vertices that no face uses are left out.
+    fn with_marks(&self, faces: PyReadonlyArray1<'_, u32>, edges: PyReadonlyArray2<'_, u32>) -> PyResult<Self> {
+        let (faces, edges) = (faces.as_array(), edges.as_array());
+        let numbers: Option<Vec<u32>> = self.given_faces().map(|face| faces.get(face as usize).copied()).collect();
+        let numbers = numbers.ok_or_else(|| wrong("faces", "the mesh has more; give a number for each"))?;
+        Ok(self.marked(numbers, edges.rows().into_iter().map(|edge| [edge[0], edge[1]])))
     }
 
     /// Reads a mesh from a file.
@@ -266,6 +274,12 @@ impl Mesh {
         shaped(py, self.mesh.triangles.as_flattened().to_vec(), &[self.mesh.triangles.len(), 3])
     }
 
+    /// The face of the given mesh that each triangle is of: (M,) uint32.
+    #[getter]
+    fn file_faces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        shaped(py, self.given_faces().collect(), &[self.mesh.triangles.len()])
+    }
+
     /// Vectors turned as reading with these settings turned the mesh: (N, 3).
     fn turned<'py>(&self, py: Python<'py>, vectors: PyReadonlyArray2<'_, f64>) -> PyResult<Bound<'py, PyAny>> {
         let up_axis = LoadOptions::from_options(&self.options).map_err(raised)?.up_axis;
@@ -303,7 +317,8 @@ impl Mesh {
         );
         let free = &mesh.curves;
         let curves = (self.free(py)?, &free.file_vertices, &free.segments, &free.points, &free.labels);
-        let arguments = (arrays, curves, &mesh.name, options, &self.remarks).into_pyobject(py)?.into_any();
+        let arguments =
+            (arrays, curves, &mesh.marked, &mesh.name, options, &self.remarks).into_pyobject(py)?.into_any();
         Ok((class.getattr("of_pickle")?, arguments))
     }
 
@@ -312,6 +327,7 @@ impl Mesh {
     fn of_pickle(
         arrays: PickledArrays<'_>,
         curves: PickledCurves<'_>,
+        marked: Vec<[u32; 2]>,
         name: String,
         given: &Bound<'_, PyDict>,
         remarks: Vec<String>,
@@ -330,7 +346,7 @@ impl Mesh {
         let curves = Curves { positions: free, file_vertices: of_file, segments, points, labels, hatching: 0 };
         let mesh = tinta::Mesh {
             curves,
-            marked: Vec::new(),
+            marked,
             name,
             file_vertices: file_vertices.as_array().to_vec(),
             triangles: corners(faces),
@@ -360,6 +376,7 @@ impl Mesh {
             && free.labels.iter().all(|(point, _)| (*point as usize) < free.points.len())
             && mesh.triangle_normals.len() == mesh.triangles.len()
             && [0, mesh.triangles.len()].contains(&mesh.file_faces.len())
+            && mesh.marked.as_flattened().iter().all(|end| (*end as usize) < mesh.positions.len())
             && !(mesh.triangles.is_empty() && free.is_empty())
             && is_within(&mesh.triangles, mesh.positions.len())
             && is_within(&mesh.triangle_normals, mesh.normals.len());
@@ -384,6 +401,22 @@ impl Mesh {
         remarks: Vec<String>,
     ) -> Self {
         Self { mesh: Arc::new(mesh), path, options, files, remarks, scene: OnceLock::new() }
+    }
+
+    /// The face of the given mesh that each triangle is of.
+    fn given_faces(&self) -> impl Iterator<Item = u32> {
+        (0..self.mesh.triangles.len() as u32).map(move |triangle| self.mesh.file_face(triangle))
+    }
+
+    /// Returns it with these numbers of its triangles' faces, and with these edges marked by the given numbers of their ends.
+    fn marked(&self, file_faces: Vec<u32>, edges: impl Iterator<Item = [u32; 2]>) -> Self {
+        let places: HashMap<u32, u32> = self.mesh.file_vertices.iter().copied().zip(0..).collect();
+        let place = |[one, other]: [u32; 2]| Some((*places.get(&one)?, *places.get(&other)?));
+        // In ascending order, each once.
+        let marked: BTreeSet<_> =
+            edges.filter_map(place).map(|(one, other)| [one.min(other), one.max(other)]).collect();
+        let mesh = tinta::Mesh { file_faces, marked: marked.into_iter().collect(), ..(*self.mesh).clone() };
+        Self::new(mesh, None, self.options.clone(), self.files.clone(), self.remarks.clone())
     }
 }
 

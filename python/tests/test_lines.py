@@ -3,6 +3,7 @@
 import copy
 import io
 import itertools
+import json
 import pickle
 
 import numpy as np
@@ -205,12 +206,22 @@ def test_results_are_copied_and_pickled(cube):
 def test_lines_are_saved_to_paths_and_open_files(cube, tmp_path):
     lines = tn.lines(*cube)
     for format, begin in [("svg", b"<?xml"), ("pdf", b"%PDF"), ("png", b"\x89PNG"), ("json", b"{")]:
+        text = io.StringIO()
+        lines.save(text, format="svg")
+        assert text.getvalue() == lines.svg()
         opened = io.BytesIO()
         lines.save(opened, format=format)
         lines.save(tmp_path / f"cube.{format}")
         assert opened.getvalue().startswith(begin) and (tmp_path / f"cube.{format}").read_bytes() == opened.getvalue()
     lines.save(tmp_path / "cube", format="svg", title="A cube")
     assert b"<title>A cube" in (tmp_path / "cube").read_bytes()
+
+
+def test_a_sheet_is_asked_for_with_the_lines_or_with_the_file(cube):
+    lines = tn.lines(*cube, sheet="third", hidden="dashed")
+    assert lines.svg() == tn.lines(*cube).svg(sheet="third", hidden="dashed") and repr(lines)
+    with pytest.raises(ValueError, match="sheet: a sheet has four cameras"):
+        lines.camera
 
 
 def test_edges_have_their_classes_and_faces(cube):
@@ -251,6 +262,9 @@ def test_layers_are_the_drawing(cube):
 def test_a_notebook_shows_lines_and_pictures(cube):
     assert tn.lines(*cube)._repr_svg_().startswith("<?xml")
     picture = tn.render(*cube, size=32)
+    assert json.loads(json.dumps([picture.mean(), picture.max(), picture.std()])) == pytest.approx([np.mean(np.asarray(picture)), 255, np.std(np.asarray(picture))])
+    assert np.ma.masked_equal(picture, 255).min() == picture.min()
+    assert type(picture.mean(axis=2)) is type(picture) and type(picture.sum()) is int
     assert picture._repr_png_().startswith(b"\x89PNG") and picture[0]._repr_png_() is None
     picture.save("cube.png")
     picture.save("cube.jpg")

@@ -2,6 +2,8 @@
 
 import os
 import runpy
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -37,7 +39,7 @@ def triangles_of(ax, first):
     found = []
     for artist in ax.get_children():
         if isinstance(artist, Poly3DCollection):
-            for polygon in Surface(artist).polygons:
+            for polygon in Surface(artist, np.ones(3)).polygons:
                 for part in _bent_apart(polygon):
                     part = np.roll(part, -first, axis=0)
                     found += [(part[0], one, other) for one, other in zip(part[1:], part[2:])]
@@ -165,6 +167,57 @@ def test_a_surface_without_colour_keeps_its_edges():
     assert scene._strokes.get_segments() and not scene.get_paths()
 
 
+@pytest.mark.parametrize("count", [100, 101], ids=["sides cross", "corners touch"])
+@pytest.mark.filterwarnings("error")
+def test_an_area_between_curves_that_meet_is_whole(count):
+    """As `fill_between` makes it, which older versions of matplotlib lack in 3-D."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    ax = plt.figure().add_subplot(projection="3d", xlim=(-3, 3), ylim=(-1, 1), zlim=(-1, 1))
+    x = np.linspace(-3, 3, count)
+    around = np.concatenate([np.column_stack([x, 0 * x, np.sin(x)]), np.column_stack([x, 0 * x, 0 * x])[::-1]])
+    ax.add_collection3d(Poly3DCollection([around]))
+    lines = tn.mpl.draw3d(ax).lines
+    areas = lines.regions()
+    found = areas.area[areas.object == 0].sum()
+    # Both lobes, each between its curve and the base line.
+    curve = np.column_stack([x, 0 * x, np.sin(x)])
+    lobes = [np.concatenate([[[0, 0, 0]], side, [[side[-1, 0], 0, 0]]]) for side in (curve[x < -1e-9][::-1], curve[x > 1e-9])]
+    wanted = 0.0
+    for a, b in (lines.project(lobe).T for lobe in lobes):
+        wanted += abs(np.dot(a, np.roll(b, -1)) - np.dot(b, np.roll(a, -1))) / 2
+    assert found == pytest.approx(wanted, rel=1e-7)
+
+
+def test_a_translucent_surface_is_one_opaque_colour_over_the_background():
+    figure = plt.figure(facecolor="white")
+    ax = figure.add_subplot(projection="3d", facecolor="yellow")
+    x, y = np.meshgrid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9))
+    ax.plot_surface(x, y, x * y, color="red", alpha=0.25, shade=False)
+    with pytest.warns(UserWarning, match="translucent"):
+        scene = tn.mpl.draw3d(ax)
+    assert len(scene.get_paths()) > 30 and np.allclose(scene.get_facecolor(), (1, 0.75, 0, 1))
+    assert len(scene._strokes.get_segments()) == 0, "no seams"
+
+
+def test_masked_places_are_gaps():
+    ax = plt.figure().add_subplot(projection="3d")
+    ax.plot(np.ma.masked_greater([0.0, 1, 99, 2, 3], 9), [0.0] * 5, [0.0] * 5, "o-")
+    scene = tn.mpl.draw3d(ax)
+    assert len(scene._strokes.get_segments()) == 2 and len(scene._marks[0].get_offsets()) == 4
+
+
+def test_widths_have_matplotlibs_names_too():
+    ax = plt.figure().add_subplot(projection="3d")
+    ax.plot_surface(*np.meshgrid([0, 1], [0, 1]), np.zeros((2, 2)))
+    for name in ("lw", "linewidth", "line_width"):
+        scene = tn.mpl.draw3d(ax, classes="boundary", **{name: 3})
+        assert set(scene._strokes.get_linewidth()) == {3}
+        scene.remove()
+    with pytest.raises(TypeError, match="linewidth: .* give one of them"):
+        tn.mpl.draw3d(ax, lw=1, line_width=2)
+
+
 def test_what_it_cannot_draw_is_said():
     figure = plt.figure()
     with pytest.raises(TypeError, match="3-D axes"):
@@ -179,6 +232,26 @@ def test_what_it_cannot_draw_is_said():
         tn.mpl.draw3d(ax, hidden="dotted")
     with pytest.warns(UserWarning, match="translucent"):
         tn.mpl.draw3d(ax)
+    ax = figure.add_subplot(projection="3d")
+    ax.plot([np.nan, 1], [0, np.nan], [0, 0])
+    with pytest.raises(ValueError, match="ax: nothing of its surfaces, curves and points is left to draw: their values are NaN"):
+        tn.mpl.draw3d(ax)
+
+
+def test_another_matplotlib_is_named(monkeypatch):
+    from mpl_toolkits.mplot3d.art3d import Line3D
+
+    ax = plt.figure().add_subplot(projection="3d")
+    ax.plot([0, 1], [0, 1], [0, 1])
+    monkeypatch.delattr(Line3D, "get_data_3d")
+    with pytest.raises(RuntimeError, match="draw3d reads 3-D axes of matplotlib 3.8 to .*get_data_3d.*draw works with all"):
+        tn.mpl.draw3d(ax)
+
+
+def test_drawing_in_plain_axes_imports_nothing_private():
+    program = "import sys, tinta_npr.mpl as m; from matplotlib.figure import Figure; " \
+        "m.draw(Figure().add_subplot(), 'builtin:gear'); sys.exit('tinta_npr._mpl3d' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", program]).returncode == 0
 
 
 def test_every_kind_of_plot_is_vectors():

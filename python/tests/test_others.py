@@ -163,7 +163,8 @@ class TestPyVista:
         plotter.add_mesh(self.pv.PolyData(np.random.default_rng(1).normal(size=(5, 3))))
         plotter.view_isometric()
         lines = tn.pv.lines(plotter)
-        assert set(lines.object.tolist()) == {0, 1} and lines.size == (320, 240)
+        assert set(lines.object.tolist()) == {0, 1, 2} and lines.size == (320, 240)
+        assert set(lines.object[lines.cls == "point"].tolist()) == {2}, "points come after the meshes"
         tn.pv.export_svg(plotter, "scene.svg", hidden="dashed")
         with open("scene.svg") as file:
             text = file.read()
@@ -184,19 +185,86 @@ class TestPyVista:
         with pytest.raises(ValueError, match="cells: none of them has a face"):
             tn.mesh(vtk.vtkPolyData())
 
-    def test_what_is_left_out_of_a_scene_is_said(self):
+    def scene(self, **more):
+        plotter = self.pv.Plotter(off_screen=True, window_size=(320, 240), **more)
+        plotter.add_mesh(self.pv.Cube(), label="cube", color="tan")
+        plotter.view_isometric()
+        return plotter
+
+    def test_curves_points_and_wireframes_are_drawn_and_hidden(self):
+        plotter = self.scene()
+        plotter.add_mesh(self.pv.Line((-1, 0, 0), (1, 0, 0)))
+        plotter.add_points(np.array([(0, 0, 0.8), (0, 0, 0)]))
+        wires = plotter.add_mesh(self.pv.Plane(center=(0, 0, 1), i_size=0.2, j_size=0.2, i_resolution=1, j_resolution=1), style="wireframe")
+        wires.position = (0, 0, 1)
+        plotter.add_mesh(self.pv.Cube(center=(0, 0, 4)), style="points")
+        lines = tn.pv.lines(plotter)
+        assert lines.counts["curve"] == 1 + 4 and lines.counts["point"] == 2 + 8
+        visible = lines.visible[lines.cls == "curve"]
+        assert visible.any() and not visible.all(), "the line is hidden in the cube"
+        assert (~lines.visible[lines.cls == "point"]).sum() == 1
+        ends = lines.segments[lines.cls == "curve"].reshape(-1, 2)
+        assert np.abs(ends - lines.project((0.1, 0.1, 2))).sum(axis=1).min() < 1e-3, "the wireframe has its actor's place"
+        assert set(lines.object[lines.cls == "curve"].tolist()) == {1}
+        plotter.close()
+
+    def test_without_a_surface_curves_and_points_are_a_scene(self):
+        for fill in (False, True):
+            plotter = self.pv.Plotter(off_screen=True, window_size=(320, 240))
+            plotter.add_points(np.eye(3))
+            tn.pv.export_svg(plotter, "points.svg", fill=fill)
+            with open("points.svg") as file:
+                assert "visible-point" in file.read()
+            plotter.close()
+
+    @pytest.mark.parametrize("is_filled", [False, True])
+    def test_edges_that_are_shown_are_marked(self, is_filled):
         plotter = self.pv.Plotter(off_screen=True, window_size=(320, 240))
-        plotter.add_mesh(self.pv.Cube(), opacity=0.5)
-        plotter.add_mesh(self.pv.Line())
-        plotter.add_points(np.eye(3))
-        plotter.add_text("a cube")
+        plotter.add_mesh(self.pv.Plane(i_resolution=4, j_resolution=3), show_edges=True, color="tan")
+        plotter.add_mesh(self.pv.Plane(center=(2, 0, 0), i_resolution=4, j_resolution=3))
+        lines = tn.pv.lines(plotter)
+        assert lines.counts["marked"] == 3 * 3 + 2 * 4 and set(lines.object[lines.cls == "marked"].tolist()) == {0}
+        tn.pv.export_svg(plotter, "edges.svg", fill=is_filled)
+        with open("edges.svg") as file:
+            text = file.read()
+        assert "visible-marked" in text and ("#d2b48c" in text) == is_filled
+        plotter.close()
+
+    def test_texts_labels_and_legends_are_written(self):
+        plotter = self.scene()
+        plotter.add_point_labels([(0, 0, 1), (0, 0, 0)], ["above", "inside"])
+        plotter.add_text("a cube\nof one")
+        plotter.add_text("here", position=(0.25, 0.5), viewport=True)
+        plotter.add_legend()
+        lines = tn.pv.lines(plotter)
+        assert [(label["text"], label["visible"]) for label in lines.labels] == [("above", True), ("inside", False)]
+        assert lines.counts["point"] == 2, "a label and the dot beside it are one point"
+        tn.pv.export_svg(plotter, "texts.svg")
+        with open("texts.svg") as file:
+            text = file.read()
+        for word in (">a cube<", ">of one<", ">here<", ">cube<", ">above<"):
+            assert word in text, word
+        assert ">inside<" not in text and '<text x="80" y="117.6"' in text and "#d2b48c" in text
+        for ending in ("pdf", "png", "json"):
+            tn.pv.export_svg(plotter, f"texts.{ending}")
+        plotter.close()
+
+    def test_what_is_left_out_of_a_scene_is_said_once_for_each_kind(self):
+        plotter = self.scene()
+        plotter.add_mesh(self.pv.Cube(center=(2, 0, 0)), opacity=0.5)
+        for _ in range(2):
+            plotter.add_volume(np.ones((3, 3, 3)), show_scalar_bar=False)
+        plotter.add_axes()
+        plotter.show_grid()
         for draw in (tn.pv.lines, lambda plotter: tn.pv.export_svg(plotter, "scene.svg")):
             with pytest.warns(UserWarning) as warnings:
                 draw(plotter)
             said = sorted(str(warning.message) for warning in warnings)
             assert said == [
-                "plotter: 2 actors show points or curves, which are left out",
                 "plotter: an actor is transparent, but hides lines like an opaque one",
+                "plotter: axes of directions are left out",
+                "plotter: axes with numbers are left out",
+                "plotter: volumes are left out",
             ]
             assert all(warning.filename == __file__ for warning in warnings)
         plotter.close()
@@ -300,6 +368,20 @@ class TestMatplotlib:
             drawn = tn.mpl.draw(ax, *cube, camera="iso", color=short, class_colors={"crease": "r"})
             expected = {tuple(round(255 * part) for part in to_rgba(color)) for color in (short, "r")}
             assert {tuple(round(255 * part) for part in color) for color in drawn.get_colors()} == expected
+
+    def test_labels_and_widths_are_matplotlibs(self, cube):
+        figure, ax = self.plt.subplots()
+        solid = self.plt.figure().add_subplot(projection="3d")
+        for axes in (ax, solid):
+            lines = tn.mpl.draw(axes, *cube, label="edges", linewidth=1.5)
+            assert set(lines.get_linewidths()) == {1.5}
+            areas = tn.mpl.fill(axes, *cube, colors=np.full((6, 4), 0.5), label="faces", lw=2)
+            assert set(areas.get_linewidths()) == {2}
+            line, area = axes.legend().legend_handles
+            assert line.get_linewidth() == 1.5 and area.get_facecolor() == (0.5, 0.5, 0.5, 0.5) and area.get_width() > area.get_height()
+            assert set(tn.mpl.fill(axes, *cube, colors=np.full((6, 4), 0.5)).get_linewidths()) == {0}, "no net"
+        with pytest.raises(TypeError, match="linewidth: .* give one of them"):
+            tn.mpl.draw(ax, *cube, line_width=1, lw=1)
 
     def test_lines_that_are_found_are_drawn_with_labels_at_their_points(self, cube):
         vertices, faces = cube

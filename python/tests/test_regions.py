@@ -375,3 +375,71 @@ def points_of(svg):
     data = " ".join(re.findall(r' d="([^"]+)"', svg))
     numbers = [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", data)]
     return list(zip(numbers[::2], numbers[1::2]))
+
+
+@pytest.mark.parametrize("by", ["face", "material", "object", "tone"])
+def test_areas_are_valid_polygons_of_shapely(by):
+    shapely = pytest.importorskip("shapely", reason="shapely is not installed: polygons are not tested by it")
+    for model in ("builtin:bust", "builtin:gear", "builtin:open-box"):
+        areas = tinta_npr.lines(model, camera="iso", parallel=True, size=300).regions(by)
+        scale = areas.lines.camera["height"] / 300
+        for units, unit in (("pixels", 1), ("model", scale**2)):
+            polygons = [shapely.Polygon(*polygon) for polygon in areas.polygons(units)]
+            assert all(polygon.is_valid for polygon in polygons)
+            assert np.allclose([polygon.area for polygon in polygons], areas.area * unit, rtol=1e-6, atol=1e-9)
+
+
+def test_outlines_are_in_the_models_units(cube):
+    vertices, faces = cube
+    hole = vertices * (0.5, 0.5, 0.5) + (0.25, 0.25, 3)
+    areas = tinta_npr.lines([(vertices * (1, 2, 3), faces), (hole, faces)], view="top", parallel=True, up_axis="z").regions("object")
+    polygons = dict(zip(areas.object.tolist(), areas.polygons("model")))
+    outer, [hidden] = polygons[0]
+    assert np.allclose(bounds(outer), [(0, 0), (1, 2)]) and np.allclose(bounds(hidden), [(0.25, 0.25), (0.75, 0.75)])
+    front = tinta_npr.lines(vertices * (1, 2, 3), faces, view="front", parallel=True).regions("object")
+    [(outer, holes)] = [polygon for polygon, number in zip(front.polygons("model"), front.object) if number == 0]
+    assert np.allclose(bounds(outer), [(0, 0), (1, 2)]) and not holes
+    with pytest.raises(ValueError, match="units: .*parallel=True"):
+        tinta_npr.lines(*cube).regions().polygons("model")
+    with pytest.raises(ValueError, match="units: this camera's matrix"):
+        tinta_npr.lines(*cube, camera=OBLONG).regions().polygons("model")
+    with pytest.raises(ValueError, match="units mm: choose one of pixels, model"):
+        areas.polygons("mm")
+
+
+OBLONG = np.array([[60.0, 0, 10, 90], [0, -90, 20, 300], [0, 0, 0, 1]])
+
+
+def bounds(points):
+    return np.array([points.min(axis=0), points.max(axis=0)])
+
+
+@pytest.mark.parametrize("view", [{"camera": (30, 20)}, {"camera": (30, 20), "parallel": True}, {"camera": OBLONG}], ids=["near", "parallel", "oblong"])
+def test_the_surface_that_is_seen_is_that_of_the_faces(cube, view):
+    vertices, faces = cube
+    lines = tinta_npr.lines(vertices * (1, 2, 3), faces, size=400, **view)
+    found = lines.visible_area()
+    whole = {(0, number): side for number, side in enumerate([6, 6, 3, 3, 2, 2])}
+    assert len(found) == 3 and found == pytest.approx({key: whole[key] for key in found}, rel=1e-6)
+    assert lines.visible_area("object") == pytest.approx({0: 11}, rel=1e-6)
+    assert lines.visible_area("material") == pytest.approx({(0, -1): 11}, rel=1e-6)
+
+
+def test_the_surface_of_a_ball_is_seen_by_half_and_behind_others_not_at_all(cube):
+    vertices, faces = cube
+    count = 24
+    turn, fall = np.meshgrid(np.arange(2 * count) * np.pi / count, np.arange(1, count) * np.pi / count)
+    ring = np.column_stack([(np.sin(fall) * np.cos(turn)).ravel(), np.cos(fall).ravel(), (np.sin(fall) * np.sin(turn)).ravel()])
+    first, across = np.arange(2 * count), np.roll(np.arange(2 * count), -1)
+    squares = [[a + row, a + row + 2 * count, b + row + 2 * count, b + row] for row in range(0, 2 * count * (count - 2), 2 * count) for a, b in zip(first, across)]
+    ends = [[2 * count * (count - 1), b, a] for a, b in zip(first, across)]
+    last = 2 * count * (count - 2)
+    ends += [[2 * count * (count - 1) + 1, last + a, last + b] for a, b in zip(first, across)]
+    points, faces_of_ball = np.concatenate([ring, [(0, 1, 0), (0, -1, 0)]]), [*squares, *[face[::-1] for face in ends]]
+    faces_of_ball = [face[::-1] for face in faces_of_ball]
+    found = tinta_npr.lines(points, faces_of_ball, camera=(13, 17), parallel=True).visible_area("object")
+    assert found[0] == pytest.approx(2 * np.pi, rel=0.01)
+    hidden = tinta_npr.lines([cube, (vertices - (0, 0, 3), faces)], view="front", parallel=True, curves=[[(0, 0, 0), (2, 2, 2)]])
+    assert hidden.visible_area("object") == pytest.approx({0: 1})
+    with pytest.raises(ValueError, match="by tone: choose one of face, material, object"):
+        hidden.visible_area("tone")

@@ -58,7 +58,7 @@ def test_every_method_is_in_them():
         own = {method for method in vars(getattr(tinta_npr, name)) if not method.startswith("_") or method.startswith("_repr_")}
         stubs = {node.name for node in CLASSES[name].body if isinstance(node, ast.FunctionDef)}
         fields = {node.target.id for node in CLASSES[name].body if isinstance(node, ast.AnnAssign)}
-        inside = {"of_file", "of_arrays", "of_curves", "of_pickle", "was_read_with", "turned", "free", "with_curves_of", "with_faces_of"}
+        inside = {"of_file", "of_arrays", "of_curves", "of_pickle", "was_read_with", "turned", "free", "with_curves_of", "with_faces_of", "with_marks"}
         assert own - inside <= stubs | fields, name
     for owner, tables in _stubs._METHODS.items():
         methods = {node.name: node for node in CLASSES[owner].body if isinstance(node, ast.FunctionDef)}
@@ -83,7 +83,7 @@ def test_choices_are_those_of_the_tables():
     "checker, words",
     [("mypy", ["--strict", "--no-error-summary", "--no-color-output"]), ("pyright", ["--level", "error", "--pythonpath", sys.executable])],
 )
-def test_calls_and_examples_have_no_wrong_types_but_the_one_made(checker, words):
+def test_calls_and_examples_have_no_wrong_types_but_the_two_made(checker, words):
     program = Path(sys.executable).with_name(checker)
     if not program.exists() and not (program := shutil.which(checker)):
         pytest.skip(f"{checker} is not installed")
@@ -94,7 +94,8 @@ def test_calls_and_examples_have_no_wrong_types_but_the_one_made(checker, words)
     # In the examples, the other libraries' own types are not our business.
     wrong = [line for line in said.splitlines() if " error: " in line or " - error" in line]
     wrong = [line for line in wrong if "tinta" in line.split("error", 1)[1] or ours.name in line]
-    assert len(wrong) == 1 and ours.name in wrong[0] and "hidn" in wrong[0], said
+    assert len(wrong) == 2 and all(ours.name in line for line in wrong), said
+    assert "doted" in wrong[0] and "hidn" in wrong[1], said
 
 
 CALLS = """
@@ -121,5 +122,9 @@ tinta_npr.pv.export_svg(object(), "b.svg", fill=True)
 rows = tinta_npr.measure(mesh, styles=["ink"])
 numbers = tinta_npr.compare(mesh, left="ink").numbers["only_left_px"]
 tinta_npr.pv.export_svg(object(), "a.svg", hidden="ghost", title="A")
+tinta_npr.mpl.draw(Figure().add_subplot(), lines, label="gear", lw=1.5)
+lines.save(io.StringIO(), format="svg")
+tinta_npr.render(mesh, style="three-pass", supersample=2)
+tinta_npr.lines(mesh, hidden="doted")
 tinta_npr.lines(mesh, hidn="dashed")
 """

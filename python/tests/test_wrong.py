@@ -1,5 +1,7 @@
 """Wrong arguments raise an exception that names them; none ends the interpreter."""
 
+import io
+
 import numpy as np
 import pytest
 import tinta_npr as tn
@@ -24,6 +26,10 @@ WRONG = [
     (lambda: tn.lines([["a", "b", "c"]] * 3, F), TypeError, r"vertices: these are of type <U1; give real numbers"),
     (lambda: tn.lines(np.array(V, dtype=complex), F), TypeError, r"vertices: these are of type complex128"),
     (lambda: tn.lines(np.array(V, dtype=object), F), TypeError, r"vertices: these are of type object"),
+    (lambda: tn.lines(np.ma.masked_equal(V, 1), F), ValueError, r"vertices: some values are masked; leave their rows out"),
+    (lambda: tn.lines(V, np.ma.masked_equal(F, 3)), ValueError, r"faces: some values are masked"),
+    (lambda: tn.lines(curves=[np.ma.masked_equal(V, 1)]), ValueError, r"curves: some values are masked"),
+    (lambda: tn.lines(points=[np.ma.masked_equal(V[0], 0)]), ValueError, r"points: some values are masked"),
     (lambda: tn.lines(V, [[0, 1, 2], [0, 1, 4]]), ValueError, r"faces: row 1 names vertex 4, but vertices are numbered 0 to 3"),
     (lambda: tn.lines(V, [[0, 1, 2], [-1, 1, 2]]), ValueError, r"faces: row 1 names vertex -1"),
     (lambda: tn.lines(V, [[0, 1, 2], [0, 1, 2**40]]), ValueError, r"faces: row 1 names vertex 1099511627776"),
@@ -38,7 +44,7 @@ WRONG = [
     (lambda: tn.lines(np.array(V)), TypeError, r"faces: they are missing"),
     (lambda: tn.lines(V), TypeError, r"mesh: these are vertices without faces"),
     (lambda: tn.lines([]), ValueError, r"mesh: the list is empty"),
-    (lambda: tn.lines(7), TypeError, r"mesh: give vertices and faces, a path, or a mesh .*, not int"),
+    (lambda: tn.lines(7), TypeError, r"mesh: give vertices and faces, a path, a mesh .*, or a part of build123d or CadQuery, not int"),
     (lambda: tn.lines(None), TypeError, "mesh: it is missing; give a mesh, curves or points"),
     (lambda: tn.lines("nowhere.obj"), FileNotFoundError, r"nowhere.obj: there is no such file"),
     (lambda: tn.lines("builtin:bost"), ValueError, r"builtin:bust"),
@@ -67,6 +73,7 @@ WRONG = [
     (lambda: tn.lines(V, F, camera=np.full((4, 4), np.nan)), ValueError, r"camera: a number of it is not finite"),
     (lambda: tn.lines(V, F, camera=np.eye(4)), ValueError, r"camera: this matrix mirrors"),
     (lambda: tn.lines(V, F).save("a.gif"), ValueError, r"file: lines are written as .svg, .pdf, .png or .json, not as .gif"),
+    (lambda: tn.lines(V, F).save(io.StringIO(), format="pdf"), TypeError, r"file: it is open for text, and this format is binary"),
     (lambda: tn.lines(V, F).save("a.png", page="A4"), ValueError, r"page"),
     (lambda: tn.lines(V, F).save("no/such/a.svg"), OSError, r"no/such"),
     (lambda: tn.lines(V, F).svg(marginn=3), ValueError, r"Lines.svg has no option marginn; did you mean margin"),

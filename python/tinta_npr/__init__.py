@@ -7,14 +7,15 @@
     tinta_npr.pv.export_svg(plotter, "scene.svg")   # the scene of a PyVista plotter
     tinta_npr.mpl.draw(ax, mesh)                    # into matplotlib's axes, as vectors
 
-A mesh is a pair of arrays (vertices, faces), the path of a model file, or an object of trimesh, PyVista, VTK, meshio or Open3D.
+A mesh is a pair of arrays (vertices, faces), the path of a model file, an object of trimesh, PyVista, VTK, meshio or Open3D, or a part of
+build123d or CadQuery.
 """
 
 import atexit as _atexit
 import functools as _functools
 import inspect as _inspect
 
-from . import _native
+from . import _cad, _native
 from ._camera import settings_of as _camera_settings
 from ._curves import mesh_of as _mesh_of_curves
 from ._mesh import meshes_of as _meshes_of
@@ -48,7 +49,8 @@ def mesh(mesh, faces=None, *, name=None, **settings):
     mesh : array_like (N, 3), (vertices, faces), path or object
         Vertices in units of your choice; or a model file (OBJ, PLY, STL, MD2, 3DS, glTF, and those that an installed meshio,
         PyVista or trimesh reads) or ``"builtin:bust"``; or an object with ``vertices`` and ``faces`` (trimesh) or ``triangles`` (Open3D),
-        or with ``points`` and cells (PyVista, meshio), or a data set of VTK.
+        or with ``points`` and cells (PyVista, meshio), or a data set of VTK; or a part or an assembly of build123d or CadQuery, which is
+        read z-up and whose edges are of class ``"marked"``.
     faces : array_like (M, k) of int, or a list of lists, optional
         With `mesh` as vertices: each face's corners, counter-clockwise seen from outside; 3 or more.
     name : str, optional
@@ -268,6 +270,9 @@ def _drawn(function, mesh, faces, name, camera, settings, basis, free=(None, Non
     of_curves = _mesh_of_curves(*free, reading)
     if mesh is None and of_curves is None:
         raise TypeError("mesh: it is missing; give a mesh, curves or points")
+    if _cad.is_among(mesh) and (matrix is not None or any(settings.get(key) is not None for key in ("eye", "target", "up"))):
+        # Such a camera is in the part's own coordinates.
+        reading["up_axis"] = reading.get("up_axis") or "y"
     meshes = [] if mesh is None else _meshes_of(mesh, faces, name, reading, tuple(asked))
     meshes = meshes + ([] if of_curves is None else [of_curves])
     if matrix is None:

@@ -5,6 +5,7 @@ import numpy as np
 
 def rows(argument, values, width):
     """An array (N, width) of float64."""
+    unmasked(argument, values)
     try:
         array = np.asarray(values)
     except (ValueError, TypeError):
@@ -16,8 +17,16 @@ def rows(argument, values, width):
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
+def unmasked(argument, values):
+    """Refuses numpy's masked values, which a plain array would show as if they were none."""
+    rows = values if isinstance(values, (list, tuple)) and values and isinstance(values[0], np.ma.MaskedArray) else [values]
+    if any(np.ma.is_masked(row) for row in rows):
+        raise ValueError(f"{argument}: some values are masked; leave their rows out, or fill them")
+
+
 def vector(argument, values):
     """Three finite numbers."""
+    unmasked(argument, values)
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{argument}: these are of type {array.dtype}; give real numbers")
@@ -30,6 +39,7 @@ def vector(argument, values):
 
 def corners(values):
     """Faces as a flat array of corners, and the number of corners of each; `None` if all are triangles."""
+    unmasked("faces", values)
     try:
         array = np.asarray(values)
     except (ValueError, TypeError):
@@ -80,3 +90,22 @@ def counted(cells):
     is_corner = np.ones(cells.size, dtype=bool)
     is_corner[starts] = False
     return cells[is_corner], cells[starts]
+
+
+def same_places(points, distance=0.0):
+    """Points within a distance of one another count as one: the first of each, and the number among these of each point."""
+    groups = np.empty(points.shape, dtype=np.int64)
+    for axis, values in enumerate(points.T):
+        order = np.argsort(values)
+        groups[order, axis] = np.cumsum(np.diff(values[order], prepend=values[order[:1]]) > distance)
+    _, first, numbers = np.unique(groups, axis=0, return_index=True, return_inverse=True)
+    return first, numbers.ravel()
+
+
+def sides(corners, sizes):
+    """The two corners of each side of faces, the lower first, each side once: (K, 2)."""
+    sizes = np.full(len(corners) // 3, 3) if sizes is None else sizes
+    following = np.arange(1, len(corners) + 1)
+    ends = np.cumsum(sizes)
+    following[ends - 1] = ends - sizes
+    return np.unique(np.sort(np.column_stack([corners, corners[following]]), axis=1), axis=0)

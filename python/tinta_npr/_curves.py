@@ -26,6 +26,7 @@ def _curves(curves):
     """Curves as a list of arrays (K, 3): given so, as one array, or as PyVista's lines."""
     if curves is None:
         return []
+    _arrays.unmasked("curves", curves)
     if hasattr(curves, "points") and hasattr(curves, "lines"):
         points, (corners, sizes) = np.asarray(curves.points, dtype=np.float64), _arrays.counted(curves.lines)
         return [points[part] for part in np.split(corners, np.cumsum(sizes)[:-1])] if len(sizes) else []
@@ -44,5 +45,6 @@ def _curves(curves):
 def _points(points):
     """Points as an array (N, 3): given so, or by PyVista."""
     points = getattr(points, "points", points)
+    _arrays.unmasked("points", points)
     array = np.asarray(points)
     return np.empty((0, 3)) if array.size == 0 else _arrays.rows("points", points, 3)

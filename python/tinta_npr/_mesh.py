@@ -6,7 +6,7 @@ import os
 
 import numpy as np
 
-from . import _arrays, _native
+from . import _arrays, _cad, _native
 
 #: The faces of a cell that has a volume, by meshio's names: each face's corners in a row, from whichever side.
 _FACES_OF_CELLS = {
@@ -41,6 +41,8 @@ def meshes_of(mesh, faces, name, reading, asked=()):
         return [one for each in mesh for one in meshes_of(each, None, name, reading, asked)]
     if isinstance(mesh, np.ndarray):
         raise TypeError("faces: they are missing; give lines(vertices, faces)")
+    if _cad.is_cad(mesh):
+        return _cad.meshes_of(mesh, name, reading)
     # trimesh's scenes hold meshes at places.
     if hasattr(mesh, "geometry") and hasattr(mesh, "dump"):
         parts = mesh.dump()
@@ -64,7 +66,7 @@ def meshes_of(mesh, faces, name, reading, asked=()):
     if hasattr(mesh, "IsA") and mesh.IsA("vtkDataSet"):
         return [_of_vtk(mesh, name, reading)]
     kind = type(mesh).__name__
-    raise TypeError(f"mesh: give vertices and faces, a path, or a mesh of trimesh, PyVista, VTK, meshio or Open3D, not {kind}")
+    raise TypeError(f"mesh: give vertices and faces, a path, a mesh of trimesh, PyVista, VTK, meshio or Open3D, or a part of build123d or CadQuery, not {kind}")
 
 
 def of_arrays(vertices, faces, name, reading):
@@ -75,7 +77,7 @@ def of_arrays(vertices, faces, name, reading):
 
 def _is_mesh(one):
     is_named = isinstance(one, (str, os.PathLike, _native.Mesh))
-    return is_named or any(hasattr(one, name) for name in ("vertices", "points", "geometry", "n_blocks", "IsA"))
+    return is_named or _cad.is_cad(one) or any(hasattr(one, name) for name in ("vertices", "points", "geometry", "n_blocks", "IsA"))
 
 
 def _is_pair(one):

@@ -1,21 +1,36 @@
-"""What matplotlib's 3-D axes hold, drawn again as vectors with exact hiding between all of it."""
+"""What matplotlib's 3-D axes hold, drawn again as vectors with exact hiding between all of it.
 
+This reads attributes that matplotlib keeps for itself, of its versions 3.8 to 3.11; `mpl` imports it for `draw3d` alone.
+"""
+
+import warnings
+
+import matplotlib
 import numpy as np
 from matplotlib.collections import LineCollection, PathCollection
-from matplotlib.colors import to_rgba_array
+from matplotlib.colors import to_rgba, to_rgba_array
 from matplotlib.markers import MarkerStyle
 from matplotlib.path import Path
-from mpl_toolkits.mplot3d.art3d import Collection3D, Line3D, Line3DCollection, Path3DCollection, Poly3DCollection
+from mpl_toolkits.mplot3d import art3d
+from mpl_toolkits.mplot3d.art3d import Line3D, Line3DCollection, Path3DCollection, Poly3DCollection
 
 from . import _native
+
+#: What its contours are of; older versions have no name for it.
+Collection3D = getattr(art3d, "Collection3D", ())
 
 
 class Surface:
     """A `Poly3DCollection`: polygons, each with the colour of its face."""
 
-    def __init__(self, artist):
-        self.polygons, kept = _polygons(artist)
+    def __init__(self, artist, ground):
+        """`ground` is the colour behind a translucent surface."""
+        polygons, kept = _polygons(artist)
         count = len(kept)
+        kept = np.flatnonzero(kept)
+        parts = [_simple(polygon) for polygon in polygons]
+        self.polygons = [part for of_polygon in parts for part in of_polygon]
+        kept = np.repeat(kept, [len(of_polygon) for of_polygon in parts])
         colors = artist.to_rgba(artist.get_array()) if artist.get_array() is not None else artist._facecolor3d
         self.colors = _one_each(colors, count)[kept]
         edges = _one_each(artist._edgecolor3d, count)[kept] if np.size(artist._edgecolor3d) else self.colors
@@ -23,7 +38,10 @@ class Surface:
         # By default an edge has its face's colour and closes the gap to its neighbour, which areas do anyway.
         self.has_edges = bool(((edges[:, 3] > 0) & (widths > 0) & (np.abs(edges - self.colors).max(axis=1) > 1e-3)).any())
         self.is_seen = self.colors[:, 3] > 0
-        self.is_clear = bool((self.colors[:, 3] < 1).any())
+        self.is_clear = bool((self.colors[self.is_seen, 3] < 1).any())
+        # One opaque colour: through a translucent one its own far side and its seams would show.
+        share = self.colors[:, 3:]
+        self.colors = np.column_stack([self.colors[:, :3] * share + ground * (1 - share), self.is_seen.astype(float)])
         self.curves = [np.concatenate([polygon, polygon[:1]]) for polygon in self.polygons] if self.has_edges else []
         self.styles = [(edge, width, "solid") for edge, width in zip(edges, widths)] if self.has_edges else []
 
@@ -37,8 +55,12 @@ class Surface:
                 colors += [color] * len(parts)
         sizes = np.array([len(face) for face in faces], dtype=np.int64)
         corners = np.arange(sizes.sum(), dtype=np.int64)
-        # Neighbours compute the same corner each in its own way.
-        return _native.Mesh.of_arrays(np.concatenate(faces), corners, sizes, "surface", {"weld": 1e-9}), np.array(colors)
+        with warnings.catch_warnings():
+            # Corners on a straight side make triangles without area, and nothing is lost with them.
+            warnings.filterwarnings("ignore", r"surface: \d+ degenerate triangle")
+            # Neighbours compute the same corner each in its own way.
+            mesh = _native.Mesh.of_arrays(np.concatenate(faces), corners, sizes, "surface", {"weld": 1e-9})
+        return mesh, np.array(colors)
 
 
 def _bent_apart(polygon):
@@ -48,6 +70,62 @@ def _bent_apart(polygon):
     if len(polygon) < 5 or np.linalg.svd(polygon - middle, compute_uv=False)[2] <= 1e-9 * np.abs(polygon - middle).max():
         return [polygon]
     return [np.array([middle, one, other]) for one, other in zip(polygon, np.roll(polygon, -1, axis=0))]
+
+
+def _simple(polygon):
+    """A polygon cut into ones that neither cross nor touch themselves, as `fill_between` may; those that are not flat stay whole."""
+    if len(polygon) < 5:
+        return [polygon]
+    middle = polygon.mean(axis=0)
+    _, spread, axes = np.linalg.svd(polygon - middle, full_matrices=False)
+    if spread[2] > 1e-9 * spread[0]:
+        return [polygon]
+    polygon, flat = _crossed(polygon, (polygon - middle) @ axes[:2].T)
+    numbers = np.unique(np.round(flat / (1e-9 * spread[0])), axis=0, return_inverse=True)[1].ravel()
+    parts, path, place = [], [], {}
+    for corner, number in enumerate(numbers):
+        if number in place:
+            # A loop has come back to its beginning.
+            loop = path[place[number] :]
+            parts.append(loop)
+            del path[place[number] :]
+            for left in loop:
+                del place[numbers[left]]
+        place[number] = len(path)
+        path.append(corner)
+    return [polygon[part] for part in [*parts, path] if len(part) > 2]
+
+
+def _crossed(polygon, flat):
+    """A flat polygon and its places in its plane, with a corner more on both sides wherever two sides cross."""
+    start, along = flat, np.roll(flat, -1, axis=0) - flat
+    turned = lambda one, other: one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
+    found = []
+    # Some sides with all others: the memory stays small.
+    for some in np.array_split(np.arange(len(flat)), len(flat) ** 2 // 2_000_000 + 1):
+        between = start[None] - start[some, None]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            across = turned(along[some, None], along[None])
+            at, at_other = turned(between, along[None]) / across, turned(between, along[some, None]) / across
+        is_met = (at > 0) & (at < 1) & (at_other > 0) & (at_other < 1) & (np.arange(len(flat)) > some[:, None] + 1)
+        row, second = np.nonzero(is_met)
+        found.append((some[row], second, at[is_met], at_other[is_met]))
+    first, second, at, at_other = map(np.concatenate, zip(*found))
+    sides = np.concatenate([first, second])
+    if not len(sides):
+        return polygon, flat
+    order = np.lexsort([np.concatenate([at, at_other]), sides])
+    # Both sides have the same corner, to the last bit.
+    one, other, shares = np.tile(first, 2)[order], np.tile(second, 2)[order], np.tile(at, 2)[order, None]
+
+    def put(points):
+        ends = np.roll(points, -1, axis=0)
+        met = points[one] + (ends[one] - points[one]) * shares
+        # It stays on a side along an axis, such as a base line: beside it, triangles would have no area.
+        met = np.where(points[other] == ends[other], points[other], met)
+        return np.insert(points, sides[order] + 1, met, axis=0)
+
+    return put(polygon), put(flat)
 
 
 def _polygons(artist):
@@ -71,9 +149,14 @@ def _one_each(values, count):
     return values[np.arange(count) % len(values)]
 
 
+def _places(parts):
+    """Coordinates as rows (N, 3), masked ones as NaN."""
+    return np.column_stack([np.ma.filled(np.ma.asarray(part, dtype=np.float64), np.nan) for part in parts])
+
+
 def _runs(curve):
     """A curve's parts between positions that are missing."""
-    curve = np.asarray(curve, dtype=np.float64)
+    curve = np.ma.filled(np.ma.asarray(curve, dtype=np.float64), np.nan)
     is_there = np.isfinite(curve).all(axis=1)
     cuts = np.flatnonzero(~is_there)
     parts = np.split(curve, cuts)
@@ -86,7 +169,7 @@ class Curves:
 
     def __init__(self, artist):
         if isinstance(artist, Line3D):
-            self.curves = [] if artist.get_linestyle() in ("None", "", " ") else _runs(np.column_stack(artist.get_data_3d()))
+            self.curves = [] if artist.get_linestyle() in ("None", "", " ") else _runs(_places(artist.get_data_3d()))
             color = to_rgba_array(artist.get_color(), artist.get_alpha())[0]
             self.styles = [(color, artist.get_linewidth(), artist.get_linestyle())] * len(self.curves)
             return
@@ -109,13 +192,13 @@ class Dots:
 
     def __init__(self, artist):
         if isinstance(artist, Line3D):
-            points = np.column_stack(artist.get_data_3d()).astype(np.float64)
+            points = _places(artist.get_data_3d())
             marker = MarkerStyle(artist.get_marker())
             self.paths = [marker.get_path().transformed(marker.get_transform())]
             sizes, faces = np.array([artist.get_markersize() ** 2]), to_rgba_array(artist.get_markerfacecolor(), artist.get_alpha())
             edges, widths = to_rgba_array(artist.get_markeredgecolor(), artist.get_alpha()), [artist.get_markeredgewidth()]
         else:
-            points = np.column_stack([np.ma.filled(np.ma.asarray(part, dtype=np.float64), np.nan) for part in artist._offsets3d])
+            points = _places(artist._offsets3d)
             self.paths = artist.get_paths()
             sizes, widths = artist._sizes3d, np.atleast_1d(artist._linewidths3d)
             shown = artist.to_rgba(artist.get_array()) if artist.get_array() is not None else None
@@ -134,12 +217,31 @@ class Dots:
 
 def held(axes):
     """What axes hold that this module draws: surfaces, curves, dots, and their artists."""
+    try:
+        return _held(axes)
+    except AttributeError as problem:
+        raise RuntimeError(
+            f"draw3d reads 3-D axes of matplotlib 3.8 to 3.11, and {matplotlib.__version__} keeps them otherwise ({problem}); draw works with all"
+        ) from problem
+
+
+def _ground(axes):
+    """The colour of the axes' background over that of the figure and of white paper."""
+    color = np.ones(3)
+    for layer in (axes.figure.get_facecolor(), axes.get_facecolor()):
+        *shade, share = to_rgba(layer)
+        color = color * (1 - share) + np.array(shade) * share
+    return color
+
+
+def _held(axes):
     surfaces, curves, dots, artists = [], [], [], []
+    ground = _ground(axes)
     for artist in list(axes.get_children()):
         if not artist.get_visible() or getattr(artist, "is_exact", False):
             continue
         if isinstance(artist, Poly3DCollection):
-            surfaces.append(Surface(artist))
+            surfaces.append(Surface(artist, ground))
         elif isinstance(artist, Line3DCollection) or (isinstance(artist, Collection3D) and not getattr(artist, "filled", True)):
             curves.append(Curves(artist))
         elif isinstance(artist, Line3D):

@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from . import _native
+from . import _native, _units
 from ._arrays import rows as _rows
 
 
@@ -49,13 +49,16 @@ class Lines:
         self._classes = classes
         self.size = self._found.size
         self.counts = self._found.counts()
-        self.camera = self._found.camera()
         self.labels = self._found.labels()
 
     def __getattr__(self, name):
         if name == "_found":
             self._found = _native.lines(*self._asked)
             return self._found
+        if name == "camera":
+            # A sheet of views has none.
+            self.camera = self._found.camera()
+            return self.camera
         # A drawing needs no hidden pieces: they are found on the first access to the arrays.
         if name not in _ARRAYS:
             raise AttributeError(f"{type(self).__name__} has no attribute {name}")
@@ -163,6 +166,25 @@ class Lines:
         """
         return Regions(self, by, settings, style, look)
 
+    def visible_area(self, by="face"):
+        """The surface that is seen, in the model's units: of the faces themselves, not of their picture.
+
+        A triangle seen nearly from its side, as at a contour, may count wrongly as a whole.
+
+        Parameters
+        ----------
+        by : {"face", "material", "object"}
+
+        Returns
+        -------
+        dict
+            Surfaces by (object, face), by (object, material), or by object; only of those that are seen. Faces and materials have the
+            numbers of `Regions`.
+        """
+        if by not in ("face", "material", "object"):
+            raise ValueError(f"by {by}: choose one of face, material, object")
+        return _units.seen_surfaces(self, by)
+
     def project(self, points):
         """Where points of the mesh's space are in the picture, for labels.
 
@@ -187,7 +209,8 @@ class Lines:
     def save(self, file, *, format=None, title=None, **settings):
         """Write a file: .svg, .pdf, .png or .json. Settings as in `svg`.
 
-        `file` is a path, whose file appears whole or not at all, or an object with ``write``, opened for bytes. `format` is
+        `file` is a path, whose file appears whole or not at all, or an object with ``write``, opened for bytes, or
+        for text where the format is one. `format` is
         ``"svg"``, ``"pdf"``, ``"png"`` or ``"json"``; by default a path's ending, and SVG for an object.
 
         Settings
@@ -290,6 +313,27 @@ class Regions:
 
     def _repr_svg_(self):
         return self.svg()
+
+    def polygons(self, units="pixels"):
+        """The areas as polygons with holes, as shapely takes them.
+
+        Parameters
+        ----------
+        units : {"pixels", "model"}
+            Pixels, y down; or the model's units, along the picture's right and upper side from the model's origin: from above x and y of a
+            z-up model. The second needs a parallel projection.
+
+        Returns
+        -------
+        list of N tuples (ndarray (K, 2), list of ndarray (K, 2))
+            Of each area the outer ring and the holes: ``shapely.Polygon(*areas.polygons()[0])``. No ring touches itself.
+        """
+        if units not in ("pixels", "model"):
+            raise ValueError(f"units {units}: choose one of pixels, model")
+        if units == "model" and self.lines._moved_from_mesh is not None:
+            raise ValueError("units: this camera's matrix has units of its own; ask for pixels, or give another camera")
+        placed = _units.on_the_drawing(self.lines.camera, self.size) if units == "model" else np.asarray
+        return [(placed(outer), [placed(hole) for hole in holes]) for outer, *holes in self.loops]
 
     def of_faces(self, values):
         """The values of the faces that the areas show.
@@ -397,8 +441,16 @@ def _place(file, format):
 
 
 def _written(file, path, content):
-    """Writes a path's file, or to an object."""
-    file.write(content) if hasattr(file, "write") else _native.write(path, content)
+    """Writes a path's file, or to an object, opened for bytes or, unless the content is binary, for text."""
+    if not hasattr(file, "write"):
+        _native.write(path, content)
+        return
+    try:
+        file.write(content)
+    except TypeError:
+        if content.startswith((b"%PDF", b"\x89PNG")):
+            raise TypeError("file: it is open for text, and this format is binary; open it for bytes (\"wb\", io.BytesIO)") from None
+        file.write(content.decode())
 
 
 class Edges:
@@ -421,6 +473,9 @@ class Edges:
 class Picture(np.ndarray):
     """A picture: an array (H, W, 4) of uint8, red, green, blue, alpha, the top row first."""
 
+    # A masked array of it, as matplotlib makes one, holds a plain array: it takes no plain numbers for results.
+    _baseclass = np.ndarray
+
     def __new__(cls, pixels, recipe=None):
         picture = np.asarray(pixels).view(cls)
         picture.recipe = recipe
@@ -429,6 +484,10 @@ class Picture(np.ndarray):
     def __array_finalize__(self, source):
         # An array derived from a picture, such as a part of it, does not match the recipe.
         self.recipe = None
+
+    def __array_wrap__(self, array, context=None, return_scalar=False):
+        # A mean or a maximum of all is a number of Python's, as JSON takes it.
+        return array.item() if np.ndim(array) == 0 else super().__array_wrap__(array, context)
 
     def __reduce__(self):
         make, arguments, state = super().__reduce__()

@@ -14,7 +14,7 @@ _HEAD = '''"""{doc}"""
 
 from collections.abc import Mapping, Sequence
 from os import PathLike
-from typing import Any, BinaryIO, Literal
+from typing import IO, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -70,7 +70,7 @@ class ExactScene(PathCollection):
         '''"""{doc}"""
 
 from collections.abc import Sequence
-from typing import Any, BinaryIO, Literal
+from typing import IO, Any, Literal
 
 from . import Lines, _Color, _Number, _Numbers, _Path, _Text
 
@@ -95,7 +95,7 @@ _ARGUMENTS = {
     "direction": "bool",
     "frames": "int",
     "tolerance": "float",
-    "file": "_Path | BinaryIO",
+    "file": "_Path | IO[bytes] | IO[str]",
     "format": 'Literal["svg", "pdf", "png", "json"] | None',
     "points": "ArrayLike",
     "ax": "Axes",
@@ -109,6 +109,9 @@ _ARGUMENTS = {
     "vmin": "float | None",
     "vmax": "float | None",
     "fill": "bool",
+    "label": "str | None",
+    "linewidth": "float | None",
+    "lw": "float | None",
     "by": _BY,
     "styles": "Sequence[str | Mapping[str, Any]]",
 }
@@ -138,6 +141,8 @@ class Mesh:
     def vertices(self) -> NDArray[np.float64]: ...
     @property
     def faces(self) -> NDArray[np.uint32]: ...
+    @property
+    def file_faces(self) -> NDArray[np.uint32]: ...
 
 class Edges:
     vertices: NDArray[np.uint32]
@@ -177,6 +182,7 @@ class Lines:
     def __len__(self) -> int: ...
     def select(self, *names: str, visible: bool | None = True) -> NDArray[np.float64]: ...
     def json(self) -> str: ...
+    def visible_area(self, by: Literal["face", "material", "object"] = "face") -> dict[Any, float]: ...
     def project(self, points: ArrayLike) -> NDArray[np.float64]: ...
     def _repr_svg_(self) -> str: ...
 '''
@@ -192,6 +198,9 @@ class Regions:
     lines: Lines
     size: tuple[int, int]
     def __len__(self) -> int: ...
+    def polygons(
+        self, units: Literal["pixels", "model"] = "pixels"
+    ) -> list[tuple[NDArray[np.float64], list[NDArray[np.float64]]]]: ...
     def of_faces(self, values: ArrayLike | Sequence[ArrayLike]) -> NDArray[np.float64]: ...
     def json(self) -> str: ...
     def _repr_svg_(self) -> str: ...
@@ -211,7 +220,7 @@ def _type(setting):
     names = setting["names"]
     return {
         "numbers": "_Number" if setting["count"] == 1 else "_Numbers",
-        "choice": f"{_literal(names)} | str",
+        "choice": _literal(names) + (" | int" if any(name.isdigit() for name in names) else ""),
         "several": "str | Sequence[str]",
         "switch": "bool",
         "file": "_Path",

@@ -5,10 +5,12 @@ import warnings
 import numpy as np
 from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.colors import to_rgb, to_rgba
+from matplotlib.legend import Legend
+from matplotlib.legend_handler import HandlerPolyCollection
 from matplotlib.path import Path
 from matplotlib.transforms import IdentityTransform
 
-from . import CLASSES, Lines, Regions, _mpl3d, _native, _reading, _with_settings
+from . import CLASSES, Lines, Regions, _native, _reading, _with_settings
 from . import lines as _lines
 from ._mesh import meshes_of
 
@@ -18,7 +20,10 @@ __all__ = ["ExactAreas", "ExactLines", "ExactScene", "draw", "draw3d", "fill"]
 _EDGE = 0.4
 
 
-def draw(ax, mesh, faces=None, *, camera=None, extent=None, zorder=2, look=None, preset=None, color=None, **settings):
+def draw(
+    ax, mesh, faces=None, *, camera=None, extent=None, zorder=2, look=None, preset=None, color=None, label=None, linewidth=None,
+    lw=None, **settings
+):
     """Add the visible lines of a mesh to axes.
 
     Parameters
@@ -36,6 +41,10 @@ def draw(ax, mesh, faces=None, *, camera=None, extent=None, zorder=2, look=None,
         matplotlib's order of drawing.
     color : color, optional
         The colour of all lines; those of `class_colors` override it.
+    label : str, optional
+        The text in the axes' legend.
+    linewidth, lw : float, optional
+        The width of lines in points, as `line_width`.
     **settings
         As in `tinta_npr.lines`. Widths are in points in 3-D axes, and in points for each pixel of the picture in 2-D ones:
         ``hidden="dashed"``, ``line_width=1``, ``class_colors={"crease": "tab:blue"}`` with any colours of matplotlib.
@@ -49,21 +58,25 @@ def draw(ax, mesh, faces=None, *, camera=None, extent=None, zorder=2, look=None,
     --------
     """
     settings = {"look": look, "preset": preset, **_with_colors(settings, color)}
+    if (width := _width(linewidth, lw, settings.get("line_width"))) is not None:
+        settings["line_width"] = width
     if ax.name == "3d":
-        return _added_3d(ax, ExactLines(ax, *_of_axes(mesh, faces, camera, extent, settings), zorder=zorder))
+        collection = ExactLines(ax, *_of_axes(mesh, faces, camera, extent, settings), zorder=zorder)
+        collection.set_label(label)
+        return _added_3d(ax, collection)
     if isinstance(mesh, Lines):
         found, layers = mesh, mesh.layers(**{name: value for name, value in settings.items() if value is not None})
     else:
         found = _lines(mesh, faces, camera=camera, **settings)
         layers = found.layers()
-    collection = LineCollection([], zorder=zorder, capstyle="round", joinstyle="round")
+    collection = LineCollection([], zorder=zorder, capstyle="round", joinstyle="round", label=label)
     _fill(collection, layers, _placed(found.size, extent))
     return _added(ax, collection, extent)
 
 
 def fill(
     ax, mesh, faces=None, *, by="face", values=None, colors=None, cmap=None, norm=None, vmin=None, vmax=None, camera=None,
-    extent=None, zorder=1, look=None, preset=None, **settings
+    extent=None, zorder=1, look=None, preset=None, label=None, linewidth=None, lw=None, **settings
 ):
     """Add the visible areas of a mesh to axes, below its lines: opaque polygons, cut exactly where faces in front hide them.
 
@@ -85,33 +98,37 @@ def fill(
         As in `draw`; only the camera and the size matter.
     zorder : float
         matplotlib's order of drawing.
+    label : str, optional
+        The text in the axes' legend.
+    linewidth, lw : float, optional
+        The width of each area's edge, which has its own colour, points: 0.4, or 0 below an opacity of 1.
 
     Returns
     -------
     ExactAreas or PathCollection
-        Added to 3-D or 2-D axes. Each area has an edge of 0.4 points in its own colour.
+        Added to 3-D or 2-D axes.
 
     Settings
     --------
     """
     settings = {"look": look, "preset": preset, **settings}
-    shown = {"by": by, "values": values, "colors": colors}
-    scale = {"cmap": cmap, "norm": norm, "zorder": zorder}
+    shown = {"by": by, "values": values, "colors": colors, "width": _width(linewidth, lw, None)}
+    scale = {"cmap": cmap, "norm": norm, "zorder": zorder, "label": label}
     if values is not None and colors is not None:
         raise ValueError("values: they become colours; leave out one of values and colors")
     if ax.name == "3d":
         collection = ExactAreas(ax, *_of_axes(mesh, faces, camera, extent, settings), shown=shown, **scale)
     elif isinstance(mesh, Regions):
-        collection = _show(PathCollection([], **scale), mesh, shown, _placed(mesh.size, extent))
+        collection = _show(FlatAreas([], **scale), mesh, shown, _placed(mesh.size, extent))
     else:
         found = mesh if isinstance(mesh, Lines) else _lines(mesh, faces, camera=camera, **_of_areas(settings))
-        collection = _show(PathCollection([], **scale), found.regions(by), shown, _placed(found.size, extent))
+        collection = _show(FlatAreas([], **scale), found.regions(by), shown, _placed(found.size, extent))
     if vmin is not None or vmax is not None:
         collection.set_clim(vmin, vmax)
     return _added_3d(ax, collection) if ax.name == "3d" else _added(ax, collection, extent)
 
 
-def draw3d(ax, *, classes=(), hidden=None, color="black", line_width=0.8, on_surface=None):
+def draw3d(ax, *, classes=(), hidden=None, color="black", line_width=None, linewidth=None, lw=None, on_surface=None):
     """Draw what 3-D axes hold again, with exact hiding between all of it.
 
     matplotlib sorts whole artists by one depth each. This takes surfaces (`plot_surface`, `plot_trisurf`, `bar3d`, any
@@ -122,14 +139,15 @@ def draw3d(ax, *, classes=(), hidden=None, color="black", line_width=0.8, on_sur
     Parameters
     ----------
     ax : Axes3D
-        Translucent surfaces are drawn as opaque ones, with a warning; ``hidden`` shows what lies behind. A marker is seen or hidden as
+        Translucent surfaces are drawn as opaque ones, in their colour over that of the axes, with a warning; ``hidden`` shows the
+        curves behind them. A marker is seen or hidden as
         a whole, by its point.
     classes : sequence of str
         Lines of surfaces to draw beside their own edges: ``["silhouette", "boundary", "crease", "intersection"]`` …
     hidden : {"dashed", "ghost"}, optional
         Draws hidden pieces of curves and lines, fainter.
-    color, line_width
-        Of the lines of `classes`; the width in points.
+    color, line_width, linewidth, lw
+        Of the lines of `classes`; the width in points, 0.8 by default, by any of these names.
     on_surface : float, optional
         How far behind a face a curve or point may lie and still be drawn, a share of the scene's radius (0.0001 by default): for
         curves on a surface. Edges of polygons need it, too.
@@ -148,7 +166,16 @@ def draw3d(ax, *, classes=(), hidden=None, color="black", line_width=0.8, on_sur
         if name not in CLASSES:
             raise ValueError(f"classes: there is no class {name}; choose from {', '.join(CLASSES)}")
     hidden = None if hidden == "none" else hidden
-    return ExactScene(ax, classes, hidden, (to_rgba(color), line_width, "solid"), on_surface)
+    width = _width(linewidth, lw, line_width)
+    return ExactScene(ax, classes, hidden, (to_rgba(color), 0.8 if width is None else width, "solid"), on_surface)
+
+
+def _width(linewidth, lw, line_width):
+    """The one width that is given, by matplotlib's names or tinta's."""
+    given = [width for width in (line_width, linewidth, lw) if width is not None]
+    if len(given) > 1:
+        raise TypeError("linewidth: lw, linewidth and line_width are one width; give one of them")
+    return given[0] if given else None
 
 
 def _of_areas(settings):
@@ -248,16 +275,29 @@ class ExactAreas(_InView, PathCollection):
         _show(self, found.regions(self._shown["by"]), self._shown, placed)
 
 
+class FlatAreas(PathCollection):
+    """The visible areas of meshes in 2-D axes."""
+
+
+# A legend shows them as a rectangle, and not as the first area.
+Legend.update_default_handler_map({ExactAreas: HandlerPolyCollection(), FlatAreas: HandlerPolyCollection()})
+
+
 class ExactScene(_InView, PathCollection):
     """What 3-D axes held, drawn with exact hiding: its areas, with its strokes and markers above them."""
 
     is_exact = True
 
     def __init__(self, axes, classes, hidden, outline, on_surface):
+        # It reads what matplotlib keeps for itself: other drawings work without.
+        from . import _mpl3d
+
         super().__init__([], linewidth=_EDGE)
         surfaces, curves, self._dots, self._replaced = _mpl3d.held(axes)
         if not self._replaced:
             raise ValueError("ax: it holds no surfaces, curves and points; plot them first")
+        if not (surfaces or curves or self._dots):
+            raise ValueError("ax: nothing of its surfaces, curves and points is left to draw: their values are NaN or masked")
         if any(surface.is_clear for surface in surfaces):
             _native.warn("translucent surfaces are drawn as opaque ones; hidden=\"ghost\" shows the curves behind them")
         self._hidden, self._outline = hidden, outline
@@ -291,10 +331,12 @@ class ExactScene(_InView, PathCollection):
             super()._find(axes)
 
     def _take(self, found, placed):
+        from . import _mpl3d
+
         self.lines = found
         if self._meshes:
             colors = self._colors if len(self._colors) > 1 else self._colors[0]
-            _show(self, found.regions("face"), {"values": None, "colors": colors, "by": "face"}, placed)
+            _show(self, found.regions("face"), {"values": None, "colors": colors, "by": "face", "width": None}, placed)
         lines, colors, widths, dashes = _mpl3d.strokes_of(found, self._styles, self._path_ends, self._outline, self._hidden)
         self._strokes.set_segments([placed(path) for path in lines])
         self._strokes.set_color(colors)
@@ -323,10 +365,12 @@ def _show(collection, regions, shown, placed):
     chosen = np.flatnonzero(regions.object >= 0)
     loops = regions.loops
     collection.set_paths([_path([placed(corners) for corners in loops[index]]) for index in chosen])
-    collection.set_linewidth(_EDGE)
-    values, colors = shown["values"], shown["colors"]
+    values, colors, width = shown["values"], shown["colors"], _EDGE
     if colors is not None:
-        collection.set_facecolor(regions.of_faces(colors)[chosen])
+        colors = regions.of_faces(colors)[chosen]
+        collection.set_facecolor(colors)
+        # Overlapping edges would draw a net.
+        width = _EDGE if colors.shape[1] < 4 or (colors[:, 3] == 1).all() else 0.0
     elif values is not None:
         collection.set_array(regions.of_faces(values)[chosen])
     elif regions.by == "tone":
@@ -336,6 +380,7 @@ def _show(collection, regions, shown, placed):
         numbers = {"face": regions.face, "material": regions.material, "object": regions.object}[regions.by]
         collection.set_array(numbers[chosen].astype(float))
     collection.set_edgecolor("face")
+    collection.set_linewidth(width if shown["width"] is None else shown["width"])
     return collection
 
 

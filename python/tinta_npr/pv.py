@@ -1,10 +1,12 @@
 """The exact lines and areas of a PyVista plotter's scene."""
 
+import dataclasses
+
 import numpy as np
 
 from . import _native, _with_settings
 from . import lines as _lines
-from ._arrays import padded, rows
+from ._arrays import counted, padded, rows, same_places, sides
 from ._camera import size_of
 from ._mesh import _surface, meshes_of
 from ._results import _place, _written
@@ -16,9 +18,10 @@ _LETTER, _LETTER_MM = 12, 3.53
 
 
 def lines(plotter, *, look=None, preset=None, **settings):
-    """Find the lines of all surfaces that a plotter shows, as its camera sees them.
+    """Find the lines of all surfaces, curves and points that a plotter shows, as its camera sees them.
 
-    Warns of what it leaves out: points, curves, transparency.
+    Edges that an actor shows are of class ``"marked"``, wireframes of class ``"curve"``, which hide nothing; labels stand beside their
+    points. Warns of transparency, and of what it leaves out: volumes, axes.
 
     Parameters
     ----------
@@ -31,18 +34,18 @@ def lines(plotter, *, look=None, preset=None, **settings):
     Returns
     -------
     tinta_npr.Lines
-        ``object`` numbers the actors in their order.
+        ``object`` numbers the actors with surfaces in their order; curves and points follow them.
 
     Settings
     --------
     """
     [shown] = _shown([plotter.renderer])
-    see_through = len({id(actor) for actor, _ in shown if _opacity(actor) < 1})
+    see_through = len({id(actor) for actor, _ in shown.surfaces if _opacity(actor) < 1})
     _warn_of(see_through, "is transparent, but hides lines like an opaque one", "are transparent, but hide lines like opaque ones")
     left, top, right, bottom = _box(plotter.renderer, plotter.window_size)
     if settings.get("size") is None:
         settings["size"] = right - left, bottom - top
-    return _found(plotter.renderer, shown, {"look": look, "preset": preset, **settings})
+    return _found(plotter.renderer, shown.surfaces, shown.free(), {"look": look, "preset": preset, **settings})
 
 
 def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None, preset=None, **settings):
@@ -52,7 +55,7 @@ def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None,
     ----------
     plotter, look, preset, **settings
         As in `lines`: ``hidden="dashed"``, ``look="technical"``, ``crease_angle=40`` … Subplots are written at their places; into
-        .json the active one.
+        .json the active one. An .svg or .pdf has the plotter's texts and legends, too, with letters of one size.
     fill : bool
         Whether to fill the surfaces below the lines: each face in one colour, the actor's or that of its scalar by the actor's
         lookup table, without light. A face with scalars at its points has the colour of their mean. What is opaque shows through
@@ -66,7 +69,8 @@ def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None,
     path, ending = _place(file, format)
     settings = {"look": look, "preset": preset, **settings}
     renderers = list(plotter.renderers)
-    if len(renderers) == 1 and not fill or ending not in (("svg", "pdf") if fill else ("svg", "pdf", "png")):
+    has_texts = ending in ("svg", "pdf") and any(_texts(renderer) for renderer in renderers)
+    if len(renderers) == 1 and not fill and not has_texts or ending not in (("svg", "pdf") if fill else ("svg", "pdf", "png")):
         found = lines(plotter, **settings)
         (found.regions() if fill else found).save(file, format=format, title=title)
         return
@@ -77,24 +81,111 @@ def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None,
     views, keys, count = [], [], 0
     for renderer, shown in zip(renderers, _shown(renderers)):
         box = _box(renderer, whole)
-        views += _views(renderer, shown, box, settings, fill, count) if shown else []
-        keys += [_key(bar, box, letter) for bar in _bars(plotter, renderer)] if fill else []
-        count += len(shown)
+        views += _views(renderer, shown, box, settings, fill, count)
+        own = _box(renderer, plotter.window_size)
+        of_window = own[2] - own[0], own[3] - own[1]
+        if ending != "png":
+            keys += [_key(bar, box, letter) for bar in _bars(plotter, renderer)] if fill else []
+            keys += [_key_of_text(actor, box, of_window, letter) for actor in _texts(renderer)]
+        count += len(shown.surfaces) + bool(shown.free())
     _written(file, path, _native.sheet(ending, tuple(whole), views, keys, title))
 
 
+@dataclasses.dataclass
+class _Scene:
+    """What a renderer shows: surfaces with their actors, of which one with several blocks has several; curves; points with labels."""
+
+    surfaces: list = dataclasses.field(default_factory=list)
+    curves: list = dataclasses.field(default_factory=list)
+    points: list = dataclasses.field(default_factory=list)
+    labels: list = dataclasses.field(default_factory=list)
+
+    def free(self):
+        """The arguments of `lines` for curves, points and labels."""
+        if not self.points:
+            return {"curves": self.curves} if self.curves else {}
+        points, labels = np.concatenate(self.points), np.array(sum(self.labels, []), dtype=object)
+        # A point is drawn once, with its label if it has one.
+        order = np.argsort([label is None for label in labels], kind="stable")
+        first, _ = same_places(points[order])
+        kept = order[np.sort(first)]
+        named = {"labels": labels[kept].tolist()} if any(labels) else {}
+        return {"curves": self.curves or None, "points": points[kept], **named}
+
+
 def _shown(renderers):
-    """The actors with a surface of each renderer, and the surface: an actor of several blocks has several."""
-    shown, others = [], 0
-    for renderer in renderers:
-        actors = [actor for actor in renderer.actors.values() if _is_of_data(actor)]
-        surfaces = [_surfaces_of_actor(actor) for actor in actors]
-        shown.append([(actor, surface) for actor, of_actor in zip(actors, surfaces) for surface in of_actor])
-        others += sum(not of_actor for of_actor in surfaces)
-    if not any(shown):
-        raise ValueError("plotter: it shows no surface; add_mesh() first")
-    _warn_of(others, "shows points or curves, which are left out", "show points or curves, which are left out")
-    return shown
+    """The scene of each renderer; warns of what is left out of them."""
+    left_out = {}
+    scenes = [_scene(renderer, left_out) for renderer in renderers]
+    if not any(scene.surfaces or scene.curves or scene.points for scene in scenes):
+        raise ValueError("plotter: it shows no surface, curve or point; add_mesh() first")
+    for kind in left_out:
+        _native.warn(f"plotter: {kind} are left out")
+    return scenes
+
+
+#: Classes of VTK that are left out, and those drawn elsewhere or without effect on the scene.
+_LEFT_OUT = {"vtkVolume": "volumes", "vtkCubeAxesActor": "axes with numbers", "vtkAxesActor": "axes of directions", "vtkAxisActor2D": "rulers"}
+_DRAWN_ELSEWHERE = ("vtkScalarBarActor", "vtkTextActor", "vtkCornerAnnotation", "vtkLegendBoxActor")
+
+
+def _scene(renderer, left_out):
+    """A renderer's scene; adds the kinds of what is left out to a dict, which keeps their order."""
+    scene = _Scene()
+    for actor in renderer.actors.values():
+        if not actor.GetVisibility() or any(map(actor.IsA, _DRAWN_ELSEWHERE)):
+            continue
+        kind = next((kind for name, kind in _LEFT_OUT.items() if actor.IsA(name)), None)
+        if kind is None and (labels := _labels(actor)) is not None:
+            points, texts = labels
+            scene.points.append(points)
+            scene.labels.append(texts)
+        elif kind is None and _is_of_data(actor):
+            _take(scene, actor)
+        elif kind is not None or not hasattr(actor, "prop"):
+            left_out[kind or f"items of {actor.GetClassName()}"] = True
+    if getattr(renderer, "axes_enabled", False):
+        left_out[_LEFT_OUT["vtkAxesActor"]] = True
+    return scene
+
+
+def _take(scene, actor):
+    """Adds an actor's blocks to a scene, in the actor's style."""
+    prop = getattr(actor, "prop", None)
+    style = prop.GetRepresentation() if prop is not None else 2
+    for block in _blocks(actor):
+        points = _placed(actor, block.points)
+        if style == 0:
+            scene.points.append(points)
+            scene.labels.append([None] * len(points))
+            continue
+        if len(block.faces) and style == 1:
+            scene.curves += list(points[sides(*padded(block.faces))])
+        elif len(block.faces):
+            scene.surfaces.append((actor, block))
+        if len(block.lines):
+            corners, sizes = counted(block.lines)
+            scene.curves += [points[part] for part in np.split(corners, np.cumsum(sizes)[:-1]) if len(part) > 1]
+        if len(block.verts):
+            corners, _ = counted(block.verts)
+            scene.points.append(points[corners])
+            scene.labels.append([None] * len(corners))
+
+
+def _labels(actor):
+    """The points and texts of an actor of labels; `None` if it is another."""
+    mapper = actor.GetMapper() if hasattr(actor, "GetMapper") else None
+    if mapper is None or not mapper.IsA("vtkLabelPlacementMapper"):
+        return None
+    source = mapper.GetInputAlgorithm()
+    # Between the labels and the points may be a filter of visible ones.
+    while source.GetNumberOfInputPorts() and source.GetNumberOfInputConnections(0):
+        name = source.GetLabelArrayName() if hasattr(source, "GetLabelArrayName") else "labels"
+        source = source.GetInputAlgorithm()
+    data = source.GetOutputDataObject(0)
+    texts = data.GetPointData().GetAbstractArray(name)
+    count = data.GetNumberOfPoints()
+    return np.array([data.GetPoint(number) for number in range(count)]), [str(texts.GetValue(number)) for number in range(count)]
 
 
 def _box(renderer, whole):
@@ -105,39 +196,43 @@ def _box(renderer, whole):
     return left, top, max(left + 1, round(width * right)), max(top + 1, round(height * (1 - bottom)))
 
 
-def _found(renderer, shown, settings):
-    """The lines of surfaces together."""
+def _found(renderer, surfaces, free, settings):
+    """The lines of surfaces, curves and points together."""
     # PyVista sets its camera when it first shows the scene.
     if not renderer.camera.is_set:
         renderer.camera_position = renderer.get_default_cam_pos()
         renderer.reset_camera()
         renderer.camera.is_set = True
-    return _lines([_mesh_of(actor, surface) for actor, surface in shown], camera=renderer.camera, **settings)
+    meshes = [_mesh_of(actor, surface) for actor, surface in surfaces]
+    return _lines(meshes or None, camera=renderer.camera, **{**free, **settings})
 
 
-def _views(renderer, shown, box, settings, fill, first):
-    """A subplot's views on a sheet: what is opaque, and above it what is transparent, for each opacity. `first` is the number of its
-    first object on the sheet."""
+def _views(renderer, scene, box, settings, fill, first):
+    """A subplot's views on a sheet: curves, points and what is opaque, and above it what is transparent, for each opacity. `first` is the
+    number of its first object on the sheet."""
     left, top, right, bottom = box
+    shown, free = scene.surfaces, scene.free()
     settings = {**settings, "size": (right - left, bottom - top)}
     opacity = np.array([_opacity(actor) if fill else 1.0 for actor, _ in shown])
     see_through = len({id(actor) for (actor, _), share in zip(shown, opacity) if share < 1})
     _warn_of(see_through, "is transparent: its nearest surface alone is drawn", "are transparent: their nearest surface alone is drawn")
 
-    def view(kept, among):
+    def view(kept, among, free):
         drawn = [one for one, is_among in zip(shown, among) if is_among]
-        found = _found(renderer, drawn, settings)
+        found = _found(renderer, drawn, free, settings)
         areas = None
-        if fill:
+        if fill and drawn:
             regions = found.regions()
             colors = regions.of_faces([_colors(actor, surface) for actor, surface in drawn])
             areas = regions._found, regions._colors(colors), float(opacity[kept][0])
         numbers = np.where(kept, np.arange(len(shown)) + first, -1)
-        return {"lines": found._found, "areas": areas, "at": (left, top), "objects": numbers[among].tolist()}
+        # Curves and points come last.
+        objects = [*numbers[among].tolist(), len(shown) + first]
+        return {"lines": found._found, "areas": areas, "at": (left, top), "objects": objects}
 
     opaque, everything = opacity == 1, np.full(len(shown), True)
-    views = [view(opaque, opaque)] if opaque.any() else []
-    return views + [view(opacity == share, everything) for share in np.unique(opacity[~opaque])[::-1]]
+    views = [view(opaque, opaque, free)] if opaque.any() or free else []
+    return views + [view(opacity == share, everything, {}) for share in np.unique(opacity[~opaque])[::-1]]
 
 
 def _warn_of(count, one, several):
@@ -157,25 +252,38 @@ def _opacity(actor):
     return getattr(prop, "opacity", 1.0)
 
 
-def _surfaces_of_actor(actor):
-    """The surfaces of an actor as polygons; none of points and curves."""
+def _blocks(actor):
+    """The data of an actor as polygons, lines and vertices."""
+    # Before the scene is shown, its data may wait for the filter that makes them.
+    actor.mapper.Update()
     data = actor.mapper.dataset
     blocks = [data] if not hasattr(data, "n_blocks") else [block for block in data.recursive_iterator() if block is not None]
-    surfaces = [block if hasattr(block, "faces") else _surface(block) for block in blocks]
-    surfaces = [surface.triangulate() if getattr(surface, "n_strips", 0) else surface for surface in surfaces]
-    return [surface for surface in surfaces if len(surface.faces)]
+    blocks = [block if hasattr(block, "faces") else _surface(block) for block in blocks]
+    return [block.triangulate() if getattr(block, "n_strips", 0) else block for block in blocks]
+
+
+def _placed(actor, points):
+    """Points of an actor in the world's coordinates."""
+    matrix = actor.GetMatrix()
+    world_from_actor = np.array([[matrix.GetElement(row, column) for column in range(4)] for row in range(4)])
+    points = rows("points", points, 3)
+    if (world_from_actor == np.eye(4)).all():
+        return points
+    return np.ascontiguousarray(points @ world_from_actor[:3, :3].T + world_from_actor[:3, 3])
 
 
 def _mesh_of(actor, surface):
-    """A surface in the world's coordinates."""
-    matrix = actor.GetMatrix()
-    world_from_actor = np.array([[matrix.GetElement(row, column) for column in range(4)] for row in range(4)])
-    [mesh] = meshes_of(surface, None, None, {})
-    if (world_from_actor == np.eye(4)).all():
-        return mesh
+    """A surface in the world's coordinates, its sides marked if the actor shows them."""
     corners, sizes = padded(surface.faces)
-    points = rows("points", surface.points, 3) @ world_from_actor[:3, :3].T + world_from_actor[:3, 3]
-    return _native.Mesh.of_arrays(np.ascontiguousarray(points), corners, sizes, "mesh", {})
+    points = _placed(actor, surface.points)
+    mesh = _native.Mesh.of_arrays(points, corners, sizes, "mesh", {})
+    if not getattr(actor, "prop", None) or not actor.prop.GetEdgeVisibility():
+        return mesh
+    # Of several points at a place, the first counts.
+    first, numbers = same_places(points)
+    edges = first[sides(numbers[corners], sizes)].astype(np.uint32)
+    count = len(corners) // 3 if sizes is None else len(sizes)
+    return mesh.with_marks(np.arange(count, dtype=np.uint32), np.ascontiguousarray(edges))
 
 
 def _colors(actor, surface):
@@ -284,6 +392,55 @@ def _key(bar, box, letter):
         line, at = tick(*place(share))
         boxes.append([*line, 0, 0, 0])
         texts.append((label, at))
+    return boxes, texts
+
+
+def _texts(renderer):
+    """The visible texts and legends of a renderer."""
+    kinds = ("vtkTextActor", "vtkCornerAnnotation", "vtkLegendBoxActor")
+    return [actor for actor in renderer.actors.values() if actor.GetVisibility() and any(map(actor.IsA, kinds))]
+
+
+#: Where the texts of a vtkCornerAnnotation stand: shares of the width and height of the subplot, from the left and from the top.
+_CORNERS = [(0, 1), (1, 1), (0, 0), (1, 0), (0.5, 1), (1, 0.5), (0, 0.5), (0.5, 0)]
+
+
+def _key_of_text(actor, box, of_viewport, letter):
+    """A text or a legend in a subplot's box as rectangles and texts; its letters have one height, as those of scalar bars.
+    `of_viewport` is the width and height of the subplot in the plotter's window."""
+    left, top, right, bottom = box
+    if actor.IsA("vtkLegendBoxActor"):
+        return _key_of_legend(actor, box, letter)
+    texts, gap = [], 0.5 * letter
+    if actor.IsA("vtkTextActor"):
+        x, y, _ = actor.GetPositionCoordinate().GetValue()
+        is_share = "Normalized" in actor.GetPositionCoordinate().GetCoordinateSystemAsString()
+        width, height = (1, 1) if is_share else of_viewport
+        lines = [line for line in actor.GetInput().split("\n") if line]
+        x, y = left + x / width * (right - left), bottom - y / height * (bottom - top)
+        return [], [(line, [x, y - 1.3 * letter * (len(lines) - 1 - row), 0.0, -0.2]) for row, line in enumerate(lines)]
+    for (across, down), text in zip(_CORNERS, map(actor.GetText, range(8))):
+        lines = [line for line in (text or "").split("\n") if line]
+        x = left + gap + across * (right - left - 2 * gap)
+        first = top + gap + down * (bottom - top - 2 * gap - 1.3 * letter * len(lines))
+        texts += [(line, [x, first + 1.3 * letter * row, float(across), 1.0]) for row, line in enumerate(lines)]
+    return [], texts
+
+
+def _key_of_legend(legend, box, letter):
+    """A legend: a coloured square and a text for each entry, from the upper end of its place."""
+    left, top, right, bottom = box
+    (x, y), (_, height) = legend.GetPosition(), legend.GetPosition2()
+    entries = [(legend.GetEntryString(number), legend.GetEntryColor(number)) for number in range(legend.GetNumberOfEntries())]
+    longest = 0.6 * letter * max((len(text) for text, _ in entries), default=0)
+    # A text that would be cut off at the picture's end moves it.
+    x = min(left + x * (right - left), right - 2 * letter - longest)
+    y = bottom - (y + height) * (bottom - top)
+    boxes, texts = [], []
+    for number, (text, color) in enumerate(entries):
+        upper = y + 1.5 * letter * number
+        boxes += [[x - 1, upper - 1, x + letter + 1, upper + letter + 1, 0, 0, 0], [x, upper, x + letter, upper + letter, *color]]
+        texts.append((text, [x + 1.5 * letter, upper + letter / 2, 0.0, 0.35]))
     return boxes, texts
 
 
