@@ -212,7 +212,7 @@ pub enum Paint {
     Materials,
     /// One colour for all: red, green, blue, alpha.
     Uniform([f32; 4]),
-    /// White, with a number for each object and material as alpha ([`Paint::number`]).
+    /// White, with a number for each object and material as alpha.
     Numbers,
     /// White, with a coordinate for each vertex for the first texture unit: a list per object, in the scene's order, with an
     /// entry for each of [`crate::mesh::VertexArrays::vertices`].

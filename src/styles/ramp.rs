@@ -39,7 +39,7 @@ impl Ramp {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] when it cannot be read.
+    /// [`crate::Error::File`] when it cannot be read.
     pub fn read(path: &Path) -> Result<Self> {
         Ok(Self::of(Picture::read(path)?, path))
     }

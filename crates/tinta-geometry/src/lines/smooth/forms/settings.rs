@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::settings::{Setting, under};
 
 /// Which form lines are strong enough to be drawn. Thresholds have no unit, because lengths are relative to the
-/// model's feature size, [`crate::curvature::Curvatures::feature_size`].
+/// model's feature size, of [`crate::curvature`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormSettings {
     /// Least growth of the curvature along the view, towards the eye, for a suggestive contour. Default 0.01; a
