@@ -61,6 +61,8 @@ pub enum Action {
     SavePreset,
     /// Full screen, or not.
     FullScreen,
+    /// The system's dialogue to choose models in.
+    Open,
     /// The sheet of keys.
     KeySheet,
     /// Close the sheet, the explanation, times, panel or full screen.
@@ -111,7 +113,7 @@ const fn window(keys: &'static str, what: &'static str, bindings: &'static [(&'s
 }
 
 use Action::{
-    Buffer, Close, Coarse, Divide, Explain, FullScreen, KeySheet, Layout, Lines, Move, OtherSide, Overlay, Panel, Pass,
+    Buffer, Close, Coarse, Divide, Explain, FullScreen, KeySheet, Layout, Lines, Move, Open, OtherSide, Overlay, Panel, Pass,
     Price, Projection, Quit, Reset, SaveLines, SavePicture, SavePreset, SaveTurn, Style, Turn, View, Zoom,
 };
 use With::{Ctrl, Nothing, Shift};
@@ -179,9 +181,10 @@ const ROWS: &[Row] = &[
     row("Ctrl L", "save lines and tones of this view (SVG)", &[("L", Ctrl, SaveLines)]),
     window("Ctrl T", "save a turn around the model (GIF)", &[("T", Ctrl, SaveTurn)]),
     window("Ctrl P", "save style and settings (preset, TOML)", &[("P", Ctrl, SavePreset)]),
+    window("Ctrl O", "open a model", &[("O", Ctrl, Open)]),
     window("drop a file", "show that model; a preset (.toml): its style and settings", &[]),
     window("F11", "full screen", &[("F11", Nothing, FullScreen)]),
-    row("H", "this sheet", &[("H", Nothing, KeySheet)]),
+    row("H, ?", "this sheet", &[("H", Nothing, KeySheet), ("?", Nothing, KeySheet)]),
     window("Esc", "close the sheet, why, times, panel or full screen", &[("Escape", Nothing, Close)]),
     window("Q", "quit", &[("Q", Nothing, Quit), ("Q", Ctrl, Quit)]),
 ];

@@ -150,17 +150,6 @@ row::styles! {
         mark: Some(Mark { rgb: [204, 121, 167], outline: Outline::Polygon { corners: 3, turn: PI } }),
     }
 
-    /// Tones with the rims of thick lines around the faces turned away: the outline by two passes that Evangelista et al. name
-    /// beside their filter.
-    BackFaces(BackFaces) {
-        name: "back-faces",
-        draw: Draw::Plan(BackFaces::plan),
-        has_lines: |back_faces| back_faces.line_width > 0.0,
-        shows: LINE_SHOWS,
-        origin: Origin::Named,
-        mark: Some(Mark { rgb: [230, 159, 0], outline: Outline::Polygon { corners: 3, turn: PI / 2.0 } }),
-    }
-
     /// Ink where the surface ends or turns, found by its planes: Evangelista's passes with a map and a filter that answer to
     /// geometry.
     Ink(Ink) {
@@ -190,6 +179,17 @@ row::styles! {
         shows: CHARCOAL_SHOWS,
         origin: Origin::Published(2007),
         mark: Some(Mark { rgb: [184, 137, 11], outline: Outline::Polygon { corners: 6, turn: 0.0 } }),
+    }
+
+    /// Tones with the rims of thick lines around the faces turned away: the outline by two passes that Evangelista et al. name
+    /// beside their filter.
+    BackFaces(BackFaces) {
+        name: "back-faces",
+        draw: Draw::Plan(BackFaces::plan),
+        has_lines: |back_faces| back_faces.line_width > 0.0,
+        shows: LINE_SHOWS,
+        origin: Origin::Named,
+        mark: Some(Mark { rgb: [230, 159, 0], outline: Outline::Polygon { corners: 3, turn: PI / 2.0 } }),
     }
 
     // A new style's row comes here: docs/dev/adding-a-style.md.

@@ -6,6 +6,7 @@
 pub(super) mod job_options;
 #[cfg(test)]
 mod tests;
+mod names;
 mod worker;
 mod worker_process;
 
@@ -95,6 +96,7 @@ pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<Verdict> {
         path => (read_list(path)?, path.display().to_string()),
     };
     let (list, is_kept) = List::for_folder(bytes, &name, folder)?;
+    names::check(&list, &name, program)?;
     super::make_folder(folder)?;
     let (journal, jobs, left) = begin(arguments, folder, list, is_kept)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
@@ -157,6 +159,8 @@ struct Running {
     failed: usize,
     /// Why it ends before its end.
     stop: Option<Error>,
+    /// The jobs whose worker died, which are tried again alone.
+    crashed: Vec<Job>,
 }
 
 impl Running {
@@ -183,7 +187,7 @@ fn carry_out(
     stop: &Stop,
 ) -> Result<Running> {
     let progress = Progress::new("working", jobs.len() as u64);
-    let run = Mutex::new(Running { journal, done: 0, failed: 0, stop: None });
+    let run = Mutex::new(Running { journal, done: 0, failed: 0, stop: None, crashed: Vec::new() });
     let next = AtomicUsize::new(0);
     let lock = || run.lock().unwrap_or_else(PoisonError::into_inner);
     let work = || {
@@ -198,7 +202,11 @@ fn carry_out(
             });
             let mut run = lock();
             let noted = ended.and_then(|outcome| stop_on_full_disk(job, folder, outcome));
-            let noted = noted.and_then(|outcome| run.note(job, outcome));
+            let noted = noted.and_then(|outcome| match outcome.error.as_ref().is_some_and(|error| error.kind == CRASH) {
+                // Perhaps it was another program's fault, as where memory ran out.
+                true => Ok(run.crashed.push(job.clone())),
+                false => run.note(job, outcome),
+            });
             progress.step();
             if let Err(error) = noted {
                 run.stop.get_or_insert(error);
@@ -215,6 +223,14 @@ fn carry_out(
     });
     drop(progress);
     let mut run = run.into_inner().unwrap_or_else(PoisonError::into_inner);
+    for job in std::mem::take(&mut run.crashed) {
+        if stop.is_asked() || run.stop.is_some() {
+            break;
+        }
+        let (_, mut outcome) = WorkerProcess::start(folder, 1, cores)?.carry_out(&job);
+        outcome.run.tries += 1;
+        run.note(&job, outcome)?;
+    }
     run.stop.take().map_or(Ok(run), Err)
 }
 
@@ -229,6 +245,9 @@ fn stop_on_full_disk(job: &Job, folder: &Path, outcome: Outcome) -> Result<Outco
         _ => Ok(outcome),
     }
 }
+
+/// The kind of failure of a job whose worker died.
+const CRASH: &str = "crash";
 
 /// [`Error::kind`] of [`Error::File`].
 const DISK_FULL: &str = "disk-full";

@@ -33,6 +33,8 @@ pub struct Command {
     pub examples: &'static [&'static str],
     /// Checks a job of a batch and makes a task of it. Default `None`: a batch has no such jobs.
     pub job: Option<fn(&JobOptions) -> Result<Task>>,
+    /// Whether a job of it may have this option.
+    pub has_in_jobs: fn(&str) -> bool,
     /// The values that a shell offers for an option. Default empty: those of a drawing's settings are offered.
     pub offers: fn(&str) -> Vec<&'static str>,
 }
@@ -60,7 +62,7 @@ impl Command {
         arguments: fn(clap::Command) -> clap::Command,
         run: fn(&ArgMatches, &mut Call<'_>) -> Result<Verdict>,
     ) -> Self {
-        Self { name, arguments, run, examples: &[], job: None, offers: |_| Vec::new() }
+        Self { name, arguments, run, examples: &[], job: None, has_in_jobs: |_| false, offers: |_| Vec::new() }
     }
 }
 

@@ -42,6 +42,7 @@ pub(super) const COMMAND: Command = Command {
         let arguments = Arguments::of_job(job)?;
         Ok(Box::new(move |session| run(&arguments, session)))
     }),
+    has_in_jobs: |name| name == "look" || Chosen::<OfRun>::has(name) || Chosen::<OfRequest>::has(name),
     ..Command::new("render", <Arguments as clap::Args>::augment_args, |matches, call| {
         run(&given::<Arguments>(matches)?, call.session)
     })
@@ -78,8 +79,6 @@ pub(super) struct Arguments {
 impl Arguments {
     /// Reads a job's options.
     pub(super) fn of_job(job: &JobOptions) -> Result<Self> {
-        let is_own = |name: &str| name == "look" || Chosen::<OfRun>::has(name) || Chosen::<OfRequest>::has(name);
-        job.refuse_unknown("render", is_own)?;
         Ok(Self {
             models: job.models.clone(),
             output: job.output.clone(),

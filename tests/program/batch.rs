@@ -74,12 +74,10 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
     let folder = Folder::new();
     let jobs = [
         render("first", r#","json":true,"dump":"steps","save-preset":"kept/a.toml""#),
-        render("no-option", r#","sice":3"#),
         render("bad-value", r#","tones":9"#),
         render("two-ways", r#","eye":"1,2,3","view":"front""#),
         render("no-text", r#","json":"yes""#),
         render("two-presets", r#","preset":["a.toml","b.toml"]"#),
-        render("help", r#","help":true"#),
         r#"{"id":"no-model","command":"render","model":"no-such.obj","output":"no.png"}"#.to_owned(),
         r#"{"id":"nul","command":"render","model":"a\u0000b.obj","output":"nul.png"}"#.to_owned(),
         r#"{"id":"none","command":"render","output":"none.png"}"#.to_owned(),
@@ -94,16 +92,14 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
     let out = folder.path("out");
     let output = tinta(&["batch", &list(&folder, &jobs), "-o", &out, "--jobs", "1"]);
     assert_eq!(output.status.code(), Some(1), "{}", said(&output));
-    assert!(said(&output).contains("tinta: 5 of 17 jobs done, 12 failed"), "{}", said(&output));
+    assert!(said(&output).contains("tinta: 5 of 15 jobs done, 10 failed"), "{}", said(&output));
     let entries = rows(&format!("{out}/batch-1-of-1.jsonl"));
     let of = |id: &str| entries.iter().find(|entry| entry["id"] == id).unwrap_or_else(|| panic!("{id}"));
     for (id, kind, words) in [
-        ("no-option", "setting", "sice: there is no such option"),
         ("bad-value", "setting", "tones 9: there are 1, 2 or 3 tones"),
         ("two-ways", "setting", "eye and view: they exclude each other"),
         ("no-text", "setting", "json: write true or false"),
         ("two-presets", "setting", "preset: write one name, as a text"),
-        ("help", "setting", "help: there is no such option"),
         ("no-model", "model", "no-such.obj: there is no such file"),
         ("nul", "model", "a\\u{0}b.obj"),
         ("none", "setting", "model: it is missing"),
@@ -144,6 +140,26 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
     let left = names(&out);
     assert!(left.iter().all(|name| !name.starts_with('.')), "nothing is left in the making: {left:?}");
     assert!(!Path::new("/tmp/tinta-root.png").exists() && !Path::new(&folder.path("out.png")).exists());
+}
+
+#[test]
+fn names_of_options_are_checked_before_the_first_job_and_several_faults_named_at_once() {
+    let folder = Folder::new();
+    let jobs = [
+        render("good", r#","size":24"#),
+        render("one", r#","siez":24"#),
+        render("again", r#","siez":32"#),
+        render("two", r#","help":true"#),
+        render("three", r#","paper":"A4""#),
+    ];
+    let out = folder.path("out");
+    let output = tinta(&["batch", &list(&folder, &jobs), "-o", &out]);
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    let text = said(&output);
+    assert!(text.contains("line 2: siez: there is no such option; did you mean size?"), "{text}");
+    assert!(text.contains("; line 4, help: there is no such option") && text.contains("; line 5, paper: "), "{text}");
+    assert!(!text.contains("line 3") && text.lines().count() == 1, "{text}");
+    assert!(!Path::new(&out).exists(), "nothing was begun");
 }
 
 #[test]

@@ -136,28 +136,51 @@ fn a_killed_run_goes_on_and_does_nothing_twice() {
     );
 }
 
-#[test]
-fn a_worker_that_is_killed_fails_its_job_alone_and_another_takes_its_place() {
+/// Runs three jobs, kills the worker of the second after the first, and calls `then` with the run; the journal's rows: names, states, tries.
+fn killed(turntable: usize, then: impl Fn(&std::process::Child, &str)) -> (std::process::Output, Vec<(String, String, u64)>, Folder) {
     let folder = Folder::new();
-    // The second outlasts this test.
-    let endless = r#"{"id":"endless","command":"render","model":"builtin:bust","output":"endless.gif","size":1024,"turntable":10000}"#;
-    let jobs = [render("before", ""), endless.to_owned(), render("after", "")];
+    let long = format!(
+        r#"{{"id":"long","command":"render","model":"builtin:bust","output":"long.gif","size":256,"turntable":{turntable}}}"#
+    );
+    let jobs = [render("before", ""), long, render("after", "")];
     let (out, journal) = (folder.path("out"), folder.path("out/batch-1-of-1.jsonl"));
     let child = start(&["batch", &list(&folder, &jobs), "-o", &out, "--jobs", "1"]);
     wait_for_lines(&child, &journal, 1);
     let workers = children(child.id());
     assert_eq!(workers.len(), 1);
     signal("KILL", workers[0]);
+    then(&child, &journal);
     let output = child.wait_with_output().unwrap();
+    let text = |row: &serde_json::Value, key: &str| row[key].as_str().unwrap().to_owned();
+    let rows = rows(&journal);
+    let states = rows.iter().map(|row| (text(row, "id"), text(row, "status"), row["run"]["tries"].as_u64().unwrap()));
+    (output, states.collect(), folder)
+}
+
+fn as_named(states: &[(String, String, u64)]) -> Vec<(&str, &str, u64)> {
+    states.iter().map(|(id, status, tries)| (id.as_str(), status.as_str(), *tries)).collect()
+}
+
+#[test]
+fn a_worker_that_is_killed_once_has_its_job_done_again_at_the_end() {
+    let (output, states, folder) = killed(150, |_, _| {});
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert_eq!(as_named(&states), [("before", "done", 1), ("after", "done", 1), ("long", "done", 2)]);
+    assert!(Path::new(&folder.path("out/long.gif")).exists());
+}
+
+#[test]
+fn a_job_whose_worker_is_killed_again_fails_alone() {
+    // It outlasts this test.
+    let (output, states, folder) = killed(10_000, |child, journal| {
+        wait_for_lines(child, journal, 2);
+        let again = std::iter::repeat_with(|| children(child.id())).find(|workers| workers.len() == 1).unwrap();
+        signal("KILL", again[0]);
+    });
     assert_eq!(output.status.code(), Some(1), "{}", said(&output));
-    assert!(said(&output).contains("tinta: line 2, endless: its worker process ended (signal 9)"), "{}", said(&output));
-    let states: Vec<(String, String)> = rows(&journal)
-        .iter()
-        .map(|row| (row["id"].as_str().unwrap().to_owned(), row["status"].as_str().unwrap().to_owned()))
-        .collect();
-    let expected = [("before", "done"), ("endless", "failed"), ("after", "done")];
-    assert_eq!(states, expected.map(|(id, status)| (id.to_owned(), status.to_owned())));
-    assert!(!Path::new(&folder.path("out/endless.gif")).exists());
+    assert!(said(&output).contains("tinta: line 2, long: its worker process ended (signal 9)"), "{}", said(&output));
+    assert_eq!(as_named(&states), [("before", "done", 1), ("after", "done", 1), ("long", "failed", 1)]);
+    assert!(!Path::new(&folder.path("out/long.gif")).exists());
 }
 
 #[test]

@@ -36,7 +36,7 @@ const MISTAKES: [(&str, &str); 99] = [
     ("render triangle.obj -o out.png -size 64", "tinta render has no option -size; did you mean --size?"),
     (
         "render triangle.obj -o out.png --style toon",
-        "invalid value 'toon' for '--style <STYLE>': choose one of phong, three-pass, two-pass, mrt, inking, dietrich, back-faces, ink, charcoal, sand, lines; see --help",
+        "invalid value 'toon' for '--style <STYLE>': choose one of phong, three-pass, two-pass, mrt, inking, dietrich, ink, charcoal, sand, back-faces, lines; see --help",
     ),
     (
         "render triangle.obj -o out.png --style suggestive",
@@ -304,7 +304,7 @@ const MISTAKES: [(&str, &str); 99] = [
     ),
     (
         "compare triangle.obj -o out.png --left phong",
-        "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, back-faces, ink, print, technical",
+        "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, ink, back-faces, print, technical",
     ),
     ("measure triangle.obj", "--output is missing; name the folder to write into: -o results; see --help"),
     (

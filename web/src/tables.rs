@@ -24,6 +24,8 @@ fn is_of_page(name: &str) -> bool {
 pub fn tables() -> String {
     let styles: Vec<Value> = StyleName::ALL
         .into_iter()
+        // WebGL does not draw faces as lines.
+        .filter(|(_, of)| *of != StyleName::BackFaces)
         .map(|(name, of)| {
             let style = Style::named(of);
             let shows: Vec<Value> = of.info().shows.iter().map(|show| json!(show)).collect();

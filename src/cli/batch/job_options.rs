@@ -24,7 +24,7 @@ pub struct JobOptions {
 }
 
 /// The options that every command has.
-const COMMON: [&str; 2] = ["preset", "camera"];
+const COMMON: [&str; 3] = ["output", "preset", "camera"];
 
 impl JobOptions {
     /// The options of a job with its outputs placed in `folder`.
@@ -51,9 +51,9 @@ impl JobOptions {
     }
 
     /// Refuses the first option that its command does not have.
-    pub fn refuse_unknown(&self, command: &str, is_known: impl Fn(&str) -> bool) -> Result<()> {
+    pub(super) fn refuse_unknown(options: &Options, command: &str, is_known: impl Fn(&str) -> bool) -> Result<()> {
         let is_known = |name: &str| COMMON.contains(&name) || is_known(name);
-        let Some(key) = self.options.keys().find(|key| !is_known(key)) else { return Ok(()) };
+        let Some(key) = options.keys().find(|key| !is_known(key)) else { return Ok(()) };
         if let Some(problem) = gone(key) {
             return Err(Error::setting(key, problem));
         }

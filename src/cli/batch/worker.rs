@@ -105,9 +105,12 @@ fn once(job: &Job, folder: &Path, program: &Program, session: &mut Session) -> R
 
 /// The job as a task of its command.
 fn task(command: JobCommand, options: &JobOptions, program: &Program) -> Result<Task> {
-    let known = program.named(command.name()).and_then(|command| command.job);
+    let known = program.named(command.name()).and_then(|command| Some((command.job?, command.has_in_jobs)));
     match known {
-        Some(job) => job(options),
+        Some((job, has)) => {
+            JobOptions::refuse_unknown(&options.options, command.name(), has)?;
+            job(options)
+        }
         None => {
             let names = program.commands().iter().filter(|command| command.job.is_some()).map(|command| command.name);
             let names: Vec<&str> = names.collect();

@@ -40,7 +40,7 @@ impl WorkerProcess {
         }
     }
 
-    /// Has a job done. A worker that ends over it is the job's failure, and does not come back.
+    /// Has a job done. A worker that ends over it does not come back; the run tries the job once more.
     pub(super) fn carry_out(mut self, job: &Job) -> (Option<Self>, Outcome) {
         let told = self.jobs.as_mut().is_some_and(|jobs| jobs.write_all(format!("{}\n", job.json).as_bytes()).is_ok());
         let mut line = Vec::new();
@@ -56,7 +56,7 @@ impl WorkerProcess {
         let problem = format!(
             "its worker process ended ({ended}), perhaps because the driver crashed or memory ran out; run this job alone"
         );
-        (None, Outcome::failed("crash", problem))
+        (None, Outcome::failed(super::CRASH, problem))
     }
 }
 

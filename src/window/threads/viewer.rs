@@ -104,6 +104,9 @@ impl std::fmt::Debug for Viewer {
     }
 }
 
+/// The message where the dialogue gave no file, as it does at once where the system has none.
+const NOTHING_CHOSEN: &str = "no file was chosen; if no dialogue appeared, type the path, or install zenity";
+
 impl Viewer {
     /// Starts the threads and reads the models; `wake` is called from them when there is news.
     ///
@@ -502,7 +505,7 @@ impl Viewer {
             }
             Report::Measured(number, errors) => self.costs.measured(number, errors),
             Report::Lines(found) => self.lines.take(*found),
-            Report::Chosen(models) if models.is_empty() => self.state.message = Some("no file was chosen".to_owned()),
+            Report::Chosen(models) if models.is_empty() => self.state.message = Some(NOTHING_CHOSEN.to_owned()),
             Report::Chosen(models) => self.open(models),
             Report::ModelChanged => self.open(self.state.models.clone()),
             Report::ShadersChanged(shaders) => {

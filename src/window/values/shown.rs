@@ -38,6 +38,8 @@ pub(in crate::window) struct Shown {
     pub is_over: bool,
     /// Whether the window is too narrow for the panel beside the panes.
     is_narrow: bool,
+    /// Whether the panel was folded for that.
+    is_folded: bool,
     /// Whether a recording controls the events, including those that move the view.
     is_played: bool,
 }
@@ -77,6 +79,7 @@ impl Shown {
             follows_window,
             is_over: false,
             is_narrow: size.width < NARROW,
+            is_folded: false,
             is_played: played.is_some(),
         };
         if follows_window {
@@ -153,12 +156,15 @@ impl Shown {
         }
     }
 
-    /// Folds the panel when the window becomes too narrow for it; opened again it stays.
+    /// Folds the panel when the window becomes too narrow for it, and unfolds it when there is room again; opened meanwhile it stays.
     pub(in crate::window) fn fold_panel(&mut self) {
         let is_narrow = f64::from(self.size().width) < f64::from(NARROW) * self.window.scale_factor();
-        if is_narrow && !self.is_narrow && self.viewer.state.has_panel {
+        let has_panel = self.viewer.state.has_panel;
+        let folds = is_narrow && !self.is_narrow && has_panel;
+        if folds || !is_narrow && self.is_folded && !has_panel {
             self.event(ViewerEvent::Panel);
         }
+        self.is_folded = folds || is_narrow && self.is_folded;
         self.is_narrow = is_narrow;
     }
 }

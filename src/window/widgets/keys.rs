@@ -50,6 +50,7 @@ pub(in crate::window) fn event_of(action: Action, state: &ViewerState) -> Option
         Action::SaveTurn => ViewerEvent::SaveTurn,
         Action::SavePreset => ViewerEvent::SavePreset,
         Action::FullScreen => ViewerEvent::FullScreen,
+        Action::Open => ViewerEvent::Browse,
         Action::KeySheet => ViewerEvent::KeySheet,
         Action::Close if state.has_key_sheet => ViewerEvent::KeySheet,
         Action::Close if state.explains => ViewerEvent::Explain,

@@ -34,6 +34,7 @@ pub(super) const COMMAND: Command = Command {
         let arguments = Arguments::of_job(job)?;
         Ok(Box::new(move |session| run(&arguments, session).map(|()| Verdict::Good)))
     }),
+    has_in_jobs: |name| Chosen::<OfHow>::has(name) || Chosen::<OfComparison>::has(name),
     offers: of_table::<CompareSettings>,
     ..Command::new("compare", <Arguments as clap::Args>::augment_args, |matches, call| {
         run(&given::<Arguments>(matches)?, call.session).map(|()| Verdict::Good)
@@ -67,7 +68,6 @@ pub(super) struct Arguments {
 impl Arguments {
     /// Reads a job's options.
     pub(super) fn of_job(job: &JobOptions) -> Result<Self> {
-        job.refuse_unknown("compare", |name| Chosen::<OfHow>::has(name) || Chosen::<OfComparison>::has(name))?;
         Ok(Self {
             models: job.models.clone(),
             output: job.output.clone(),

@@ -36,6 +36,7 @@ pub(super) const COMMAND: Command = Command {
         let (arguments, words) = (Arguments::of_job(job)?, job.command.clone());
         Ok(Box::new(move |session| run(&arguments, &words, session).map(|()| Verdict::Good)))
     }),
+    has_in_jobs: |name| name == "merge" || Chosen::<OfHow>::has(name) || Chosen::<OfSubject>::has(name),
     offers: of_table::<HowMeasured>,
     ..Command::new("measure", <Arguments as clap::Args>::augment_args, |matches, call| {
         run(&given::<Arguments>(matches)?, call.words, call.session).map(|()| Verdict::Good)
@@ -77,8 +78,6 @@ pub(super) struct Arguments {
 impl Arguments {
     /// Reads a job's options.
     pub(super) fn of_job(job: &JobOptions) -> Result<Self> {
-        let is_own = |name: &str| name == "merge" || Chosen::<OfHow>::has(name) || Chosen::<OfSubject>::has(name);
-        job.refuse_unknown("measure", is_own)?;
         let merge = match job.options.get("merge") {
             None => Vec::new(),
             Some(OptionValue::Text(file)) => vec![file.into()],
