@@ -113,8 +113,8 @@ const fn window(keys: &'static str, what: &'static str, bindings: &'static [(&'s
 }
 
 use Action::{
-    Buffer, Close, Coarse, Divide, Explain, FullScreen, KeySheet, Layout, Lines, Move, Open, OtherSide, Overlay, Panel, Pass,
-    Price, Projection, Quit, Reset, SaveLines, SavePicture, SavePreset, SaveTurn, Style, Turn, View, Zoom,
+    Buffer, Close, Coarse, Divide, Explain, FullScreen, KeySheet, Layout, Lines, Move, Open, OtherSide, Overlay, Panel,
+    Pass, Price, Projection, Quit, Reset, SaveLines, SavePicture, SavePreset, SaveTurn, Style, Turn, View, Zoom,
 };
 use With::{Ctrl, Nothing, Shift};
 

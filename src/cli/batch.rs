@@ -202,11 +202,15 @@ fn carry_out(
             });
             let mut run = lock();
             let noted = ended.and_then(|outcome| stop_on_full_disk(job, folder, outcome));
-            let noted = noted.and_then(|outcome| match outcome.error.as_ref().is_some_and(|error| error.kind == CRASH) {
-                // Perhaps it was another program's fault, as where memory ran out.
-                true => Ok(run.crashed.push(job.clone())),
-                false => run.note(job, outcome),
-            });
+            let noted =
+                noted.and_then(|outcome| match outcome.error.as_ref().is_some_and(|error| error.kind == CRASH) {
+                    // Perhaps it was another program's fault, as where memory ran out.
+                    true => {
+                        run.crashed.push(job.clone());
+                        Ok(())
+                    }
+                    false => run.note(job, outcome),
+                });
             progress.step();
             if let Err(error) = noted {
                 run.stop.get_or_insert(error);

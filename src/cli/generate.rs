@@ -8,7 +8,7 @@ use tinta::{Result, TextTarget};
 /// The command.
 pub(super) const COMMAND: Command = Command {
     examples: &[
-        "tinta generate bash                             print completions; zsh, fish, powershell",
+        "tinta generate bash                             print completions for a shell",
         "tinta generate man -o man                       write the manual pages",
     ],
     ..Command::new("generate", <Arguments as clap::Args>::augment_args, |matches, call| {

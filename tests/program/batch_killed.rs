@@ -137,7 +137,10 @@ fn a_killed_run_goes_on_and_does_nothing_twice() {
 }
 
 /// Runs three jobs, kills the worker of the second after the first, and calls `then` with the run; the journal's rows: names, states, tries.
-fn killed(turntable: usize, then: impl Fn(&std::process::Child, &str)) -> (std::process::Output, Vec<(String, String, u64)>, Folder) {
+fn killed(
+    turntable: usize,
+    then: impl Fn(&std::process::Child, &str),
+) -> (std::process::Output, Vec<(String, String, u64)>, Folder) {
     let folder = Folder::new();
     let long = format!(
         r#"{{"id":"long","command":"render","model":"builtin:bust","output":"long.gif","size":256,"turntable":{turntable}}}"#
