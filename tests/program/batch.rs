@@ -146,18 +146,18 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
 fn names_of_options_are_checked_before_the_first_job_and_several_faults_named_at_once() {
     let folder = Folder::new();
     let jobs = [
-        render("good", r#","size":24"#),
+        render("good", ""),
         render("one", r#","siez":24"#),
         render("again", r#","siez":32"#),
         render("two", r#","help":true"#),
-        render("three", r#","paper":"A4""#),
+        render("three", r#","kolor":"red""#),
     ];
     let out = folder.path("out");
     let output = tinta(&["batch", &list(&folder, &jobs), "-o", &out]);
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));
     let text = said(&output);
     assert!(text.contains("line 2: siez: there is no such option; did you mean size?"), "{text}");
-    assert!(text.contains("; line 4, help: there is no such option") && text.contains("; line 5, paper: "), "{text}");
+    assert!(text.contains("; line 4, help: there is no such option") && text.contains("; line 5, kolor: "), "{text}");
     assert!(!text.contains("line 3") && text.lines().count() == 1, "{text}");
     assert!(!Path::new(&out).exists(), "nothing was begun");
 }

@@ -169,7 +169,7 @@ fn styles_and_files_that_do_not_fit_are_refused() {
     refuse(&png, &["--style", "lines", "--page", "A4"], &["--page", "no paper"]);
     refuse("a.jpg", &["--style", "lines", "--background", "transparent"], &["a.jpg", "no transparency"]);
     refuse(&svg, &["--style", "phong"], &["a.svg: style phong draws pixels", ".png"]);
-    refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "sand, lines"]);
+    refuse(&svg, &["--style", "cubism"], &["phong, three-pass", "back-faces, lines"]);
     refuse("-", &["--style", "lines", "--json"], &["-o -", "name a file"]);
     refuse("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);
     for options in [&["--dump", "steps"][..], &["--frames", "3"], &["--animate"], &["--show", "borders"]] {
