@@ -147,8 +147,8 @@ fn names_of_options_are_checked_before_the_first_job_and_several_faults_named_at
     let folder = Folder::new();
     let jobs = [
         render("good", ""),
-        render("one", r#","siez":24"#),
-        render("again", r#","siez":32"#),
+        render("one", r#","sice":24"#),
+        render("again", r#","sice":32"#),
         render("two", r#","help":true"#),
         render("three", r#","kolor":"red""#),
     ];
@@ -156,7 +156,7 @@ fn names_of_options_are_checked_before_the_first_job_and_several_faults_named_at
     let output = tinta(&["batch", &list(&folder, &jobs), "-o", &out]);
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));
     let text = said(&output);
-    assert!(text.contains("line 2: siez: there is no such option; did you mean size?"), "{text}");
+    assert!(text.contains("line 2: sice: there is no such option; did you mean size?"), "{text}");
     assert!(text.contains("; line 4, help: there is no such option") && text.contains("; line 5, kolor: "), "{text}");
     assert!(!text.contains("line 3") && text.lines().count() == 1, "{text}");
     assert!(!Path::new(&out).exists(), "nothing was begun");
