@@ -22,7 +22,7 @@ use std::sync::{Mutex, PoisonError};
 use tinta::batch::{Entry, Failure, Job, Journal, List, Outcome, Slice, Status, Summary, begun, done, read_list};
 use tinta::limits::REMARKS;
 use tinta::{Error, Result};
-use worker_process::WorkerProcess;
+use worker_process::{CRASH, WorkerProcess};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -249,9 +249,6 @@ fn stop_on_full_disk(job: &Job, folder: &Path, outcome: Outcome) -> Result<Outco
         _ => Ok(outcome),
     }
 }
-
-/// The kind of failure of a job whose worker died.
-const CRASH: &str = "crash";
 
 /// [`Error::kind`] of [`Error::File`].
 const DISK_FULL: &str = "disk-full";

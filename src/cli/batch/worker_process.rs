@@ -14,6 +14,9 @@ pub(super) struct WorkerProcess {
     outcomes: BufReader<ChildStdout>,
 }
 
+/// The kind of failure of a job whose worker died.
+pub(super) const CRASH: &str = "crash";
+
 /// The variable for the number of Mesa's extra threads, which Mesa reads once when it starts.
 const RASTER_THREADS: &str = "LP_NUM_THREADS";
 
@@ -56,7 +59,7 @@ impl WorkerProcess {
         let problem = format!(
             "its worker process ended ({ended}), perhaps because the driver crashed or memory ran out; run this job alone"
         );
-        (None, Outcome::failed(super::CRASH, problem))
+        (None, Outcome::failed(CRASH, problem))
     }
 }
 
