@@ -147,21 +147,21 @@ def tables(about_run, summaries, rows, failures, missing):
     """The report's Markdown."""
     text = [f"{about_run['date']}, {about_run['system']}, {about_run['processor']}, {about_run['cores']} cores, OpenGL in software, {about_run['tinta']}; {about_run['rounds']} rounds.", ""]
     text += beaten(summaries)
-    text += ["| program | F1 | worst | found | of the ink right | one to one, 1 px | hidden drawn | s | of that, drawing | MiB |"]
-    text.append("|" + "---|" * 10)
+    text += ["| program | version | F1 | worst | found | of the ink right | one to one, 1 px | hidden drawn | s | of that, drawing | MiB |"]
+    text.append("|" + "---|" * 11)
     for row in summaries:
         # A single executable has no modules to load: all of it counts.
         inside = "all" if row["inside"] is None or row["inside"] > 0.95 * row["seconds"] else f"{row['inside']:.2f}"
         hidden = "–" if program_of(row).draws.startswith("all") else share(row["hidden"])
         text.append(
-            f"| {named(row)} | {row['f1']:.3f} | {row['worst']} | {share(row['recall'])} | {share(row['precision'])} | {row['one']:.3f} | "
+            f"| {named(row)} | {row['version']} ({program_of(row).year}) | {row['f1']:.3f} | {row['worst']} | {share(row['recall'])} | {share(row['precision'])} | {row['one']:.3f} | "
             f"{hidden} | {row['seconds']:.2f} | {inside} | {row['peak']:.0f} |"
         )
     text += by_class_and_model(summaries, rows)
-    text += ["", "| program | version | can draw | settings |", "|---|---|---|---|"]
+    text += ["", "| program | can draw | settings |", "|---|---|---|"]
     for row in (row for row in summaries if not row["name"].startswith("tinta")):
         program = program_of(row)
-        text.append(f"| {row['name']} | {row['version']} | {program.draws} | {program.settings} |")
+        text.append(f"| {row['name']} | {program.draws} | {program.settings} |")
     text += ["", "Not drawn:", ""] + [f"- {name}: {reason}" for name, reason in sorted({**missing, **failures}.items())]
     return "\n".join(text) + "\n"
 
