@@ -1,9 +1,11 @@
 """Blender's Freestyle, silhouettes, borders and creases, over a mesh that Cycles draws with one sample, from its Python module.
 
-A frame is a render into memory; Blender offers no picture before that is done.
+A frame is a render into memory; Blender offers no picture before that is done. With a fifth argument `stages`, Freestyle also prints
+how long its stages take.
 """
 
 import math
+import sys
 from pathlib import Path
 
 import bpy
@@ -11,6 +13,7 @@ from mathutils import Matrix, Vector
 from turntable import CREASE_DEGREES, LINE_WIDTH_PX, eye, height, height_degrees, model, placed, run, width
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.app.debug_freestyle = sys.argv[-1] == "stages"
 scene = bpy.context.scene
 bpy.ops.wm.obj_import(filepath=model, forward_axis="Y", up_axis="Z")
 mesh = bpy.context.selected_objects[0]
