@@ -66,6 +66,7 @@ def turn(frame):
 def draw(frame):
     turn(frame)
     bpy.ops.render.render()
+    return None
 
 
 def save(path):

@@ -38,7 +38,8 @@ place = placed(*box()) if frames else None
 
 def draw(frame):
     turn(frame, *place)
-    engine.window.render_to_image().content
+    content = engine.window.render_to_image().content
+    return lambda: content
 
 
 def save(path):

@@ -49,7 +49,7 @@ def turn(frame):
 
 def draw(frame):
     turn(frame)
-    base.win.getScreenshot()
+    return base.win.getScreenshot().getRamImage
 
 
 def save(path):

@@ -22,7 +22,8 @@ def turn(frame):
 
 def draw(frame):
     turn(frame)
-    plotter.screenshot(return_img=True)
+    plotter.render()
+    return plotter.screenshot(return_img=True).tobytes
 
 
 def save(path):

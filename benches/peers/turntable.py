@@ -32,12 +32,18 @@ def eye(middle, radius, frame):
 
 
 def run(version, draw, save):
-    """Times `draw(frame)`, which turns, draws and reads back, or has `save(path)` write the first frame; prints one JSON object."""
-    times = []
+    """Times `draw(frame)`, which turns, draws and reads back, or has `save(path)` write the first frame; prints one JSON object.
+
+    `draw` returns a function that gives the picture's bytes, or None where a program keeps them. The pictures must differ.
+    """
+    times, pictures = [], set()
     for frame in range(frames + WARM_UP_FRAMES if frames else 0):
         start = time.perf_counter()
-        draw(max(frame - WARM_UP_FRAMES, 0))
+        pixels = draw(max(frame - WARM_UP_FRAMES, 0))
         times.append((time.perf_counter() - start) * 1e3)
+        pictures.add(hash(bytes(pixels())) if pixels else frame)
+    if frames and len(pictures) < frames:
+        raise SystemExit(f"{version} has drawn {len(pictures)} pictures in {frames} frames")
     if picture:
         save(picture)
     print(json.dumps({"version": version, "frame_ms": times[WARM_UP_FRAMES:]}))

@@ -60,6 +60,7 @@ def turn(frame):
 def draw(frame):
     turn(frame)
     window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels)
+    return lambda: memoryview(pixels)
 
 
 def save(path):
