@@ -1,44 +1,60 @@
 //! The cartoon's frame and cold start compared with alternative programs. docs/results/measuring.md has the command.
 //!
 //! Rounds are interleaved: each contestant runs once in each round, and a busy moment of the machine hits all of them. The report
-//! gives medians over all rounds and their ratios; all raw values go to `target/bench/cartoon.json`.
+//! gives medians over all rounds and their ratios; all raw values go to `target/bench/cartoon.json`. The peers are the scripts in
+//! benches/peers, each of which draws frames or one picture.
 
 mod report;
 
-use report::{Series, print_ratio, print_table, write_record};
+use report::{Series, print_table, write_record};
 use serde_json::{Value, json};
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::sync::Arc;
 use std::time::Instant;
+use tinta::edges::SilhouetteRule;
 use tinta::mesh::Mesh;
 use tinta::plan::prune::prune;
 use tinta::renderer::milliseconds_since;
-use tinta::styles::{Cartoon, Ink, Mrt};
+use tinta::styles::{Cartoon, Ink, Inking, Mrt};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, load};
 
-const USAGE: &str = "cargo bench --bench cartoon -- MODEL [--python PYTHON] [--rounds N] [--frames N]
-  MODEL            an OBJ file, for example the Stanford bunny
-  --python PYTHON  a Python with Panda3D 1.10 (pip install Panda3D); needs xvfb-run
-  --rounds N       interleaved rounds (default 9)
-  --frames N       frames a round and contestant (default 21)";
+const USAGE: &str = "cargo bench --bench cartoon -- MODEL [OPTIONS]
+  MODEL                    an OBJ file, y up, for example the Stanford bunny
+  --python PYTHON          a Python with benches/league/requirements.txt; Panda3D also needs Xvfb
+  --blender-python PYTHON  a Python with benches/league/requirements-blender.txt
+  --rounds N               interleaved rounds (default 9); cold starts have twice as many
+  --frames N               frames a round and contestant (default 21)
+  --backwards              contestants in the opposite order";
 
+/// Picture sizes of frames and cold starts.
+const SIZES: [Size; 2] = [Size { width: 512, height: 512 }, Size { width: 1920, height: 1080 }];
+
+/// Blender needs about a second for a frame.
+const BLENDER_FRAMES: usize = 3;
+
+#[derive(Default)]
 struct Settings {
     model: String,
     python: Option<String>,
+    blender_python: Option<String>,
     rounds: usize,
     frames: usize,
+    is_backwards: bool,
 }
 
 impl Settings {
     fn from_arguments() -> Option<Self> {
-        let mut settings = Self { model: String::new(), python: None, rounds: 9, frames: 21 };
+        let mut settings = Self { rounds: 9, frames: 21, ..Self::default() };
         let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
         while let Some(argument) = arguments.next() {
             match argument.as_str() {
                 "--python" => settings.python = arguments.next(),
+                "--blender-python" => settings.blender_python = arguments.next(),
                 "--rounds" => settings.rounds = arguments.next()?.parse().ok()?,
                 "--frames" => settings.frames = arguments.next()?.parse().ok()?,
+                "--backwards" => settings.is_backwards = true,
                 _ if settings.model.is_empty() => settings.model = argument,
                 _ => return None,
             }
@@ -47,8 +63,84 @@ impl Settings {
     }
 }
 
+/// A script in benches/peers with the Python that runs it.
+struct Peer {
+    name: String,
+    python: String,
+    script: PathBuf,
+    is_blender: bool,
+    with_edges: bool,
+}
+
+impl Peer {
+    /// Draws FRAMES frames or one PICTURE.
+    fn command(&self, model: &str, size: Size, last: &str, display: Option<&Display>) -> Command {
+        let mut command = Command::new(&self.python);
+        command.arg(&self.script).args([model, &size.width.to_string(), &size.height.to_string(), last]);
+        if self.with_edges {
+            command.arg("edges");
+        }
+        // Only Panda3D needs a display; the others find EGL, as on a server.
+        match display {
+            Some(display) if self.name.starts_with("Panda3D") => command.env("DISPLAY", &display.name),
+            _ => command.env_remove("DISPLAY"),
+        };
+        command
+    }
+
+    fn frame_times(&self, settings: &Settings, size: Size, display: Option<&Display>) -> Vec<f64> {
+        let frames = if self.is_blender { BLENDER_FRAMES } else { settings.frames };
+        let record = record(self.command(&settings.model, size, &frames.to_string(), display));
+        record["frame_ms"].as_array().expect("times").iter().filter_map(Value::as_f64).collect()
+    }
+}
+
+/// The JSON object that a peer prints last.
+fn record(mut command: Command) -> Value {
+    let output = command.output().expect("the peer starts");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let line = text.lines().rfind(|line| line.starts_with('{'));
+    let line = line.unwrap_or_else(|| panic!("no times from the peer: {}", String::from_utf8_lossy(&output.stderr)));
+    serde_json::from_str(line).expect("JSON from the peer")
+}
+
+/// The peers that this machine has, each with its version.
+fn peers(settings: &Settings, display: Option<&Display>, folder: &Path) -> Vec<Peer> {
+    let scripts = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join("benches/peers");
+    let all = [
+        ("panda3d_ink.py", " cartoon ink", false),
+        ("vtk_ink.py", " silhouette and feature edges", false),
+        ("pyvista_ink.py", " silhouette", false),
+        ("f3d_picture.py", ", no lines", false),
+        ("f3d_picture.py", ", all triangles' edges", true),
+        ("blender_freestyle.py", " Freestyle", false),
+    ];
+    let picture = folder.join("version.png").display().to_string();
+    let mut found = Vec::new();
+    for (script, draws, with_edges) in all {
+        let is_blender = script.starts_with("blender");
+        let python = if is_blender { &settings.blender_python } else { &settings.python };
+        let needs_display = script.starts_with("panda3d");
+        let Some(python) = python.clone().filter(|_| !needs_display || display.is_some()) else {
+            println!("SKIPPED {script}: see --python, --blender-python and Xvfb in the usage");
+            continue;
+        };
+        let name = if needs_display { "Panda3D".to_owned() } else { String::new() };
+        let mut peer = Peer { name, python, script: scripts.join(script), is_blender, with_edges };
+        let version = record(peer.command(&settings.model, SIZES[0], &picture, display))["version"].clone();
+        peer.name = format!("{}{draws}", version.as_str().expect("a version"));
+        found.push(peer);
+    }
+    found
+}
+
+/// The numbers of contestants in the order in which they run.
+fn order(settings: &Settings, count: usize) -> Vec<usize> {
+    if settings.is_backwards { (0..count).rev().collect() } else { (0..count).collect() }
+}
+
 fn main() {
-    let Some(mut settings) = Settings::from_arguments() else {
+    let Some(settings) = Settings::from_arguments() else {
         println!("{USAGE}");
         return;
     };
@@ -59,14 +151,13 @@ fn main() {
             std::process::exit(2);
         }
     };
-    settings.python = settings.python.filter(|python| has_panda(python));
-    if settings.python.is_none() {
-        println!("SKIPPED Panda3D: needs --python PYTHON with Panda3D in it, and the package xvfb");
-    }
     let folder = tempfile::tempdir().expect("a temporary folder");
+    let display = Display::start();
+    let peers = peers(&settings, display.as_ref(), folder.path());
     let frames: Vec<Value> =
-        [(512, 512), (1920, 1080)].into_iter().map(|size| frame_table(&settings, &mesh, size, folder.path())).collect();
-    let cold = cold_table(&settings, folder.path());
+        SIZES.into_iter().map(|size| frame_table(&settings, &mesh, &peers, size, display.as_ref())).collect();
+    let cold: Vec<Value> =
+        SIZES.into_iter().map(|size| cold_table(&settings, &peers, size, folder.path(), display.as_ref())).collect();
     let memory = peak_memory_mib(&settings.model, folder.path());
     println!("\npeak memory of one process over 200 frames, 512 x 512: {memory:.0} MiB");
 
@@ -74,35 +165,23 @@ fn main() {
     write_record("cartoon", &all);
 }
 
-/// Whether this Python has Panda3D and there is a virtual display for it.
-fn has_panda(python: &str) -> bool {
-    let import = Command::new(python).args(["-c", "import panda3d"]).stderr(Stdio::null()).status();
-    import.is_ok_and(|status| status.success()) && runs("xvfb-run", "--help")
-}
-
-/// Frame times, read-back included, the model turning 3 degrees a frame at the peer's distance and field of view.
-fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, (width, height): (u32, u32), folder: &Path) -> Value {
-    let size = Size { width, height };
+/// Frame times, read-back included, the model turning 3 degrees a frame at the peers' distance and field of view.
+fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, peers: &[Peer], size: Size, display: Option<&Display>) -> Value {
     let mut renderer = Renderer::new(Backend::Auto).expect("a context");
     println!("\nframe at {size}, {} triangles, {}", mesh.triangles.len(), renderer.context().renderer);
     let culled = Cartoon { cull_back_faces: true, ..Cartoon::default() };
+    let inking = Inking { silhouette: SilhouetteRule::Exact, ..Inking::default() };
     let styles = [
-        ("three-pass --full", Style::ThreePass(Cartoon::default()), false),
-        ("three-pass", Style::ThreePass(Cartoon::default()), true),
-        ("three-pass --cull back", Style::ThreePass(culled.clone()), true),
-        ("two-pass --full", Style::TwoPass(Cartoon::default()), false),
-        ("two-pass", Style::TwoPass(Cartoon::default()), true),
-        ("two-pass --cull back", Style::TwoPass(culled), true),
-        ("mrt", Style::Mrt(Mrt::default()), true),
-        ("mrt --cull back", Style::Mrt(Mrt { cull_back_faces: true, ..Mrt::default() }), true),
-        ("ink --cull back", Style::Ink(Ink { cull_back_faces: true, ..Ink::default() }), true),
+        ("tinta mrt", Style::Mrt(Mrt::default())),
+        ("tinta mrt --cull back", Style::Mrt(Mrt { cull_back_faces: true, ..Mrt::default() })),
+        ("tinta three-pass", Style::ThreePass(Cartoon::default())),
+        ("tinta three-pass --cull back", Style::ThreePass(culled)),
+        ("tinta ink", Style::Ink(Ink::default())),
+        ("tinta inking --silhouette exact", Style::Inking(inking.clone())),
+        ("tinta inking --silhouette exact --cull back", Style::Inking(Inking { cull_back_faces: true, ..inking })),
     ];
-    let mut series: Vec<Series> = styles.iter().map(|(name, ..)| Series::new(name)).collect();
-    let with_normals = folder.join("with-normals.obj");
-    if settings.python.is_some() {
-        write_with_normals(mesh, &with_normals);
-        series.push(Series::new("Panda3D cartoon ink"));
-    }
+    let names = styles.iter().map(|(name, _)| *name).chain(peers.iter().map(|peer| peer.name.as_str()));
+    let mut series: Vec<Series> = names.map(Series::new).collect();
     let base = Scene::new(vec![mesh.clone()], &SceneSettings { size, ..SceneSettings::default() }).expect("a scene");
     let scenes: Vec<Scene> = (0..settings.frames).map(|frame| turned(&base, frame)).collect();
     let start = Instant::now();
@@ -110,35 +189,35 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, (width, height): (u32, u32
     println!("  once, not in the frames: vertex arrays, {:.1} ms", milliseconds_since(start));
     let pruning = renderer.pruning();
     for _ in 0..settings.rounds {
-        for ((_, style, is_pruned), series) in styles.iter().zip(&mut series) {
+        for contestant in order(settings, series.len()) {
+            let Some((_, style)) = styles.get(contestant) else {
+                let peer = &peers[contestant - styles.len()];
+                series[contestant].times.extend(peer.frame_times(settings, size, display));
+                continue;
+            };
             // A frame includes the plan of a view and its pruning.
             let mut frame = |scene: &Scene| {
                 let start = Instant::now();
-                let mut plan = style.plan(scene, Show::Final).expect("a plan");
-                if *is_pruned {
-                    plan = prune(&plan, scene, &pruning).plan;
-                }
+                let plan = prune(&style.plan(scene, Show::Final).expect("a plan"), scene, &pruning).plan;
                 renderer.time_frames(scene, &plan, 0, 1).expect("a frame");
                 milliseconds_since(start)
             };
             let _warm_up: f64 = (0..3).map(|_| frame(&scenes[0])).sum();
-            series.times.extend(scenes.iter().map(&mut frame));
-        }
-        if let (Some(python), Some(series)) = (&settings.python, series.last_mut()) {
-            series.times.extend(panda_times(python, &with_normals, size, settings.frames));
+            series[contestant].times.extend(scenes.iter().map(&mut frame));
         }
     }
-    print_table(&series, "Panda3D cartoon ink")
+    let rows = print_table(&series, "tinta mrt");
+    json!({ "size": size.to_string(), "contestants": rows })
 }
 
-/// The scene with the camera where benches/peers/panda3d_ink.py puts it, turned to this frame's angle.
+/// The scene with the camera where benches/peers/turntable.py puts it, turned to this frame's angle.
 fn turned(base: &Scene, frame: usize) -> Scene {
     let mut scene = base.clone();
     let angle = (frame as f64 * 3.0).to_radians();
     let offset = glam::DVec3::new(3.2 * angle.sin(), 0.5, 3.2 * angle.cos()) * scene.radius;
     scene.camera.eye = scene.centre + offset;
     scene.camera.target = scene.centre;
-    // 40 degrees across, as Panda's lens has by default, at this aspect.
+    // 40 degrees across.
     let half_width = 20f64.to_radians().tan();
     let fov_y_degrees = (half_width / scene.size.aspect()).atan().to_degrees() * 2.0;
     scene.camera.projection = tinta::camera::Projection::Perspective { fov_y_degrees };
@@ -146,102 +225,79 @@ fn turned(base: &Scene, frame: usize) -> Scene {
     scene
 }
 
-fn panda_times(python: &str, model: &Path, size: Size, frames: usize) -> Vec<f64> {
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().join("benches/peers/panda3d_ink.py");
-    let output = Command::new("xvfb-run")
-        .args(["-a", python, script.to_str().expect("a path"), model.to_str().expect("a path")])
-        .args([size.width.to_string(), size.height.to_string(), frames.to_string()])
-        .output()
-        .expect("xvfb-run can be started");
-    let text = String::from_utf8_lossy(&output.stdout);
-    let line = text.lines().rfind(|line| line.starts_with('{')).unwrap_or_else(|| {
-        panic!("Panda3D gave no times: {}", String::from_utf8_lossy(&output.stderr));
-    });
-    let record: Value = serde_json::from_str(line).expect("JSON from the peer");
-    record["frame_ms"].as_array().expect("times").iter().filter_map(Value::as_f64).collect()
-}
-
-/// Whole processes from start to end, model file to PNG file at 512 x 512.
-fn cold_table(settings: &Settings, folder: &Path) -> Value {
-    println!("\nwhole process, {} to PNG, 512 x 512", settings.model);
-    let picture = folder.join("cold.png");
-    let picture = picture.to_str().expect("a path");
-    let model = settings.model.as_str();
-    let tinta = env!("CARGO_BIN_EXE_tinta");
-    let drawing = ["render", model, "-o", picture, "--size", "512x512"];
-    let mut contestants: Vec<(String, Command)> = vec![
+/// Whole processes from start to end, model file to PNG file.
+fn cold_table(settings: &Settings, peers: &[Peer], size: Size, folder: &Path, display: Option<&Display>) -> Value {
+    println!("\nwhole process, {} to PNG, {size}", settings.model);
+    let file = folder.join("cold.png");
+    let picture = file.to_str().expect("a path");
+    let size_text = size.to_string();
+    let tinta = |options: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_tinta"));
+        command.args(["render", &settings.model, "-o", picture, "--size", &size_text]).args(options);
+        command
+    };
+    let mut contestants: Vec<(&str, Command)> = vec![
         // The default picture.
-        ("tinta, look print".to_owned(), command(tinta, &[&drawing[..], &["--look", "print"]].concat())),
-        ("tinta three-pass".to_owned(), command(tinta, &[&drawing[..], &["--style", "three-pass"]].concat())),
-        ("tinta phong".to_owned(), command(tinta, &[&drawing[..], &["--style", "phong"]].concat())),
+        ("tinta, look print", tinta(&["--look", "print"])),
+        ("tinta ink", tinta(&["--style", "ink"])),
+        ("tinta three-pass", tinta(&["--style", "three-pass"])),
+        ("tinta phong, no lines", tinta(&["--style", "phong"])),
     ];
-    let mut display = None;
-    if runs("f3d", "--version") && runs("Xvfb", "-version") {
-        display = Some(XDisplay::start());
-        let output = format!("--output={picture}");
-        let mut f3d = command("f3d", &[model, &output, "--resolution=512,512", "--dry-run"]);
-        f3d.env("DISPLAY", XDisplay::NAME);
-        contestants.push(("f3d".to_owned(), f3d));
-    } else {
-        println!("  SKIPPED f3d: needs the packages f3d and xvfb");
-    }
+    contestants.extend(peers.iter().map(|peer| {
+        let command = peer.command(&settings.model, size, picture, display);
+        (peer.name.as_str(), command)
+    }));
     match empty_egl(folder) {
-        Some(program) => contestants.push(("empty EGL program".to_owned(), Command::new(program))),
+        Some(program) => contestants.push(("empty EGL program", Command::new(program))),
         None => println!("  SKIPPED the empty EGL program: needs cc and the packages libegl-dev and libgl-dev"),
     }
     let mut series: Vec<Series> = contestants.iter().map(|(name, _)| Series::new(name)).collect();
     // One unmeasured round warms files and drivers' caches for all contestants.
     for round in 0..settings.rounds * 2 + 1 {
-        for ((name, command), series) in contestants.iter_mut().zip(&mut series) {
+        for contestant in order(settings, series.len()) {
+            let (name, command) = &mut contestants[contestant];
+            let _ = std::fs::remove_file(&file);
             let start = Instant::now();
             let status = command.stdout(Stdio::null()).stderr(Stdio::null()).status().expect("the contestant starts");
-            let time = start.elapsed().as_secs_f64() * 1e3;
+            let time = milliseconds_since(start);
             assert!(status.success(), "{name} ends well");
+            assert!(*name == "empty EGL program" || has_size(&file, size), "{name} has drawn no picture of {size}");
             if round > 0 {
-                series.times.push(time);
+                series[contestant].times.push(time);
             }
         }
     }
-    drop(display);
-    let table = print_table(&series, "f3d");
-    if series.iter().any(|series| series.name == "empty EGL program") {
-        print_ratio(&series, "empty EGL program");
-    }
-    table
+    let rows = print_table(&series, "tinta, look print");
+    json!({ "size": size_text, "contestants": rows })
 }
 
-fn command(program: &str, arguments: &[&str]) -> Command {
-    let mut command = Command::new(program);
-    command.args(arguments);
-    command
-}
-
-fn runs(program: &str, argument: &str) -> bool {
-    Command::new(program).arg(argument).stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
+/// Whether a PNG file has this size, by its header.
+fn has_size(file: &Path, size: Size) -> bool {
+    let bytes = std::fs::read(file).unwrap_or_default();
+    bytes.get(16..24) == Some(&[size.width.to_be_bytes(), size.height.to_be_bytes()].concat())
 }
 
 /// A virtual display for the length of the benchmark; its start counts for no contestant.
-struct XDisplay(std::process::Child);
+struct Display {
+    server: Child,
+    name: String,
+}
 
-impl XDisplay {
-    const NAME: &str = ":77";
-
-    fn start() -> Self {
-        let mut server = Command::new("Xvfb");
-        server.args([Self::NAME, "-screen", "0", "1024x1024x24"]).stdout(Stdio::null()).stderr(Stdio::null());
-        let child = server.spawn().expect("Xvfb starts");
-        let socket = Path::new("/tmp/.X11-unix/X77");
-        while !socket.exists() {
-            std::thread::sleep(std::time::Duration::from_millis(50));
-        }
-        Self(child)
+impl Display {
+    fn start() -> Option<Self> {
+        let mut command = Command::new("Xvfb");
+        command.args(["-displayfd", "1", "-screen", "0", "1920x1440x24", "-nolisten", "tcp"]);
+        let mut server = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().ok()?;
+        let mut number = String::new();
+        BufReader::new(server.stdout.take()?).read_line(&mut number).ok()?;
+        Some(Self { server, name: format!(":{}", number.trim()) })
     }
 }
 
-impl Drop for XDisplay {
+impl Drop for Display {
     fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
+        let _ = self.server.kill();
+        let _ = self.server.wait();
     }
 }
 
@@ -271,20 +327,4 @@ fn peak_memory_mib(model: &str, folder: &Path) -> f64 {
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
     peak_kib / 1024.0
-}
-
-/// Panda3D computes no normals: the peer gets ours.
-fn write_with_normals(mesh: &Mesh, path: &Path) {
-    let mut text = String::new();
-    for position in &mesh.positions {
-        text.push_str(&format!("v {} {} {}\n", position.x, position.y, position.z));
-    }
-    for normal in &mesh.normals {
-        text.push_str(&format!("vn {} {} {}\n", normal.x, normal.y, normal.z));
-    }
-    for (corners, normals) in mesh.triangles.iter().zip(&mesh.triangle_normals) {
-        let corner = |i: usize| format!("{}//{}", corners[i] + 1, normals[i] + 1);
-        text.push_str(&format!("f {} {} {}\n", corner(0), corner(1), corner(2)));
-    }
-    std::fs::write(path, text).expect("the temporary folder can be written");
 }

@@ -1,4 +1,4 @@
-//! Edge lists, silhouettes and inked frames compared with VTK, numpy and PyVista. docs/results/measuring.md has the command.
+//! Edge lists and silhouettes compared with VTK and numpy. docs/results/measuring.md has the command.
 //!
 //! Two meshes: the model, and the model with every triangle cut into sixteen. Rounds are interleaved: in each, every
 //! contestant runs once. All raw values go to `target/bench/edges.json`.
@@ -15,20 +15,16 @@ use std::process::Command;
 use std::sync::Arc;
 use std::time::Instant;
 use tinta::edges::{Class, ClassSet, Classes, CreaseAngle, Eye, SilhouetteRule, Silhouettes};
-use tinta::renderer::{median, milliseconds_since};
-use tinta::styles::Inking;
-use tinta::{Backend, EdgeList, LoadOptions, Mesh, Picture, Renderer, Scene, SceneSettings, Show, Size, Style, load};
+use tinta::renderer::milliseconds_since;
+use tinta::{EdgeList, LoadOptions, Mesh, load};
 
 const USAGE: &str = "cargo bench --bench edges -- MODEL [--python PYTHON] [--rounds N]
   MODEL            a model file, for example the Stanford bunny
-  --python PYTHON  a Python with VTK, numpy and PyVista (pip install pyvista); for its frames also xvfb-run
+  --python PYTHON  a Python with VTK and numpy (pip install vtk)
   --rounds N       interleaved rounds (default 7)";
 
 /// Repeats within a round, for small meshes and for large ones.
 const REPEATS: [usize; 2] = [9, 3];
-
-/// Frames within a round.
-const FRAMES: usize = 21;
 
 struct Settings {
     model: String,
@@ -63,7 +59,7 @@ fn main() {
         }
     };
     if settings.python.is_none() {
-        println!("SKIPPED VTK, numpy and PyVista: need --python PYTHON with pyvista in it");
+        println!("SKIPPED VTK and numpy: need --python PYTHON with vtk in it");
     }
     let folder = tempfile::tempdir().expect("a temporary folder");
     let fine = Arc::new(cut_in_sixteen(&mesh));
@@ -73,12 +69,10 @@ fn main() {
         .collect();
     let listing_ms = listing_ms(&mesh);
     println!("\nthe text's linear search, once: {listing_ms:.0} ms");
-    let frames = frame_table(&settings, &mesh, folder.path());
     let record = json!({
         "model": settings.model,
         "edges": tables,
         "listing_ms": listing_ms,
-        "frames": frames,
     });
     write_record("edges", &record);
 }
@@ -227,65 +221,4 @@ fn edge_tables(settings: &Settings, mesh: &Mesh, repeats: usize, folder: &Path) 
         println!("  {:<34}{:>10.2} million triangles a second", one.name, faces / one.median() / 1e3);
     }
     json!({ "triangles": faces, "edges": edges.len(), "raw": raw })
-}
-
-/// Inked frames of a turning model at 512 x 512, plan and read-back included.
-fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, folder: &Path) -> Value {
-    println!("\ninked frame, 512 x 512, plan and read-back included");
-    let size = Size { width: 512, height: 512 };
-    let scene = Scene::new(vec![mesh.clone()], &SceneSettings { size, ..SceneSettings::default() }).expect("a scene");
-    let mut renderer = Renderer::new(Backend::Auto).expect("a context");
-    let style = |cull_back_faces, is_smooth| {
-        Style::Inking(Inking { silhouette: SilhouetteRule::Exact, cull_back_faces, is_smooth, ..Inking::default() })
-    };
-    let contestants = [
-        ("inking", style(false, true)),
-        ("inking, --cull back", style(true, true)),
-        ("inking, --smooth off", style(false, false)),
-    ];
-    let mut series: Vec<Series> = contestants.iter().map(|(name, _)| Series::new(name)).collect();
-    series.push(Series::new("PyVista silhouette + feature edges"));
-    let draw = |renderer: &mut Renderer, scene: &Scene, style: &Style| -> Picture {
-        let plan = style.plan(scene, Show::Final).expect("a plan");
-        renderer.draw(scene, &plan).expect("a frame")
-    };
-    let arrays = write_arrays(mesh, folder);
-    for _ in 0..settings.rounds {
-        for ((_, style), series) in contestants.iter().zip(&mut series) {
-            draw(&mut renderer, &turned(&scene, 0), style);
-            for frame in 0..FRAMES {
-                let scene = turned(&scene, frame);
-                let start = Instant::now();
-                black_box(draw(&mut renderer, &scene, style));
-                series.times.push(milliseconds_since(start));
-            }
-        }
-        if let Some(python) = &settings.python {
-            let mut command = Command::new("xvfb-run");
-            command.args(["-a", python]);
-            let record = peer(command, "pyvista_ink.py", &arrays, &["512".to_owned(), FRAMES.to_string()]);
-            series[3].times.extend(times(&record, "frame_ms"));
-        }
-    }
-    series.retain(|one| !one.times.is_empty());
-    let plans: Vec<f64> = (0..FRAMES)
-        .map(|frame| {
-            let scene = turned(&scene, frame);
-            let start = Instant::now();
-            black_box(contestants[0].1.plan(&scene, Show::Final).expect("a plan"));
-            milliseconds_since(start)
-        })
-        .collect();
-    println!("  of which the plan: {:.2} ms", median(plans).unwrap_or_default());
-    print_table(&series, "PyVista silhouette + feature edges")
-}
-
-/// The scene with its camera turned about the up axis.
-fn turned(base: &Scene, frame: usize) -> Scene {
-    let mut scene = base.clone();
-    let (sin, cos) = (frame as f64 * 3.0).to_radians().sin_cos();
-    let away = base.camera.eye - base.camera.target;
-    scene.camera.eye =
-        base.camera.target + DVec3::new(away.x * cos + away.z * sin, away.y, away.z * cos - away.x * sin);
-    scene
 }

@@ -1,5 +1,4 @@
-//! Exact visible lines compared with Blender Freestyle's and larnt's, and the growth of their time. docs/results/measuring.md has
-//! the command.
+//! Exact visible lines compared with Blender Freestyle's, and the growth of their time. docs/results/measuring.md has the command.
 //!
 //! Rounds are interleaved: in each, every contestant runs once, the programs as cold processes. All raw values go to
 //! `target/bench/lines.json`, the growth as a plot to `target/bench/lines-growth.svg`.
@@ -19,17 +18,15 @@ use tinta::lines::{LineSettings, LineTimes, VisibleLines};
 use tinta::renderer::{median, milliseconds_since};
 use tinta::{LoadOptions, Mesh, Scene, SceneSettings, load};
 
-const USAGE: &str = "cargo bench --bench lines -- MODEL... [--blender BLENDER] [--larnt PROGRAM] [--rounds N]
-  MODEL              model files (OBJ), for example the Stanford bunny
-  --blender BLENDER  Blender with Freestyle (needs xvfb-run)
-  --larnt PROGRAM    a program that is given MODEL and OUT.svg and draws with larnt
-  --rounds N         interleaved rounds (default 5)";
+const USAGE: &str = "cargo bench --bench lines -- MODEL... [--blender-python PYTHON] [--rounds N]
+  MODEL                    model files (OBJ), for example the Stanford bunny
+  --blender-python PYTHON  a Python with benches/league/requirements-blender.txt
+  --rounds N               interleaved rounds (default 5)";
 
 #[derive(Default)]
 struct Settings {
     models: Vec<String>,
-    blender: Option<String>,
-    larnt: Option<String>,
+    blender_python: Option<String>,
     rounds: usize,
 }
 
@@ -38,8 +35,7 @@ fn settings() -> Option<Settings> {
     let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
-            "--blender" => settings.blender = arguments.next(),
-            "--larnt" => settings.larnt = arguments.next(),
+            "--blender-python" => settings.blender_python = arguments.next(),
             "--rounds" => settings.rounds = arguments.next()?.parse().ok()?,
             _ if !argument.starts_with('-') => settings.models.push(argument),
             _ => return None,
@@ -53,10 +49,8 @@ fn main() {
         println!("{USAGE}");
         return;
     };
-    for (name, given) in [("--blender BLENDER", &settings.blender), ("--larnt PROGRAM", &settings.larnt)] {
-        if given.is_none() {
-            println!("SKIPPED {name}: not given");
-        }
+    if settings.blender_python.is_none() {
+        println!("SKIPPED Blender: needs --blender-python PYTHON");
     }
     let folder = tempfile::tempdir().expect("a temporary folder");
     let models: Vec<Value> = settings.models.iter().map(|model| one_model(&settings, model, folder.path())).collect();
@@ -74,8 +68,7 @@ fn one_model(settings: &Settings, model: &str, folder: &Path) -> Value {
         }
     };
     println!("\n{model}: {} triangles, 512x512", mesh.triangles.len());
-    let names =
-        ["tinta, lines", "tinta, process to SVG", "Freestyle, lines", "Freestyle, process to SVG", "larnt, process"];
+    let names = ["tinta, lines", "tinta, process to SVG", "Freestyle, lines", "Freestyle, process to PNG"];
     let mut series = names.map(Series::new);
     let mut stages: Vec<[f64; 3]> = Vec::new();
     let svg = folder.join("lines.svg");
@@ -85,16 +78,13 @@ fn one_model(settings: &Settings, model: &str, folder: &Path) -> Value {
         stages.push([times.topology_ms, times.silhouette_ms, times.visibility_ms]);
         let mut tinta = Command::new(env!("CARGO_BIN_EXE_tinta"));
         series[1].times.push(process_ms(tinta.args(["render", model, "-o"]).arg(&svg)).0);
-        if let Some(blender) = &settings.blender {
-            let mut command = Command::new("xvfb-run");
-            command.args(["-a", blender, "-b", "--factory-startup", "--debug-freestyle", "-P"]);
-            command.arg(peer("freestyle_lines.py")).args(["--", model]).arg(folder.join("freestyle.png"));
+        if let Some(python) = &settings.blender_python {
+            let mut command = Command::new(python);
+            command.arg(peer("blender_freestyle.py")).args([model, "512", "512"]);
+            command.arg(folder.join("freestyle.png")).arg("stages");
             let (milliseconds, output) = process_ms(&mut command);
             series[3].times.push(milliseconds);
             series[2].times.push(freestyle_lines_ms(&output));
-        }
-        if let Some(larnt) = &settings.larnt {
-            series[4].times.push(process_ms(Command::new(larnt).arg(model).arg(&svg)).0);
         }
     }
     let ran: Vec<Series> = series.into_iter().filter(|one| !one.times.is_empty()).collect();

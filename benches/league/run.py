@@ -13,10 +13,8 @@ import json
 import os
 import platform
 import shutil
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -68,24 +66,10 @@ def command_of(program, asked, paths):
 
 def draw(words, limit, environment):
     """Runs one command: seconds by the clock, the largest process's peak memory in MiB, its status and output."""
-    start = time.perf_counter()
-    with subprocess.Popen(
-        words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, start_new_session=True
-    ) as child:
-        signal.signal(signal.SIGALRM, lambda *_: os.killpg(child.pid, signal.SIGKILL))
-        signal.setitimer(signal.ITIMER_REAL, limit)
-        output = child.stdout.read()
-        _, status, usage = os.wait4(child.pid, 0)
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        seconds = time.perf_counter() - start
-        child.returncode = os.waitstatus_to_exitcode(status)
-    return {
-        "seconds": seconds,
-        "peak_mib": usage.ru_maxrss / 1024,
-        "status": child.returncode,
-        "gave_up": seconds >= limit,
-        "output": output,
-    }
+    # -S and -I keep the starter small.
+    starter = [sys.executable, "-I", "-S", str(HERE / "measured.py"), str(limit), *words]
+    result = subprocess.run(starter, stdout=subprocess.PIPE, text=True, env=environment, check=True)
+    return json.loads(result.stdout)
 
 
 def last_record(output):

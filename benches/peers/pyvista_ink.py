@@ -1,37 +1,34 @@
-"""PyVista's mesh with silhouette and feature edges off screen: pyvista_ink.py POINTS TRIANGLES SIZE FRAMES
+"""PyVista's smooth mesh with add_silhouette, whose feature angle adds creases, off screen, without multisampling."""
 
-POINTS and TRIANGLES as for vtk_edges.py. Prints one JSON object with each frame's milliseconds, read-back included, no
-multisampling. The camera turns by 3 degrees a frame.
-"""
-import json
-import sys
-import time
-
-import numpy as np
 import pyvista
-import vtk
+from turntable import CREASE_DEGREES, LINE_WIDTH_PX, eye, height, height_degrees, model, placed, run, width
 
-points = np.fromfile(sys.argv[1]).reshape(-1, 3)
-triangles = np.fromfile(sys.argv[2], dtype=np.int64).reshape(-1, 3)
-size, frames = int(sys.argv[3]), int(sys.argv[4])
-faces = np.c_[np.full(len(triangles), 3), triangles].ravel()
-mesh = pyvista.PolyData(points.astype(np.float32), faces)
-plotter = pyvista.Plotter(off_screen=True, window_size=(size, size))
-window = plotter.render_window
-window.SetMultiSamples(0)
+mesh = pyvista.read(model)
+plotter = pyvista.Plotter(off_screen=True, window_size=(width, height))
+plotter.render_window.SetMultiSamples(0)
 plotter.set_background("white")
 plotter.add_mesh(mesh, color="tan", smooth_shading=True)
-plotter.add_silhouette(mesh, color="black", line_width=2, feature_angle=None)
-plotter.add_mesh(mesh.extract_feature_edges(float(np.degrees(np.arccos(0.4)))), color="black", line_width=2)
-plotter.show(auto_close=False)
-pixels = vtk.vtkUnsignedCharArray()
-times = []
-for frame in range(frames + 2):
-    start = time.perf_counter()
-    plotter.camera.azimuth = 3.0 * frame
+plotter.add_silhouette(mesh, color="black", line_width=LINE_WIDTH_PX, feature_angle=CREASE_DEGREES)
+middle, radius = placed(mesh.bounds[0::2], mesh.bounds[1::2])
+camera = plotter.camera
+camera.focal_point, camera.up, camera.view_angle = middle, (0, 1, 0), height_degrees
+plotter.camera_set = True
+
+
+def turn(frame):
+    camera.position = eye(middle, radius, frame)
+    camera.clipping_range = (radius * 0.5, radius * 8)
+
+
+def draw(frame):
+    turn(frame)
     plotter.render()
-    window.GetRGBACharPixelData(0, 0, size - 1, size - 1, 0, pixels)
-    times.append((time.perf_counter() - start) * 1e3)
-if len(sys.argv) > 5:
-    plotter.screenshot(sys.argv[5])
-print(json.dumps({"pyvista": pyvista.__version__, "vtk": vtk.VTK_VERSION, "frame_ms": times[2:]}))
+    return plotter.screenshot(return_img=True).tobytes
+
+
+def save(path):
+    turn(0)
+    plotter.screenshot(path)
+
+
+run(f"PyVista {pyvista.__version__}", draw, save)

@@ -19,7 +19,7 @@ from OCP.TopoDS import TopoDS, TopoDS_Shell
 
 def version():
     """The package's version, which is OCCT's."""
-    return f"OCCT {package_version('cadquery-ocp')}"
+    return f"OCCT {package_version('cadquery-ocp-novtk')}"
 
 
 def in_perspective(points, camera):
@@ -29,8 +29,11 @@ def in_perspective(points, camera):
     return seen * (camera["distance"] / (camera["distance"] - seen[:, 2:]))
 
 
-def shell(points, triangles, angles_of):
-    """One shell of plane triangles with shared corners and edges; `angles_of` are the points whose faces tell what a crease is."""
+def shell(points, triangles, angles_of, smooth=GeomAbs_G1):
+    """One shell of plane triangles with shared corners and edges; edges below the crease angle are marked as `smooth`.
+
+    `angles_of` are the points whose faces tell what a crease is.
+    """
     builder = BRep_Builder()
     shape = TopoDS_Shell()
     builder.MakeShell(shape)
@@ -49,7 +52,7 @@ def shell(points, triangles, angles_of):
             builder.Add(shape, faces[-1])
     for (a, b), (first, second), count, angle in zip(pairs.tolist(), both.tolist(), counts.tolist(), angles.tolist()):
         if count == 2 and faces[first] is not None and faces[second] is not None:
-            continuity = GeomAbs_G1 if angle < CREASE_DEGREES else GeomAbs_C0
+            continuity = smooth if angle < CREASE_DEGREES else GeomAbs_C0
             builder.Continuity(lines[a, b], faces[first], faces[second], continuity)
     return shape
 

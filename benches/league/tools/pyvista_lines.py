@@ -24,4 +24,4 @@ plotter.camera.clipping_range = (camera["near"], camera["far"])
 plotter.camera_set = True
 plotter.screenshot(drawing)
 renderer = next((line for line in plotter.render_window.ReportCapabilities().splitlines() if "renderer string" in line), "")
-done(f"PyVista {pyvista.__version__}, VTK {pyvista.vtk_version_info}", renderer.split(":")[-1].strip(), since)
+done(f"PyVista {pyvista.__version__}, VTK {'.'.join(map(str, pyvista.vtk_version_info))}", renderer.split(":")[-1].strip(), since)
