@@ -237,6 +237,7 @@ fn edges_in_words(edges: usize, mut counts: ClassCounts, reversed: usize) -> Str
             Class::Normal => "between different vertex normals",
             Class::Part => "between two parts",
             Class::Marked => "marked by the file",
+            Class::Tangent => "where a rounding begins",
             // No edges of the mesh.
             _ => continue,
         };

@@ -101,6 +101,16 @@ fn drawing([outline, inner]: [LineWidth; 2], size: Size) -> DrawingSettings {
     drawing
 }
 
+/// A colour light enough to show strokes above it.
+fn below_strokes(Color(color): Color) -> Color {
+    let luminance = color[0] * 0.2126 + color[1] * 0.7152 + color[2] * 0.0722;
+    let missing = ((LEAST_LUMINANCE - luminance) / (1.0 - luminance)).max(0.0);
+    Color(color.map(|channel| channel + (1.0 - channel) * missing))
+}
+
+/// The least luminance of an area with strokes on it.
+const LEAST_LUMINANCE: f32 = 0.5;
+
 impl Vectors {
     /// Returns the areas of a scene as they are drawn below these lines.
     ///
@@ -121,7 +131,8 @@ impl Vectors {
             )),
             AreaRule::Tones(tones, light) => {
                 tones.check()?;
-                let regions = whole(Regions::toned(scene, &tone_rule(scene, tones, *light), progress)?)?;
+                let rule = tone_rule(scene, tones, *light);
+                let regions = whole(Regions::toned(scene, &rule, progress)?)?;
                 let color = |TonedSurface { object, material, tone }| {
                     let Color(color) = own_color(scene, object, material);
                     Color(color.map(|channel| channel * tones.levels[usize::from(tone)]))
@@ -134,10 +145,10 @@ impl Vectors {
                 };
                 let fills = match spacing {
                     _ if self.drawing.is_for_pen => Vec::new(),
-                    Some(_) => fills(&regions.joined(flat), color),
+                    Some(_) => fills(&regions.joined(flat), |surface| below_strokes(color(surface))),
                     None => fills(&regions, color),
                 };
-                let hatches = hatches(scene, &regions, brightest, lines, &self.drawing)?;
+                let hatches = hatches(scene, (&rule, &regions), lines, &self.drawing, progress)?;
                 let drawn = Areas { fills, hatches, ..Areas::around(&regions) };
                 Ok(ViewAreas { regions: regions.labelled(|seen| seen.map(Surface::from)), drawn })
             }

@@ -26,6 +26,7 @@ mod mesh_edges;
 mod orientation;
 mod silhouette;
 mod smooth;
+mod tangents;
 mod usual_angles;
 
 pub(crate) use lasting_creases::LastingCreases;

@@ -1,5 +1,6 @@
 //! The classes of an edge that are independent of the view.
 
+use super::tangents::tangents;
 use super::{EdgeList, Incidence};
 use crate::choice::Choice;
 use crate::error::{Error, ParseError, Result};
@@ -37,6 +38,8 @@ crate::choices! {
         Part = "part",
         /// The model's file marks it as an edge to draw: glTF's EXT_mesh_primitive_edge_visibility.
         Marked = "marked",
+        /// A flat or straight patch of the surface meets a rounding here without a crease.
+        Tangent = "tangent",
         /// No edge of the mesh: two faces intersect along it. Only the exact lines find it.
         Intersection = "intersection",
         /// A suggestive contour: a nearby eye would see a contour there (DeCarlo et al. 2003). This and the three classes below
@@ -136,7 +139,7 @@ impl ClassSet {
             "CLASSES",
             Kind::Several(names.collect()),
             "Edges to draw: boundary, non-manifold, silhouette, crease (or convex-crease, concave-crease), material, texture, \
-             normal, part, marked, the model's own curve and point, in style lines also intersection and the form lines suggestive, \
+             normal, part, marked, tangent, the model's own curve and point, in style lines also intersection and the form lines suggestive, \
              ridge, valley; separated by commas, or all",
             move |of: &T| field(&mut of.clone()).text(),
             move |of: &mut T, text: &str| {
@@ -295,6 +298,8 @@ pub struct ClassCounts {
     pub part: usize,
     /// Marked as an edge by the file.
     pub marked: usize,
+    /// Where a rounding begins.
+    pub tangent: usize,
     /// Intersections of faces; not counted among edges.
     pub intersection: usize,
     /// Faces crossed by a suggestive contour.
@@ -324,6 +329,7 @@ impl ClassCounts {
             Class::Normal => &mut self.normal,
             Class::Part => &mut self.part,
             Class::Marked => &mut self.marked,
+            Class::Tangent => &mut self.tangent,
             Class::Intersection => &mut self.intersection,
             Class::Suggestive => &mut self.suggestive,
             Class::Ridge => &mut self.ridge,
@@ -351,7 +357,8 @@ impl Classes {
         wanted: ClassSet,
         threads: usize,
     ) -> Self {
-        let normals = if wanted.and(CREASES).is_empty() { Vec::new() } else { face_normals(mesh, threads) };
+        let by_normals = ClassSet::of(&[Class::Tangent]).or(CREASES);
+        let normals = if wanted.and(by_normals).is_empty() { Vec::new() } else { face_normals(mesh, threads) };
         let judge = Judge {
             mesh,
             edges,
@@ -384,6 +391,16 @@ impl Classes {
         for (classes, edges) in parts {
             of_edges.extend(classes);
             marked.extend(edges);
+        }
+        if wanted.contains(Class::Tangent) {
+            let found = tangents(mesh, edges, &normals, crease_angle.cosine, threads);
+            for edge in &found {
+                let classes = &mut of_edges[*edge as usize];
+                *classes = classes.or(ClassSet::of(&[Class::Tangent]));
+            }
+            marked.extend(found);
+            marked.sort_unstable();
+            marked.dedup();
         }
         Self { of_edges, marked, crease_angle }
     }

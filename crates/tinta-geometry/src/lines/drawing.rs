@@ -7,6 +7,8 @@ pub(super) mod curves;
 pub(super) mod drawn_labels;
 pub(super) mod drawn_layers;
 pub(super) mod fills;
+mod form_planes;
+mod form_strokes;
 pub(super) mod hatch;
 pub(super) mod hatches;
 pub(super) mod key;

@@ -8,6 +8,7 @@ mod hidden_faces;
 mod random;
 mod section;
 mod silhouettes;
+mod tangents;
 #[expect(dead_code, reason = "shared with the other tests")]
 #[path = "../support/mod.rs"]
 mod support;

@@ -37,14 +37,14 @@ pub struct LinePath {
 
 impl LinePath {
     /// A stroke of a tone: it consists of no segments, so its class and object mean nothing.
-    pub(in crate::lines) fn of_stroke(ends_px: [DVec2; 2]) -> Self {
+    pub(in crate::lines) fn of_stroke(points_px: Vec<DVec2>) -> Self {
         Self {
             class: Class::Silhouette,
             is_visible: true,
             is_outline: false,
             object: 0,
             look: 0,
-            points_px: ends_px.into(),
+            points_px,
             is_closed: false,
             segments: Vec::new(),
             stroke: None,

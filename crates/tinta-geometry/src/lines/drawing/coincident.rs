@@ -175,7 +175,7 @@ mod tests {
     fn path(points: &[[f64; 2]], is_closed: bool) -> LinePath {
         let points_px: Vec<DVec2> = points.iter().copied().map(DVec2::from_array).collect();
         let segments = (0..points_px.len() - usize::from(!is_closed)).collect();
-        LinePath { points_px, segments, is_closed, ..LinePath::of_stroke([DVec2::ZERO; 2]) }
+        LinePath { points_px, segments, is_closed, ..LinePath::of_stroke(vec![DVec2::ZERO; 2]) }
     }
 
     /// The points of the paths of each layer, as a file has them.

@@ -103,7 +103,7 @@ impl<'a> Drawing<'a> {
         looks.iter().try_for_each(|settings| settings.check())?;
         let mut paths_of: BTreeMap<(Layer, u32), Vec<LinePath>> = BTreeMap::new();
         for hatch in areas.into_iter().flat_map(|areas| &areas.hatches) {
-            let strokes = hatch.strokes.iter().map(|ends| LinePath::of_stroke(*ends));
+            let strokes = hatch.strokes.iter().map(|points| LinePath::of_stroke(points.clone()));
             paths_of.entry((Layer::Hatch(hatch.tone), 0)).or_default().extend(strokes);
         }
         paths.into_iter().for_each(|path| paths_of.entry((path.layer(), path.look)).or_default().push(path));

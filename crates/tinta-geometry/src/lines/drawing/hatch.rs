@@ -18,13 +18,14 @@ use std::ops::RangeInclusive;
 pub struct Hatching {
     /// Distance from stroke to stroke; [`Length::Times`] counts widths of a stroke. Default none: tones are painted areas.
     pub spacing: Option<Length>,
-    /// Direction of the strokes, degrees from the horizontal, counter-clockwise. Default 45. Crossed strokes are perpendicular.
-    pub angle_degrees: f64,
+    /// Direction of the strokes, degrees from the horizontal, counter-clockwise; crossed strokes are perpendicular. Default none: they run
+    /// along the form.
+    pub angle_degrees: Option<f64>,
 }
 
 impl Default for Hatching {
     fn default() -> Self {
-        Self { spacing: None, angle_degrees: 45.0 }
+        Self { spacing: None, angle_degrees: None }
     }
 }
 
@@ -33,6 +34,9 @@ const NONE: &str = "none";
 
 /// The text for [`AUTO_SPACING`].
 const AUTO: &str = "auto";
+
+/// The text for no direction.
+const FORM: &str = "form";
 
 /// The error for a text that is no spacing.
 const USAGE: &str = "give pixels, millimetres on paper, widths of a stroke, or auto: 8, 1mm or 6x";
@@ -59,14 +63,16 @@ impl Hatching {
                 Ok(())
             },
         );
-        let angle = Setting::field(
+        let angle = Setting::open_field(
             "hatch-angle",
             "DEGREES",
-            "Direction of the strokes of --hatch, degrees from the horizontal, rising to the right",
+            FORM,
+            "Straight strokes of --hatch in this direction, degrees from the horizontal, rising to the right, crossed in the darkest tone; \
+             by default they run along the form",
             |hatching: &mut Self| &mut hatching.angle_degrees,
         )
         .inside("hatch");
-        vec![spacing.open(NONE).said("none, areas").common(), angle.range(-90.0, 90.0, 0)]
+        vec![spacing.open(NONE).said("none, areas").common(), angle.range(-90.0, 90.0, 0).said("along the form")]
     }
 
     /// Refuses a spacing outside `allowed`, millimetres without a size on paper, and angles beyond a full turn.
@@ -79,24 +85,22 @@ impl Hatching {
             }
             spacing.check_unit("hatch", has_paper)?;
         }
-        if !(-360.0..=360.0).contains(&self.angle_degrees) {
-            return Err(Error::value(
-                "hatch-angle",
-                self.angle_degrees,
-                "an angle is a number of degrees from -360 to 360",
-            ));
+        match self.angle_degrees {
+            Some(angle) if !(-360.0..=360.0).contains(&angle) => {
+                Err(Error::value("hatch-angle", angle, "an angle is a number of degrees from -360 to 360"))
+            }
+            _ => Ok(()),
         }
-        Ok(())
     }
 }
 
-/// The strokes of one direction, through every tone from the darkest to one.
+/// The strokes of one direction, through every tone from the darkest to one; all of those along the form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hatch {
     /// The brightest tone that the strokes are in; 0 is the darkest.
     pub tone: u8,
-    /// Both ends of each stroke, pixels, y down; line by line.
-    pub strokes: Vec<[DVec2; 2]>,
+    /// The points of each stroke, pixels, y down.
+    pub strokes: Vec<Vec<DVec2>>,
 }
 
 /// Parallel lines through the whole picture.

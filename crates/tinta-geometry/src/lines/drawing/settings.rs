@@ -448,7 +448,7 @@ mod tests {
             );
         }
         for angle_degrees in [f64::NAN, f64::INFINITY, 1e9] {
-            let hatching = Hatching { angle_degrees, ..Hatching::default() };
+            let hatching = Hatching { angle_degrees: Some(angle_degrees), ..Hatching::default() };
             assert!(message(DrawingSettings { hatching, ..base() }).starts_with("hatch-angle"));
         }
         assert!(base().check().is_ok());

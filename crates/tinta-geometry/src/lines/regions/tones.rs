@@ -49,6 +49,26 @@ pub struct TonedSurface {
     pub tone: u8,
 }
 
+impl ToneRule {
+    /// The number of the brightest tone that is reached.
+    pub(in crate::lines) fn brightest(&self) -> u8 {
+        self.thresholds.iter().map(|threshold| u8::from(*threshold <= 1.0)).sum()
+    }
+
+    /// How far the diffuse light is above its threshold.
+    fn diffuse(&self, corners: &[NearLight; 3], weights: [f64; 3]) -> f64 {
+        mixed(corners, weights, |light| light.diffuse) - self.thresholds[0]
+    }
+
+    /// How far the specular light is above its threshold.
+    fn specular(&self, corners: &[NearLight; 3], weights: [f64; 3]) -> f64 {
+        let [mirrored, to_eye] = directions(corners, weights);
+        let lengths = mirrored.length() * to_eye.length();
+        let cosine = if lengths > 0.0 { mirrored.dot(to_eye) / lengths } else { 0.0 };
+        cosine.max(0.0) - self.thresholds[1]
+    }
+}
+
 impl Regions<Option<TonedSurface>> {
     /// Cuts a view into regions of one object, material and tone; `None` is background.
     ///
@@ -56,8 +76,24 @@ impl Regions<Option<TonedSurface>> {
     ///
     /// Those of [`Regions::with_progress`].
     pub fn toned(scene: &Scene, rule: &ToneRule, progress: &Progress) -> Result<Self> {
+        let label = |SeenFace { object, face }: SeenFace, tone: u8| {
+            let materials = &scene.objects[object as usize].mesh.triangle_materials;
+            TonedSurface { object, material: materials.get(face as usize).copied().unwrap_or(NONE), tone }
+        };
+        Self::labelled_tones(scene, rule, label, progress)
+    }
+}
+
+impl<T: Copy + PartialEq + Send + Sync> Regions<Option<T>> {
+    /// Cuts a view into regions of one label; `label` gives that of a face where it has a tone.
+    pub(in crate::lines) fn labelled_tones(
+        scene: &Scene,
+        rule: &ToneRule,
+        label: impl Fn(SeenFace, u8) -> T + Sync,
+        progress: &Progress,
+    ) -> Result<Self> {
         let view = View::of(scene, progress)?;
-        let shading = Shading { view: &view, rule };
+        let shading = Shading { view: &view, rule, label };
         let chunks = in_chunks(view.seen.len(), CHUNK, cores(), |range| {
             let places = view.seen[range].iter().take_while(|_| !progress.is_over());
             places.map(|place| shading.face(*place)).collect::<Vec<_>>()
@@ -80,9 +116,10 @@ const CHUNK: usize = 512;
 /// Most parts into which a face's side is divided to follow a curve.
 const MOST_PARTS: usize = 512;
 
-struct Shading<'a> {
+struct Shading<'a, L> {
     view: &'a View<'a>,
     rule: &'a ToneRule,
+    label: L,
 }
 
 /// The vertex shader's results at the corners of a face.
@@ -118,17 +155,12 @@ fn mixed<T, U: std::ops::Mul<f64, Output = U> + std::iter::Sum>(
     corners.iter().zip(weights).map(|(corner, weight)| of(corner) * weight).sum()
 }
 
-impl Shading<'_> {
-    fn surface(&self, SeenFace { object, face }: SeenFace, tone: u8) -> TonedSurface {
-        let materials = &self.view.scene.objects[object as usize].mesh.triangle_materials;
-        TonedSurface { object, material: materials.get(face as usize).copied().unwrap_or(NONE), tone }
-    }
-
-    /// The surface at a place of the picture.
-    fn at(&self, px: DVec2) -> Option<TonedSurface> {
+impl<T: PartialEq + Copy, L: Fn(SeenFace, u8) -> T> Shading<'_, L> {
+    /// The label at a place of the picture.
+    fn at(&self, px: DVec2) -> Option<T> {
         let hit = self.view.first_hit(px)?;
         let seen = SeenFace { object: hit.object, face: hit.face };
-        Some(self.surface(seen, self.tone(&self.lights(seen), hit.weights)))
+        Some((self.label)(seen, self.tone(&self.lights(seen), hit.weights)))
     }
 
     /// The light at a face's corners.
@@ -152,23 +184,10 @@ impl Shading<'_> {
         }
     }
 
-    /// How far the diffuse light is above its threshold.
-    fn diffuse(&self, corners: &[NearLight; 3], weights: [f64; 3]) -> f64 {
-        mixed(corners, weights, |light| light.diffuse) - self.rule.thresholds[0]
-    }
-
-    /// How far the specular light is above its threshold.
-    fn specular(&self, corners: &[NearLight; 3], weights: [f64; 3]) -> f64 {
-        let [mirrored, to_eye] = directions(corners, weights);
-        let lengths = mirrored.length() * to_eye.length();
-        let cosine = if lengths > 0.0 { mirrored.dot(to_eye) / lengths } else { 0.0 };
-        cosine.max(0.0) - self.rule.thresholds[1]
-    }
-
     fn tone(&self, lights: &Lights, weights: [f64; 3]) -> u8 {
         match lights {
-            Lights::Near(corners) if self.specular(corners, weights) > 0.0 => 2,
-            Lights::Near(corners) => u8::from(self.diffuse(corners, weights) >= 0.0),
+            Lights::Near(corners) if self.rule.specular(corners, weights) > 0.0 => 2,
+            Lights::Near(corners) => u8::from(self.rule.diffuse(corners, weights) >= 0.0),
             Lights::Far(corners) => {
                 let light = mixed(corners, weights, |light| *light);
                 self.rule.thresholds.iter().map(|threshold| u8::from(light >= *threshold)).sum()
@@ -176,8 +195,8 @@ impl Shading<'_> {
         }
     }
 
-    /// The surface of a face, `None` where it has several tones, and the borders between these.
-    fn face(&self, place: u32) -> (Option<TonedSurface>, Vec<Segment>) {
+    /// The label of a face, `None` where it has several tones, and the borders between these.
+    fn face(&self, place: u32) -> (Option<T>, Vec<Segment>) {
         let seen = self.view.face(place);
         let lights = self.lights(seen);
         let points = self.view.faces.corners(place);
@@ -195,18 +214,18 @@ impl Shading<'_> {
                     let [low, high] = self.view.faces.tree.boxes()[place as usize].corners();
                     let longest_px = (high - low).truncate().min(self.view.space.size).max_element();
                     let parts = (longest_px.ceil() as usize).clamp(1, MOST_PARTS);
-                    add_borders(points, parts, &Specular { shading: self, corners }, &mut lines);
+                    add_borders(points, parts, &Specular { rule: self.rule, corners }, &mut lines);
                 }
             }
         }
         match lines.is_empty() {
-            true => (Some(self.surface(seen, self.tone(&lights, [1.0 / 3.0; 3]))), Vec::new()),
+            true => (Some((self.label)(seen, self.tone(&lights, [1.0 / 3.0; 3]))), Vec::new()),
             false => (None, lines.into_iter().flat_map(|line| self.view.across(line)).collect()),
         }
     }
 
     /// Whether what is seen may differ on both sides of an edge. Sides of faces with several tones count: their borders end there.
-    fn is_border(&self, sides: &Sides, surfaces: &[Option<TonedSurface>]) -> bool {
+    fn is_border(&self, sides: &Sides, surfaces: &[Option<T>]) -> bool {
         let [(_, first), (_, second)] = *sides.of_edge else { return true };
         let [one, other] = [first, second].map(|place| surfaces[place as usize]);
         one.is_none() || one != other || !self.view.goes_on(sides)
@@ -232,13 +251,13 @@ impl Tone for Linear {
 
 /// The specular tone of a face.
 struct Specular<'a> {
-    shading: &'a Shading<'a>,
+    rule: &'a ToneRule,
     corners: &'a [NearLight; 3],
 }
 
 impl Tone for Specular<'_> {
     fn is_inside(&self, weights: [f64; 3]) -> bool {
-        self.shading.specular(self.corners, weights) > 0.0
+        self.rule.specular(self.corners, weights) > 0.0
     }
 
     /// Whether the angle between the two directions stays on one side of the threshold's, as far as both turn.
@@ -249,7 +268,7 @@ impl Tone for Specular<'_> {
             (middle, around.iter().map(|directions| angle(middle, directions[which])).fold(0.0, f64::max))
         };
         let ((mirrored, turn), (to_eye, turn_to_eye)) = (cone(0), cone(1));
-        let limit = self.shading.rule.thresholds[1].clamp(0.0, 1.0).acos();
+        let limit = self.rule.thresholds[1].clamp(0.0, 1.0).acos();
         // Directions in a cone wider than half a space may turn farther, or vanish.
         let is_narrow = turn.max(turn_to_eye) < 1.5;
         is_narrow && (angle(mirrored, to_eye) - limit).abs() > turn + turn_to_eye + ANGLE_OF_COSINE

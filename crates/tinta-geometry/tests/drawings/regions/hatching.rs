@@ -19,8 +19,15 @@ fn brightest(rule: &ToneRule) -> u8 {
     rule.thresholds.iter().filter(|threshold| **threshold <= 1.0).count() as u8
 }
 
+/// Strokes of one direction.
+#[derive(Debug)]
+struct Straight {
+    tone: u8,
+    strokes: Vec<[DVec2; 2]>,
+}
+
 fn settings(spacing: Length, angle_degrees: f64) -> DrawingSettings {
-    let hatching = Hatching { spacing: Some(spacing), angle_degrees };
+    let hatching = Hatching { spacing: Some(spacing), angle_degrees: Some(angle_degrees) };
     DrawingSettings { hatching, min_length: Some(Length::Px(0.0)), ..DrawingSettings::default() }
 }
 
@@ -29,8 +36,11 @@ fn hatched(
     regions: &Regions<Option<TonedSurface>>,
     rule: &ToneRule,
     settings: &DrawingSettings,
-) -> tinta::Result<Vec<Hatch>> {
-    hatches(scene, regions, brightest(rule), &VisibleLines::none(scene.size), settings)
+) -> tinta::Result<Vec<Straight>> {
+    let found = hatches(scene, (rule, regions), &VisibleLines::none(scene.size), settings, &Progress::default())?;
+    let ends = |stroke: Vec<DVec2>| <[DVec2; 2]>::try_from(stroke).unwrap();
+    let straight = |Hatch { tone, strokes }: Hatch| Straight { tone, strokes: strokes.into_iter().map(ends).collect() };
+    Ok(found.into_iter().map(straight).collect())
 }
 
 /// A scene whose meshes have smooth normals, or those of their faces.
@@ -125,7 +135,7 @@ fn check(name: &str, scene: &Scene, random: &mut Random, most_strokes: usize, al
             found.iter().map(|hatch| hatch.tone).collect::<Vec<_>>(),
             (0..brightest(&rule)).rev().collect::<Vec<_>>()
         );
-        for Hatch { tone, strokes } in &found {
+        for Straight { tone, strokes } in &found {
             let turned = if (brightest(&rule), *tone) == (2, 0) { angle + 90.0 } else { angle };
             let along = DVec2::from_angle(-turned.to_radians());
             let area = regions.joined(|seen| seen.filter(|it| it.tone <= *tone).map(|_| ()));
@@ -294,7 +304,10 @@ fn one_tone_has_no_strokes_and_too_many_are_refused_before_they_are_made() {
     let scene = ball(view("front", true), size);
     let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
     let lines = VisibleLines::none(size);
-    assert!(hatches(&scene, &regions, 0, &lines, &settings(Length::Px(5.0), 45.0)).unwrap().is_empty());
+    let one = ToneRule { thresholds: [2.0; 2], ..rule };
+    for hatching in [settings(Length::Px(5.0), 45.0), along_form(5.0)] {
+        assert!(hatches(&scene, (&one, &regions), &lines, &hatching, &Progress::default()).unwrap().is_empty());
+    }
     let refused = hatched(&scene, &regions, &rule, &settings(Length::Px(0.001), 45.0)).unwrap_err().to_string();
     assert!(refused.starts_with("hatch 0.001: this makes ") && refused.contains("at most 1000000;"), "{refused}");
 }
@@ -307,7 +320,7 @@ fn a_drawing_has_a_layer_of_strokes_for_each_tone_and_lines_alone_have_none() {
     let lines = VisibleLines::of(&scene, &tinta::LineSettings::default()).unwrap();
     let mut settings = settings(Length::Px(8.0), 45.0);
     settings.class_colors = "hatch=#010203".parse().unwrap();
-    let strokes = hatched(&scene, &regions, &rule, &settings).unwrap();
+    let strokes = hatches(&scene, (&rule, &regions), &lines, &settings, &Progress::default()).unwrap();
     let counts: Vec<usize> = strokes.iter().map(|hatch| hatch.strokes.len()).collect();
     let areas = Areas { hatches: strokes, ..Areas::around(&regions) };
     for is_for_pen in [false, true] {
@@ -324,4 +337,120 @@ fn a_drawing_has_a_layer_of_strokes_for_each_tone_and_lines_alone_have_none() {
     }
     let refused = svg_of_paths(&lines, chain(&lines.segments), None, &settings).unwrap_err().to_string();
     assert!(refused.starts_with("hatch: lines alone have no tones"), "{refused}");
+}
+
+fn along_form(spacing_px: f64) -> DrawingSettings {
+    let hatching = Hatching { spacing: Some(Length::Px(spacing_px)), angle_degrees: None };
+    DrawingSettings { hatching, min_length: Some(Length::Px(0.0)), ..DrawingSettings::default() }
+}
+
+/// The strokes along the form.
+fn formed(scene: &Scene, rule: &ToneRule, spacing_px: f64) -> Vec<Vec<DVec2>> {
+    let regions = Regions::toned(scene, rule, &Progress::default()).unwrap();
+    let lines = VisibleLines::none(scene.size);
+    let found = hatches(scene, (rule, &regions), &lines, &along_form(spacing_px), &Progress::default()).unwrap();
+    assert_eq!(found.iter().map(|hatch| hatch.tone).collect::<Vec<_>>(), [brightest(rule) - 1]);
+    found.into_iter().flat_map(|hatch| hatch.strokes).collect()
+}
+
+/// Points along strokes, about one for each of so many pixels.
+fn samples(strokes: &[Vec<DVec2>], every_px: f64) -> impl Iterator<Item = DVec2> + '_ {
+    strokes.iter().flat_map(|stroke| stroke.windows(2)).flat_map(move |ends| {
+        let count = (ends[0].distance(ends[1]) / every_px).ceil() as usize;
+        (0..count).map(move |sample| ends[0].lerp(ends[1], (sample as f64 + 0.5) / count as f64))
+    })
+}
+
+fn distance_to(strokes: &[Vec<DVec2>], px: DVec2) -> f64 {
+    strokes.iter().map(|stroke| distance_to_polyline(stroke, px)).fold(f64::INFINITY, f64::min)
+}
+
+fn distance_to_polyline(stroke: &[DVec2], px: DVec2) -> f64 {
+    let to_piece = |ends: &[DVec2]| {
+        let along = ends[1] - ends[0];
+        let share = ((px - ends[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        px.distance(ends[0] + along * share)
+    };
+    stroke.windows(2).map(to_piece).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn strokes_along_the_form_lie_in_their_tones_in_every_family() {
+    let (mut samples_seen, mut wrong) = (0, 0);
+    for seed in 1..=KINDS as u64 {
+        let mut random = Random::seeded(seed);
+        let (name, scene) = scene_of_kind(seed as usize, &mut random);
+        let scene = with_normals(scene, seed % 3 == 0);
+        for rule in rules() {
+            let strokes = formed(&scene, &rule, 6.0);
+            let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+            let dark = regions.joined(|seen| seen.filter(|it| it.tone < brightest(&rule)).map(|_| ()));
+            for px in samples(&strokes, 8.0).step_by(1 + strokes.len() / 100) {
+                let mut loops = dark.regions.iter().flat_map(|region| &region.loops);
+                samples_seen += 1;
+                if !has_tone(&scene, &rule, px, brightest(&rule) - 1) && !loops.any(|it| distance(it, px) < NEAR_BORDER_PX)
+                {
+                    wrong += 1;
+                    println!("{name}, seed {seed}: {px}");
+                }
+            }
+        }
+    }
+    println!("{samples_seen} samples");
+    assert!(samples_seen > 5000 && f64::from(wrong) <= 1e-4 * f64::from(samples_seen), "{wrong} of {samples_seen}");
+}
+
+#[test]
+fn a_view_turned_by_a_degree_moves_strokes_along_the_form_with_the_surface() {
+    let [_, rule, _] = rules();
+    let of = |degrees: f64| {
+        let eye = DVec3::new(4.0 * degrees.to_radians().sin(), 1.0, 4.0 * degrees.to_radians().cos());
+        let scene = ball(CameraSettings { eye: Some(eye), ..CameraSettings::default() }, SIZE);
+        let strokes = formed(&scene, &rule, 8.0);
+        (scene, strokes)
+    };
+    let ((scene, strokes), (turned, others)) = (of(20.0), of(21.0));
+    let (mut all, mut stayed) = (0, 0);
+    for px in samples(&strokes, 20.0) {
+        let hits = tinta::lines::first_hits(&scene);
+        let Some(hit) = hits[px.y as usize * SIZE.width as usize + px.x as usize] else { continue };
+        // The point of the surface itself, on the plane of the face that is seen.
+        let mesh = &scene.objects[0].mesh;
+        let [a, b, c] = mesh.triangles[hit.face as usize].map(|corner| mesh.positions[corner as usize]);
+        let to_view = scene.camera.view_from_world();
+        let [a, b, c] = [a, b, c].map(|corner| to_view.transform_point3(corner));
+        let half = DVec2::splat(256.0);
+        let Projection::Perspective { fov_y_degrees } = scene.camera.projection else { panic!("a perspective view") };
+        let focal = half.y / (fov_y_degrees.to_radians() * 0.5).tan();
+        let ray = DVec3::new((px.x - half.x) / focal, (half.y - px.y) / focal, -1.0);
+        let across = (b - a).cross(c - a);
+        let point = ray * (across.dot(a) / across.dot(ray));
+        let moved = image(&turned, turned.camera.view_from_world().transform_point3(to_view.inverse().transform_point3(point)));
+        all += 1;
+        stayed += usize::from(distance_to(&others, moved) < 0.3);
+    }
+    // The rest is where a tone ends, or where the ball turns away.
+    assert!(all > 200 && stayed as f64 > 0.9 * all as f64, "{stayed} of {all}");
+}
+
+#[test]
+fn each_face_of_a_block_has_strokes_of_its_own_direction_at_the_distance_asked_for() {
+    let block = shapes::cuboid(DVec3::ZERO, DVec3::new(3.0, 2.0, 4.0));
+    let camera = view("30,30", true);
+    let scene = Scene::new([block.clone()], &SceneSettings { camera, size: SIZE, ..SceneSettings::default() }).unwrap();
+    // Nothing is bright.
+    let rule = ToneRule { thresholds: [0.999, 2.0], ..rules()[0] };
+    let mut directions: Vec<DVec2> = Vec::new();
+    for stroke in formed(&scene, &rule, 8.0) {
+        let along = (stroke[stroke.len() - 1] - stroke[0]).normalize();
+        if !directions.iter().any(|known| known.perp_dot(along).abs() < 1e-3) {
+            directions.push(along);
+        }
+    }
+    assert!(directions.len() >= 2, "{directions:?}");
+    let front = Scene::new([block], &SceneSettings { camera: view("front", false), size: SIZE, ..SceneSettings::default() }).unwrap();
+    let mut rows: Vec<f64> = formed(&front, &rule, 8.0).iter().map(|stroke| stroke[0].y).collect();
+    rows.sort_unstable_by(f64::total_cmp);
+    let gaps: Vec<f64> = rows.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > 0.5).collect();
+    assert!(gaps.len() > 10 && gaps.iter().all(|gap| (gap / 8.0 - 1.0).abs() < 0.15), "{gaps:?}");
 }

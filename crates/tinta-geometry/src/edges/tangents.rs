@@ -1,0 +1,204 @@
+//! Tangent edges: where a flat or straight patch of a surface meets a rounding without a crease.
+//!
+//! In: a [`Mesh`], its [`EdgeList`], the faces' normals and the crease angle. Out: the edges, ascending. A section across an edge is a
+//! polygon. Between its chords a circle turns by half of each chord's own angle, a straight line not at all. So an edge at which the turn
+//! is that of one side's chord alone separates a rounding from what is straight. A facet of a cylinder and a rounding of one facet look
+//! alike; a rounding therefore needs three chords of one curvature.
+
+use super::{EdgeList, Incidence};
+use crate::disjoint_sets::DisjointSets;
+use crate::mesh::{Mesh, NONE};
+use crate::threads::in_parallel;
+use glam::DVec3;
+
+/// Largest turn between two faces that counts as flat, radians: more than a file's six digits bend a facet.
+const FLAT: f64 = 1e-3;
+
+/// Largest curvature of the straight side, as a share of the rounding's.
+const STRAIGHT: f64 = 0.25;
+
+/// Largest difference between two curvatures of one rounding, as a share of the first.
+const ALIKE: f64 = 0.3;
+
+/// Where sections cross an edge, shares of its length: off the middle, from which they would run into corners. Two of three decide.
+const SECTIONS: [f64; 3] = [0.257, 0.493, 0.741];
+
+/// Chords that a section follows to each side.
+const CHORDS: usize = 3;
+
+/// Faces that a section crosses to each side.
+const LONGEST: usize = 64;
+
+/// Least number of joined tangent edges that are no accident of a scan.
+const LEAST_JOINED: usize = 3;
+
+/// One side of a section: the lengths of its chords, and the turn at the end of each, positive where the surface is convex.
+#[derive(Default)]
+struct Side {
+    lengths: [f64; CHORDS],
+    turns: [f64; CHORDS],
+    count: usize,
+}
+
+impl Side {
+    /// The curvature, if the first three chords have one.
+    fn curvature(&self) -> Option<f64> {
+        let between = |chord: usize| 2.0 * self.turns[chord] / (self.lengths[chord] + self.lengths[chord + 1]);
+        (self.count == CHORDS && (between(1) - between(0)).abs() <= ALIKE * between(0).abs()).then(|| between(0))
+    }
+}
+
+struct Sections<'a> {
+    mesh: &'a Mesh,
+    edges: &'a EdgeList,
+    normals: &'a [[f64; 3]],
+    crease_cosine: f64,
+    /// For each face the edges from its first corner to its second, from that to its third, and back.
+    of_faces: Vec<[u32; 3]>,
+}
+
+/// The tangent edges of a mesh, ascending.
+pub(super) fn tangents(
+    mesh: &Mesh,
+    edges: &EdgeList,
+    normals: &[[f64; 3]],
+    crease_cosine: f64,
+    threads: usize,
+) -> Vec<u32> {
+    let mut of_faces = vec![[NONE; 3]; mesh.triangles.len()];
+    for edge in 0..edges.len() as u32 {
+        for face in edges.faces(edge) {
+            let side = (0..3).find(|side| side_of(mesh, *face, *side) == edges.positions[edge as usize]);
+            side.into_iter().for_each(|side| of_faces[*face as usize][side] = edge);
+        }
+    }
+    let sections = Sections { mesh, edges, normals, crease_cosine, of_faces };
+    let found = in_parallel(edges.len(), threads, |range| {
+        range.filter(|edge| sections.is_tangent(*edge as u32)).map(|edge| edge as u32).collect::<Vec<_>>()
+    });
+    let mut found = found.concat();
+    let mut joined = DisjointSets::new(mesh.positions.len());
+    found.iter().for_each(|edge| joined.join(edges.positions[*edge as usize]));
+    let mut set_of = |edge: u32| joined.root(edges.positions[edge as usize][0]) as usize;
+    let mut counts = vec![0; mesh.positions.len()];
+    found.iter().for_each(|edge| counts[set_of(*edge)] += 1);
+    found.retain(|edge| counts[set_of(*edge)] >= LEAST_JOINED);
+    found
+}
+
+/// A side of a face as an edge: its positions, the lower number first.
+fn side_of(mesh: &Mesh, face: u32, side: usize) -> [u32; 2] {
+    let corners = mesh.triangles[face as usize];
+    let mut ends = [corners[side], corners[(side + 1) % 3]];
+    ends.sort_unstable();
+    ends
+}
+
+impl Sections<'_> {
+    fn is_tangent(&self, edge: u32) -> bool {
+        let [first, second] = match self.edges.incidence[edge as usize] {
+            Incidence::Inner | Incidence::InnerReversed => self.edges.faces[edge as usize],
+            _ => return false,
+        };
+        let Some((_, turn)) = self.crossing(edge, first, self.normal(first)) else { return false };
+        if turn.abs() < FLAT {
+            return false;
+        }
+        let [from, to] = self.ends(edge);
+        let separates = |share: &&f64| {
+            let start = from.lerp(to, **share);
+            let [Some(one), Some(other)] = [first, second].map(|face| self.side(edge, face, first, start)) else {
+                return false;
+            };
+            [[&one, &other], [&other, &one]].into_iter().any(|[straight, round]| {
+                round.curvature().is_some_and(|curvature| {
+                    let rest = (2.0 * turn - curvature * round.lengths[0]) / straight.lengths[0];
+                    rest.abs() <= STRAIGHT * curvature.abs()
+                })
+            })
+        };
+        SECTIONS.iter().filter(separates).count() * 2 > SECTIONS.len()
+    }
+
+    /// Follows the section that begins at an edge perpendicular to it into one of its faces. The front is that of the face `fronts`.
+    fn side(&self, edge: u32, face: u32, fronts: u32, start: DVec3) -> Option<Side> {
+        let (mut edge, mut face, mut point) = (edge, face, start);
+        let mut normal = self.normal(fronts);
+        if face != fronts {
+            normal = self.crossing(edge, fronts, normal)?.0;
+        }
+        let [from, to] = self.ends(edge);
+        let corner = self.mesh.triangles[face as usize].into_iter().find(|corner| !self.edges.positions[edge as usize].contains(corner))?;
+        let inwards = normal.cross(to - from).normalize();
+        let mut direction = if (self.position(corner) - from).dot(inwards) > 0.0 { inwards } else { -inwards };
+        let mut side = Side::default();
+        for _ in 0..LONGEST {
+            let (next, length) = self.exit(edge, face, normal, point, direction)?;
+            side.lengths[side.count] += length;
+            point += direction * length;
+            let crossed = self.crossing(next, face, normal);
+            if crossed.is_none_or(|(_, turn)| turn.abs() >= FLAT) {
+                side.turns[side.count] = crossed.map_or(0.0, |(_, turn)| turn);
+                side.count += 1;
+            }
+            let Some((beyond, _)) = crossed.filter(|_| side.count < CHORDS) else { break };
+            let [from, to] = self.ends(next);
+            let along = (to - from).normalize();
+            // The same direction in the next face's plane, which meets this one's along the edge.
+            let [here, there] = [normal.cross(along), beyond.cross(along)];
+            direction = along * direction.dot(along) + there * direction.dot(here);
+            face = self.other_face(next, face);
+            (edge, normal) = (next, beyond);
+        }
+        Some(side)
+    }
+
+    /// The edge at which a ray within a face leaves it, and the length until there.
+    fn exit(&self, entered: u32, face: u32, normal: DVec3, point: DVec3, direction: DVec3) -> Option<(u32, f64)> {
+        let leaves = |edge: &u32| {
+            let [from, to] = self.ends(*edge);
+            let outwards = normal.cross(to - from);
+            ((from - point).dot(outwards) / direction.dot(outwards), *edge)
+        };
+        let others = self.of_faces[face as usize].into_iter().filter(|edge| *edge != entered && *edge != NONE);
+        let sides = others.map(|edge| leaves(&edge)).filter(|(length, _)| *length >= 0.0);
+        sides.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(length, edge)| (edge, length))
+    }
+
+    /// The normal beyond an edge of a face whose normal is `normal`, on the same side of the surface, and the turn there: positive where
+    /// the surface is convex. `None` where the surface ends, or at a crease.
+    fn crossing(&self, edge: u32, face: u32, normal: DVec3) -> Option<(DVec3, f64)> {
+        if !matches!(self.edges.incidence[edge as usize], Incidence::Inner | Incidence::InnerReversed) {
+            return None;
+        }
+        let own = self.normal(face);
+        let beyond = self.normal(self.other_face(edge, face));
+        let is_turned = (own.dot(normal) < 0.0) != (self.edges.incidence[edge as usize] == Incidence::InnerReversed);
+        let beyond = if is_turned { -beyond } else { beyond };
+        let cosine = normal.dot(beyond);
+        let [from, to] = self.ends(edge);
+        let along = (to - from).normalize();
+        let away = self.mesh.triangles[face as usize].into_iter().find(|corner| !self.edges.positions[edge as usize].contains(corner))?;
+        // Outwards of the face, in its plane.
+        let outwards = normal.cross(along);
+        let outwards = if (self.position(away) - from).dot(outwards) > 0.0 { -outwards } else { outwards };
+        (cosine >= self.crease_cosine).then(|| (beyond, beyond.dot(outwards).atan2(cosine)))
+    }
+
+    fn other_face(&self, edge: u32, face: u32) -> u32 {
+        let [first, second] = self.edges.faces[edge as usize];
+        if first == face { second } else { first }
+    }
+
+    fn normal(&self, face: u32) -> DVec3 {
+        DVec3::from_array(self.normals[face as usize])
+    }
+
+    fn position(&self, number: u32) -> DVec3 {
+        self.mesh.positions[number as usize]
+    }
+
+    fn ends(&self, edge: u32) -> [DVec3; 2] {
+        self.edges.positions[edge as usize].map(|number| self.position(number))
+    }
+}
