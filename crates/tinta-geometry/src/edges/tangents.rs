@@ -17,20 +17,20 @@ const FLAT: f64 = 1e-3;
 /// Largest curvature of the straight side, as a share of the rounding's.
 const STRAIGHT: f64 = 0.25;
 
-/// Largest difference between two curvatures of one rounding, as a share of the first.
-const ALIKE: f64 = 0.3;
+/// Largest difference between two curvatures of one rounding, as a share of the larger.
+const ALIKE: f64 = 0.5;
 
-/// Where sections cross an edge, shares of its length: off the middle, from which they would run into corners. Two of three decide.
+/// Where sections cross an edge, shares of its length: off the middle, from which they would run into corners.
 const SECTIONS: [f64; 3] = [0.257, 0.493, 0.741];
 
+/// Sections that must agree on an edge. Of edges that join, all must agree on one, or they are an accident of a scan.
+const DECIDING: usize = 2;
+
 /// Chords that a section follows to each side.
-const CHORDS: usize = 3;
+const CHORDS: usize = 4;
 
 /// Faces that a section crosses to each side.
 const LONGEST: usize = 64;
-
-/// Least number of joined tangent edges that are no accident of a scan.
-const LEAST_JOINED: usize = 3;
 
 /// One side of a section: the lengths of its chords, and the turn at the end of each, positive where the surface is convex.
 #[derive(Default)]
@@ -41,10 +41,20 @@ struct Side {
 }
 
 impl Side {
-    /// The curvature, if the first three chords have one.
+    /// The curvature, if all chords have one. Two turns together make up for a rounding whose facets are not alike.
     fn curvature(&self) -> Option<f64> {
-        let between = |chord: usize| 2.0 * self.turns[chord] / (self.lengths[chord] + self.lengths[chord + 1]);
-        (self.count == CHORDS && (between(1) - between(0)).abs() <= ALIKE * between(0).abs()).then(|| between(0))
+        let of = |first: usize| {
+            let [one, middle, other] = [0, 1, 2].map(|chord| self.lengths[first + chord]);
+            (self.turns[first] + self.turns[first + 1]) / (middle + 0.5 * (one + other))
+        };
+        let [near, far] = [of(0), of(1)];
+        (self.count == CHORDS && (far - near).abs() <= ALIKE * near.abs().max(far.abs())).then_some(near)
+    }
+
+    /// The turn at the end of the first chord that the second chord's curvature does not explain, twice. 0 where the surface ends before.
+    fn rest_beyond(&self) -> f64 {
+        let [_, second, third, _] = self.lengths;
+        if self.count < 3 { 0.0 } else { 2.0 * self.turns[0] - 2.0 * self.turns[1] / (second + third) * second }
     }
 }
 
@@ -74,16 +84,16 @@ pub(super) fn tangents(
     }
     let sections = Sections { mesh, edges, normals, crease_cosine, of_faces };
     let found = in_parallel(edges.len(), threads, |range| {
-        range.filter(|edge| sections.is_tangent(*edge as u32)).map(|edge| edge as u32).collect::<Vec<_>>()
+        let agreeing = range.map(|edge| (edge as u32, sections.agreeing(edge as u32)));
+        agreeing.filter(|(_, count)| *count >= DECIDING).collect::<Vec<_>>()
     });
-    let mut found = found.concat();
+    let found = found.concat();
     let mut joined = DisjointSets::new(mesh.positions.len());
-    found.iter().for_each(|edge| joined.join(edges.positions[*edge as usize]));
+    found.iter().for_each(|(edge, _)| joined.join(edges.positions[*edge as usize]));
     let mut set_of = |edge: u32| joined.root(edges.positions[edge as usize][0]) as usize;
-    let mut counts = vec![0; mesh.positions.len()];
-    found.iter().for_each(|edge| counts[set_of(*edge)] += 1);
-    found.retain(|edge| counts[set_of(*edge)] >= LEAST_JOINED);
-    found
+    let mut is_sure = vec![false; mesh.positions.len()];
+    found.iter().for_each(|(edge, count)| is_sure[set_of(*edge)] |= *count == SECTIONS.len());
+    found.into_iter().map(|(edge, _)| edge).filter(|edge| is_sure[set_of(*edge)]).collect()
 }
 
 /// A side of a face as an edge: its positions, the lower number first.
@@ -95,14 +105,15 @@ fn side_of(mesh: &Mesh, face: u32, side: usize) -> [u32; 2] {
 }
 
 impl Sections<'_> {
-    fn is_tangent(&self, edge: u32) -> bool {
+    /// At how many sections an edge separates a rounding from what is straight.
+    fn agreeing(&self, edge: u32) -> usize {
         let [first, second] = match self.edges.incidence[edge as usize] {
             Incidence::Inner | Incidence::InnerReversed => self.edges.faces[edge as usize],
-            _ => return false,
+            _ => return 0,
         };
-        let Some((_, turn)) = self.crossing(edge, first, self.normal(first)) else { return false };
+        let Some((_, turn)) = self.crossing(edge, first, self.normal(first)) else { return 0 };
         if turn.abs() < FLAT {
-            return false;
+            return 0;
         }
         let [from, to] = self.ends(edge);
         let separates = |share: &&f64| {
@@ -112,12 +123,14 @@ impl Sections<'_> {
             };
             [[&one, &other], [&other, &one]].into_iter().any(|[straight, round]| {
                 round.curvature().is_some_and(|curvature| {
-                    let rest = (2.0 * turn - curvature * round.lengths[0]) / straight.lengths[0];
-                    rest.abs() <= STRAIGHT * curvature.abs()
+                    let rest = 2.0 * turn - curvature * round.lengths[0];
+                    [rest, straight.rest_beyond()]
+                        .iter()
+                        .all(|rest| rest.abs() <= STRAIGHT * (curvature * straight.lengths[0]).abs())
                 })
             })
         };
-        SECTIONS.iter().filter(separates).count() * 2 > SECTIONS.len()
+        SECTIONS.iter().filter(separates).count()
     }
 
     /// Follows the section that begins at an edge perpendicular to it into one of its faces. The front is that of the face `fronts`.
@@ -128,7 +141,9 @@ impl Sections<'_> {
             normal = self.crossing(edge, fronts, normal)?.0;
         }
         let [from, to] = self.ends(edge);
-        let corner = self.mesh.triangles[face as usize].into_iter().find(|corner| !self.edges.positions[edge as usize].contains(corner))?;
+        let corner = self.mesh.triangles[face as usize]
+            .into_iter()
+            .find(|corner| !self.edges.positions[edge as usize].contains(corner))?;
         let inwards = normal.cross(to - from).normalize();
         let mut direction = if (self.position(corner) - from).dot(inwards) > 0.0 { inwards } else { -inwards };
         let mut side = Side::default();
@@ -178,7 +193,9 @@ impl Sections<'_> {
         let cosine = normal.dot(beyond);
         let [from, to] = self.ends(edge);
         let along = (to - from).normalize();
-        let away = self.mesh.triangles[face as usize].into_iter().find(|corner| !self.edges.positions[edge as usize].contains(corner))?;
+        let away = self.mesh.triangles[face as usize]
+            .into_iter()
+            .find(|corner| !self.edges.positions[edge as usize].contains(corner))?;
         // Outwards of the face, in its plane.
         let outwards = normal.cross(along);
         let outwards = if (self.position(away) - from).dot(outwards) > 0.0 { -outwards } else { outwards };

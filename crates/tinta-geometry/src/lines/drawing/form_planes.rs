@@ -62,7 +62,13 @@ impl FormPlanes {
         let length = |edge: DVec3, normal: DVec3| {
             // Of equal sides those of neighbouring faces of a block differ.
             let normal = normal.abs();
-            let other = if normal.y >= normal.max_element() { DVec3::X } else if normal.z >= normal.x { DVec3::Y } else { DVec3::Z };
+            let other = if normal.y >= normal.max_element() {
+                DVec3::X
+            } else if normal.z >= normal.x {
+                DVec3::Y
+            } else {
+                DVec3::Z
+            };
             edge.length() * (1.0 + 0.01 * edge.normalize_or_zero().dot(other).abs())
         };
         for edge in 0..edges.len() as u32 {
@@ -117,7 +123,8 @@ impl Piece {
             (DVec3::Z, self.squares.z),
             (self.turning, if self.turning == DVec3::ZERO { f64::INFINITY } else { self.along_turning }),
         ];
-        let axis = axes.into_iter().min_by(|(_, one), (_, other)| one.total_cmp(other)).map_or(DVec3::Y, |(axis, _)| axis);
+        let axis =
+            axes.into_iter().min_by(|(_, one), (_, other)| one.total_cmp(other)).map_or(DVec3::Y, |(axis, _)| axis);
         let side = if axis.x.abs() < 0.7 { DVec3::X } else { DVec3::Z };
         [axis, (side - axis * axis.dot(side)).normalize_or(DVec3::X)]
     }

@@ -51,9 +51,8 @@ pub(super) fn form_strokes(
     for region in &regions.regions {
         let Some((seen, tone)) = region.seen else { continue };
         let object = &scene.objects[seen.object as usize];
-        let planes = planes
-            .entry(seen.object)
-            .or_insert_with(|| FormPlanes::of(&object.mesh, scene.edges(object).list()));
+        let planes =
+            planes.entry(seen.object).or_insert_with(|| FormPlanes::of(&object.mesh, scene.edges(object).list()));
         let number = planes.of_faces[seen.face as usize];
         let normal = planes.normals[number as usize] / distance;
         let Some(corners) = object.mesh.corners(&object.mesh.triangles[seen.face as usize]) else { continue };
@@ -141,7 +140,9 @@ impl SeenPlane<'_> {
         cuts.sort_unstable_by_key(|(row, _)| *row);
         let mut strokes = Vec::with_capacity(cuts.len() / 2);
         for of_row in cuts.chunk_by_mut(|one, other| one.0 == other.0) {
-            let (low, high) = of_row.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), (_, px)| (low.min(*px), high.max(*px)));
+            let (low, high) = of_row
+                .iter()
+                .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), (_, px)| (low.min(*px), high.max(*px)));
             let is_wide = high.x - low.x >= high.y - low.y;
             let along = |px: DVec2| if is_wide { px.x } else { px.y };
             of_row.sort_unstable_by(|(_, one), (_, other)| along(*one).total_cmp(&along(*other)));

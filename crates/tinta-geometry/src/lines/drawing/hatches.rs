@@ -47,7 +47,8 @@ pub fn hatches(
         spacing => spacing.px(units).unwrap_or_default(),
     };
     let too_many = |count: String| {
-        let problem = format!("this makes {count} strokes, and a drawing has at most {HATCH_STROKES}; choose a wider spacing");
+        let problem =
+            format!("this makes {count} strokes, and a drawing has at most {HATCH_STROKES}; choose a wider spacing");
         Error::value("hatch", spacing, problem)
     };
     let least_px = |tone: u8| settings.min_length_px(Layer::Hatch(tone), units);
@@ -58,7 +59,10 @@ pub fn hatches(
         let faces = Regions::labelled_tones(scene, rule, |seen, tone| (seen, tone), progress)?;
         let tone = brightest - 1;
         let strokes = form_strokes(scene, &faces, brightest, [spacing_px, least_px(tone)]);
-        return Ok(vec![Hatch { tone, strokes: strokes.ok_or_else(|| too_many(format!("more than {HATCH_STROKES}")))? }]);
+        return Ok(vec![Hatch {
+            tone,
+            strokes: strokes.ok_or_else(|| too_many(format!("more than {HATCH_STROKES}")))?,
+        }]);
     };
     let anchor_px = anchor_px(scene);
     let of_tone = |tone: u8| {

@@ -388,7 +388,8 @@ fn strokes_along_the_form_lie_in_their_tones_in_every_family() {
             for px in samples(&strokes, 8.0).step_by(1 + strokes.len() / 100) {
                 let mut loops = dark.regions.iter().flat_map(|region| &region.loops);
                 samples_seen += 1;
-                if !has_tone(&scene, &rule, px, brightest(&rule) - 1) && !loops.any(|it| distance(it, px) < NEAR_BORDER_PX)
+                if !has_tone(&scene, &rule, px, brightest(&rule) - 1)
+                    && !loops.any(|it| distance(it, px) < NEAR_BORDER_PX)
                 {
                     wrong += 1;
                     println!("{name}, seed {seed}: {px}");
@@ -425,7 +426,8 @@ fn a_view_turned_by_a_degree_moves_strokes_along_the_form_with_the_surface() {
         let ray = DVec3::new((px.x - half.x) / focal, (half.y - px.y) / focal, -1.0);
         let across = (b - a).cross(c - a);
         let point = ray * (across.dot(a) / across.dot(ray));
-        let moved = image(&turned, turned.camera.view_from_world().transform_point3(to_view.inverse().transform_point3(point)));
+        let moved =
+            image(&turned, turned.camera.view_from_world().transform_point3(to_view.inverse().transform_point3(point)));
         all += 1;
         stayed += usize::from(distance_to(&others, moved) < 0.3);
     }
@@ -448,7 +450,9 @@ fn each_face_of_a_block_has_strokes_of_its_own_direction_at_the_distance_asked_f
         }
     }
     assert!(directions.len() >= 2, "{directions:?}");
-    let front = Scene::new([block], &SceneSettings { camera: view("front", false), size: SIZE, ..SceneSettings::default() }).unwrap();
+    let front =
+        Scene::new([block], &SceneSettings { camera: view("front", false), size: SIZE, ..SceneSettings::default() })
+            .unwrap();
     let mut rows: Vec<f64> = formed(&front, &rule, 8.0).iter().map(|stroke| stroke[0].y).collect();
     rows.sort_unstable_by(f64::total_cmp);
     let gaps: Vec<f64> = rows.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > 0.5).collect();
