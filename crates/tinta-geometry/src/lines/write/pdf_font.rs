@@ -1,7 +1,7 @@
 //! The font of a PDF's labels: the letters of DejaVu Sans that they use, embedded.
 //!
 //! Input: texts. Output: their glyphs as numbers of two bytes, their widths, and the font's objects: a CID font with the
-//! encoding Identity-H (ISO 32000-1, 9.7) and a map from glyphs to letters, by which readers search and copy texts.
+//! encoding Identity-H (ISO 32000-1, 9.7), and a map from glyphs to letters. Readers search and copy texts by it.
 
 use crate::error::{Error, Result};
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
@@ -22,7 +22,7 @@ const STEM: f32 = 90.0;
 pub(super) struct LabelFont {
     face: Face<'static>,
     glyphs: GlyphRemapper,
-    /// The letter of each glyph from number 1 on, and its width in thousandths of an em.
+    /// The letter of each glyph but number 0, and its width in thousandths of an em.
     letters: Vec<(char, f32)>,
 }
 
