@@ -85,7 +85,7 @@ def lines(
         Points, drawn as dots of class ``"point"``.
     labels : sequence of str, optional
         A text for each point, None for a point without one. It stands beside the point where the point is drawn, in SVG and
-        PDF; a PDF has western letters only.
+        PDF.
     camera : optional
         A view's name (``"iso"``, ``"front"``, ``"top"`` …) or ``(azimuth, elevation)`` in degrees; a dict of the settings under
         Camera, such as ``{"eye": (3, 2, 5), "target": (0, 0, 0), "fov": 30}``; ``plotter.camera`` of PyVista; a `trimesh.Scene`;

@@ -364,7 +364,8 @@ def _key(bar, box, letter):
     many = bar.GetNumberOfLabels()
     numbers = value(np.linspace(low, high, many) if many > 1 and low < high else np.full(min(many, 1), low))
     labels = annotated or [(number, _number(bar.GetLabelFormat(), number)) for number in numbers]
-    longest = 0.6 * letter * max((len(label) for _, label in labels), default=0)
+    # A digit of DejaVu Sans is 0.64 letters wide.
+    longest = 0.64 * letter * max((len(label) for _, label in labels), default=0)
     if is_upright:
         thickness = max(letter, 0.375 * width)
         # Numbers that would be cut off at the picture's end move it.
@@ -432,7 +433,7 @@ def _key_of_legend(legend, box, letter):
     left, top, right, bottom = box
     (x, y), (_, height) = legend.GetPosition(), legend.GetPosition2()
     entries = [(legend.GetEntryString(number), legend.GetEntryColor(number)) for number in range(legend.GetNumberOfEntries())]
-    longest = 0.6 * letter * max((len(text) for text, _ in entries), default=0)
+    longest = 0.64 * letter * max((len(text) for text, _ in entries), default=0)
     # A text that would be cut off at the picture's end moves it.
     x = min(left + x * (right - left), right - 2 * letter - longest)
     y = bottom - (y + height) * (bottom - top)

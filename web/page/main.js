@@ -43,7 +43,7 @@ let rest;
 let idle;
 let addressed;
 let listed;
-/** What each canvas shows, and the milliseconds of its last fine picture. */
+/** What each canvas shows, of which kind, the milliseconds of its last fine picture, whether it was the first of its kind, and its cost. */
 const drawn = { left: {}, right: {} };
 
 /** Everything that both pictures are drawn with but their styles, and a scale of their size. */
@@ -83,7 +83,10 @@ function drawSide(name) {
   const isCoarse = moving && drawn[name].ms > SLOW;
   const wanted = JSON.stringify(sideOptions(side, isCoarse ? 0.5 : 1));
   const key = [wanted, side.show, pane.orbit(), shown.asked.key, JSON.stringify(state.shaders)].join(" ");
-  if (drawn[name].key === key) return undefined;
+  if (drawn[name].key === key) {
+    costLine(name).textContent ||= drawn[name].cost;
+    return undefined;
+  }
   const clear = () => canvas.getContext("2d").clearRect(0, 0, canvas.width, canvas.height);
   drawn[name].key = undefined;
   overlay.hidden = true;
@@ -92,6 +95,9 @@ function drawSide(name) {
     cost(name, "lines: found when the view rests");
     return undefined;
   }
+  // The first picture of a kind also compiles shaders and uploads the model.
+  const kind = JSON.stringify([side, shown.asked.key, state.shaders]);
+  const isFirst = drawn[name].kind !== kind;
   const start = performance.now();
   try {
     const width = pane.draw(wanted, side.show, isCoarse && !Object.keys(state.shaders).length);
@@ -101,9 +107,9 @@ function drawSide(name) {
     }
     canvas.getContext("2d").putImageData(picture, 0, 0);
     const ms = performance.now() - start;
-    drawn[name].key = key;
-    if (!isCoarse) drawn[name].ms = ms;
-    cost(name, `${side.style}: ${ms.toFixed(1)} ms a picture${isCoarse ? ", coarse while it moves" : ""}`);
+    Object.assign(drawn[name], { key, kind }, isCoarse ? {} : { ms, isFirst });
+    if (isFirst) cost(name, `${side.style}: timed when the view rests`);
+    else cost(name, `${side.style}: ${ms.toFixed(1)} ms a picture${isCoarse ? ", coarse while it moves" : ""}`);
     return undefined;
   } catch (problem) {
     // The old picture shows neither this style nor, soon, this view.
@@ -113,7 +119,8 @@ function drawSide(name) {
   }
 }
 
-const cost = (name, text) => (at(`${name}-side`).querySelector(".cost").textContent = text);
+const costLine = (name) => at(`${name}-side`).querySelector(".cost");
+const cost = (name, text) => (costLine(name).textContent = drawn[name].cost = text);
 
 /** Places the divider, and the pictures left and right of it. */
 function place() {
@@ -130,8 +137,12 @@ function seen(side) {
   return JSON.stringify({ ...scene, ...(pane ? JSON.parse(pane.camera(JSON.stringify(scene))) : {}) });
 }
 
-/** Once nothing has changed for a while: the lines of a side of lines, the error of the others against them. */
+/** Once nothing has changed for a while: times still missing, the lines of a side of lines, the error of the others against them. */
 async function measure() {
+  for (const name of visible().filter((name) => drawn[name].isFirst && drawn[name].key)) {
+    drawn[name].key = undefined;
+    lasts("drawing", drawSide(name));
+  }
   for (const name of visible()) {
     const side = state.sides[name];
     try {
@@ -143,11 +154,10 @@ async function measure() {
       }
       const ink = pane.ink(JSON.stringify(sideOptions(side)));
       if (!ink) continue;
-      const line = at(`${name}-side`).querySelector(".cost");
-      const before = line.textContent.replace(/; line error .*/, "");
-      line.textContent = `${before}; looking for the exact lines …`;
+      const add = (text) => (costLine(name).textContent = `${drawn[name].cost}; ${text}`);
+      add("looking for the exact lines …");
       const f1 = await lines.ask("error", shown.asked, seen(), ink);
-      line.textContent = `${before}; line error ${(1 - f1).toFixed(3)} (1 − F1 against the exact lines)`;
+      add(`line error ${(1 - f1).toFixed(3)} (1 − F1 against the exact lines)`);
     } catch (problem) {
       say(sentence(problem));
     }
@@ -219,6 +229,7 @@ function changed(change) {
     lecture.refresh();
   }
   listed = styles;
+  controls.looks();
 }
 
 /** As `changed`, by a hand that is not done: what draws slowly is coarse meanwhile. */
@@ -241,13 +252,17 @@ const link = () => `${location.pathname}${location.search}#${linkOf(state, publi
 
 /** Shows the state of a link. */
 function follow(words) {
-  state = ofLink(words, tables, published);
+  const unknown = [];
+  state = ofLink(words, tables, published, unknown);
   if (state.orbit) pane?.setOrbit(state.orbit);
   shaders.draw();
   controls.all();
   lecture.show();
   open(modelOf());
   changed(() => {});
+  if (state.lecture && !at("lecture").value) unknown.push(`lecture=${state.lecture}`);
+  // The link of a page in one file is the program's own.
+  if (unknown.length && location.hash) say(`${at("status").textContent} The link has ${unknown.join(", ")}, unknown to this page.`);
 }
 
 /** What the other parts of the page may use and change. */

@@ -55,6 +55,14 @@ export function shaderEditor(app) {
     at("transcribed").replaceChildren(...column(1));
     at("text").value = pieces.map(([original]) => original).join("");
     at("shader-problem").textContent = "";
+    number();
+  }
+
+  /** Numbers the lines of the editor, as mistakes name them. */
+  function number() {
+    const { value, scrollTop } = at("text");
+    at("numbers").textContent = value.split("\n").map((_, line) => line + 1).join("\n");
+    at("numbers").scrollTop = scrollTop;
   }
 
   /** Draws with the shaders of the state. */
@@ -121,6 +129,7 @@ export function shaderEditor(app) {
   });
   at("apply").addEventListener("click", () => use(at("text").value));
   at("published").addEventListener("click", () => use(null));
+  for (const event of ["input", "scroll"]) at("text").addEventListener(event, number);
   at("text").addEventListener("keydown", (event) => {
     if (event.key === "Enter" && (event.ctrlKey || event.metaKey || event.altKey)) use(at("text").value);
   });

@@ -2,6 +2,7 @@
 
 import { look as lookOf, refusal } from "./tinta.js";
 import { lasts, say, sentence } from "./failures.js";
+import { looks as looksOf } from "./looks.js";
 import { element, panel } from "./panel.js";
 import { styleOf } from "./state.js";
 
@@ -10,6 +11,7 @@ const at = (id) => document.getElementById(id);
 /** Controls for the app; `save` is what the button of a side calls. */
 export function sides(app) {
   const { tables, changed } = app;
+  const used = looksOf(tables);
 
   /** A field of names for a side. */
   const choose = (name, label, names, value, change) => {
@@ -39,7 +41,7 @@ export function sides(app) {
     const table = styleOf(tables, side);
     const style = choose(name, "Style", tables.styles.map((style) => ({ text: style.name })), side.style, (text) => chooseStyle(name, text));
     const looks = [{ text: "" }, ...tables.looks.map((look) => ({ text: look.name, title: look.about }))];
-    const look = choose(name, "Look", looks, "", (text) => text && chooseLook(name, text));
+    const look = choose(name, "Look", looks, used(app.state(), side), (text) => text && chooseLook(name, text));
     const change = (setting, text) => {
       const problem = text === null ? undefined : refusal(side.style, setting, text);
       if (!problem) changed(() => (text === null ? delete side.settings[setting] : (side.settings[setting] = text)));
@@ -103,7 +105,6 @@ export function sides(app) {
       if (view) app.pane()?.look(view);
       if (JSON.stringify(state.read) !== before) app.reread();
       all();
-      at(`${name}-Look`).value = text;
       changed(() => {});
     } catch (problem) {
       say(sentence(problem));
@@ -123,5 +124,10 @@ export function sides(app) {
     shared();
   }
 
-  return { one, all, chooseStyle };
+  /** Shows which looks are in use. */
+  function looks() {
+    for (const name of ["left", "right"]) at(`${name}-Look`).value = used(app.state(), app.state().sides[name]);
+  }
+
+  return { one, all, looks, chooseStyle };
 }

@@ -31,26 +31,30 @@ export function linkOf(state, published) {
   return words.toString();
 }
 
-/** The state in a link; missing parts have their initial values, and invalid parts are ignored. */
-export function ofLink(link, tables, published) {
+/** The state in a link; missing parts have their initial values, and `unknown` receives the parts that mean nothing here. */
+export function ofLink(link, tables, published, unknown = []) {
   const state = first();
   const words = new URLSearchParams(link.replace(/^#/, ""));
   if (words.size && !words.has("model")) state.model = "";
+  const has = (table, setting) => table.some(({ name }) => name === setting);
   for (const [key, value] of words) {
     const [place, setting] = key.split(":");
     const side = state.sides[place.split(".")[0]];
-    if (key === "model" && tables.models.some((model) => model.name === value)) state.model = value;
+    if (key === "model" && has(tables.models, value)) state.model = value;
     else if (key === "divider") state.divider = Math.min(100, Math.max(0, Number(value) || 0));
     else if (key === "orbit") state.orbit = value;
     else if (key === "lecture") state.lecture = value;
     else if (place === "shader" && published(setting)) state.shaders[setting] = changed(published(setting), value);
-    else if (["scene", "read"].includes(place) && setting) state[place][setting] = value;
-    else if (side && setting) side.settings[setting] = value;
+    else if (["scene", "read"].includes(place) && has(tables[place], setting)) state[place][setting] = value;
+    else if (side && tables.styles.some(({ settings }) => has(settings, setting))) side.settings[setting] = value;
     else if (side && key === place && place.endsWith(".show")) side.show = value;
-    else if (side && tables.styles.some((style) => style.name === value)) side.style = value;
+    else if (side && key === place && has(tables.styles, value)) side.style = value;
+    else unknown.push(`${key}=${value}`);
   }
-  for (const side of Object.values(state.sides)) {
-    if (!styleOf(tables, side).shows.includes(side.show)) side.show = "final";
+  for (const [name, side] of Object.entries(state.sides)) {
+    if (styleOf(tables, side).shows.includes(side.show)) continue;
+    unknown.push(`${name}.show=${side.show}`);
+    side.show = "final";
   }
   return state;
 }

@@ -13,8 +13,8 @@ use tinta::recipe::Driver;
 use tinta::renderer::Renderer;
 use tinta::request::{LINES_AT_ONCE_MS, Request};
 use tinta::settings::{HasSettings, Options};
-use tinta::styles::coarse;
-use tinta::{Picture, Scene, SceneSettings, StyleName, View};
+use tinta::styles::{Show, coarse};
+use tinta::{Picture, Scene, SceneSettings, Style, StyleName, View};
 use tinta_lab::measure::Ink;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -143,7 +143,7 @@ impl Pane {
     }
 
     /// Why a pixel of the drawing, right and down from its upper left corner, has its colour: each pass with each statement of its
-    /// shaders and its value.
+    /// shaders and its value. A supersampled pixel has several colours, so the picture is drawn once for it.
     ///
     /// # Errors
     ///
@@ -151,8 +151,13 @@ impl Pane {
     pub fn why(&mut self, options: &str, x: f64, y: f64) -> Result<String, JsError> {
         let request = asked(StyleName::ThreePass, options)?;
         let scene = self.seen(&request)?;
-        let why = Explanation::of(&request.style, &scene, &mut self.renderer, DVec2::new(x, y)).map_err(said)?;
-        Ok(why.to_string())
+        let mut style = request.style;
+        let is_supersampled = style.plan(&scene, Show::Final).map_err(said)?.supersample > 1;
+        if is_supersampled && let Some(setting) = Style::table().find(&style, "supersample") {
+            setting.set(&mut style, "1").map_err(said)?;
+        }
+        let why = Explanation::of(&style, &scene, &mut self.renderer, DVec2::new(x, y)).map_err(said)?;
+        Ok(format!("{}{why}", if is_supersampled { "As drawn once, without “Supersample”:\n" } else { "" }))
     }
 
     /// From where the scene is seen, as [`Pane::set_orbit`] takes it.

@@ -52,9 +52,9 @@ export async function testPage(tables) {
   };
 
   /** A place of the left side where the model is drawn: the middle of those whose colour is not the corner's. */
-  const covered = () => {
-    const { width, height } = at("left");
-    const colors = new Uint32Array(picture(at("left")).buffer);
+  const covered = (canvas = at("left")) => {
+    const { width, height } = canvas;
+    const colors = new Uint32Array(picture(canvas).buffer);
     const drawn = [...colors.keys()].filter((place) => place % width < width * 0.45 && colors[place] !== colors[0]);
     const place = drawn[drawn.length >> 1];
     return [((place % width) + 0.5) / width, (Math.floor(place / width) + 0.5) / height];
@@ -74,6 +74,28 @@ export async function testPage(tables) {
     await key("ArrowRight");
     assert(at("why").hidden && at("asked").hidden, "what was said of another picture goes");
     await key("r");
+    assert(at("why").ariaLive === "polite", "a screen reader reads it");
+  });
+
+  await test("a pixel of a supersampled picture is explained as drawn once", async () => {
+    await change(at("left-side").querySelector('[name="supersample"]'), "2");
+    await pointer("pointerdown", ...covered(), { altKey: true });
+    const said = at("why").querySelector("pre").textContent;
+    assert(said.startsWith("As drawn once, without “Supersample”:") && /leaves [0-9]/.test(said), said);
+    await change(at("left-side").querySelector('[name="supersample"]'), "1");
+  });
+
+  await test("a style is timed after its first picture, and its label holds one error", async () => {
+    const cost = (name) => at(`${name}-side`).querySelector(".cost").textContent;
+    await until(() => /^inking: [0-9.]+ ms a picture; line error [0-9.]+ /.test(cost("right")), "time and error");
+    await change(at("left-Style"), "lines");
+    await until(() => cost("left") === "lines: exact", "the lines");
+    await change(at("left-Style"), "phong");
+    assert(cost("left") === "phong: timed when the view rests", cost("left"));
+    await until(() => /^phong: [0-9.]+ ms a picture$/.test(cost("left")), "the time of the second picture");
+    await until(() => /^inking: [0-9.]+ ms a picture; line error [^;]+$/.test(cost("right")), `one error: ${cost("right")}`);
+    await change(at("left-Style"), "three-pass");
+    return cost("right");
   });
 
   await test("the page shows both styles at once", () => {
@@ -184,6 +206,11 @@ export async function testPage(tables) {
     at("listings").open = true;
     await change(at("shader"), "evangelista/border.frag");
     at("edit").click();
+    const [numbers, text] = [at("numbers"), at("text")];
+    assert(numbers.textContent.split("\n").at(-1) === String(text.value.split("\n").length), "every line has its number");
+    text.scrollTop = 60;
+    await until(() => numbers.scrollTop === text.scrollTop && text.scrollTop > 0, "numbers that scroll with the text");
+    assert(Math.abs(numbers.scrollHeight - text.scrollHeight) < 20, `${numbers.scrollHeight} and ${text.scrollHeight} px`);
     at("text").value = at("text").value.replace("DETECTION_FACTOR 0.2f", "DETECTION_FACTOR 2.0f");
     at("apply").click();
     await settled();
@@ -211,6 +238,7 @@ export async function testPage(tables) {
     await change(at("model"), "bust");
     await change(at("left-Look"), "charcoal");
     assert(at("left-Style").value === "charcoal", at("left-Style").value);
+    assert(at("left-Look").value === "charcoal", `in use: ${at("left-Look").value}`);
     assert(at("problem").hidden, at("problem").textContent);
     const looked = picture(at("left"));
     await change(at("left-Look"), "published");
@@ -228,6 +256,8 @@ export async function testPage(tables) {
     }
     await change(at("left-Look"), "print");
     assert(page.tinta.state().read.normals === "lasting", "a look sets how models are read");
+    await change(at("left-side").querySelector('[name="tones"]'), "2");
+    assert(at("left-Look").value === "", `another number of tones is no look: ${at("left-Look").value}`);
     await change(at("left-Look"), "published");
     assert(!page.tinta.state().read.normals, "another look takes it back");
   });
@@ -243,7 +273,16 @@ export async function testPage(tables) {
       assert(differing(picture(at(name)), picture(again.at(name)), 0) === 0, `${name} is the same`);
     }
     assert(again.at("model").value === "gear");
+    assert(!again.at("status").textContent.includes("unknown"), again.at("status").textContent);
     again.close();
+  });
+
+  await test("a link says what it has that the page does not know", async () => {
+    const wrong = await opened(900, 700, "#model=zzz&left=foo&left:bla=3&right.show=bar&scene:x=1&lecture=nobody&right=phong");
+    const said = wrong.at("status").textContent;
+    assert(/has model=zzz, left=foo, left:bla=3, scene:x=1, right.show=bar, lecture=nobody, unknown/.test(said), said);
+    assert(wrong.at("right-Style").value === "phong", "the rest is followed");
+    wrong.close();
   });
 
   const drop = async (files) => {
@@ -297,7 +336,7 @@ export async function testPage(tables) {
     await until(() => saved, "the file");
     const text = await saved.text();
     const size = text.match(/width="(\d+)" height="(\d+)"/).slice(1).join("x");
-    const expected = new TextDecoder().decode(await drawn("builtin:gear", "--size", size, "drawn.svg"));
+    const expected = new TextDecoder().decode(await drawn("builtin:gear", "--style", "lines", "--size", size, "drawn.svg"));
     assert(text === expected, `${text.length} and ${expected.length} letters`);
     saved = undefined;
     at("left-save").click();
@@ -400,6 +439,18 @@ export async function testPage(tables) {
     assert(lesson.at("lecture").options.length === 2, "it has its lecture alone");
     await until(() => lesson.at("text-of-lecture").querySelector("h2"), "the text");
     const look = await made("models/pawn.obj", "--tones", "2");
+    assert(look.at("left-Look").value === "", `print has three tones: ${look.at("left-Look").value}`);
+    const print = await made("builtin:bust");
+    assert(print.at("left-Look").value === "print", `the look in use: ${print.at("left-Look").value}`);
+    assert(!/unknown/.test(print.at("status").textContent), print.at("status").textContent);
+    print.at("ask").click();
+    const stage = print.at("stage").getBoundingClientRect();
+    const [right, down] = covered(print.at("left"));
+    const place = { clientX: stage.left + right * stage.width, clientY: stage.top + down * stage.height };
+    print.at("stage").dispatchEvent(new print.page.PointerEvent("pointerdown", { pointerId: 1, bubbles: true, ...place }));
+    const why = print.at("why").querySelector("pre").textContent;
+    assert(/leaves [0-9]/.test(why), why);
+    print.close();
     assert(look.at("left-Style").value === "ink" && look.page.tinta.state().sides.left.settings.tones === "2", "the look print, with two tones");
     assert(look.at("lecture").parentElement.hidden, "and no lecture");
     await until(() => look.at("left-side").querySelector(".cost").textContent.includes("line error"), "its worker");
@@ -412,7 +463,7 @@ export async function testPage(tables) {
 
   await test("a side that the divider covers is not drawn, and a model opens in frame", async () => {
     const one = await opened(900, 700, "#model=bust&divider=100&left=phong&right=ink");
-    assert(/ms a picture/.test(one.at("left-side").querySelector(".cost").textContent), "the left side is drawn");
+    await until(() => /ms a picture/.test(one.at("left-side").querySelector(".cost").textContent), "the left side is drawn");
     assert(one.at("right-side").querySelector(".cost").textContent === "", "the right side is not");
     one.page.tinta.pane().zoom(3);
     one.at("model").value = "gear";

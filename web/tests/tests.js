@@ -70,7 +70,7 @@ for (const { name } of tables.models) {
       [false, ["--no-recipe"]],
       [true, []],
     ]) {
-      const expected = new TextDecoder().decode(await drawn(`builtin:${name}`, "--size", SIZE, ...words, "drawn.svg"));
+      const expected = new TextDecoder().decode(await drawn(`builtin:${name}`, "--style", "lines", "--size", SIZE, ...words, "drawn.svg"));
       const found = model.svg(JSON.stringify({ size: SIZE }), hasRecipe);
       assert(found === expected, byteDifference(found, expected));
     }

@@ -72,6 +72,11 @@ impl Costs {
         }
     }
 
+    /// The time of a side's frame, milliseconds, if it has been measured.
+    pub fn frame_ms(&self, side: Side) -> Option<f64> {
+        self.sides.iter().find(|cost| cost.side == side).map(|cost| cost.frame_ms)
+    }
+
     /// Whether a search for exact lines is running.
     pub(in crate::window) fn is_measuring(&self) -> bool {
         self.measuring.is_some()

@@ -159,13 +159,14 @@ impl Drawer {
             }
             let start = Instant::now();
             let mut picture = self.draw_scene(&scene, drawn, *show)?;
+            let frame_ms = milliseconds_since(start);
             if let Some(style) = &job.lines_over[*side as usize] {
                 let drawn =
                     exact::request(style).drawn_lines(scene.clone(), Wanted::default(), &Progress::default())?;
                 lay_strokes(&drawn.strokes()?, picture.size, &mut picture.pixels);
             }
             let picture = if job.is_coarse { coarse::enlarged(&picture, job.settings.size) } else { picture };
-            Ok(Drawing { side: *side, picture, frame_ms: milliseconds_since(start) })
+            Ok(Drawing { side: *side, picture, frame_ms })
         };
         job.drawings.iter().map(draw).collect()
     }
@@ -210,13 +211,13 @@ impl Drawer {
         Explanation::of_values(&job.style, scene, (plan, values), &self.renderer, job.pixel)
     }
 
-    fn frame_ms(&mut self, scene: &Scene, style: &Style) -> Result<f64> {
+    fn frame_ms(&mut self, scene: &Scene, style: &Style, show: Show) -> Result<f64> {
         let start = Instant::now();
-        self.draw_scene(scene, style, Show::Final)?;
+        self.draw_scene(scene, style, show)?;
         Ok(milliseconds_since(start))
     }
 
-    /// Times the passes of a job's pictures and draws their lines alone.
+    /// Times a job's pictures and their passes, and draws the lines of final pictures alone.
     ///
     /// # Errors
     ///
@@ -224,12 +225,13 @@ impl Drawer {
     pub fn measure_cost(&mut self, job: &Job, measure: Option<LineMeasure>) -> Result<(Scene, Vec<Cost>)> {
         let scene = job.scene()?;
         let mut costs = Vec::new();
-        for (side, style, _) in &job.drawings {
-            let (_, pruned) = Request::of_picture(style, Show::Final).plans(&scene, &mut self.renderer)?;
-            let passes = self.renderer.time_passes(&scene, &pruned.plan, TIMED_FRAMES)?;
-            let frames: Result<Vec<f64>> = (0..TIMED_FRAMES).map(|_| self.frame_ms(&scene, style)).collect();
+        for (side, style, show) in &job.drawings {
+            let lit = job.lit(&scene, style);
+            let (_, pruned) = Request::of_picture(style, *show).plans(&lit, &mut self.renderer)?;
+            let passes = self.renderer.time_passes(&lit, &pruned.plan, TIMED_FRAMES)?;
+            let frames: Result<Vec<f64>> = (0..TIMED_FRAMES).map(|_| self.frame_ms(&lit, style, *show)).collect();
             let frame_ms = median(frames?).unwrap_or_default();
-            let ink = match measure {
+            let ink = match measure.filter(|_| *show == Show::Final) {
                 Some(measure) => (measure.ink)(&mut self.renderer, &scene, style)?,
                 None => None,
             };

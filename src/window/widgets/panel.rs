@@ -10,7 +10,7 @@ use crate::window::values::line_style::LinesShown;
 use crate::window::values::state::ViewerState;
 use crate::window::widgets::keys;
 use crate::window::widgets::widget::{self, Change};
-use egui::{Color32, RichText, Ui};
+use egui::{Color32, Context, Id, RichText, Ui};
 
 /// Colours of the remarks on a style's settings.
 pub(in crate::window) const FAITHFUL: Color32 = Color32::from_rgb(110, 190, 110);
@@ -224,16 +224,28 @@ impl Listed<'_> {
     }
 }
 
+/// Puts a text into the model's field, where the user types on.
+pub(in crate::window) fn type_model(context: &Context, text: String) {
+    let id = file_id("model");
+    context.data_mut(|data| data.insert_temp(id, text));
+    context.memory_mut(|memory| memory.request_focus(id));
+}
+
+fn file_id(label: &str) -> Id {
+    Id::new((label, "file"))
+}
+
 /// A field for a file, which shows `open` until the user types a path. Returns the typed path when it is confirmed, empty if the
 /// field is empty. Files can be dropped on the window, too.
 fn file(ui: &mut Ui, label: &str, open: RichText, about: &str) -> Option<String> {
     let mut opened = None;
     ui.horizontal(|ui| {
-        let id = ui.id().with((label, "file"));
+        let id = file_id(label);
         let mut path: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
         ui.label(label);
         let wanted = egui::vec2(ui.available_width() - 60.0, ui.spacing().interact_size.y);
-        let field = ui.add_sized(wanted, egui::TextEdit::singleline(&mut path).hint_text(open)).on_hover_text(about);
+        let field =
+            ui.add_sized(wanted, egui::TextEdit::singleline(&mut path).id(id).hint_text(open)).on_hover_text(about);
         let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         if ui.small_button("open").clicked() || (is_entered && !path.trim().is_empty()) {
             opened = Some(path.trim().to_owned());

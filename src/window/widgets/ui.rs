@@ -105,7 +105,11 @@ pub(in crate::window) fn frame(
     // While the user types a text, its letters are not keys.
     let is_typing = context.memory(|memory| memory.focused()).is_some();
     // Esc closes an open list, and only that.
-    if !is_typing && !egui::Popup::is_any_open(context) {
+    let has_keys = !is_typing && !egui::Popup::is_any_open(context);
+    if let Some(path) = has_keys.then(|| typed_path(context)).flatten() {
+        panel::type_model(context, path);
+        events.extend((!state.has_panel).then_some(ViewerEvent::Panel));
+    } else if has_keys {
         let pressed = |event: &egui::Event| match event {
             egui::Event::Key { key, pressed: true, modifiers, .. } => keys::event(*key, *modifiers, state),
             _ => None,
@@ -141,6 +145,23 @@ pub(in crate::window) fn frame(
     events
 }
 
+/// Takes a pasted text, or typed letters that begin a path: they belong to the model's field and are no keys.
+fn typed_path(context: &Context) -> Option<String> {
+    let text_of = |event: &egui::Event| match event {
+        egui::Event::Paste(text) | egui::Event::Text(text) => Some(text.clone()),
+        _ => None,
+    };
+    context.input_mut(|input| {
+        let is_pasted = input.events.iter().any(|event| matches!(event, egui::Event::Paste(_)));
+        let text: String = input.events.iter().filter_map(text_of).collect();
+        if !is_pasted && !text.starts_with(['/', '\\', '~', '.']) {
+            return None;
+        }
+        input.events.retain(|event| text_of(event).is_none());
+        Some(text)
+    })
+}
+
 /// Whether a file's name is that of a preset.
 fn is_preset(path: &str) -> bool {
     Path::new(path).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
@@ -158,6 +179,7 @@ fn status(ui: &mut Ui, viewer: &Viewer) {
             .iter()
             .map(|side| {
                 let drawing = viewer.drawing(*side).map(|drawing| drawing.frame_ms);
+                let drawing = viewer.costs.frame_ms(*side).or(drawing);
                 let lines = viewer.lines.found().map(|found| found.ms);
                 let ms = match state.lines_shown(*side) {
                     LinesShown::None => vec![drawing],

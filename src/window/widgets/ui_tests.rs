@@ -58,6 +58,75 @@ impl Frames {
     }
 }
 
+/// A key that is pressed, with the letters that it types.
+fn typed(key: egui::Key, text: &str) -> [Event; 2] {
+    let modifiers = Modifiers::NONE;
+    [Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }, Event::Text(text.to_owned())]
+}
+
+/// All texts of a frame.
+fn texts(shape: &egui::Shape, found: &mut Vec<String>) {
+    match shape {
+        egui::Shape::Text(text) => found.push(text.galley.text().to_owned()),
+        egui::Shape::Vec(shapes) => shapes.iter().for_each(|shape| texts(shape, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn a_path_typed_or_pasted_over_the_picture_goes_into_the_models_field() {
+    use egui::Key;
+    /// The events without the sizes that an opening panel leaves.
+    fn made(frames: &mut Frames, events: &[Event]) -> Vec<ViewerEvent> {
+        let made = frames.show(events.to_vec());
+        made.into_iter().filter(|event| !matches!(event, ViewerEvent::Resize(_))).collect()
+    }
+    for has_panel in [false, true] {
+        let mut frames = Frames::new();
+        frames.viewer.state.has_panel = has_panel;
+        (0..2).for_each(|_| drop(frames.show(Vec::new())));
+        let opened: Vec<ViewerEvent> = (!has_panel).then_some(ViewerEvent::Panel).into_iter().collect();
+        let first = [typed(Key::Slash, "/"), typed(Key::H, "h"), typed(Key::Q, "q")].concat();
+        assert_eq!(made(&mut frames, &first), opened, "a quick hand types several letters in a frame");
+        for (key, text) in [(Key::Slash, "/"), (Key::Num2, "2"), (Key::Q, "q"), (Key::Period, ".obj")] {
+            assert_eq!(made(&mut frames, &typed(key, text)), [], "{text}");
+        }
+        let entered = made(&mut frames, &typed(Key::Enter, "")[..1]);
+        assert_eq!(entered, [ViewerEvent::Open(vec!["/hq/2q.obj".to_owned()])]);
+        assert!(frames.viewer.state.has_panel);
+        // Now letters are keys again.
+        assert_eq!(made(&mut frames, &typed(Key::P, "p")), [ViewerEvent::Projection]);
+        assert_eq!(made(&mut frames, &[Event::Paste("models/x.ply".to_owned())]), []);
+        let entered = made(&mut frames, &typed(Key::Enter, "")[..1]);
+        assert_eq!(entered, [ViewerEvent::Open(vec!["models/x.ply".to_owned()])]);
+    }
+}
+
+#[test]
+fn status_and_times_tell_the_same_time_of_what_is_shown() {
+    let mut frames = Frames::new();
+    frames.viewer.event(ViewerEvent::Price);
+    for buffer in ["final", "map"] {
+        frames.viewer.event(ViewerEvent::Buffer(buffer.to_owned()));
+        frames.viewer.rest().unwrap();
+        let cost = frames.viewer.costs.sides[0].clone();
+        assert_eq!(cost.passes.len(), if buffer == "map" { 1 } else { 3 }, "{buffer}");
+        let mut found = Vec::new();
+        // A sheet is measured before it is shown.
+        for _ in 0..3 {
+            let output = frames.context.run(RawInput::default(), |context| {
+                frame(context, &frames.viewer, &mut frames.textures, false);
+            });
+            output.shapes.iter().for_each(|clipped| texts(&clipped.shape, &mut found));
+        }
+        for said in
+            [format!("three-pass {:.0} ms", cost.frame_ms), format!("three-pass: {:.1} ms a frame", cost.frame_ms)]
+        {
+            assert!(found.iter().any(|text| text.contains(&said)), "{said}: {found:?}");
+        }
+    }
+}
+
 #[test]
 fn the_area_is_what_the_window_leaves_it() {
     let frames = Frames::new();

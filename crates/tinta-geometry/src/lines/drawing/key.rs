@@ -87,8 +87,8 @@ mod tests {
         for state in ["/ca 0.5", "/ca 0.25"] {
             assert_eq!(pdf.matches(state).count(), 1, "{state}");
         }
-        // "Height" is 2.89 letters of 12 pixels wide.
-        for place in ["50 20 Tm", "32.66 32 Tm", "15.32 14 Tm"] {
+        // "Height" is 6770 / 2048 ems of 12 pixels wide.
+        for place in ["50 20 Tm", "30.166016 32 Tm", "10.332031 14 Tm"] {
             assert!(pdf.contains(place), "{place} in {pdf}");
         }
     }

@@ -10,12 +10,13 @@ use crate::lines::VisibleLines;
 use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::{Step, fitted};
-use crate::lines::drawing::drawn_labels::{DrawnLabel, height_px, width, win_ansi};
+use crate::lines::drawing::drawn_labels::height_px;
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
 use crate::lines::drawing::fills::{Fill, FillGroup, TRAP_PX};
 use crate::lines::drawing::settings::{DrawingSettings, mixed};
 use crate::lines::drawing::taper::outline;
 use crate::lines::drawing::text::{written_point, written_points};
+use crate::lines::write::pdf_font::{self, LabelFont};
 use crate::scene::{Background, Color};
 use glam::DVec2;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
@@ -26,7 +27,7 @@ use pdf_writer::{Buf, Content, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 /// # Errors
 ///
 /// Those of [`crate::lines::svg`], and [`Error::Setting`] for a page larger than PDF allows and for labels with letters
-/// that the standard fonts lack.
+/// that DejaVu Sans lacks.
 pub fn pdf(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<u8>> {
     let lines = lines.without_specks(settings)?;
     pdf_of_paths(&lines, chain(&lines.segments), None, settings)
@@ -54,20 +55,19 @@ pub fn pdf_of_paths(
         return Err(Error::setting("page", problem));
     }
     let height = height_px(drawing.page.units);
-    let encode = |label: &DrawnLabel<'_>| {
-        let text = win_ansi(label.text)?;
-        let at_px = label.at_px - DVec2::X * (label.left * width(&text) * height);
-        Ok((text, at_px, label.color))
-    };
-    let labels: Vec<Text> = drawing.labels.iter().map(encode).collect::<Result<_>>()?;
-    Ok(written(&drawing, areas, &labels, scale))
+    let mut font = LabelFont::new()?;
+    let mut labels = Vec::new();
+    for label in &drawing.labels {
+        let (glyphs, ems) = font.encoded(label.text)?;
+        labels.push((glyphs, label.at_px - DVec2::X * (label.left * ems * height), label.color));
+    }
+    written(&drawing, areas, &labels, &font, scale)
 }
 
-/// A text in the encoding of the standard fonts, the left end of its base line in pixels, its colour.
+/// A text's glyphs, the left end of its base line in pixels, its colour.
 type Text = (Vec<u8>, DVec2, Color);
 
-/// The standard font of labels, and its name on the page.
-const FONT: &[u8] = b"Helvetica";
+/// The name of the labels' font on the page.
 const FONT_NAME: &[u8] = b"F1";
 
 /// Limits for the sides of a page, points (ISO 32000-1, annex C).
@@ -79,24 +79,23 @@ const PAGES: Ref = Ref::new(2);
 const PAGE: Ref = Ref::new(3);
 const CONTENT: Ref = Ref::new(4);
 const INFORMATION: Ref = Ref::new(5);
-const FIRST_LAYER: i32 = 6;
+const FIRST_LAYER: Ref = Ref::new(6);
 
 /// The numbers of a document's other objects.
 struct Refs {
     layers: Vec<Ref>,
-    /// Of labels, if there are any.
-    font: Option<Ref>,
+    /// Of the labels' font, if there are any.
+    font: Option<[Ref; pdf_font::OBJECTS]>,
     /// The graphics state and the form of areas that are seen through together.
     clear: Vec<[Ref; 2]>,
 }
 
 impl Refs {
     fn new(layers: usize, areas: &Areas, has_labels: bool) -> Self {
-        let mut next = (FIRST_LAYER..).map(Ref::new);
-        let layers = next.by_ref().take(layers).collect();
-        let font = next.next().filter(|_| has_labels);
-        let mut two = || next.next().zip(next.next()).map(|(state, form)| [state, form]);
-        Self { layers, font, clear: clear(areas).filter_map(|_| two()).collect() }
+        let mut next = FIRST_LAYER;
+        let layers = (0..layers).map(|_| next.bump()).collect();
+        let font = has_labels.then(|| std::array::from_fn(|_| next.bump()));
+        Self { layers, font, clear: clear(areas).map(|_| [next.bump(), next.bump()]).collect() }
     }
 }
 
@@ -110,17 +109,17 @@ fn clear(areas: &Areas) -> impl Iterator<Item = &[FillGroup]> {
     as_one(areas).filter(|groups| groups[0].opacity < 1.0)
 }
 
-fn written(drawing: &Drawing<'_>, areas: &Areas, labels: &[Text], scale: f64) -> Vec<u8> {
+fn written(drawing: &Drawing<'_>, areas: &Areas, labels: &[Text], font: &LabelFont, scale: f64) -> Result<Vec<u8>> {
     let (settings, page) = (drawing.settings, &drawing.page);
     let refs = Refs::new(drawing.layers.len(), areas, !labels.is_empty());
     let extent = (page.extent_px * scale).to_array().map(|side| side as f32);
     let mut pdf = Pdf::new();
     write_catalog(&refs, extent, &mut pdf);
     let content = written_content(drawing, areas, labels, extent, scale);
-    if let Some(font) = refs.font {
-        pdf.type1_font(font).base_font(Name(FONT)).encoding_predefined(Name(b"WinAnsiEncoding"));
-    }
     pdf.stream(CONTENT, &content);
+    if let Some(refs) = refs.font {
+        font.write(refs, &mut pdf)?;
+    }
     for (groups, [state, form]) in clear(areas).zip(&refs.clear) {
         pdf.ext_graphics(*state).non_stroking_alpha(groups[0].opacity);
         let mut content = Content::new();
@@ -144,7 +143,7 @@ fn written(drawing: &Drawing<'_>, areas: &Areas, labels: &[Text], scale: f64) ->
         information.subject(TextStr(&settings.command));
     }
     information.finish();
-    pdf.finish()
+    Ok(pdf.finish())
 }
 
 /// Writes the catalog with the layers, and the page with what its content names.
@@ -168,7 +167,7 @@ fn write_catalog(Refs { layers, font, clear }: &Refs, [width, height]: [f32; 2],
         properties.pair(Name(layer_name(number).as_bytes()), *layer);
     }
     properties.finish();
-    if let Some(font) = font {
+    if let Some([font, ..]) = font {
         resources.fonts().pair(Name(FONT_NAME), *font);
     }
     if !clear.is_empty() {
