@@ -38,7 +38,7 @@ enum AreaRule {
 pub struct ViewAreas {
     /// The areas with the background, which fill the picture.
     pub regions: Regions<Option<Surface>>,
-    /// The areas as they are drawn.
+    /// The drawn areas.
     pub drawn: Areas,
 }
 
@@ -112,7 +112,7 @@ fn below_strokes(Color(color): Color) -> Color {
 const LEAST_LUMINANCE: f32 = 0.5;
 
 impl Vectors {
-    /// Returns the areas of a scene as they are drawn below these lines.
+    /// Returns the areas of a scene that lie below these lines.
     ///
     /// Where strokes stand for tones, what has a colour keeps the brightest tone's as one area, and all else is paper. A pen paints
     /// no areas. Areas of faces, materials and objects without lines above them are their polygons alone.
@@ -173,7 +173,7 @@ impl Vectors {
         }
     }
 
-    /// Returns remarks on what the areas leave out, a sentence each.
+    /// Returns remarks on things that the areas leave out, a sentence each.
     pub fn remarks(&self, scene: &Scene) -> Vec<String> {
         let mut remarks = match self.rule {
             AreaRule::Tones(..) => of_averaged_normals(scene),

@@ -292,20 +292,44 @@ fn inking_has_no_intersections() {
 }
 
 #[test]
-fn lines_need_no_driver() {
+fn lines_and_sheets_open_no_gl_library_in_any_format() {
     let folder = Folder::new();
-    let out = folder.path("a.svg");
-    let vendors = folder.path("vendors");
-    std::fs::create_dir(&vendors).unwrap();
-    // A vendor folder without vendors leaves libEGL without a driver.
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_tinta"))
-        .args(["render", "builtin:ant", "--backend", "egl", "-o", &out])
-        .env("__EGL_VENDOR_LIBRARY_DIRS", &vendors)
-        .env_remove("__EGL_VENDOR_LIBRARY_FILENAMES")
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    assert!(std::fs::read_to_string(&out).unwrap().ends_with("</svg>\n"));
+    let traces = folder.path("trace");
+    // glibc's loader names each library that it opens, in a file for each process.
+    let libraries = |arguments: &[&str]| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_tinta"))
+            .args(arguments)
+            .args(["--size", "128"])
+            .envs([("LD_DEBUG", "files"), ("LD_DEBUG_OUTPUT", &traces)])
+            .env_remove("DISPLAY")
+            .env_remove("WAYLAND_DISPLAY")
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+        let files = std::fs::read_dir(Path::new(&traces).parent().unwrap()).unwrap().map(|entry| entry.unwrap().path());
+        let traces: Vec<_> =
+            files.filter(|file| file.file_name().unwrap().to_str().unwrap().starts_with("trace.")).collect();
+        let text: String = traces.iter().map(|file| std::fs::read_to_string(file).unwrap()).collect();
+        traces.iter().for_each(|file| std::fs::remove_file(file).unwrap());
+        text
+    };
+    let is_gl = |text: &str| ["libEGL", "libGL", "libOSMesa", "libgallium"].iter().any(|name| text.contains(name));
+    let has_loader = cfg!(all(target_os = "linux", target_env = "gnu"));
+    for format in ["svg", "pdf", "dxf", "json", "png"] {
+        for options in
+            [&["--style", "lines"][..], &["--sheet", "third"], &["--look", "technical", "--hidden", "dashed"]]
+        {
+            if format == "json" && options[0] == "--sheet" {
+                continue;
+            }
+            let out = folder.path(&format!("a.{format}"));
+            let text = libraries(&[&["render", "builtin:ant", "-o", &out], options].concat());
+            assert!(text.contains("libc.so") || !has_loader, "a trace");
+            assert!(!is_gl(&text), "{format} {options:?}: {text}");
+        }
+    }
+    let picture = libraries(&["render", "builtin:ant", "-o", &folder.path("a.png"), "--style", "phong"]);
+    assert!(is_gl(&picture) || !has_loader, "a picture by OpenGL");
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! Tangent edges: where a flat or straight patch of a surface meets a rounding without a crease.
 //!
 //! In: a [`Mesh`], its [`EdgeList`], the faces' normals and the crease angle. Out: the edges, ascending. A section across an edge is a
-//! polygon. Between its chords a circle turns by half of each chord's own angle, a straight line not at all. So an edge at which the turn
-//! is that of one side's chord alone separates a rounding from what is straight. A facet of a cylinder and a rounding of one facet look
-//! alike; a rounding therefore needs three chords of one curvature.
+//! polygon. Between its chords a circle turns by half of each chord's own angle, a straight line not at all. An edge with the turn
+//! of one side's chord alone separates a rounding from a straight patch. A facet of a cylinder and a rounding of one facet look alike;
+//! a rounding therefore needs four chords of one curvature.
 
 use super::{EdgeList, Incidence};
 use crate::disjoint_sets::DisjointSets;
@@ -20,7 +20,7 @@ const STRAIGHT: f64 = 0.25;
 /// Largest difference between two curvatures of one rounding, as a share of the larger.
 const ALIKE: f64 = 0.5;
 
-/// Where sections cross an edge, shares of its length: off the middle, from which they would run into corners.
+/// Where sections cross an edge, shares of its length: off the middle, since sections from there run into corners.
 const SECTIONS: [f64; 3] = [0.257, 0.493, 0.741];
 
 /// Sections that must agree on an edge. Of edges that join, all must agree on one, or they are an accident of a scan.
@@ -53,8 +53,13 @@ impl Side {
 
     /// The turn at the end of the first chord that the second chord's curvature does not explain, twice. 0 where the surface ends before.
     fn rest_beyond(&self) -> f64 {
-        let [_, second, third, _] = self.lengths;
-        if self.count < 3 { 0.0 } else { 2.0 * self.turns[0] - 2.0 * self.turns[1] / (second + third) * second }
+        let ([_, second, third, fourth], [end, next, last, _]) = (self.lengths, self.turns);
+        let curvature = match self.count {
+            ..3 => return 0.0,
+            3 => 2.0 * next / (second + third),
+            _ => (next + last) / (third + 0.5 * (second + fourth)),
+        };
+        2.0 * end - curvature * second
     }
 }
 
@@ -105,7 +110,7 @@ fn side_of(mesh: &Mesh, face: u32, side: usize) -> [u32; 2] {
 }
 
 impl Sections<'_> {
-    /// At how many sections an edge separates a rounding from what is straight.
+    /// Number of sections that find a rounding on one side of an edge and a straight patch on the other.
     fn agreeing(&self, edge: u32) -> usize {
         let [first, second] = match self.edges.incidence[edge as usize] {
             Incidence::Inner | Incidence::InnerReversed => self.edges.faces[edge as usize],

@@ -24,7 +24,7 @@ pub(super) struct FormPlanes {
     pub of_faces: Vec<u32>,
 }
 
-/// What a piece between creases is like.
+/// Sums over a piece between creases.
 #[derive(Clone, Copy, Default)]
 struct Piece {
     area: f64,
@@ -47,62 +47,38 @@ impl FormPlanes {
         for edge in (0..edges.len() as u32).filter(|edge| !is_border(*edge)) {
             sets.join([0, 1].map(|side| edges.faces(edge)[side]));
         }
-        let product = |face: u32| {
-            let corners = mesh.corners(&mesh.triangles[face as usize]);
-            corners.map_or(DVec3::ZERO, |[a, b, c]| (b - a).cross(c - a))
-        };
+        let product =
+            |triangle: &[u32; 3]| mesh.corners(triangle).map_or(DVec3::ZERO, |[a, b, c]| (b - a).cross(c - a));
+        let products: Vec<DVec3> = mesh.triangles.iter().map(product).collect();
+        let roots: Vec<usize> = (0..mesh.triangles.len() as u32).map(|face| sets.root(face) as usize).collect();
         let mut pieces = vec![Piece::default(); mesh.triangles.len()];
-        for face in 0..mesh.triangles.len() as u32 {
-            let (product, piece) = (product(face), &mut pieces[sets.root(face) as usize]);
-            let (area, unit) = (product.length(), product.normalize_or_zero());
-            piece.area += area;
-            piece.normal += product;
-            piece.squares += unit * unit * area;
+        for (product, root) in products.iter().zip(&roots) {
+            pieces[*root].add_face(*product);
         }
-        let length = |edge: DVec3, normal: DVec3| {
-            // Of equal sides those of neighbouring faces of a block differ.
-            let normal = normal.abs();
-            let other = if normal.y >= normal.max_element() {
-                DVec3::X
-            } else if normal.z >= normal.x {
-                DVec3::Y
-            } else {
-                DVec3::Z
-            };
-            edge.length() * (1.0 + 0.01 * edge.normalize_or_zero().dot(other).abs())
-        };
         for edge in 0..edges.len() as u32 {
             let [from, to] = edges.positions()[edge as usize].map(|position| mesh.positions[position as usize]);
-            let along = to - from;
+            let faces = edges.faces(edge);
             if is_border(edge) {
-                for face in edges.faces(edge) {
-                    let piece = &mut pieces[sets.root(*face) as usize];
-                    if length(along, piece.normal) > length(piece.longest, piece.normal) {
-                        piece.longest = along;
-                    }
-                }
+                faces.iter().for_each(|face| pieces[roots[*face as usize]].add_border(to - from));
             } else {
-                let [first, second] = [0, 1].map(|side| product(edges.faces(edge)[side]).normalize_or_zero());
-                let piece = &mut pieces[sets.root(edges.faces(edge)[0]) as usize];
-                let turn = along * first.cross(second).length();
-                piece.turning += if piece.turning.dot(turn) < 0.0 { -turn } else { turn };
+                let [first, second] = [0, 1].map(|side| products[faces[side] as usize].normalize_or_zero());
+                pieces[roots[faces[0] as usize]].add_turn((to - from) * first.cross(second).length());
             }
         }
         pieces.iter_mut().for_each(|piece| piece.turning = piece.turning.normalize_or_zero());
-        for face in 0..mesh.triangles.len() as u32 {
-            let (product, piece) = (product(face), &mut pieces[sets.root(face) as usize]);
+        for (product, root) in products.iter().zip(&roots) {
+            let piece = &mut pieces[*root];
             piece.along_turning += product.normalize_or_zero().dot(piece.turning).powi(2) * product.length();
         }
         let mut planes = Self { normals: Vec::new(), of_faces: Vec::with_capacity(mesh.triangles.len()) };
         let mut numbers = vec![None; mesh.triangles.len()];
-        for face in 0..mesh.triangles.len() as u32 {
-            let root = sets.root(face) as usize;
-            let [rings, across] = pieces[root].normals();
-            let first = *numbers[root].get_or_insert_with(|| {
+        for (product, root) in products.iter().zip(&roots) {
+            let [rings, across] = pieces[*root].normals();
+            let first = *numbers[*root].get_or_insert_with(|| {
                 planes.normals.extend([rings, across]);
                 planes.normals.len() as u32 - 2
             });
-            let is_along = product(face).normalize_or_zero().dot(rings).abs() > ALONG_AXIS;
+            let is_along = product.normalize_or_zero().dot(rings).abs() > ALONG_AXIS;
             planes.of_faces.push(first + u32::from(is_along));
         }
         planes
@@ -110,6 +86,35 @@ impl FormPlanes {
 }
 
 impl Piece {
+    /// Adds a face by the product of two of its sides.
+    fn add_face(&mut self, product: DVec3) {
+        let (area, unit) = (product.length(), product.normalize_or_zero());
+        self.area += area;
+        self.normal += product;
+        self.squares += unit * unit * area;
+    }
+
+    fn add_border(&mut self, along: DVec3) {
+        let normal = self.normal.abs();
+        // Of equal sides those of neighbouring faces of a block differ.
+        let preferred = if normal.y >= normal.max_element() {
+            DVec3::X
+        } else if normal.z >= normal.x {
+            DVec3::Y
+        } else {
+            DVec3::Z
+        };
+        let length = |edge: DVec3| edge.length() * (1.0 + 0.01 * edge.normalize_or_zero().dot(preferred).abs());
+        if length(along) > length(self.longest) {
+            self.longest = along;
+        }
+    }
+
+    /// Adds an inner edge, as long as the surface turns there.
+    fn add_turn(&mut self, turn: DVec3) {
+        self.turning += if self.turning.dot(turn) < 0.0 { -turn } else { turn };
+    }
+
     /// The normals of the planes for its faces, and for those that face along the first.
     fn normals(&self) -> [DVec3; 2] {
         let mean = self.normal / self.area;

@@ -13,7 +13,7 @@ use crate::scene::Scene;
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, HashMap};
 
-/// Steps in which the distance between planes doubles: so it is the same for views of nearly the same size.
+/// Number of steps until the distance between planes doubles: views of nearly the same size share it.
 const STEPS: f64 = 8.0;
 
 /// Distance between ends of pieces that meet, pixels.
@@ -92,7 +92,7 @@ struct SeenPlane<'a> {
 }
 
 impl SeenPlane<'_> {
-    /// The number of the plane through what is seen at a pixel, times the second number. Both are linear in the picture.
+    /// The number of the plane through the place seen at a pixel, times the second number. Both are linear in the picture.
     fn place(&self, px: DVec2) -> [f64; 2] {
         let [a, b, c] = self.corners;
         let across = (b - a).cross(c - a);
@@ -103,7 +103,7 @@ impl SeenPlane<'_> {
         [(self.normal.dot(point) + self.start) * scale, scale]
     }
 
-    /// Every how many planes have a stroke: a power of two, so that their distance is that asked for.
+    /// Every how many planes have a stroke: a power of two that gives the wanted distance.
     fn step(&self, region: &Region<Option<(SeenFace, u8)>>, spacing_px: f64) -> i64 {
         let Some(px) = region.loops.first().and_then(|corners| corners.first()) else { return 1 };
         let number = |px: DVec2| {

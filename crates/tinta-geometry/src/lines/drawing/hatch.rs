@@ -14,19 +14,13 @@ use glam::DVec2;
 use std::ops::RangeInclusive;
 
 /// How tones are drawn as strokes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Hatching {
     /// Distance from stroke to stroke; [`Length::Times`] counts widths of a stroke. Default none: tones are painted areas.
     pub spacing: Option<Length>,
     /// Direction of the strokes, degrees from the horizontal, counter-clockwise; crossed strokes are perpendicular. Default none: they run
     /// along the form.
     pub angle_degrees: Option<f64>,
-}
-
-impl Default for Hatching {
-    fn default() -> Self {
-        Self { spacing: None, angle_degrees: None }
-    }
 }
 
 /// The text for no strokes.
@@ -41,7 +35,7 @@ const FORM: &str = "form";
 /// The error for a text that is no spacing.
 const USAGE: &str = "give pixels, millimetres on paper, widths of a stroke, or auto: 8, 1mm or 6x";
 
-/// The spacing that follows from the strokes' width: they cover a sixth of a tone, two crossed directions almost a third.
+/// The spacing that follows from the strokes' width: they cover a sixth of a tone, a third of the next darker one.
 const AUTO_SPACING: Length = Length::Times(6.0);
 
 impl Hatching {

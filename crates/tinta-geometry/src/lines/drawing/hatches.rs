@@ -1,4 +1,4 @@
-//! Tones as hatching: which tones have strokes, in which directions, and how far apart on the page.
+//! Tones as hatching: the strokes of each tone, their directions and their distance on the page.
 //!
 //! Input: regions of tone, and the lines that go above. Output: a [`Hatch`] for each direction. The brightest tone stays empty. Strokes
 //! along the form are twice as dense in a darker tone as in the next brighter one. Of straight strokes each darker tone has one more

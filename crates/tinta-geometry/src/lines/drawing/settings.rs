@@ -169,7 +169,7 @@ impl DrawingSettings {
                  line widths (2x); also outline (at the background), hatch, hidden, hidden-CLASS",
                 |svg: &mut Self| &mut svg.class_widths,
             )
-            .said("the width of all lines, half of it for hidden ones and hatch"),
+            .said("the width of all lines, half of it for hidden and tangent ones, 0.4 of it for hatch"),
             Setting::open_field(
                 "min-length",
                 "LENGTH",
@@ -327,7 +327,7 @@ impl DrawingSettings {
         })
     }
 
-    /// A layer's width in pixels: its own, or for hidden lines half of their class's.
+    /// A layer's width in pixels: its own, or a share of that of all lines. Hidden lines have half of their class's.
     pub(in crate::lines) fn width_px(&self, layer: Layer, units: Units) -> f64 {
         let px = |length: Length| length.px(units).unwrap_or(0.0);
         match (self.class_widths.0.of(layer), layer) {
@@ -335,6 +335,7 @@ impl DrawingSettings {
             (Some(width), _) => px(width),
             (None, Layer::Hidden(class)) => self.width_px(Layer::Visible(class), units) * HIDDEN_WIDTH,
             (None, Layer::Visible(Class::Point)) => px(self.width()) * POINT_WIDTHS,
+            (None, Layer::Visible(Class::Tangent)) => px(self.width()) * HIDDEN_WIDTH,
             (None, Layer::Hatch(_)) => px(self.width()) * HATCH_WIDTH,
             (None, _) => px(self.width()),
         }
@@ -401,7 +402,7 @@ const LEAST_TAPERED: f64 = 16.0;
 const POINT_WIDTHS: f64 = 2.0;
 
 /// Width of the strokes of tones, line widths.
-const HATCH_WIDTH: f64 = 0.5;
+const HATCH_WIDTH: f64 = 0.4;
 
 /// Hidden lines' width and strength, as shares of their class's.
 const HIDDEN_WIDTH: f64 = 0.5;
