@@ -13,6 +13,9 @@ use tinta::{LoadOptions, SceneSettings, Style, StyleName};
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsError, JsValue};
 
+/// The option of exact lines over a style's picture.
+const EXACT_LINES: &str = "exact-lines";
+
 /// Whether a setting has a control in the page; the mouse sets the view.
 fn is_of_page(name: &str) -> bool {
     name != "view" && !NOT_OF_BROWSERS.contains(&name)
@@ -22,6 +25,8 @@ fn is_of_page(name: &str) -> bool {
 /// sheet of keys: JSON.
 #[wasm_bindgen]
 pub fn tables() -> String {
+    let request = Request::default();
+    let exact_lines = Request::table().find(&request, EXACT_LINES).map(|setting| control(setting, &request));
     let styles: Vec<Value> = StyleName::ALL
         .into_iter()
         // WebGL does not draw faces as lines.
@@ -29,7 +34,9 @@ pub fn tables() -> String {
         .map(|(name, of)| {
             let style = Style::named(of);
             let shows: Vec<Value> = of.info().shows.iter().map(|show| json!(show)).collect();
-            json!({ "name": name, "draws_lines": of.draws_lines(), "shows": shows, "settings": controls(&style) })
+            let over = exact_lines.iter().filter(|_| of != StyleName::Lines).cloned();
+            let settings: Vec<Value> = controls(&style).into_iter().chain(over).collect();
+            json!({ "name": name, "draws_lines": of.draws_lines(), "shows": shows, "settings": settings })
         })
         .collect();
     // Meshes of surfaces are for measuring.
@@ -75,7 +82,8 @@ pub fn look(name: &str) -> Result<String, JsError> {
     };
     let is_of_scene = |name: &str| is_of_page(name) && SceneSettings::table().has(name);
     let is_of_reading = |name: &str| LoadOptions::table().has(name);
-    let settings = of(&|name| Style::table().has(name) && !is_of_scene(name) && !is_of_reading(name));
+    let is_of_style = |name: &str| name == EXACT_LINES || Style::table().has(name);
+    let settings = of(&|name| is_of_style(name) && !is_of_scene(name) && !is_of_reading(name));
     let (mut scene, mut read) = (of(&is_of_scene), of(&is_of_reading));
     // Settings of another look return to their defaults.
     for other in LOOKS {
