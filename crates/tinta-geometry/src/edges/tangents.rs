@@ -23,8 +23,11 @@ const ALIKE: f64 = 0.5;
 /// Where sections cross an edge, shares of its length: off the middle, since sections from there run into corners.
 const SECTIONS: [f64; 3] = [0.257, 0.493, 0.741];
 
-/// Sections that must agree on an edge. Of edges that join, all must agree on one, or they are an accident of a scan.
+/// Sections that must agree on an edge.
 const DECIDING: usize = 2;
+
+/// Least length of joined edges on which all sections agree, in facets of the rounding. Shorter ones are an accident of a scan.
+const LEAST_FACETS: f64 = 3.0;
 
 /// Chords that a section follows to each side.
 const CHORDS: usize = 4;
@@ -89,16 +92,18 @@ pub(super) fn tangents(
     }
     let sections = Sections { mesh, edges, normals, crease_cosine, of_faces };
     let found = in_parallel(edges.len(), threads, |range| {
-        let agreeing = range.map(|edge| (edge as u32, sections.agreeing(edge as u32)));
-        agreeing.filter(|(_, count)| *count >= DECIDING).collect::<Vec<_>>()
+        let facets = range.map(|edge| (edge as u32, sections.facets(edge as u32)));
+        facets.filter(|(_, agreeing)| agreeing.len() >= DECIDING).collect::<Vec<_>>()
     });
     let found = found.concat();
     let mut joined = DisjointSets::new(mesh.positions.len());
     found.iter().for_each(|(edge, _)| joined.join(edges.positions[*edge as usize]));
     let mut set_of = |edge: u32| joined.root(edges.positions[edge as usize][0]) as usize;
-    let mut is_sure = vec![false; mesh.positions.len()];
-    found.iter().for_each(|(edge, count)| is_sure[set_of(*edge)] |= *count == SECTIONS.len());
-    found.into_iter().map(|(edge, _)| edge).filter(|edge| is_sure[set_of(*edge)]).collect()
+    let mut lengths = vec![0.0; mesh.positions.len()];
+    for (edge, facets) in found.iter().filter(|(_, facets)| facets.len() == SECTIONS.len()) {
+        lengths[set_of(*edge)] += facets.iter().sum::<f64>() / facets.len() as f64;
+    }
+    found.into_iter().map(|(edge, _)| edge).filter(|edge| lengths[set_of(*edge)] >= LEAST_FACETS).collect()
 }
 
 /// A side of a face as an edge: its positions, the lower number first.
@@ -110,32 +115,30 @@ fn side_of(mesh: &Mesh, face: u32, side: usize) -> [u32; 2] {
 }
 
 impl Sections<'_> {
-    /// Number of sections that find a rounding on one side of an edge and a straight patch on the other.
-    fn agreeing(&self, edge: u32) -> usize {
+    /// An edge's length in facets of the rounding, by each section that finds one on one side and a straight patch on the other.
+    fn facets(&self, edge: u32) -> Vec<f64> {
         let [first, second] = match self.edges.incidence[edge as usize] {
             Incidence::Inner | Incidence::InnerReversed => self.edges.faces[edge as usize],
-            _ => return 0,
+            _ => return Vec::new(),
         };
-        let Some((_, turn)) = self.crossing(edge, first, self.normal(first)) else { return 0 };
+        let Some((_, turn)) = self.crossing(edge, first, self.normal(first)) else { return Vec::new() };
         if turn.abs() < FLAT {
-            return 0;
+            return Vec::new();
         }
         let [from, to] = self.ends(edge);
-        let separates = |share: &&f64| {
-            let start = from.lerp(to, **share);
-            let [Some(one), Some(other)] = [first, second].map(|face| self.side(edge, face, first, start)) else {
-                return false;
+        let facets = |share: &f64| {
+            let start = from.lerp(to, *share);
+            let [one, other] = [self.side(edge, first, first, start)?, self.side(edge, second, first, start)?];
+            let separates = |straight: &Side, round: &Side| {
+                let curvature = round.curvature()?;
+                let rest = 2.0 * turn - curvature * round.lengths[0];
+                let most = STRAIGHT * (curvature * straight.lengths[0]).abs();
+                let is_straight = rest.abs() <= most && straight.rest_beyond().abs() <= most;
+                is_straight.then(|| from.distance(to) / round.lengths[0])
             };
-            [[&one, &other], [&other, &one]].into_iter().any(|[straight, round]| {
-                round.curvature().is_some_and(|curvature| {
-                    let rest = 2.0 * turn - curvature * round.lengths[0];
-                    [rest, straight.rest_beyond()]
-                        .iter()
-                        .all(|rest| rest.abs() <= STRAIGHT * (curvature * straight.lengths[0]).abs())
-                })
-            })
+            separates(&one, &other).or_else(|| separates(&other, &one))
         };
-        SECTIONS.iter().filter(separates).count()
+        SECTIONS.iter().filter_map(facets).collect()
     }
 
     /// Follows the section that begins at an edge perpendicular to it into one of its faces. The front is that of the face `fronts`.
