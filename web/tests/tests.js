@@ -80,9 +80,11 @@ for (const { name } of tables.models) {
 
 for (const name of ["bust", "gear", "soldier"]) {
   const print = JSON.parse(look("print"), (_, value) => value ?? undefined);
+  // Its switches are flags.
+  const settings = Object.fromEntries(Object.entries(print.settings).map(([name, value]) => [name, value === "on" ? true : value]));
   for (const [what, style, words, options] of [
     ["the depth texture of three-pass", "three-pass", ["--map-encoding", "depth-texture"], { "map-encoding": "depth-texture" }],
-    ["the look print", print.style, ["--look", "print"], { ...print.settings, ...print.scene, ...print.read }],
+    ["the look print", print.style, ["--look", "print"], { ...settings, ...print.scene, ...print.read }],
   ]) {
     await test(`${what} of ${name} is the command line's picture, again and again`, async () => {
       const isLook = words[0] === "--look";
