@@ -69,8 +69,8 @@ impl SmoothSurface {
     }
 }
 
-/// Each face's edges.
-fn sides(mesh: &Mesh, edges: &EdgeList) -> Vec<[u32; 3]> {
+/// For each face the edges from its first corner to its second, from that to its third, and back.
+pub(super) fn sides(mesh: &Mesh, edges: &EdgeList) -> Vec<[u32; 3]> {
     let mut sides = vec![[NONE; 3]; mesh.triangles.len()];
     for (edge, ends) in edges.positions().iter().enumerate() {
         for face in edges.faces(edge as u32) {

@@ -5,6 +5,7 @@
 //! of one side's chord alone separates a rounding from a straight patch. A facet of a cylinder and a rounding of one facet look alike;
 //! a rounding therefore needs four chords of one curvature.
 
+use super::smooth::sides;
 use super::{EdgeList, Incidence};
 use crate::disjoint_sets::DisjointSets;
 use crate::mesh::{Mesh, NONE};
@@ -71,7 +72,7 @@ struct Sections<'a> {
     edges: &'a EdgeList,
     normals: &'a [[f64; 3]],
     crease_cosine: f64,
-    /// For each face the edges from its first corner to its second, from that to its third, and back.
+    /// For each face its edges.
     of_faces: Vec<[u32; 3]>,
 }
 
@@ -83,14 +84,7 @@ pub(super) fn tangents(
     crease_cosine: f64,
     threads: usize,
 ) -> Vec<u32> {
-    let mut of_faces = vec![[NONE; 3]; mesh.triangles.len()];
-    for edge in 0..edges.len() as u32 {
-        for face in edges.faces(edge) {
-            let side = (0..3).find(|side| side_of(mesh, *face, *side) == edges.positions[edge as usize]);
-            side.into_iter().for_each(|side| of_faces[*face as usize][side] = edge);
-        }
-    }
-    let sections = Sections { mesh, edges, normals, crease_cosine, of_faces };
+    let sections = Sections { mesh, edges, normals, crease_cosine, of_faces: sides(mesh, edges) };
     let found = in_parallel(edges.len(), threads, |range| {
         let facets = range.map(|edge| (edge as u32, sections.facets(edge as u32)));
         facets.filter(|(_, agreeing)| agreeing.len() >= DECIDING).collect::<Vec<_>>()
@@ -104,14 +98,6 @@ pub(super) fn tangents(
         lengths[set_of(*edge)] += facets.iter().sum::<f64>() / facets.len() as f64;
     }
     found.into_iter().map(|(edge, _)| edge).filter(|edge| lengths[set_of(*edge)] >= LEAST_FACETS).collect()
-}
-
-/// A side of a face as an edge: its positions, the lower number first.
-fn side_of(mesh: &Mesh, face: u32, side: usize) -> [u32; 2] {
-    let corners = mesh.triangles[face as usize];
-    let mut ends = [corners[side], corners[(side + 1) % 3]];
-    ends.sort_unstable();
-    ends
 }
 
 impl Sections<'_> {
@@ -149,11 +135,8 @@ impl Sections<'_> {
             normal = self.crossing(edge, fronts, normal)?.0;
         }
         let [from, to] = self.ends(edge);
-        let corner = self.mesh.triangles[face as usize]
-            .into_iter()
-            .find(|corner| !self.edges.positions[edge as usize].contains(corner))?;
         let inwards = normal.cross(to - from).normalize();
-        let mut direction = if (self.position(corner) - from).dot(inwards) > 0.0 { inwards } else { -inwards };
+        let mut direction = if (self.beyond(edge, face)? - from).dot(inwards) > 0.0 { inwards } else { -inwards };
         let mut side = Side::default();
         for _ in 0..LONGEST {
             let (next, length) = self.exit(edge, face, normal, point, direction)?;
@@ -201,13 +184,18 @@ impl Sections<'_> {
         let cosine = normal.dot(beyond);
         let [from, to] = self.ends(edge);
         let along = (to - from).normalize();
-        let away = self.mesh.triangles[face as usize]
-            .into_iter()
-            .find(|corner| !self.edges.positions[edge as usize].contains(corner))?;
+        let away = self.beyond(edge, face)?;
         // Outwards of the face, in its plane.
         let outwards = normal.cross(along);
-        let outwards = if (self.position(away) - from).dot(outwards) > 0.0 { -outwards } else { outwards };
+        let outwards = if (away - from).dot(outwards) > 0.0 { -outwards } else { outwards };
         (cosine >= self.crease_cosine).then(|| (beyond, beyond.dot(outwards).atan2(cosine)))
+    }
+
+    /// A face's corner that is not on an edge of it.
+    fn beyond(&self, edge: u32, face: u32) -> Option<DVec3> {
+        let ends = self.edges.positions[edge as usize];
+        let corner = self.mesh.triangles[face as usize].into_iter().find(|corner| !ends.contains(corner));
+        corner.map(|corner| self.position(corner))
     }
 
     fn other_face(&self, edge: u32, face: u32) -> u32 {
