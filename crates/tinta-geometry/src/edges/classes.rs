@@ -393,7 +393,7 @@ impl Classes {
             marked.extend(edges);
         }
         if wanted.contains(Class::Tangent) {
-            let found = tangents(mesh, edges, &normals, crease_angle.cosine, threads);
+            let found = tangents(mesh, edges, &normals, threads);
             for edge in &found {
                 let classes = &mut of_edges[*edge as usize];
                 *classes = classes.or(ClassSet::of(&[Class::Tangent]));

@@ -66,7 +66,8 @@ pub(crate) struct LastingCreases {
 impl LastingCreases {
     /// Finds the edges' classes in `wanted` and those of lasting creases.
     pub(crate) fn find(mesh: &Mesh, edges: &EdgeList, angle: CreaseAngle, wanted: ClassSet, by_normals: bool) -> Self {
-        let at_angle = Classes::new(mesh, edges, angle, wanted);
+        // Where normals do not decide, only creases are read from these classes.
+        let at_angle = Classes::new(mesh, edges, angle, if by_normals { wanted } else { wanted.and(CREASES) });
         let normals = face_normals(mesh);
         let is_flat = flat_faces(edges, &normals);
         let ends_flat = |edge: u32| edges.faces(edge).iter().any(|face| is_flat[*face as usize]);

@@ -1,6 +1,6 @@
 //! Tangent edges: where a flat or straight patch of a surface meets a rounding without a crease.
 //!
-//! In: a [`Mesh`], its [`EdgeList`], the faces' normals and the crease angle. Out: the edges, ascending. A section across an edge is a
+//! In: a [`Mesh`], its [`EdgeList`], the faces' normals. Out: the edges, ascending. A section across an edge is a
 //! polygon. Between its chords a circle turns by half of each chord's own angle, a straight line not at all. An edge with the turn
 //! of one side's chord alone separates a rounding from a straight patch. A facet of a cylinder and a rounding of one facet look alike;
 //! a rounding therefore needs four chords of one curvature.
@@ -14,6 +14,10 @@ use glam::DVec3;
 
 /// Largest turn between two faces that counts as flat, radians: more than a file's six digits bend a facet.
 const FLAT: f64 = 1e-3;
+
+/// Cosine of the largest turn within a rounding, 25 degrees: four facets a quarter turn have 22.5 between them. A crease angle would
+/// not do: looks that keep lasting creases judge by a smaller one.
+const TURN: f64 = 0.9063;
 
 /// Largest curvature of the straight side, as a share of the rounding's.
 const STRAIGHT: f64 = 0.25;
@@ -71,20 +75,13 @@ struct Sections<'a> {
     mesh: &'a Mesh,
     edges: &'a EdgeList,
     normals: &'a [[f64; 3]],
-    crease_cosine: f64,
     /// For each face its edges.
     of_faces: Vec<[u32; 3]>,
 }
 
 /// The tangent edges of a mesh, ascending.
-pub(super) fn tangents(
-    mesh: &Mesh,
-    edges: &EdgeList,
-    normals: &[[f64; 3]],
-    crease_cosine: f64,
-    threads: usize,
-) -> Vec<u32> {
-    let sections = Sections { mesh, edges, normals, crease_cosine, of_faces: sides(mesh, edges) };
+pub(super) fn tangents(mesh: &Mesh, edges: &EdgeList, normals: &[[f64; 3]], threads: usize) -> Vec<u32> {
+    let sections = Sections { mesh, edges, normals, of_faces: sides(mesh, edges) };
     let found = in_parallel(edges.len(), threads, |range| {
         let facets = range.map(|edge| (edge as u32, sections.facets(edge as u32)));
         facets.filter(|(_, agreeing)| agreeing.len() >= DECIDING).collect::<Vec<_>>()
@@ -124,7 +121,15 @@ impl Sections<'_> {
             };
             separates(&one, &other).or_else(|| separates(&other, &one))
         };
-        SECTIONS.iter().filter_map(facets).collect()
+        let mut found = Vec::new();
+        for (section, share) in SECTIONS.iter().enumerate() {
+            // So many left cannot decide any more.
+            if found.len() + SECTIONS.len() - section < DECIDING {
+                break;
+            }
+            found.extend(facets(share));
+        }
+        found
     }
 
     /// Follows the section that begins at an edge perpendicular to it into one of its faces. The front is that of the face `fronts`.
@@ -172,7 +177,7 @@ impl Sections<'_> {
     }
 
     /// The normal beyond an edge of a face whose normal is `normal`, on the same side of the surface, and the turn there: positive where
-    /// the surface is convex. `None` where the surface ends, or at a crease.
+    /// the surface is convex. `None` where the surface ends or turns too far.
     fn crossing(&self, edge: u32, face: u32, normal: DVec3) -> Option<(DVec3, f64)> {
         if !matches!(self.edges.incidence[edge as usize], Incidence::Inner | Incidence::InnerReversed) {
             return None;
@@ -188,7 +193,7 @@ impl Sections<'_> {
         // Outwards of the face, in its plane.
         let outwards = normal.cross(along);
         let outwards = if (away - from).dot(outwards) > 0.0 { -outwards } else { outwards };
-        (cosine >= self.crease_cosine).then(|| (beyond, beyond.dot(outwards).atan2(cosine)))
+        (cosine >= TURN).then(|| (beyond, beyond.dot(outwards).atan2(cosine)))
     }
 
     /// A face's corner that is not on an edge of it.

@@ -5,7 +5,7 @@ use crate::support::shapes::{icosphere, mesh};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use tinta::edges::{Class, ClassSet, Classes, CreaseAngle};
-use tinta::{EdgeList, Mesh};
+use tinta::{EdgeList, LineSettings, Mesh, Scene, SceneSettings, VisibleLines};
 
 /// A solid whose every face belongs to a patch of one kind: flat, cylinder, sphere, torus.
 #[derive(Default)]
@@ -227,6 +227,23 @@ fn roundings_along_a_bar_have_tangent_edges_from_crease_to_crease() {
             assert_eq!(sides, [[1, 2], [2, 3], [5, 6], [6, 7]], "{facets} facets, radius {radius}");
         }
     }
+}
+
+#[test]
+fn drawings_with_lasting_creases_have_the_same() {
+    let solid = rounded_block(DVec3::new(3.0, 2.0, 1.0), 0.5, 4);
+    let scene = Scene::new([mesh(solid.positions, solid.triangles)], &SceneSettings::default()).unwrap();
+    let count = |lasting_creases: bool| {
+        let crease_angle = CreaseAngle::from_degrees(29.0).unwrap();
+        let settings = LineSettings {
+            classes: ClassSet::of(&[Class::Tangent]),
+            crease_angle,
+            lasting_creases,
+            ..LineSettings::default()
+        };
+        VisibleLines::of(&scene, &settings).unwrap().edges.tangent
+    };
+    assert!(count(true) == count(false) && count(true) > 100, "{} {}", count(true), count(false));
 }
 
 /// A torus of quadrilaterals.
