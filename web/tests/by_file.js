@@ -44,7 +44,7 @@ await named("the page starts", () => {
 await named("the saved lines are the command line's SVG", async () => {
   const text = await saved();
   const size = text.match(/width="(\d+)" height="(\d+)"/).slice(1).join("x");
-  const expected = new TextDecoder().decode(await drawn("builtin:gear", "--size", size, "drawn.svg"));
+  const expected = new TextDecoder().decode(await drawn("builtin:gear", "--style", "lines", "--size", size, "drawn.svg"));
   assert(text === expected, byteDifference(text, expected));
 });
 
