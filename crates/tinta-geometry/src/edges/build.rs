@@ -5,7 +5,7 @@
 //! place in memory for every edge; here a vertex's half-edges lie together.
 
 use super::{EdgeList, Incidence};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, NONE};
 use crate::threads::{in_parallel, threads_for};
 
 /// One side of a triangle: its higher position, and its face times two, plus 1 if it runs from high to low. An array rather
@@ -27,6 +27,22 @@ const SEARCHED: usize = 12;
 const NO_EDGE: u32 = u32::MAX;
 
 impl EdgeList {
+    /// For each face of its mesh the edges from the first corner to the second, from that to the third, and back; `NONE` for a side
+    /// without an edge.
+    pub(super) fn of_faces(&self, mesh: &Mesh) -> Vec<[u32; 3]> {
+        let mut of_faces = vec![[NONE; 3]; mesh.triangles.len()];
+        for (edge, [a, b]) in self.positions.iter().enumerate() {
+            for face in self.faces(edge as u32) {
+                let corners = mesh.triangles[*face as usize];
+                let ends = |side: usize| [corners[side], corners[(side + 1) % 3]];
+                if let Some(side) = (0..3).find(|side| ends(*side) == [*a, *b] || ends(*side) == [*b, *a]) {
+                    of_faces[*face as usize][side] = edge as u32;
+                }
+            }
+        }
+        of_faces
+    }
+
     /// Builds the list in time linear in the faces, on as many threads as the machine has and the mesh is worth.
     pub fn new(mesh: &Mesh) -> Self {
         Self::with_threads(mesh, threads_for(mesh.triangles.len()))

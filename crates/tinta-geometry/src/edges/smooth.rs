@@ -62,32 +62,11 @@ impl SmoothSurface {
         for edge in classes.marked {
             is_sharp[edge as usize] = true;
         }
-        let sides = sides(mesh, edges);
+        let sides = edges.of_faces(mesh);
         let (normals, normal_positions, corner_normals) = normals(mesh, edges, &is_sharp);
         let (shells, position_shells) = shells(mesh, edges);
         Self { crease_angle, normals, normal_positions, corner_normals, sides, is_sharp, shells, position_shells }
     }
-}
-
-/// For each face the edges from its first corner to its second, from that to its third, and back.
-pub(super) fn sides(mesh: &Mesh, edges: &EdgeList) -> Vec<[u32; 3]> {
-    let mut sides = vec![[NONE; 3]; mesh.triangles.len()];
-    for (edge, ends) in edges.positions().iter().enumerate() {
-        for face in edges.faces(edge as u32) {
-            if let Some(side) = side_of(&mesh.triangles[*face as usize], *ends) {
-                sides[*face as usize][side] = edge as u32;
-            }
-        }
-    }
-    sides
-}
-
-/// Returns the side of a face between two positions, in either direction.
-fn side_of(triangle: &[u32; 3], [a, b]: [u32; 2]) -> Option<usize> {
-    (0..3).find(|side| {
-        let ends = [triangle[*side], triangle[(side + 1) % 3]];
-        ends == [a, b] || ends == [b, a]
-    })
 }
 
 /// The normals, their positions, and each corner's normal.

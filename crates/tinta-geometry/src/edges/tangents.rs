@@ -5,7 +5,6 @@
 //! of one side's chord alone separates a rounding from a straight patch. A facet of a cylinder and a rounding of one facet look alike;
 //! a rounding therefore needs four chords of one curvature.
 
-use super::smooth::sides;
 use super::{EdgeList, Incidence};
 use crate::disjoint_sets::DisjointSets;
 use crate::mesh::{Mesh, NONE};
@@ -81,7 +80,7 @@ struct Sections<'a> {
 
 /// The tangent edges of a mesh, ascending.
 pub(super) fn tangents(mesh: &Mesh, edges: &EdgeList, normals: &[[f64; 3]], threads: usize) -> Vec<u32> {
-    let sections = Sections { mesh, edges, normals, of_faces: sides(mesh, edges) };
+    let sections = Sections { mesh, edges, normals, of_faces: edges.of_faces(mesh) };
     let found = in_parallel(edges.len(), threads, |range| {
         let facets = range.map(|edge| (edge as u32, sections.facets(edge as u32)));
         facets.filter(|(_, agreeing)| agreeing.len() >= DECIDING).collect::<Vec<_>>()
