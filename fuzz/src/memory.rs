@@ -90,3 +90,6 @@ pub fn of_picture(bytes: &[u8]) -> usize {
     let pixels = (bytes.len() as u64 * tinta::limits::PIXELS_A_BYTE).min(tinta::limits::PICTURE_BYTES / 4);
     of_model(bytes) + 12 * pixels as usize
 }
+
+/// Most memory for drawings of a small scene.
+pub const OF_DRAWING: usize = 256 << 20;

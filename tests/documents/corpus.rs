@@ -2,6 +2,8 @@
 
 #[path = "../../fuzz/src/readers.rs"]
 mod readers;
+#[path = "../../fuzz/src/scenes.rs"]
+mod scenes;
 #[path = "../../fuzz/src/words.rs"]
 mod words;
 
@@ -12,7 +14,7 @@ type Target = fn(&[u8]);
 
 #[test]
 fn every_file_of_the_corpus_is_read_or_refused_as_it_should_be() {
-    let targets: [(&str, Target); 14] = [
+    let targets: [(&str, Target); 15] = [
         ("obj", readers::obj),
         ("ply", readers::ply),
         ("stl", readers::stl),
@@ -27,6 +29,7 @@ fn every_file_of_the_corpus_is_read_or_refused_as_it_should_be() {
         ("preset", readers::preset),
         ("recipe", readers::recipe),
         ("command_line", words::command_line),
+        ("drawing", scenes::drawing),
     ];
     let fuzz = root().join("fuzz");
     let count = |folder: &str| std::fs::read_dir(fuzz.join(folder)).unwrap().count();

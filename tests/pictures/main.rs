@@ -17,6 +17,7 @@ mod plan_facts;
 mod prune;
 mod prune_pictures;
 mod shared_models;
+mod small_scenes;
 mod submission;
 mod supersampling;
 #[expect(dead_code, reason = "shared with the other tests")]

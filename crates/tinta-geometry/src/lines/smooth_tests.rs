@@ -5,7 +5,7 @@ use super::{LineSegment, LineSettings, VisibleLines, chain, first_hits};
 use crate::camera::{CameraSettings, View};
 use crate::edges::{Class, ClassSet, SilhouetteRule};
 use crate::lines::smooth::closed_forms::{ClosedForm, distance};
-use crate::mesh::{LoadOptions, Mesh, load};
+use crate::mesh::{LoadOptions, Mesh, load, read_bytes};
 use crate::scene::{Scene, SceneSettings};
 use glam::{DQuat, DVec2, DVec3};
 use std::sync::Arc;
@@ -305,7 +305,10 @@ fn hostile_meshes_end_in_numbers() {
     needles.positions.iter_mut().for_each(|position| position.y *= 1e-5);
     let flat = of_triangles(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE], &[[0, 1, 2], [2, 1, 3]]);
     let all = LineSettings { classes: ClassSet::ALL, finds_outline: true, ..smooth() };
-    for mesh in [of_triangles(positions, &soup), noisy, needles, flat, Mesh::triangle()] {
+    // Three faces at an edge, one of them with a sliver: contours end where other faces continue.
+    let obj = "v 500 -1 0\nv 0 1 0\nv 1 0 0\nv 0 -0.00023 0\nv 2 0 0\nv 0 0 0\nf 3 2 6\nf 2 6 5\nf 6 4 1 2\n";
+    let ending = read_bytes(obj.as_bytes(), "a.obj", &[], &LoadOptions::default()).unwrap().mesh;
+    for mesh in [of_triangles(positions, &soup), noisy, needles, flat, ending, Mesh::triangle()] {
         for (azimuth, elevation) in [(0.0, 0.0), (30.0, 15.0), (90.0, -90.0)] {
             for parallel in [false, true] {
                 let scene = scene(mesh.clone(), CameraSettings { parallel, ..camera(azimuth, elevation) });

@@ -224,7 +224,8 @@ impl ContourLines<'_> {
                 [(faces[0], edge, 1.0), (faces[faces.len() - 1], edge, 1.0)]
             }
         };
-        let mut best = (if piece.on_edge.is_some() { 0.0 } else { f64::NEG_INFINITY }, start, piece.edges[0]);
+        let own = if piece.edges[0] == NONE { piece.edges[1] } else { piece.edges[0] };
+        let mut best = (if piece.on_edge.is_some() { 0.0 } else { f64::NEG_INFINITY }, start, own);
         for (mut face, mut came, way) in ways {
             for _ in 0..MOST_FACES {
                 let positions = &self.lines.faces.positions;

@@ -51,7 +51,7 @@ pub(in crate::lines) struct ContourPiece {
     /// The object, and the face in its edge list.
     pub object: u32,
     pub face: u32,
-    /// The edges on which it begins and ends, and its ends in eye space.
+    /// The edges on which it begins and ends, at most one of them [`NONE`]: a side where other faces continue. Its ends in eye space.
     pub edges: [u32; 2],
     pub ends: [DVec3; 2],
     /// The smooth surface's normals at its ends, of any length, in eye space.
@@ -194,7 +194,7 @@ impl ObjectSurface {
     fn piece(&self, space: &Space, positions: &[DVec3], object: u32, face: u32) -> Option<ContourPiece> {
         let values = self.of_face(face);
         let fronts = values.map(is_front);
-        if fronts == [true; 3] || fronts == [false; 3] || self.surface.sides[face as usize] == [NONE; 3] {
+        if fronts == [true; 3] || fronts == [false; 3] {
             return None;
         }
         let triangle = self.mesh.triangles[face as usize];
@@ -211,6 +211,9 @@ impl ObjectSurface {
             (edge, point, space.direction(normal))
         });
         let (first, second) = (crossings.next()?, crossings.next()?);
+        if first.0 == NONE && second.0 == NONE {
+            return None;
+        }
         let (along, across) = (corners[1] - corners[0], corners[2] - corners[0]);
         let normal = along.cross(across);
         // The direction in which n . v grows fastest, times the squared normal.

@@ -10,6 +10,7 @@ use crate::edges::{CreaseAngle, Shell};
 use crate::lines::eye::space::Space;
 use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::smooth::contours::{ContourPiece, Contours, Link, ObjectSurface, between};
+use crate::mesh::NONE;
 use crate::scene::Scene;
 use glam::DVec3;
 
@@ -38,7 +39,7 @@ fn links(surfaces: &[ObjectSurface], pieces: &[ContourPiece]) -> Vec<Link> {
     let mut ends: Vec<(u32, u32, usize, usize)> = Vec::with_capacity(pieces.len() * 2);
     for (number, piece) in pieces.iter().enumerate() {
         let is_sharp = &surfaces[piece.object as usize].surface.is_sharp;
-        let smooth = piece.edges.iter().enumerate().filter(|(_, edge)| !is_sharp[**edge as usize]);
+        let smooth = piece.edges.iter().enumerate().filter(|(_, edge)| **edge != NONE && !is_sharp[**edge as usize]);
         ends.extend(smooth.map(|(end, edge)| (piece.object, *edge, number, end)));
     }
     ends.sort_unstable();

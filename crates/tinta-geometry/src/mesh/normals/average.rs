@@ -132,17 +132,22 @@ impl Nodes {
     }
 }
 
-/// Averages normals of corners, or of patches, over a reach: by patches of them where they are small.
+/// Averages normals of corners, or of patches, over a reach: by patches of them where they are small. Each level has at most nine tenths
+/// of the connected parts of the one below, so their number bounds the depth, whatever the sizes are.
 fn spread(neighbours: &Neighbours, areas: &[f64], places: &[Vec3], normals: &mut Vec<Vec3>, reach: f64) {
-    let mean = areas.iter().sum::<f64>() / areas.len() as f64;
+    // A part without neighbours is a whole surface and grows no further.
+    let connected = (0..areas.len()).filter(|part| !neighbours.of(*part).is_empty());
+    let (count, sum) = connected.fold((0, 0.0), |(count, sum), part| (count + 1, sum + areas[part]));
+    let mean = sum / f64::from(count);
     let limit = GROWTH * mean;
-    if mean > PATCH * reach * reach / GROWTH {
-        diffuse(neighbours, places, normals, (reach * reach) as f32, ROUNDS);
-        return;
-    }
     let area = |part: u32| areas[part as usize];
     let joins = |_, _, other, so_far: f64| (so_far + 0.5 * area(other) < limit).then(|| area(other));
-    let patches = Patches::new(neighbours, areas.len(), area, joins);
+    let is_small = mean <= PATCH * reach * reach / GROWTH;
+    let patches = is_small.then(|| Patches::new(neighbours, areas.len(), area, joins));
+    let Some(patches) = patches.filter(|patches| 10 * (areas.len() - patches.areas.len()) >= count as usize) else {
+        diffuse(neighbours, places, normals, (reach * reach) as f32, ROUNDS);
+        return;
+    };
     let (mut centres, mut means) = (vec![Vec3::ZERO; patches.areas.len()], vec![Vec3::ZERO; patches.areas.len()]);
     for (part, patch) in patches.of.iter().enumerate() {
         let share = (areas[part] / patches.areas[*patch as usize].max(f64::MIN_POSITIVE)) as f32;

@@ -434,6 +434,57 @@ fn a_finer_mesh_of_the_same_form_has_the_same_averages() {
     }
 }
 
+/// A ball of rows of triangles around an axis.
+fn ball(centre: DVec3, radius: f64, (positions, triangles): &mut (Vec<DVec3>, Vec<[u32; 3]>)) {
+    let (around, rows, first) = (12u32, 8u32, positions.len() as u32);
+    for row in 0..=rows {
+        let (sin, cos) = (f64::from(row) * TAU / 2.0 / f64::from(rows)).sin_cos();
+        let place = |step: u32| (f64::from(step) * TAU / f64::from(around)).sin_cos();
+        positions.extend(
+            (0..around).map(|step| centre + radius * DVec3::new(sin * place(step).1, sin * place(step).0, cos)),
+        );
+    }
+    for (row, step) in (0..rows).flat_map(|row| (0..around).map(move |step| (row, step))) {
+        let [a, b] = [step, (step + 1) % around].map(|step| first + row * around + step);
+        let sides = [[a, a + around, b], [b, a + around, b + around]];
+        let is_at_pole = [row == 0, row + 1 == rows];
+        triangles.extend(
+            sides.into_iter().zip(is_at_pole.into_iter()).filter(|(_, is_at_pole)| !is_at_pole).map(|(t, _)| t),
+        );
+    }
+}
+
+#[test]
+fn small_round_parts_far_apart_are_averaged_whatever_their_sizes_are() {
+    for radius in [1e-12, 1e-6, 1e-3, 5e-3, 0.3] {
+        for count in [1, 2, 9, 100] {
+            let mut model = cube();
+            for number in 0..count {
+                ball(DVec3::new(f64::from(number), 0.5, 3.0), radius * f64::from(1 + number % 3), &mut model);
+            }
+            let (normals, indices) = lasting(&model.0, &model.1);
+            assert!(indices.as_flattened().iter().all(|index| normals[*index as usize].length() <= 1.0 + 1e-5));
+        }
+    }
+    let sliver = [DVec3::ZERO, DVec3::X, DVec3::new(2.0, 1e-4, 0.0)];
+    assert_eq!(lasting(&sliver, &[[0, 1, 2]]).0, [Vec3::Z; 3]);
+}
+
+#[test]
+fn a_large_surface_among_small_balls_is_averaged_no_less_than_alone() {
+    let (positions, triangles) = wavy(6.0);
+    let (alone, of_alone) = lasting(&positions, &triangles);
+    let mut model = (positions, triangles.clone());
+    for number in 0..400 {
+        ball(DVec3::new(f64::from(number % 20) * 3.0, f64::from(number / 20) * 3.0, 0.0), 1e-3, &mut model);
+    }
+    let (among, of_among) = lasting(&model.0, &model.1);
+    for (one, other) in of_alone.as_flattened().iter().zip(of_among.as_flattened()) {
+        let [one, other] = [alone[*one as usize].length(), among[*other as usize].length()];
+        assert!(other < one + 0.02, "{one} alone, {other} among small balls");
+    }
+}
+
 #[test]
 fn a_box_keeps_its_normals_exactly() {
     let (positions, triangles) = cube();
