@@ -3,6 +3,7 @@
 use crate::errors::{said, unreadable};
 use crate::model::{Model, asked};
 use serde_json::json;
+use std::sync::Arc;
 use tinta::camera::CameraSettings;
 use tinta::glam::DVec2;
 use tinta::lines::Progress;
@@ -73,7 +74,7 @@ impl Pane {
         if is_coarse && self.renderer.context().draw_buffers > 1 {
             request.style = coarse(&request.style);
         }
-        let scene = self.seen(&request)?;
+        let scene = if is_coarse { self.seen(&request)? } else { self.lit(&request)? };
         let around = request.around(&scene, &Progress::default()).map_err(said)?;
         if request.has_lines_over() {
             self.lines_ms = around.found_ms;
@@ -99,7 +100,7 @@ impl Pane {
         let picture = self.drawn.as_ref().ok_or_else(|| JsError::new("nothing was drawn yet"))?;
         let driver = Driver::new(self.renderer.context());
         let request = model.request(StyleName::ThreePass, options)?;
-        let recipe = model.recipe(&request, &self.seen(&request)?, Some(driver));
+        let recipe = model.recipe(&request, &self.lit(&request)?, Some(driver));
         picture.png_bytes(recipe.note().as_ref()).map_err(said)
     }
 
@@ -110,7 +111,7 @@ impl Pane {
     /// Those of [`Pane::draw`].
     pub fn passes(&self, options: &str, show: &str) -> Result<String, JsError> {
         let request = picture_asked(options, show)?;
-        let plan = request.plan(&self.seen(&request)?).map_err(said)?;
+        let plan = request.plan(&self.lit(&request)?).map_err(said)?;
         let passes: Vec<_> = plan
             .passes
             .iter()
@@ -138,7 +139,7 @@ impl Pane {
     /// Those of [`Pane::draw`].
     pub fn ink(&mut self, options: &str) -> Result<Option<Vec<u8>>, JsError> {
         let request = asked(StyleName::ThreePass, options)?;
-        let scene = self.seen(&request)?;
+        let scene = self.lit(&request)?;
         Ok(Ink::of_style(&mut self.renderer, &scene, &request.style).map_err(said)?.map(|ink| ink.darkness))
     }
 
@@ -150,7 +151,7 @@ impl Pane {
     /// Those of [`Pane::draw`], and for background.
     pub fn why(&mut self, options: &str, x: f64, y: f64) -> Result<String, JsError> {
         let request = asked(StyleName::ThreePass, options)?;
-        let scene = self.seen(&request)?;
+        let scene = self.lit(&request)?;
         let mut style = request.style;
         let is_supersampled = style.plan(&scene, Show::Final).map_err(said)?.supersample > 1;
         if is_supersampled && let Some(setting) = Style::table().find(&style, "supersample") {
@@ -262,9 +263,15 @@ impl Pane {
         Ok(SceneSettings { camera, ..settings })
     }
 
+    /// The scene in view.
     fn seen(&self, request: &Request) -> Result<Scene, JsError> {
         let scene = self.scene.as_ref().ok_or_else(|| JsError::new("no model is shown yet"))?;
         scene.seen_with(&self.settings(request)?).map_err(said)
+    }
+
+    /// The scene as a still picture shows it: its tones have the light of this view, whatever was drawn before.
+    fn lit(&self, request: &Request) -> Result<Scene, JsError> {
+        Ok(request.lit(Scene { tone_light: Arc::default(), ..self.seen(request)? }))
     }
 }
 
