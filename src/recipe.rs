@@ -41,6 +41,10 @@ pub const KEYWORD: &str = "tinta-recipe";
 /// The longest recipe written or read, bytes of JSON.
 pub const LARGEST_BYTES: usize = 256 << 10;
 
+/// Options that a recipe alone cannot grant, and what they are for.
+const NOT_GRANTED: [(&str, &str); 2] =
+    [("allow-external", "for files outside its model's folder"), ("glsl", "for shaders that come with it")];
+
 /// How much of an SVG is searched: its metadata is near its beginning.
 const HEAD_BYTES: u64 = 2 << 20;
 
@@ -182,6 +186,13 @@ pub(crate) fn files_read(models: &[String], beside: &[PathBuf], scene: &Scene, s
 }
 
 impl Recipe {
+    /// Says which of its options only the user can grant, unless given anew: a recipe may come from anyone.
+    pub fn not_granted(&self, given: &Options) -> Option<String> {
+        let is_refused = |name: &str| self.options.contains_key(name) && !given.contains_key(name);
+        let (name, what) = NOT_GRANTED.iter().find(|(name, _)| is_refused(name))?;
+        Some(format!("its recipe has --{name}, {what}; give that option yourself"))
+    }
+
     /// The recipe as ASCII JSON on one line; `None` when it is longer than [`LARGEST_BYTES`].
     pub fn json(&self) -> Option<String> {
         let text = serde_json::to_string(self).ok()?;

@@ -9,7 +9,7 @@ use crate::files::shown;
 use std::path::{Path, PathBuf};
 use tinta::limits::PICTURE_BYTES;
 use tinta::request::{OptionLayer, Request, unknown};
-use tinta::settings::HasSettings;
+use tinta::settings::{HasSettings, OptionValue, Options};
 use tinta::{Backend, Error, Picture, Recipe, Result, Size};
 
 /// The command.
@@ -39,6 +39,10 @@ pub(super) struct Arguments {
     /// Read files outside the model's folder, if the recipe does so too; a recipe alone cannot allow it [default: off]
     #[arg(long)]
     allow_external: bool,
+
+    /// Folder of shaders to draw with, if the recipe has one; a recipe alone cannot have shaders run [default: none]
+    #[arg(long, value_name = "FOLDER")]
+    glsl: Option<String>,
 }
 
 /// A picture to draw again.
@@ -49,9 +53,6 @@ struct Redrawing<'a> {
     /// What messages call the new picture.
     name: String,
 }
-
-/// An option that a picture's recipe cannot grant: only the user can.
-const NOT_GRANTED: &str = "allow-external";
 
 /// Draws the picture again; exit code 1 if it differs.
 pub(super) fn run(arguments: &Arguments) -> Result<Verdict> {
@@ -185,17 +186,18 @@ impl Redrawing<'_> {
             if !Request::table().has(name) {
                 return Err(refuse(format!("its recipe is not drawn: {}", unknown(name))));
             }
-            if name == NOT_GRANTED && !arguments.allow_external {
-                return Err(refuse(
-                    "its recipe has --allow-external, for files outside its model's folder; give that option yourself to read them"
-                        .to_owned(),
-                ));
-            }
+        }
+        let external = arguments.allow_external.then(|| ("allow-external".to_owned(), OptionValue::Switch(true)));
+        let glsl = arguments.glsl.as_ref().map(|folder| ("glsl".to_owned(), OptionValue::text(folder)));
+        let given: Options = external.into_iter().chain(glsl).collect();
+        if let Some(problem) = recipe.not_granted(&given) {
+            return Err(refuse(problem));
         }
         let output = self.output.display().to_string();
         // The recipe has all options of the picture's look.
         let style = recipe.style.parse().ok().map(OptionLayer::Style);
-        let layers: Vec<OptionLayer> = style.into_iter().chain([OptionLayer::Given(recipe.options.clone())]).collect();
+        let layers: Vec<OptionLayer> =
+            style.into_iter().chain([OptionLayer::Given(recipe.options.clone()), OptionLayer::Given(given)]).collect();
         let (request, _) = Request::from_layers(&layers).map_err(|error| match error {
             Error::Setting { .. } | Error::Settings { .. } => {
                 refuse(format!("its recipe has an option that is not understood ({error}); this may be an older tinta"))

@@ -232,6 +232,7 @@ fn a_recipe_that_means_harm_writes_nothing() {
         ("tones=2 --dump", text(target.clone())),
         ("json", OptionValue::Switch(true)),
         ("allow-external", OptionValue::Switch(true)),
+        ("glsl", text("glsl".to_owned())),
         ("oil", text("2".to_owned())),
         ("", text("2".to_owned())),
         ("tones", text(format!("2 --dump={target}"))),

@@ -16,7 +16,7 @@ use tinta::glam::DVec2;
 use tinta::pixel::LineTolerance;
 use tinta::recipe::{Recipe, option_words};
 use tinta::request::{Request, Session};
-use tinta::settings::{HasSettings as _, Setting};
+use tinta::settings::{HasSettings as _, Options, Setting};
 use tinta::styles::Inking;
 use tinta::{Camera, Error, LineSettings, Mesh, Picture, Result, Scene, SceneSettings, Size, Style, StyleName};
 
@@ -242,6 +242,10 @@ fn lines_over(path: &Path, model: &str, picture: &Picture, session: &mut Session
     let mut request = request.with_models(vec![model.to_owned()]);
     if !request.has_lines_over() || !request.animation.is_still() || model == "-" {
         return Ok(None);
+    }
+    if recipe.not_granted(&Options::new()).is_some() {
+        let problem = "its recipe has shaders, or files outside its model's folder, which this command does not use; judge lines alone";
+        return Err(Error::picture(path, problem));
     }
     request.style = request.style_in_passes()?;
     request.exact_lines = false;

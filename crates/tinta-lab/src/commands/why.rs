@@ -15,7 +15,7 @@ use tinta::lines::Why;
 use tinta::pixel::{Explanation, Variable};
 use tinta::recipe::Recipe;
 use tinta::request::{OptionLayer, Request, Session};
-use tinta::settings::{HasSettings, Setting};
+use tinta::settings::{HasSettings, Options, Setting};
 use tinta::styles::is_of_lines_alone;
 use tinta::{Error, LineSettings, Result, Scene, Style, StyleName, Target, TextTarget, VisibleLines};
 
@@ -92,7 +92,7 @@ fn place(text: &str) -> std::result::Result<DVec2, String> {
 pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let camera = arguments.camera.camera.as_deref();
     let below = Below { camera, ..Below::default() };
-    let (models, layers) = subject(&arguments.model)?;
+    let (models, layers) = subject(&arguments.model, &arguments.drawing.options)?;
     let (mut request, _) = arguments.drawing.request_over(layers, &models, &below)?;
     if request.style.lines().is_some() {
         let needed = [("variable", arguments.variable.is_some()), ("output", arguments.output.is_some())];
@@ -114,11 +114,15 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
 }
 
 /// The models and the options below those given: a picture's by its recipe, else of lines.
-fn subject(model: &str) -> Result<(Vec<String>, Vec<OptionLayer>)> {
+fn subject(model: &str, given: &Options) -> Result<(Vec<String>, Vec<OptionLayer>)> {
     if ![".png", ".svg"].iter().any(|ending| model.to_ascii_lowercase().ends_with(ending)) {
         return Ok((vec![model.to_owned()], vec![OptionLayer::Style(StyleName::Lines)]));
     }
-    let Recipe { models, options, style, .. } = Recipe::read(Path::new(model))?;
+    let recipe = Recipe::read(Path::new(model))?;
+    if let Some(problem) = recipe.not_granted(given) {
+        return Err(Error::picture(model, problem));
+    }
+    let Recipe { models, options, style, .. } = recipe;
     let style = style.parse().map(OptionLayer::Style).ok();
     Ok((models, style.into_iter().chain([OptionLayer::Given(options)]).collect()))
 }
