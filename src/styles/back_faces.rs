@@ -45,10 +45,7 @@ impl BackFaces {
             "Width of the lines; about half of it is seen",
             |style: &mut Self| &mut style.line_width,
         );
-        let own = vec![
-            width.ours("E, section 2, names the method without values").range(0.0, 16.0, 1),
-            ink_color(|style: &mut Self| &mut style.ink).ours("E, section 2, names the method without values"),
-        ];
+        let own = vec![width.range(0.0, 16.0, 1), ink_color(|style: &mut Self| &mut style.ink)];
         under(ALL_STYLES, vec![without])
             .chain(within(Tones::settings(), |style: &mut Self| Some(&mut style.tones)))
             .chain(under("Style back-faces", own))

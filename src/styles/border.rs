@@ -82,21 +82,21 @@ impl Border {
                 "Edge filter: laplacian4, laplacian8, mitchell, mitchell-two (in two programs, not for two-pass), sobel, \
                  roberts, gaussian",
                 |border: &mut Self| &mut border.filter,
-            ).printed("E, figure 11")
+            )
             .labelled("edge filter"),
             Setting::field(
                 "detection-factor",
                 "FACTOR",
                 "Factor for the edge filter's response; more darkens faint edges",
                 |border: &mut Self| &mut border.detection_factor,
-            ).printed("E, appendix 1: #define DETECTION_FACTOR 0.2f")
+            )
             .range(0.0, 2.0, 3),
             Setting::field(
                 "slope-threshold",
                 ON_OFF,
                 "Find edges in depth by a threshold that follows the surface's slope, on or off; off uses the filter",
                 |border: &mut Self| &mut border.slope_threshold,
-            ).printed("E, appendix 1: depth goes through the filter as normals do"),
+            ),
         ];
         let width = Setting::open_field(
             "border-width",
@@ -105,8 +105,7 @@ impl Border {
             "Width of the borders: 1 to 64 pixels, a share of the picture's height such as 0.35%, or paper (about 2 \
              pixels, as the filter draws them; 2 in style ink)",
             |border: &mut Self| &mut border.width,
-        )
-        .printed("E, appendix 1: the filter reads the next pixels");
+        );
         under(CARTOON, filter).chain(under(IMAGE_SPACE, vec![width])).collect()
     }
 

@@ -63,8 +63,7 @@ impl Cartoon {
             background_square(|cartoon: &mut Self| &mut cartoon.background_square),
             Setting::field("map-encoding", "ENCODING", MapEncoding::HELP, |cartoon: &mut Self| {
                 &mut cartoon.map_encoding
-            })
-            .printed("E, appendix 1: the normal as colour, depth as alpha"),
+            }),
         ];
         let image_space = vec![MapTarget::setting(|cartoon: &mut Self| &mut cartoon.map_target)];
         under(ALL_STYLES, common)
@@ -79,9 +78,7 @@ impl Cartoon {
 /// Returns the setting that draws a square behind the scene into the map.
 pub(super) fn background_square<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
     let help = "Draw a square behind the scene, on or off; without it outer borders are lost";
-    Setting::field("background-quad", ON_OFF, help, field)
-        .printed("E, section 5: drawn in every scene")
-        .labelled("background square")
+    Setting::field("background-quad", ON_OFF, help, field).labelled("background square")
 }
 
 /// Borders alone are drawn on white, as in figure 12.

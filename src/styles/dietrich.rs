@@ -58,8 +58,7 @@ impl Dietrich {
             cull(|dietrich: &mut Self| &mut dietrich.cull_back_faces),
             Supersample::setting(|dietrich: &mut Self| &mut dietrich.supersample),
         ];
-        let color =
-            ink_color(|dietrich: &mut Self| &mut dietrich.ink).ours("the text names the method and prints no colour");
+        let color = ink_color(|dietrich: &mut Self| &mut dietrich.ink);
         let own = vec![
             Setting::field(
                 "ink-threshold",
@@ -67,7 +66,6 @@ impl Dietrich {
                 "Cosine between normal and view below which a pixel is ink, 0 to 1; more makes wider lines",
                 |dietrich: &mut Self| &mut dietrich.threshold,
             )
-            .ours("D, Alternative techniques: a chosen threshold, not printed")
             .range(0.0, 1.0, 3),
             color,
         ];

@@ -15,9 +15,7 @@ pub(super) const CHARCOAL: &str = "Styles charcoal and sand (defaults are the te
 
 /// Returns the setting that turns lines off.
 pub(super) fn no_borders<T: Clone + 'static>(get: fn(&T) -> bool, set: fn(&mut T, bool)) -> Setting<T> {
-    Setting::flag("no-borders", "Leave out the lines: draw tones or paint alone", get, set)
-        .deduced("E and D draw their figures with lines, and some without")
-        .labelled("no lines")
+    Setting::flag("no-borders", "Leave out the lines: draw tones or paint alone", get, set).labelled("no lines")
 }
 
 /// Returns the setting that skips faces turned away.
@@ -25,5 +23,4 @@ pub(super) fn cull<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Settin
     let help = "Faces to leave out: none, or back (those that point away): faster, and nearly the same picture of \
         closed models";
     Setting::either("cull", "FACES", ["none", "back"], help, field)
-        .deduced("E, D and V leave face culling off, as GL has it by default")
 }

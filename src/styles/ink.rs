@@ -99,8 +99,7 @@ impl Ink {
         let common = vec![
             no_borders(|ink: &Self| !ink.is_inked, |ink, is_without| ink.is_inked = !is_without),
             cull(|ink: &mut Self| &mut ink.cull_back_faces),
-            Setting::open_field("supersample", "N", "auto", Supersample::HELP, |ink: &mut Self| &mut ink.supersample)
-                .ours("the quality decides"),
+            Setting::open_field("supersample", "N", "auto", Supersample::HELP, |ink: &mut Self| &mut ink.supersample),
         ];
         let width = Setting::of(
             "border-width",
@@ -112,10 +111,8 @@ impl Ink {
                 ink.line_width = if text == "paper" { Self::default().line_width } else { LineWidth::parse(text)? };
                 Ok(())
             },
-        )
-        .ours("as wide as the lines of inking, whose text prints 2");
-        let crease = CreaseAngle::setting(|ink: &mut Self| &mut ink.crease_angle)
-            .ours("chamfers and many-sided prisms keep their edges");
+        );
+        let crease = CreaseAngle::setting(|ink: &mut Self| &mut ink.crease_angle);
         let image_space = vec![width.labelled("line width"), MapTarget::setting(|ink: &mut Self| &mut ink.map_target)];
         let own = vec![
             Setting::open_field(
@@ -126,15 +123,13 @@ impl Ink {
                  (the outline's width)",
                 |ink: &mut Self| &mut ink.inner_width,
             )
-            .inside("border-width")
-            .ours("all lines are as wide"),
+            .inside("border-width"),
             Setting::field(
                 "quality",
                 "QUALITY",
                 "Quality of the ink: standard (no slower than three-pass) or best (drawn larger, without specks, then shrunk)",
                 |ink: &mut Self| &mut ink.quality,
-            )
-            .ours("no slower than the three passes"),
+            ),
             Setting::open_field(
                 "tone-light",
                 "X,Y,Z",
@@ -143,8 +138,7 @@ impl Ink {
                  about a fifth of the model is dark) or listing (the near light of three-pass)",
                 |ink: &mut Self| &mut ink.tone_light,
             )
-            .inside("light")
-            .ours("the three passes' light"),
+            .inside("light"),
             Setting::field(
                 "least-gap",
                 "PIXELS",
@@ -152,7 +146,6 @@ impl Ink {
                  lines",
                 |ink: &mut Self| &mut ink.least_gap_px,
             )
-            .ours("the best of those measured (measuring.md)")
             .range(0.0, 20.0, 2),
             Setting::field(
                 "gap-per-slope",
@@ -161,7 +154,6 @@ impl Ink {
                 |ink: &mut Self| &mut ink.gap_per_slope,
             )
             .inside("least-gap")
-            .ours("the best of those measured (measuring.md)")
             .range(0.0, 5.0, 2),
         ];
         under(ALL_STYLES, common)

@@ -116,29 +116,25 @@ impl Inking {
                 ON_OFF,
                 "Smooth and blend the lines, on or off; quads are never smoothed",
                 |inking: &mut Self| &mut inking.is_smooth,
-            )
-            .printed("D, Inking: the optional part, GL_LINE_SMOOTH and GL_POINT_SMOOTH"),
+            ),
             Setting::field(
                 "joints",
                 ON_OFF,
                 "Join lines with points at their ends, on or off; thin lines hardly need it",
                 |inking: &mut Self| &mut inking.has_joints,
-            )
-            .printed("D, Inking: the vertices once more as points, to avoid gaps"),
+            ),
             Setting::field(
                 "back-edges",
                 ON_OFF,
                 "Draw edges whose faces both point away, on or off; closed models hide nearly all of them",
                 |inking: &mut Self| &mut inking.back_edges,
-            )
-            .printed("D, Inking: the listing ignores which way an edge's faces point"),
+            ),
             Setting::field(
                 "line-drawing",
                 "HOW",
                 "Draw lines as GL lines (gl) or as quads of exactly their width (quads)",
                 |inking: &mut Self| &mut inking.line_drawing,
-            )
-            .printed("D, Inking: glBegin( GL_LINES )"),
+            ),
             Setting::either(
                 "ink-depth",
                 "HOW",
@@ -146,33 +142,30 @@ impl Inking {
                 "Depth of the lines: write it, as in the text (write; smoothed lines get gaps), or only test it \
                  (test)",
                 |inking: &mut Self| &mut inking.writes_depth,
-            )
-            .deduced("D, Inking: the listing does not change the depth mask"),
+            ),
             Setting::field(
                 "polygon-offset",
                 "F,U",
                 "How far faces are pushed behind the lines: glPolygonOffset's factor and units",
                 |inking: &mut Self| &mut inking.polygon_offset,
             )
-            .printed("D, Inking: glPolygonOffset( 1.0f, 5.0f )")
             .range(-10.0, 20.0, 1),
         ];
-        let faces =
-            vec![
+        let faces = vec![
             Setting::field(
                 "paint",
                 "HOW",
                 "Paint of the faces: none (the background's colour), flat (their own colour), or by light: ramp (a \
                  tone for each pixel), flat-shaded (a tone for each face), gouraud (tones mixed between vertices)",
                 |inking: &mut Self| &mut inking.paint,
-            ).printed("D, Painting: a texture looked up by the light"),
+            ),
             Setting::field(
                 "ramp",
                 "FILE",
                 "Picture of four gradients, one above the other, dark at the left",
                 |inking: &mut Self| &mut inking.ramp,
             )
-            .inside("texture").ours("the text's texture was on its disk and is not at hand")
+            .inside("texture")
             .said("built in"),
             Setting::field(
                 "ramp-row",
@@ -180,20 +173,20 @@ impl Inking {
                 "Gradient of the ramp: material (the one nearest to the material's colour), object (the next one for \
                  each object), 0 to 3, or own (made from each colour)",
                 |inking: &mut Self| &mut inking.ramp_row,
-            ).ours("D leaves it to the program's author: texOffset"),
+            ),
             Setting::field(
                 "light",
                 "WHERE",
                 "Compute the light on the cpu or in a vertex-shader",
                 |inking: &mut Self| &mut inking.light,
-            ).printed("D, Painting: computed for each vertex; a vertex shader is named as an alternative")
+            )
             .labelled("light on"),
             Setting::field(
                 "texture",
                 ON_OFF,
                 "Multiply the paint by the model's own texture, on or off",
                 |inking: &mut Self| &mut inking.has_texture,
-            ).deduced("D, Alternative techniques: named, and not in the listing"),
+            ),
         ];
         under(ALL_STYLES, common).chain(under(INKING, lines)).chain(under(INKING, faces)).collect()
     }

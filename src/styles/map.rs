@@ -117,7 +117,6 @@ impl MapTarget {
         let help = "Copy the map into its texture (copy) or draw it there with a framebuffer object (texture); \
                     pictures differ by rounding only; mrt always draws it there";
         Setting::field("map-target", "HOW", help, field)
-            .printed("E, section 4.1: drawn into the framebuffer, then copied into a texture")
     }
 
     /// The target of a map with 8 bits per channel.

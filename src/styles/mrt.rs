@@ -71,8 +71,7 @@ impl Mrt {
                 )
                 .into()),
             },
-        )
-        .printed("E, appendix 1: the normal as colour, depth as alpha");
+        );
         let map = vec![background_square(|mrt: &mut Self| &mut mrt.background_square), encoding];
         under(ALL_STYLES, common)
             .chain(within(Tones::settings(), |mrt: &mut Self| Some(&mut mrt.tones)))

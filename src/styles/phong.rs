@@ -40,8 +40,7 @@ impl Phong {
                 |phong: &mut Self| &mut phong.ambient,
             )
             .inside("shading")
-            .limits(0.0..=1.0)
-            .ours("E shows Phong shading in figures 5a and 8 and prints no weights"),
+            .limits(0.0..=1.0),
             Setting::field(
                 "specular",
                 "SHARE",
@@ -49,8 +48,7 @@ impl Phong {
                 |phong: &mut Self| &mut phong.specular,
             )
             .inside("shading")
-            .limits(0.0..=1.0)
-            .ours("E shows Phong shading in figures 5a and 8 and prints no weights"),
+            .limits(0.0..=1.0),
             Setting::field(
                 "shininess",
                 "EXPONENT",
@@ -58,7 +56,6 @@ impl Phong {
                 |phong: &mut Self| &mut phong.shininess,
             )
             .inside("shading")
-            .ours("E shows Phong shading in figures 5a and 8 and prints no exponent")
             .limits(1.0..=10_000.0)
             .range(1.0, 200.0, 0),
         ];

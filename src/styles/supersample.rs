@@ -26,9 +26,7 @@ impl Supersample {
 
     /// Returns the setting of a style that always has a factor.
     pub(super) fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
-        Setting::field("supersample", "N", Self::HELP, field)
-            .ours("no text draws larger than its picture")
-            .said("1; ink --quality best: 2")
+        Setting::field("supersample", "N", Self::HELP, field).said("1; ink --quality best: 2")
     }
 
     /// The factor.

@@ -46,8 +46,7 @@ impl Tones {
                 Ok(())
             },
         )
-        .inside("tones")
-        .printed("E, appendix 1: diffuse>=0.8f, specular>0.65f");
+        .inside("tones");
         let settings = vec![
             Setting::field(
                 "tones",
@@ -55,7 +54,6 @@ impl Tones {
                 "Number of tones, 1 to 3; fewer leave out the brightest",
                 |tones: &mut Self| &mut tones.count,
             )
-            .printed("E, appendix 1 has three; section 3.2 names one and two")
             .range(1.0, 3.0, 0),
             thresholds,
             Setting::field(
@@ -65,7 +63,6 @@ impl Tones {
                 |tones: &mut Self| &mut tones.levels,
             )
             .inside("tones")
-            .printed("E, appendix 1: 0.65f, 0.95f, 1.0f")
             .range(0.0, 1.0, 3),
             Setting::field(
                 "tone-lookup",
@@ -73,8 +70,7 @@ impl Tones {
                 "Look up tones by comparison (steps) or in a 1-D texture (texture)",
                 |tones: &mut Self| &mut tones.lookup,
             )
-            .inside("tones")
-            .printed("E, appendix 1 compares; section 3.2 names one-dimensional textures"),
+            .inside("tones"),
         ];
         under(CARTOON, settings).collect()
     }

@@ -24,14 +24,12 @@
 //! ```
 
 mod kind;
-mod provenance;
 mod value;
 
 use crate::choice::meant_or;
 
 pub use crate::choice::Choice;
 pub use kind::{Kind, ON_OFF, Problem, on_off};
-pub use provenance::{Provenance, Whose};
 pub use value::{Value, names_of};
 
 use crate::error::{Error, Result};
@@ -127,8 +125,6 @@ pub struct Setting<T> {
     pub is_common: bool,
     /// The text for an unset value.
     pub open: Option<&'static str>,
-    /// The origin of its default, if known.
-    pub provenance: Option<Provenance>,
     /// Texts of earlier versions, each with its present equivalent: they are accepted, but never written or offered.
     pub former: &'static [(&'static str, &'static str)],
     /// Whether its option may be given without a value; its text is then empty.
@@ -235,7 +231,6 @@ impl<T: Clone + 'static> Setting<T> {
             heading: "",
             is_common: false,
             open: None,
-            provenance: None,
             former: &[],
             stands_alone: false,
             between: None,
@@ -384,7 +379,6 @@ impl<T: Clone + 'static> Setting<T> {
             heading: self.heading,
             is_common: self.is_common,
             open: self.open,
-            provenance: self.provenance,
             former: self.former,
             stands_alone: self.stands_alone,
             between: self.between,
@@ -659,25 +653,5 @@ impl<T: Clone + 'static> Setting<T> {
             Kind::Numbers { count, .. } if *count > 1 => text.split(',').map(plain).collect(),
             _ => plain(&text),
         }
-    }
-}
-
-impl<T> Setting<T> {
-    /// With a default that a published text prints, at this place.
-    #[must_use]
-    pub fn printed(self, place: &'static str) -> Self {
-        Self { provenance: Some(Provenance::printed(place)), ..self }
-    }
-
-    /// With a default that follows from `from`.
-    #[must_use]
-    pub fn deduced(self, from: &'static str) -> Self {
-        Self { provenance: Some(Provenance::deduced(from)), ..self }
-    }
-
-    /// With a default chosen by this project, and the reason.
-    #[must_use]
-    pub fn ours(self, reason: &'static str) -> Self {
-        Self { provenance: Some(Provenance::ours(reason)), ..self }
     }
 }

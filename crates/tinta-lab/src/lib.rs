@@ -6,7 +6,6 @@
 //! | two styles' lines beside each other | [`compare`] |
 //! | anyone's drawing against the exact lines | `judge` |
 //! | extreme cases | `stress` |
-//! | whose each value of a style is | [`provenance`] |
 //! | the commands, as the program registers them | `commands` |
 //!
 //! # Cargo features
@@ -17,7 +16,6 @@
 
 // Floors, from the ground up: a module uses only those above it in this list (`tests/documents/floors.rs`).
 pub mod compare;
-pub mod provenance;
 #[cfg(feature = "cli")]
 mod canvas;
 #[cfg(feature = "cli")]

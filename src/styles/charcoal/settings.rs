@@ -27,8 +27,7 @@ impl Charcoal {
             },
         )
         // The old name made our values look like the text's.
-        .formerly(&[("published", "plain")])
-        .ours("V, section 5 lists which parameters to raise and lower, not by how much");
+        .formerly(&[("published", "plain")]);
         let grain = vec![
             recipe,
             Setting::field(
@@ -37,7 +36,6 @@ impl Charcoal {
                 "Seed of the random numbers; the same seed gives the same textures",
                 |charcoal: &mut Self| &mut charcoal.seed,
             )
-            .ours("V seeds rand() with something it does not print")
             .range(0.0, 1000.0, 0),
             Setting::field(
                 "random",
@@ -45,7 +43,6 @@ impl Charcoal {
                 "Random numbers: splitmix, or rand() as C libraries of the report's time had it: msvc, glibc",
                 |charcoal: &mut Self| &mut charcoal.random,
             )
-            .ours("V, section 5: rand(), without naming the library (V8)")
             .labelled("random numbers"),
             Setting::field(
                 "density",
@@ -54,7 +51,6 @@ impl Charcoal {
                 |charcoal: &mut Self| &mut charcoal.density_percent,
             )
             .inside("grain")
-            .deduced("V, figures 2 and 3: density 60, without a unit; read as percent (V10)")
             .range(0.0, 100.0, 0),
             Setting::field(
                 "cet-exponent",
@@ -63,7 +59,6 @@ impl Charcoal {
                 |charcoal: &mut Self| &mut charcoal.cet_exponent,
             )
             .inside("grain")
-            .deduced("V, figure 3: the middle one of three; the text does not say which the drawings have")
             .range(1.0, 20.0, 1)
             .labelled("grain exponent"),
             Setting::field(
@@ -73,7 +68,6 @@ impl Charcoal {
                 |charcoal: &mut Self| &mut charcoal.cet_blur_px,
             )
             .inside("grain")
-            .ours("V, section 3.1 blurs by a Gaussian of a width it does not print (V7)")
             .range(0.0, 5.0, 2)
             .labelled("grain blur"),
         ];
@@ -85,7 +79,6 @@ impl Charcoal {
                 |charcoal: &mut Self| &mut charcoal.contrast_exponent,
             )
             .inside("contrast")
-            .ours("V, section 2.1.2 asks for more than 1 (V7)")
             .range(0.1, 6.0, 2),
             Setting::field(
                 "saturation",
@@ -93,18 +86,15 @@ impl Charcoal {
                 "Factor for the light; above 1 faint lines vanish (closure)",
                 |charcoal: &mut Self| &mut charcoal.saturation,
             )
-            .printed("V, section 3.3: 1.0 by default, 1.2 for 20 percent")
             .range(0.0, 3.0, 2),
             Setting::field("smudge", ON_OFF, "Smudge the drawing, on or off; on is darker", |charcoal: &mut Self| {
                 &mut charcoal.smudge
-            })
-            .printed("V, figure 6: without it; the effect is optional"),
+            }),
             light(
                 "light-1",
                 "Direction towards the first light, in eye space, or none for the second light alone",
                 |charcoal| &mut charcoal.lights[0],
             )
-            .ours("V has two directional lights and prints no directions (V7)")
             .labelled("first light")
             .inside("light"),
             light(
@@ -112,7 +102,6 @@ impl Charcoal {
                 "Direction towards the second light, or none for the first light alone",
                 |charcoal| &mut charcoal.lights[1],
             )
-            .ours("V has two directional lights and prints no directions (V7)")
             .labelled("second light")
             .inside("light"),
             Setting::field(
@@ -123,7 +112,6 @@ impl Charcoal {
                 |charcoal: &mut Self| &mut charcoal.cet,
             )
             .inside("texture")
-            .deduced("V, section 3.1 makes it in its program")
             .said("made from the seed")
             .labelled("grain"),
             Setting::field(
@@ -133,7 +121,6 @@ impl Charcoal {
                 |charcoal: &mut Self| &mut charcoal.noise_texture,
             )
             .inside("texture")
-            .deduced("V, section 3.1 makes it in its program")
             .said("made from the seed"),
             Setting::field(
                 "paper",
@@ -142,7 +129,6 @@ impl Charcoal {
                 |charcoal: &mut Self| &mut charcoal.paper,
             )
             .inside("texture")
-            .ours("V shows no paper that one could be made from (V7)")
             .said("made from the seed"),
             Setting::field(
                 "texture-size",
@@ -150,8 +136,7 @@ impl Charcoal {
                 "Size of grain, noise and paper, stretched over the drawing; more is finer",
                 |charcoal: &mut Self| &mut charcoal.texture_size,
             )
-            .inside("grain")
-            .ours("V gives no size (V7)"),
+            .inside("grain"),
             Setting::field(
                 "cet-filter",
                 "FILTER",
@@ -159,7 +144,6 @@ impl Charcoal {
                 |charcoal: &mut Self| &mut charcoal.cet_filter,
             )
             .inside("grain")
-            .printed("V, section 3: GL_LINEAR")
             .labelled("grain filter"),
             Setting::field(
                 "cet-coordinate",
@@ -168,7 +152,6 @@ impl Charcoal {
                 |charcoal: &mut Self| &mut charcoal.cet_coordinate,
             )
             .inside("grain")
-            .printed("V, section 3.3: cetCoord.t = origCeo")
             .labelled("grain chosen by"),
             Setting::field(
                 "contrast-operator",
@@ -176,16 +159,14 @@ impl Charcoal {
                 "Operator that enhances contrast: power (as published), sigmoid, bias",
                 |charcoal: &mut Self| &mut charcoal.operator,
             )
-            .inside("contrast")
-            .printed("V, section 2.1.2: b = a^m"),
+            .inside("contrast"),
             Setting::field(
                 "noise",
                 "WHERE",
                 "The noise is fixed to: screen (as published), object (turns with the model)",
                 |charcoal: &mut Self| &mut charcoal.noise,
             )
-            .inside("grain")
-            .printed("V, section 3.3: the paper's coordinate"),
+            .inside("grain"),
             Setting::field(
                 "improve",
                 "WHAT",
@@ -193,7 +174,6 @@ impl Charcoal {
                  (proportion, tooth, two-sided, strokes; with all: everything); separated by commas",
                 |charcoal: &mut Self| &mut charcoal.improve,
             )
-            .printed("V, the unchanged listing")
             .labelled("improved"),
         ];
         under(ALL_STYLES, common).chain(under(CHARCOAL, grain)).chain(under(CHARCOAL, drawing)).collect()

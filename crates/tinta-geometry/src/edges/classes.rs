@@ -148,7 +148,6 @@ impl ClassSet {
             },
         )
         .said("boundary,silhouette,crease,curve,point; style lines: also non-manifold, material, marked, intersection")
-        .printed("D, Inking: boundary, crease and silhouette are what the listing asks for")
     }
 }
 
@@ -221,9 +220,7 @@ impl CreaseAngle {
     /// Declares the setting of the crease angle.
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let help = "Smallest angle between two faces that makes their edge a crease, in degrees; style lines too";
-        Setting::field("crease-angle", "DEGREES", help, field)
-            .printed("D, Inking: dot < 0.4f, 66 degrees")
-            .said("66.4, a cosine of 0.4; ink and style lines: 30")
+        Setting::field("crease-angle", "DEGREES", help, field).said("66.4, a cosine of 0.4; ink and style lines: 30")
     }
 
     /// Returns the angle of drawings without a published text, 30 degrees: at 66.4 a hexagonal prism and a chamfer have no

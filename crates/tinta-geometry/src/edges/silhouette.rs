@@ -35,7 +35,6 @@ impl SilhouetteRule {
              the curved surface that the facets approximate)",
             field,
         )
-        .printed("D, Inking: one view vector for all edges")
         .said("paper; style lines: exact")
     }
 }

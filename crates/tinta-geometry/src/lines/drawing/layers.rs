@@ -288,9 +288,7 @@ impl ClassColors {
     pub fn setting<T: Clone + 'static>(field: fn(&mut T) -> &mut Self) -> Setting<T> {
         let help = "Colours of the lines by class: CLASS=COLOR, separated by commas, or figure-6 (outer red, inner \
             blue); in vectors also outline, hatch, hidden and hidden-CLASS";
-        Setting::field("class-colors", "COLORS", help, field)
-            .printed("D, Inking: glColor3ub( 0, 0, 0 )")
-            .labelled("class colours")
+        Setting::field("class-colors", "COLORS", help, field).labelled("class colours")
     }
 }
 

@@ -189,10 +189,7 @@ pub fn line_width<T: Clone + 'static>(field: fn(&mut T) -> &mut Length) -> Setti
         *field(of) = length;
         Ok(())
     };
-    Setting::of(name, value_name, Length::kind(), help, get, set)
-        .printed("D, Inking: glLineWidth( 2 )")
-        .range(low, high, decimals)
-        .said(LINE_WIDTH_SAID)
+    Setting::of(name, value_name, Length::kind(), help, get, set).range(low, high, decimals).said(LINE_WIDTH_SAID)
 }
 
 #[cfg(test)]

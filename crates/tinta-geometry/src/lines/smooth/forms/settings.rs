@@ -42,7 +42,6 @@ impl FormSettings {
                 |forms: &mut Self| &mut forms.suggestive_threshold,
             )
             .inside("form-lines")
-            .ours("the default of qrtsc, by the authors of suggestive contours")
             .range(0.0, 0.1, 3),
             Setting::field(
                 "ridge-threshold",
@@ -51,7 +50,6 @@ impl FormSettings {
                 |forms: &mut Self| &mut forms.ridge_threshold,
             )
             .inside("form-lines")
-            .ours("the default of qrtsc")
             .range(0.0, 1.0, 2),
             Setting::field(
                 "surface-crease-angle",
@@ -61,7 +59,6 @@ impl FormSettings {
                 |forms: &mut Self| &mut forms.crease_angle,
             )
             .inside("form-lines")
-            .ours("Dachsbacher's crease angle: the faces of coarse round shapes meet at less")
             .said("66.4"),
             Setting::field(
                 "curvature-smoothing",
@@ -70,7 +67,6 @@ impl FormSettings {
                 |forms: &mut Self| &mut forms.smoothing,
             )
             .inside("form-lines")
-            .ours("chosen by eye on public models")
             .range(0.0, LARGEST_SMOOTHING, 1),
         ];
         under("Style lines: form lines, with --classes suggestive, ridge, valley", settings).collect()
