@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::cli::help;
+use clap::Command;
 
 const SHELLS: [Script; 4] = [Script::Bash, Script::Zsh, Script::Fish, Script::Powershell];
 
@@ -77,33 +78,4 @@ fn files_are_offered_where_files_are_taken_and_nothing_where_numbers_are() {
     assert_eq!(hint("again", "picture"), FilePath);
     assert_eq!(hint("render", "fov"), Other);
     assert_eq!(hint("render", "background"), Other);
-}
-
-#[test]
-fn an_option_takes_a_value_in_all_commands_or_in_none() {
-    // bash's words are joined before their option is known.
-    let whole = whole();
-    let with_value = with_value(&whole);
-    assert!(with_value.iter().any(|option| option == "-o") && with_value.len() > 80, "{with_value:?}");
-    for command in whole.get_subcommands() {
-        for arg in command.get_arguments().filter(|arg| !arg.get_action().takes_values()) {
-            let long = format!("--{}", arg.get_long().unwrap_or_default());
-            assert!(!with_value.contains(&long), "{} {long}", command.get_name());
-        }
-    }
-}
-
-#[test]
-fn nothing_is_left_of_the_templates_marks() {
-    for shell in SHELLS {
-        let script = script(shell, &Program::default());
-        for mark in ["@models@", "@presets@", "@with-models@", "@with-value@"] {
-            assert!(!script.contains(mark), "{shell:?}: {mark}");
-        }
-        // In PowerShell options are offered, and no values.
-        let has_values = !matches!(shell, Script::Powershell);
-        for own in ["builtin:bust", "paper:valente-sand-in-part"].into_iter().filter(|_| has_values) {
-            assert!(script.replace("\\:", ":").contains(own), "{shell:?}: {own}");
-        }
-    }
 }

@@ -17,11 +17,6 @@ pub fn with_values(program: &Program) -> Command {
     })
 }
 
-/// Whether the option takes a value.
-pub(super) fn takes_value(arg: &Arg) -> bool {
-    arg.get_long().is_some() && arg.get_action().takes_values()
-}
-
 fn with_value(offers: fn(&str) -> Vec<&'static str>, arg: Arg) -> Arg {
     if !arg.get_action().takes_values() || !arg.get_possible_values().is_empty() {
         return arg;

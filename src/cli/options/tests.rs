@@ -83,7 +83,7 @@ fn a_setting_is_found_at_every_door() {
         assert!(help.contains(text), "{text}: {help}");
     }
     // The manual page.
-    let page = man::page(&command, &[], &[]);
+    let page = man::page(command).text;
     assert!(page.contains("dot\\-spacing") && page.contains("more is coarser"), "{page}");
     // A shell's suggestions.
     assert_eq!(completions::of_table::<Halftone>("dot-shape"), ["round", "square"]);
