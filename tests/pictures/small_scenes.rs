@@ -42,7 +42,7 @@ fn small_scenes_are_drawn_or_refused() {
 }
 
 #[test]
-#[ignore = "exhaustive: 3,000 scenes, 300 of them as pictures"]
+#[ignore = "nightly: 3,000 scenes, 300 of them as pictures"]
 fn thousands_of_small_scenes_are_drawn_or_refused_nightly() {
     drawn_or_refused(3_000);
 }
