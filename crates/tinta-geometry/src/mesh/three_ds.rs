@@ -2,18 +2,23 @@
 //! crate for it (ds3) reads no colours and no textures; every byte it looks at goes through [`Bytes`].
 //!
 //! The file is a tree of chunks, each a number, a length that counts itself, and data that may be followed by chunks.
-//! Vertices are in world space already, so the meshes' local matrices are not used; nor are smoothing groups: normals are
-//! computed. In the file z is up and -y the front, which is turned to y up (unless `--up-axis` says otherwise).
+//! Vertices lie where the editor had them. The animation's first frame may have a mesh elsewhere: at its carrier's place · its own ·
+//! (its matrix⁻¹ · vertex - pivot). Smoothing groups are not used: normals are computed. In the file z is up and -y the front, which
+//! is turned to y up (unless `--up-axis` says otherwise).
+
+mod animation;
 
 use super::folder::Folder;
 use super::options::{LoadOptions, UpAxis};
 use super::soup::{Corner, Soup};
-use super::{Material, NONE, skin};
+use super::{Material, NONE, NamedPart, skin};
 use crate::bytes::Bytes;
 use crate::error::{Error, Result};
 use crate::limits::MATERIALS;
-use glam::{DVec3, Vec2};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use animation::{Node, vector};
+use glam::{DMat3, DMat4, DVec3, Vec2};
+use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
 use std::path::PathBuf;
 
 /// The chunks that are looked into; all others are passed over.
@@ -22,14 +27,21 @@ mod chunk {
     pub(super) const VERSION: u16 = 0x0002;
     pub(super) const EDITOR: u16 = 0x3d3d;
     pub(super) const KEYFRAMER: u16 = 0xb000;
-    pub(super) const OBJECT_NODE: u16 = 0xb002;
+    /// Of the light everywhere, objects, cameras, lights and what these look at.
+    pub(super) const NODES: std::ops::RangeInclusive<u16> = 0xb001..=0xb007;
+    pub(super) const NODE_NUMBER: u16 = 0xb030;
     pub(super) const NODE_HEADER: u16 = 0xb010;
+    pub(super) const PIVOT: u16 = 0xb013;
+    pub(super) const PLACES: u16 = 0xb020;
+    pub(super) const TURNS: u16 = 0xb021;
+    pub(super) const SCALES: u16 = 0xb022;
     pub(super) const OBJECT: u16 = 0x4000;
     pub(super) const MESH: u16 = 0x4100;
     pub(super) const VERTICES: u16 = 0x4110;
     pub(super) const FACES: u16 = 0x4120;
     pub(super) const FACE_MATERIAL: u16 = 0x4130;
     pub(super) const TEXTURE_COORDINATES: u16 = 0x4140;
+    pub(super) const MATRIX: u16 = 0x4160;
     pub(super) const MATERIAL: u16 = 0xafff;
     pub(super) const MATERIAL_NAME: u16 = 0xa000;
     pub(super) const DIFFUSE: u16 = 0xa020;
@@ -79,12 +91,20 @@ struct Contents {
     soup: Soup,
     /// For each face the place of its material's name in `material_names`, or [`NONE`].
     face_materials: Vec<u32>,
-    /// The names of the objects that are meshes.
-    meshes: BTreeSet<String>,
-    /// How often the animation places each object.
-    places: BTreeMap<String, usize>,
+    /// The objects that have faces, as the soup's parts.
+    meshes: Vec<Mesh>,
+    /// The objects in the animation.
+    nodes: Vec<Node>,
     /// The names that faces use, as they come; a name may come more than once.
     material_names: Vec<String>,
+}
+
+/// An object that has faces; its name is that of its part.
+struct Mesh {
+    positions: Range<usize>,
+    corners: Range<usize>,
+    /// World from its own space, where the editor has it.
+    matrix: DMat4,
 }
 
 /// Reads a 3DS file's bytes. `path` is for messages; `folder` holds its textures.
@@ -119,6 +139,12 @@ pub(super) fn read(
         };
         Error::model(path, problem)
     })?;
+    let several = contents.put_in_places();
+    if several > 0 {
+        let stand = if several == 1 { "mesh stands" } else { "meshes stand" };
+        let drawn = "each is drawn once, in the first of them";
+        remarks.push(format!("{path}: {several} {stand} in several places by its animation; {drawn}"));
+    }
     let mut soup = contents.with_materials(path, remarks);
     if options.up_axis == UpAxis::Auto {
         soup.turn_by(|position| UpAxis::Z.to_y_up(position));
@@ -135,23 +161,39 @@ impl Contents {
             let (number, data) = item?;
             match number {
                 chunk::EDITOR => self.editor(data)?,
-                chunk::KEYFRAMER => self.keyframer(data),
+                chunk::KEYFRAMER => {
+                    let nodes = chunks(data).flatten().filter(|(number, _)| chunk::NODES.contains(number));
+                    self.nodes.extend(nodes.enumerate().map(|(number, (_, data))| Node::read(number, data)));
+                }
                 _ => {}
             }
         }
         Ok(())
     }
 
-    /// Counts where the animation places objects; what is damaged of it harms nothing that is drawn.
-    fn keyframer(&mut self, bytes: Bytes<'_>) {
-        let parts = |bytes, kind| chunks(bytes).map_while(|item| item.ok()).filter(move |(number, _)| *number == kind);
-        for (_, node) in parts(bytes, chunk::OBJECT_NODE) {
-            for (_, mut header) in parts(node, chunk::NODE_HEADER) {
-                if let Some(name) = header.text() {
-                    *self.places.entry(name).or_default() += 1;
-                }
+    /// Puts meshes where the animation's first frame has them; returns how many of them stand in several places.
+    fn put_in_places(&mut self) -> usize {
+        /// Matrices of so few digits move no mesh that stands where it was modelled; a share of its farthest place.
+        const ROUNDING: f64 = 1e-5;
+        let mut named: HashMap<&str, Vec<&Node>> = HashMap::new();
+        self.nodes.iter().for_each(|node| named.entry(&node.name).or_default().push(node));
+        let numbered = self.nodes.iter().rev().map(|node| (node.number, node)).collect();
+        let mut several = 0;
+        for (Mesh { positions, corners, matrix }, NamedPart { name, .. }) in self.meshes.iter().zip(&self.soup.parts) {
+            let Some(nodes) = named.get(name.as_str()) else { continue };
+            several += usize::from(nodes.len() > 1);
+            let Some(matrix) = nodes[0].place(*matrix, &numbered) else { continue };
+            let positions = &mut self.soup.positions[positions.clone()];
+            let far = positions.iter().map(|position| position.length()).fold(0.0, f64::max);
+            let place = |position: &DVec3| matrix.transform_point3(*position);
+            if positions.iter().any(|position| place(position).distance(*position) > ROUNDING * far) {
+                positions.iter_mut().for_each(|position| *position = place(position));
+                let (triangles, _) = self.soup.corners[corners.clone()].as_chunks_mut::<3>();
+                let is_mirrored = matrix.determinant() < 0.0;
+                triangles.iter_mut().filter(|_| is_mirrored).for_each(|triangle| triangle.swap(1, 2));
             }
         }
+        several
     }
 
     fn editor(&mut self, bytes: Bytes<'_>) -> std::result::Result<(), Damage> {
@@ -163,8 +205,7 @@ impl Contents {
                     let name = data.text().ok_or(Damage::Part(chunk::OBJECT))?;
                     for item in chunks(data) {
                         if let (chunk::MESH, data) = item? {
-                            self.meshes.insert(name.clone());
-                            self.mesh(data)?;
+                            self.mesh(&name, data)?;
                         }
                     }
                 }
@@ -175,8 +216,9 @@ impl Contents {
     }
 
     /// One mesh: its parts may come in any order, so they are gathered first.
-    fn mesh(&mut self, bytes: Bytes<'_>) -> std::result::Result<(), Damage> {
+    fn mesh(&mut self, name: &str, bytes: Bytes<'_>) -> std::result::Result<(), Damage> {
         let (mut vertices, mut texture_coordinates, mut faces) = (Vec::new(), Vec::new(), None);
+        let mut matrix = DMat4::IDENTITY;
         for item in chunks(bytes) {
             match item? {
                 (chunk::VERTICES, data) => {
@@ -186,14 +228,26 @@ impl Contents {
                     texture_coordinates = numbers::<2>(data).ok_or(Damage::Part(chunk::TEXTURE_COORDINATES))?;
                 }
                 (chunk::FACES, data) => faces = Some(data),
+                (chunk::MATRIX, mut data) => {
+                    // Three axes and where they meet.
+                    let [x, y, z, origin] = std::array::from_fn(|_| vector(data.floats().unwrap_or_default()));
+                    matrix = DMat4::from_mat3_translation(DMat3::from_cols(x, y, z), origin);
+                }
                 _ => {}
             }
         }
+        let (first_position, first_corner) = (self.soup.positions.len(), self.soup.corners.len());
         if let Some(faces) = faces {
             self.faces(faces, vertices.len(), texture_coordinates.len())?;
         }
-        self.soup.positions.extend(vertices.into_iter().map(|v| DVec3::from_array(v.map(f64::from))));
+        self.soup.positions.extend(vertices.into_iter().map(vector));
         self.soup.texture_coordinates.extend(texture_coordinates.into_iter().map(Vec2::from_array));
+        let (positions, corners) = (first_position..self.soup.positions.len(), first_corner..self.soup.corners.len());
+        if !corners.is_empty() {
+            self.soup.polygon_parts.resize(corners.end / 3, self.meshes.len() as u32);
+            self.soup.parts.push(NamedPart { name: name.to_owned(), within: NONE });
+            self.meshes.push(Mesh { positions, corners, matrix });
+        }
         Ok(())
     }
 
@@ -236,14 +290,7 @@ impl Contents {
 
     /// Gives faces the materials of the names they use; materials may have come after them.
     fn with_materials(self, path: &str, remarks: &mut Vec<String>) -> Soup {
-        let Self { mut soup, face_materials, material_names, meshes, places } = self;
-        let several = places.iter().filter(|(name, count)| **count > 1 && meshes.contains(*name)).count();
-        if several > 0 {
-            let stand = if several == 1 { "mesh stands" } else { "meshes stand" };
-            remarks.push(format!(
-                "{path}: {several} {stand} in several places by its animation; each is drawn once, where it was modelled"
-            ));
-        }
+        let Self { mut soup, face_materials, material_names, .. } = self;
         // Where a name comes more than once the first counts.
         let by_name: HashMap<&str, usize> =
             soup.materials.iter().enumerate().rev().map(|(place, material)| (material.name.as_str(), place)).collect();
