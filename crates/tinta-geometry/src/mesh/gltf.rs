@@ -57,10 +57,10 @@ fn contents(
     let (json, data) = container::open(bytes)?;
     let root = container::parse(json)?;
     extensions::refuse_unknown(&root)?;
-    let buffers = Buffers::of(&root, data, folder)?;
+    let buffers = Buffers::of(&root, data, folder);
     let accessors = Accessors { root: &root, buffers: &buffers };
     let nodes = Nodes::of(&root)?;
-    let Materials { list, coordinates, left_out } = Materials::of(&root, &buffers, path)?;
+    let Materials { list, coordinates, left_out } = Materials::of(&root, &buffers, path);
     let outlines = outline::outlines(&nodes, &accessors, &coordinates)?;
     if outlines.is_empty() {
         return Err(match root.meshes.len() {
@@ -82,57 +82,35 @@ fn contents(
         parts::put(&mut soup, outline, &accessors, &nodes, &of_nodes)?;
     }
     soup.parts = named;
-    remarks.extend(Omissions::of(&root, left_out).sentence(path));
+    remarks.extend(not_drawn(&root, left_out, path));
     Ok(soup)
 }
 
-/// Counts of contents that are not drawn, for one remark.
-struct Omissions {
-    animations: usize,
-    cameras: usize,
-    scenes: usize,
-    see_through: usize,
-    of_materials: LeftOut,
-    extensions: Vec<String>,
-    /// How to get pictures that are read.
-    remedy: Option<&'static str>,
-}
-
-impl Omissions {
-    fn of(root: &Root, of_materials: LeftOut) -> Self {
-        let remedy = extensions::not_drawn(root).find_map(extensions::pictures_remedy);
-        Self {
-            animations: root.animations.len(),
-            cameras: root.cameras.len(),
-            scenes: root.scenes.len().saturating_sub(1),
-            see_through: materials::see_through(root),
-            extensions: extensions::not_drawn(root).map(shown).take(crate::limits::REMARKS).collect(),
-            remedy: remedy.filter(|_| of_materials.pictures > 0),
-            of_materials,
-        }
-    }
-
-    fn sentence(&self, path: &str) -> Option<String> {
-        let LeftOut { pictures, empty_textures, emission, emission_as_color } = self.of_materials;
-        let mut parts: Vec<String> =
-            counted(self.see_through, "material's transparency", "materials' transparency").into_iter().collect();
-        parts.extend(left_out::emission(emission_as_color, emission));
-        let others = [
-            counted(
-                pictures,
-                "picture in an unsupported format or at an unsupported address",
-                "pictures in unsupported formats or at unsupported addresses",
-            ),
-            counted(empty_textures, "texture that names no picture", "textures that name no picture"),
-            counted(self.animations, "animation (drawn in its rest pose)", "animations (drawn in its rest pose)"),
-            counted(self.scenes, "other scene", "other scenes"),
-            counted(self.cameras, "camera", "cameras"),
-        ];
-        parts.extend(others.into_iter().flatten());
-        parts.extend(self.extensions.iter().map(|name| format!("the extension {name}")));
-        let remedy = self.remedy.map(|remedy| format!("; {remedy}")).unwrap_or_default();
-        (!parts.is_empty()).then(|| format!("{path}: not drawn: {}{remedy}", parts.join(", ")))
-    }
+/// A sentence about contents that are not drawn, if there are any.
+fn not_drawn(root: &Root, of_materials: LeftOut, path: &str) -> Option<String> {
+    let LeftOut { pictures, empty_textures, emission, emission_as_color } = of_materials;
+    let see_through = materials::see_through(root);
+    let mut parts: Vec<String> =
+        counted(see_through, "material's transparency", "materials' transparency").into_iter().collect();
+    parts.extend(left_out::emission(emission_as_color, emission));
+    let others = [
+        counted(
+            pictures,
+            "picture in an unsupported format or at an unsupported address",
+            "pictures in unsupported formats or at unsupported addresses",
+        ),
+        counted(empty_textures, "texture that names no picture", "textures that name no picture"),
+        counted(root.animations.len(), "animation (drawn in its rest pose)", "animations (drawn in its rest pose)"),
+        counted(root.scenes.len().saturating_sub(1), "other scene", "other scenes"),
+        counted(root.cameras.len(), "camera", "cameras"),
+    ];
+    parts.extend(others.into_iter().flatten());
+    let extensions = extensions::not_drawn(root).take(crate::limits::REMARKS);
+    parts.extend(extensions.map(|name| format!("the extension {}", shown(name))));
+    // How to get pictures that are read.
+    let remedy = extensions::not_drawn(root).find_map(extensions::pictures_remedy).filter(|_| pictures > 0);
+    let remedy = remedy.map(|remedy| format!("; {remedy}")).unwrap_or_default();
+    (!parts.is_empty()).then(|| format!("{path}: not drawn: {}{remedy}", parts.join(", ")))
 }
 
 #[cfg(test)]

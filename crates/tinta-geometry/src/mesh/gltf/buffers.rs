@@ -24,28 +24,22 @@ pub(super) struct Buffers<'a> {
 
 impl<'a> Buffers<'a> {
     /// Reads all buffers of a file; `data` is what GLB has behind the JSON.
-    pub(super) fn of(root: &Root, data: Option<&'a [u8]>, folder: &Folder<'a>) -> Result<Self, String> {
+    pub(super) fn of(root: &Root, data: Option<&'a [u8]>, folder: &Folder<'a>) -> Self {
         let mut buffers = Self { places: Vec::new(), contents: Vec::new(), files: Vec::new(), bytes_beside: 0 };
         // Several buffers may be one file.
         let mut known = HashMap::new();
         for (number, Buffer { uri, byte_length, extensions, .. }) in root.buffers.iter().enumerate() {
-            let place = match uri {
+            let place = match uri.as_ref().map(|uri| uri::parse(uri)) {
                 None => match data.filter(|_| number == 0) {
                     Some(data) => Ok(buffers.keep(Cow::Borrowed(data))),
                     None => refuse_compressed(extensions.as_ref().map(|extensions| &extensions.others))
                         .and_then(|()| Err(format!("its buffer {number} names no data; export it again"))),
                 },
-                Some(uri) => match uri::parse(uri)? {
-                    Uri::Data(bytes) => Ok(buffers.keep(Cow::Owned(bytes))),
-                    Uri::File(name) => match known.get(&name) {
-                        Some(place) => Ok(*place),
-                        None => {
-                            let place = buffers.read(&name, folder)?;
-                            known.insert(name, place);
-                            Ok(place)
-                        }
-                    },
-                },
+                Some(Ok(Uri::Data(bytes))) => Ok(buffers.keep(Cow::Owned(bytes))),
+                Some(Ok(Uri::File(name))) => {
+                    known.entry(name).or_insert_with_key(|name| buffers.read(name, folder)).clone()
+                }
+                Some(Err(problem)) => Err(problem),
             };
             buffers.places.push(place.and_then(|place| {
                 let has = buffers.contents.get(place).map_or(0, |bytes| bytes.len());
@@ -58,7 +52,7 @@ impl<'a> Buffers<'a> {
                 }
             }));
         }
-        Ok(buffers)
+        buffers
     }
 
     fn keep(&mut self, bytes: Cow<'a, [u8]>) -> usize {

@@ -4,14 +4,14 @@
 //! and refuses chunks that the standard says to pass over.
 
 use super::super::format::GLB_MAGIC;
-use super::extensions::with_whole_numbers;
+use super::extensions::tidied;
 use crate::bytes::Bytes;
 use crate::files::shown;
 use crate::limits::{MATERIALS, MEMORY_FACTOR, MEMORY_SLACK_BYTES};
-use gltf_json::Root;
+use gltf_json::{Camera, Root};
 use serde::Deserialize;
-use serde::de::{Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
-use std::fmt::Formatter;
+use serde::de::IgnoredAny;
+use serde_json::{Value, json};
 
 const HEADER_BYTES: usize = 12;
 const VERSION: u32 = 2;
@@ -70,8 +70,7 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, String> {
     // An object may have two bytes in the file and hundreds in memory.
     let (objects, members) = (memchr::memchr_iter(b'{', json).count(), memchr::memchr_iter(b',', json).count());
     let needed = objects.saturating_mul(OBJECT_BYTES).saturating_add(members.saturating_mul(MEMBER_BYTES));
-    let materials = materials(json, objects);
-    let count = materials.as_ref().map_or(0, |count| *count);
+    let count = materials(json, objects);
     if count > MATERIALS {
         return Err(format!("it has more than {MATERIALS} materials; merge some"));
     }
@@ -83,13 +82,15 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, String> {
             json.len()
         ));
     }
-    let read = |_| Root::from_slice(json).or_else(|error| mended(json).map_err(|_| error));
-    let root = materials.and_then(read).map_err(|error| {
-        let version = serde_json::from_slice::<Versioned>(json).ok().and_then(Versioned::version);
-        match version {
-            Some(version) if !is_read(&version) => old(&version),
-            _ => format!("its JSON is not valid glTF ({}); it is damaged, export it again", shown(&error.to_string())),
-        }
+    let root = Root::from_slice(json).or_else(|error| {
+        let root: Option<Value> = serde_json::from_slice(json).ok();
+        let other = root.as_ref().and_then(version).filter(|version| !is_read(version));
+        root.and_then(|root| mended(tidied(root)).ok()).ok_or_else(|| match other {
+            Some(version) => old(&version),
+            None => {
+                format!("its JSON is not valid glTF ({}); it is damaged, export it again", shown(&error.to_string()))
+            }
+        })
     })?;
     match &root.asset.version {
         version if !is_read(version) => Err(old(version)),
@@ -98,26 +99,46 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, String> {
 }
 
 /// How many materials JSON of so many objects has at most; they are counted only where they may be too many.
-fn materials(json: &[u8], objects: usize) -> Result<usize, serde_json::Error> {
-    #[derive(Deserialize)]
+fn materials(json: &[u8], objects: usize) -> usize {
+    #[derive(Deserialize, Default)]
     struct Counted {
         #[serde(default)]
         materials: Vec<IgnoredAny>,
     }
     match objects > MATERIALS {
-        false => Ok(objects),
-        true => serde_json::from_slice(json).map(|Counted { materials }| materials.len()),
+        false => objects,
+        true => serde_json::from_slice::<Counted>(json).unwrap_or_default().materials.len(),
     }
 }
 
-/// Reads JSON in forms that the standard allows and the crate refuses: scenes without a list of nodes, `4.0` for `4`.
-fn mended(json: &[u8]) -> Result<Root, serde_json::Error> {
-    let mut root = with_whole_numbers(serde_json::from_slice(json)?);
-    let scenes = root.get_mut("scenes").and_then(|scenes| scenes.as_array_mut());
-    for scene in scenes.into_iter().flatten().filter_map(|scene| scene.as_object_mut()) {
-        scene.entry("nodes").or_insert_with(|| serde_json::Value::Array(Vec::new()));
+/// Reads JSON that can be drawn and that the crate refuses: in forms that the standard allows, scenes without a list of nodes, `4.0`
+/// for `4`, or with faults in what is never drawn.
+fn mended(mut root: Value) -> Result<Root, serde_json::Error> {
+    for (list, member) in
+        [("scenes", "nodes"), ("meshes", "primitives"), ("animations", "channels"), ("animations", "samplers")]
+    {
+        let items = root.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
+        for object in items.filter_map(Value::as_object_mut) {
+            object.entry(member).or_insert_with(|| Value::Array(Vec::new()));
+        }
     }
+    let cameras = root.get_mut("cameras").and_then(Value::as_array_mut).into_iter().flatten();
+    cameras
+        .filter(|camera| Camera::deserialize(&**camera).is_err())
+        .for_each(|camera| *camera = json!({"type": "none"}));
     serde_json::from_value(root)
+}
+
+/// The version that a file names, or 1.0 if it names none and its meshes or accessors have names as in glTF 1 instead of numbers.
+fn version(root: &Value) -> Option<String> {
+    match root.get("asset").and_then(|asset| asset.get("version")) {
+        Some(Value::String(text)) => Some(text.clone()),
+        Some(other) => Some(other.to_string()),
+        None => ["accessors", "meshes"]
+            .into_iter()
+            .any(|list| root.get(list).is_some_and(Value::is_object))
+            .then(|| "1.0".to_owned()),
+    }
 }
 
 /// Whether this is the version that is read.
@@ -132,59 +153,6 @@ fn old(version: &str) -> String {
         false => "export it as glTF 2",
     };
     format!("it is glTF {}, and only glTF 2 is read; {remedy}", shown(version))
-}
-
-/// The only parts read of an unsupported file.
-#[derive(Deserialize)]
-struct Versioned {
-    asset: Option<AssetVersion>,
-    accessors: Option<Named>,
-    meshes: Option<Named>,
-}
-
-#[derive(Deserialize)]
-struct AssetVersion {
-    version: Option<serde_json::Value>,
-}
-
-impl Versioned {
-    /// What it says; where it says nothing, 1.0 if its meshes or accessors have names as in glTF 1 instead of numbers.
-    fn version(self) -> Option<String> {
-        let said = self.asset.and_then(|asset| asset.version).map(|version| match version {
-            serde_json::Value::String(text) => text,
-            other => other.to_string(),
-        });
-        let is_first = [self.accessors, self.meshes].into_iter().flatten().any(|Named(is_named)| is_named);
-        said.or_else(|| is_first.then(|| "1.0".to_owned()))
-    }
-}
-
-/// Whether members have names, as in an object, or are a list.
-struct Named(bool);
-
-impl<'de> Deserialize<'de> for Named {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        struct Either;
-
-        impl<'de> Visitor<'de> for Either {
-            type Value = Named;
-
-            fn expecting(&self, out: &mut Formatter<'_>) -> std::fmt::Result {
-                out.write_str("an object or a list")
-            }
-
-            fn visit_map<M: MapAccess<'de>>(self, mut members: M) -> Result<Named, M::Error> {
-                while members.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
-                Ok(Named(true))
-            }
-
-            fn visit_seq<S: SeqAccess<'de>>(self, mut members: S) -> Result<Named, S::Error> {
-                while members.next_element::<IgnoredAny>()?.is_some() {}
-                Ok(Named(false))
-            }
-        }
-        from.deserialize_any(Either)
-    }
 }
 
 #[cfg(test)]
@@ -216,6 +184,64 @@ mod tests {
         half["accessors"][0]["count"] = 2.5.into();
         let message = load(&half).unwrap_err().to_string();
         assert!(message.contains("invalid type: floating point `2.5`, expected u64"), "{message}");
+    }
+
+    #[test]
+    fn faults_in_what_is_never_drawn_refuse_nothing() {
+        let whole = load(&triangle()).unwrap();
+        let pointer =
+            json!({"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/nodes/0/translation"}}});
+        let animation =
+            json!([{"channels": [{"sampler": 0, "target": pointer}], "samplers": [{"input": 0, "output": 0}]}]);
+        let missing =
+            json!([triangle()["buffers"][0], {"uri": "no.bin", "byteLength": 9}, {"uri": "data:no", "byteLength": 9}]);
+        let unused = json!([triangle()["materials"][0], {"pbrMetallicRoughness": {"baseColorTexture": {"index": 7}}}]);
+        let remark = |what: &str| format!("t.gltf: not drawn: 1 {what}");
+        let (said, camera) = (remark("animation (drawn in its rest pose)"), remark("camera"));
+        for (place, value, remark) in [
+            ("/animations", animation, said.as_str()),
+            ("/cameras", json!([{"type": "perspective", "perspective": {"yfov": 1}}]), camera.as_str()),
+            ("/cameras", json!([{"type": "perspective", "perspective": {"znear": "near"}}]), camera.as_str()),
+            ("/materials/0/normalTexture", json!({}), ""),
+            ("/materials/0/occlusionTexture", json!({"index": "none"}), ""),
+            ("/materials/0/doubleSided", json!(1), ""),
+            ("/materials/0/pbrMetallicRoughness/metallicFactor", json!("shiny"), ""),
+            ("/samplers", json!({"wrapS": {}}), ""),
+            ("/asset/generator", json!(4), ""),
+            ("/accessors/0/min", json!("0 0 0"), ""),
+            ("/meshes/1", json!({"name": "unused"}), ""),
+            ("/buffers", missing, ""),
+            ("/materials", unused, ""),
+        ] {
+            let mut file = triangle();
+            let (object, member) = place.rsplit_once('/').unwrap();
+            match file.pointer_mut(object).unwrap() {
+                Value::Array(list) => list.push(value.clone()),
+                object => object[member] = value.clone(),
+            }
+            let read = load(&file).unwrap_or_else(|error| panic!("{place} {value}: {error}"));
+            assert_eq!(read.remarks.join(" "), remark, "{place} {value}");
+            assert_eq!(
+                (read.mesh.positions, read.mesh.triangles),
+                (whole.mesh.positions.clone(), whole.mesh.triangles.clone())
+            );
+        }
+        let mut file = triangle();
+        file["nodes"][1]["name"] = json!(5);
+        assert_eq!(load(&file).unwrap().mesh.parts[1].name, "5");
+        // What is drawn must be right.
+        for (place, value, sentence) in [
+            ("/meshes/0/primitives/0/material", json!(1), "its texture 7 does not exist"),
+            ("/bufferViews/0/buffer", json!(1), "no.bin"),
+            ("/meshes/0/primitives/0/indices", json!("none"), "its JSON is not valid glTF"),
+        ] {
+            let mut file = triangle();
+            *file.pointer_mut(place).unwrap() = value;
+            file["buffers"].as_array_mut().unwrap().push(json!({"uri": "no.bin", "byteLength": 102}));
+            let materials = file["materials"].as_array_mut().unwrap();
+            materials.push(json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 7}}}));
+            assert!(problem(&file).contains(sentence), "{}", problem(&file));
+        }
     }
 
     #[test]

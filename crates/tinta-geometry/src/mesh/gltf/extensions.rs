@@ -76,31 +76,40 @@ fn is_understood(extension: &str) -> bool {
     UNDERSTOOD.contains(&extension) || extension.starts_with("KHR_materials_")
 }
 
-/// Whether an extension affects pictures, materials or lights alone: without it every line is right.
+/// Whether an extension affects pictures, materials, lights or animations alone: without it every line is right.
 fn is_of_surfaces(extension: &str) -> bool {
     let subject = extension.split('_').nth(1).unwrap_or_default();
-    ["texture", "image", "materials", "lights", "techniques", "technique"].contains(&subject)
+    ["texture", "image", "materials", "lights", "techniques", "technique", "animation"].contains(&subject)
 }
 
 /// The value of an object's extension; `None` if it has none of that name.
 pub(super) fn said<T: DeserializeOwned>(others: Option<&Map<String, Value>>, name: &str) -> Result<Option<T>, String> {
     let Some(value) = others.and_then(|others| others.get(name)) else { return Ok(None) };
-    let said = serde_json::from_value(with_whole_numbers(value.clone()));
+    let said = serde_json::from_value(tidied(value.clone()));
     said.map(Some).map_err(|error| format!("its {name} is damaged ({}); export it again", shown(&error.to_string())))
 }
 
-/// JSON with its whole numbers written without a point: the standard allows `4.0` for `4`.
-pub(super) fn with_whole_numbers(value: Value) -> Value {
+/// JSON as the crate takes it: whole numbers without a point, for the standard allows `4.0` for `4`; numbers as names as text; and
+/// without what nothing here reads, so that its faults refuse nothing.
+pub(super) fn tidied(value: Value) -> Value {
     /// Beyond it not every whole number is a float.
     const MOST: f64 = 9_007_199_254_740_992.0;
+    const UNREAD: &str = "channels copyright doubleSided generator glossinessFactor magFilter max metallicFactor \
+        metallicRoughnessTexture min minFilter minVersion normalTexture occlusionTexture roughnessFactor sampler samplers skeleton \
+        specularFactor specularGlossinessTexture wrapS wrapT";
     match value {
         Value::Number(number) if number.is_f64() => {
             let whole = number.as_f64().filter(|float| float.fract() == 0.0 && float.abs() <= MOST);
             Value::Number(whole.map_or(number, |float| Number::from(float as i64)))
         }
-        Value::Array(list) => Value::Array(list.into_iter().map(with_whole_numbers).collect()),
+        Value::Array(list) => Value::Array(list.into_iter().map(tidied).collect()),
         Value::Object(object) => {
-            Value::Object(object.into_iter().map(|(key, value)| (key, with_whole_numbers(value))).collect())
+            let read = object.into_iter().filter(|(key, _)| !UNREAD.split(' ').any(|unread| unread == key));
+            let tidied = read.map(|(key, value)| match tidied(value) {
+                Value::Number(name) if key == "name" => (key, Value::String(name.to_string())),
+                value => (key, value),
+            });
+            Value::Object(tidied.collect())
         }
         other => other,
     }

@@ -56,8 +56,8 @@ impl Coordinates {
 #[derive(Default)]
 pub(super) struct Materials {
     pub list: Vec<Material>,
-    /// For each of them the texture coordinates of its picture.
-    pub coordinates: Vec<Coordinates>,
+    /// For each of them the texture coordinates of its picture, or why it cannot be drawn: that is said where it is.
+    pub coordinates: Vec<Result<Coordinates, String>>,
     /// Their parts that are not drawn.
     pub left_out: LeftOut,
 }
@@ -115,19 +115,22 @@ fn emission(material: &gltf_json::Material) -> Result<Option<Source<'_>>, String
 }
 
 impl Materials {
-    pub(super) fn of(root: &Root, buffers: &Buffers<'_>, path: &str) -> Result<Self, String> {
+    pub(super) fn of(root: &Root, buffers: &Buffers<'_>, path: &str) -> Self {
         let mut images = Images::of(root, buffers, path);
         let mut materials = Self::default();
         for (number, material) in root.materials.iter().enumerate() {
-            let source = materials.left_out.source(material)?;
-            let image = source.texture.map_or(Ok(None), |texture| images.picture(texture))?;
             let name = material.name.clone().unwrap_or_else(|| format!("material {number}"));
-            materials.list.push(drawn(material, name, source.factor, image));
-            materials.coordinates.push(source.texture.map_or(Coordinates::DEFAULT, Coordinates::of));
+            let read = materials.left_out.source(material).and_then(|source| {
+                let image = source.texture.map_or(Ok(None), |texture| images.picture(texture))?;
+                materials.list.push(drawn(material, name, source.factor, image));
+                Ok(source.texture.map_or(Coordinates::DEFAULT, Coordinates::of))
+            });
+            materials.list.resize_with(number + 1, Material::default);
+            materials.coordinates.push(read);
         }
         let left_out = &mut materials.left_out;
         (left_out.pictures, left_out.empty_textures) = (images.unread.len(), images.empty.len());
-        Ok(materials)
+        materials
     }
 }
 

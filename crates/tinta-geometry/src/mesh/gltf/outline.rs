@@ -45,7 +45,7 @@ impl<'a> Outline<'a> {
         mesh: &'a Mesh,
         root: &Root,
         accessors: &Accessors<'a>,
-        coordinates: &'a [Coordinates],
+        coordinates: &[Result<Coordinates, String>],
     ) -> Result<Self, String> {
         let mut outline = Self { mesh, sets: Vec::new(), pieces: Vec::new() };
         let mut known = HashMap::new();
@@ -63,8 +63,8 @@ impl<'a> Outline<'a> {
             if material.is_some_and(|material| material >= root.materials.len()) {
                 return Err("it uses materials that do not exist; export it again".to_owned());
             }
-            let read_by =
-                material.and_then(|material| coordinates.get(material)).copied().unwrap_or(Coordinates::DEFAULT);
+            let read_by = material.and_then(|material| coordinates.get(material)).cloned();
+            let read_by = read_by.unwrap_or(Ok(Coordinates::DEFAULT))?;
             let targets: Vec<_> =
                 primitive.targets.iter().flatten().map(|target| (target.positions, target.normals)).collect();
             // Materials that change texture coordinates have separate vertices.
@@ -158,7 +158,7 @@ impl Place {
 pub(super) fn outlines<'a>(
     nodes: &Nodes,
     accessors: &Accessors<'a>,
-    coordinates: &'a [Coordinates],
+    coordinates: &[Result<Coordinates, String>],
 ) -> Result<Vec<(Outline<'a>, Vec<Place>)>, String> {
     let root = accessors.root;
     let mut places: BTreeMap<usize, Vec<Place>> = BTreeMap::new();
@@ -269,7 +269,7 @@ mod tests {
     fn refused(file: &Value, free: Option<u64>) -> Result<(), String> {
         let bytes = serde_json::to_vec(file).unwrap();
         let root = container::parse(&bytes).unwrap();
-        let buffers = Buffers::of(&root, None, &Folder::of_files(&[])).unwrap();
+        let buffers = Buffers::of(&root, None, &Folder::of_files(&[]));
         let accessors = Accessors { root: &root, buffers: &buffers };
         let outlines = outlines(&Nodes::of(&root)?, &accessors, &[])?;
         refuse_too_much(&outlines, &accessors, bytes.len(), free)
