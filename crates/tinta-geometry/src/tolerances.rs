@@ -175,7 +175,7 @@ pub(crate) const CANCELLED_NORMALS: f64 = 1e-9;
 /// degrees. At the corners of a cube such normals stand 55 off, on a ball of 20 triangles 37.
 pub(crate) const AVERAGED_NORMAL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// Share of the corners with averaged normals above which a file's normals are not to be believed. In strangers' models with
+/// Share of the corners, or of the surface, with averaged normals above which a file's normals are not to be believed. In strangers' models with
 /// melted edges it is 0.11 to 0.67.
 pub(crate) const AVERAGED_SHARE: f64 = 0.1;
 

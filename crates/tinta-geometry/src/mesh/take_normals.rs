@@ -43,8 +43,10 @@ impl Mesh {
                 return;
             }
         };
-        let Leaning { given, own, averaged } = self.leaning(file_normals, face_normals, options);
-        let is_averaged = averaged as f64 > AVERAGED_SHARE * given as f64;
+        let Leaning { given, own, averaged, areas: [of_given, of_averaged] } =
+            self.leaning(file_normals, face_normals, options);
+        // Of a part on a large plain many corners are a little area, and a flat cap of few corners is much.
+        let is_averaged = averaged as f64 > AVERAGED_SHARE * given as f64 || of_averaged > AVERAGED_SHARE * of_given;
         if is_averaged && options.normals == Normals::File {
             self.defects.averaged_normals = averaged;
         } else if is_averaged {
@@ -126,17 +128,19 @@ impl Mesh {
 
     /// Counts how far the file's normals lean from the faces.
     fn leaning(&self, file_normals: &[Vec3], face_normals: &[DVec3], options: &LoadOptions) -> Leaning {
-        let corners =
-            self.triangle_normals.iter().zip(face_normals).flat_map(|(corners, face)| corners.map(|it| (it, face)));
         let mut leaning = Leaning::default();
-        for (corner, face) in corners {
-            let Some(normal) = file_normals.get(corner as usize).and_then(|normal| normal.try_normalize()) else {
-                continue;
-            };
-            let cosine = options.up_axis.to_y_up(normal.as_dvec3()).dot(*face);
-            leaning.given += 1;
-            leaning.own += usize::from(cosine > OWN);
-            leaning.averaged += usize::from(cosine.abs() < AVERAGED_NORMAL);
+        for (triangle, (corners, face)) in self.triangles.iter().zip(self.triangle_normals.iter().zip(face_normals)) {
+            let normals = corners.iter().filter_map(|corner| file_normals.get(*corner as usize)?.try_normalize());
+            let [a, b, c] = triangle.map(|position| self.positions[position as usize]);
+            for normal in normals {
+                let cosine = options.up_axis.to_y_up(normal.as_dvec3()).dot(*face);
+                let (area, is_averaged) = ((b - a).cross(c - a).length(), cosine.abs() < AVERAGED_NORMAL);
+                leaning.given += 1;
+                leaning.own += usize::from(cosine > OWN);
+                leaning.averaged += usize::from(is_averaged);
+                leaning.areas[0] += area;
+                leaning.areas[1] += if is_averaged { area } else { 0.0 };
+            }
         }
         leaning
     }
@@ -198,6 +202,8 @@ struct Leaning {
     own: usize,
     /// Those where it stands far off the face, from either of its sides: the file may run round its faces the wrong way.
     averaged: usize,
+    /// The sums of the areas of the faces at all of these corners and at the last.
+    areas: [f64; 2],
 }
 
 #[cfg(test)]

@@ -78,6 +78,52 @@ fn a_few_averaged_normals_are_believed_and_so_are_those_of_faces_that_run_the_wr
     assert!((b - a).cross(c - a).dot(normals_of(&mesh)[0][0].as_dvec3()) < 0.0, "the file's, not the faces'");
 }
 
+/// A puck: the outer half of a torus, of radii 2 and 0.3, with its own normals, between two flat fans whose normals lean 50 degrees
+/// outwards.
+fn puck(rings: u32) -> Soup {
+    const COLUMNS: u32 = 20;
+    let around =
+        |column: u32| DVec3::X.rotate_axis(DVec3::Z, f64::from(column) / f64::from(COLUMNS) * std::f64::consts::TAU);
+    let mut soup = Soup::default();
+    for ring in 0..=rings {
+        let (up, out) = ((f64::from(ring) / f64::from(rings) - 0.5) * std::f64::consts::PI).sin_cos();
+        for column in 0..COLUMNS {
+            let normal = around(column) * out + DVec3::Z * up;
+            soup.positions.push(around(column) * 2.0 + normal * 0.3);
+            soup.normals.push(normal.as_vec3());
+        }
+    }
+    let add = |soup: &mut Soup, face: &[u32], first_normal: u32| {
+        soup.corners.extend(face.iter().map(|at| Corner { normal: first_normal.wrapping_add(*at), ..Corner::at(*at) }));
+        soup.polygon_sizes.push(face.len() as u32);
+    };
+    for place in 0..rings * COLUMNS {
+        let next = if place % COLUMNS + 1 < COLUMNS { place + 1 } else { place + 1 - COLUMNS };
+        add(&mut soup, &[place, next, next + COLUMNS, place + COLUMNS], 0);
+    }
+    for (end, up) in [(0, -1.0), (rings * COLUMNS, 1.0)] {
+        let mut cap: Vec<u32> = (end..end + COLUMNS).collect();
+        if end == 0 {
+            cap.reverse();
+        }
+        let first = soup.normals.len() as u32;
+        let (sine, cosine) = 50f64.to_radians().sin_cos();
+        soup.normals.extend((0..COLUMNS).map(|column| (around(column) * sine + DVec3::Z * up * cosine).as_vec3()));
+        add(&mut soup, &cap, first.wrapping_sub(end));
+    }
+    soup
+}
+
+#[test]
+fn few_averaged_normals_on_much_of_the_surface_are_not_believed() {
+    for (rings, of_all) in [(9, 1188), (8, 1068)] {
+        let (mesh, remarks) = made(puck(rings), Normals::Checked);
+        let sentence = format!("cube.obj: 108 of the file's {of_all} normals");
+        assert!(remarks.len() == 1 && remarks[0].starts_with(&sentence), "{remarks:?}");
+        assert_eq!(normals_of(&mesh), normals_of(&made(puck(rings), Normals::Smooth).0));
+    }
+}
+
 #[test]
 fn sides_that_share_the_fronts_normals_get_their_own_unless_the_files_are_asked_for() {
     let both = || {
