@@ -27,7 +27,8 @@ pub struct Defects {
     /// Corners whose normal is missing, zero or not finite; a computed one replaces it.
     pub unusable_normals: usize,
     /// Corners that take a normal from the file which stands more than 45 degrees off their face, if these are more than a tenth of
-    /// the file's; otherwise 0. They blur tones at sharp edges, but the file may mean it: ignored by `is_empty`.
+    /// the file's or have as much of the surface; otherwise 0. They blur tones at sharp edges, but the file may mean it: ignored by
+    /// `is_empty`.
     pub averaged_normals: usize,
     /// Corners whose texture coordinates are missing or not finite.
     pub unusable_texture_coordinates: usize,
@@ -40,6 +41,8 @@ pub struct Defects {
     pub unusable_colors: usize,
     /// Missing material files and materials; their faces get the default colour.
     pub missing_materials: usize,
+    /// Faces and others that a file holds beyond its header's count; what follows them unread counts as one.
+    pub unpromised: usize,
 }
 
 impl Defects {
@@ -67,61 +70,59 @@ impl Defects {
 
 impl<'a> std::iter::Sum<&'a Self> for Defects {
     fn sum<I: Iterator<Item = &'a Self>>(all: I) -> Self {
-        all.fold(Self::default(), |sum, one| Self {
-            degenerate_triangles: sum.degenerate_triangles + one.degenerate_triangles,
-            long_polygons: sum.long_polygons + one.long_polygons,
-            crossing_polygons: sum.crossing_polygons + one.crossing_polygons,
-            duplicate_triangles: sum.duplicate_triangles + one.duplicate_triangles,
-            doubled_triangles: sum.doubled_triangles + one.doubled_triangles,
-            averaged_normals: sum.averaged_normals + one.averaged_normals,
-            non_finite_vertices: sum.non_finite_vertices + one.non_finite_vertices,
-            out_of_range_faces: sum.out_of_range_faces + one.out_of_range_faces,
-            unused_vertices: sum.unused_vertices + one.unused_vertices,
-            unusable_normals: sum.unusable_normals + one.unusable_normals,
-            unusable_texture_coordinates: sum.unusable_texture_coordinates + one.unusable_texture_coordinates,
-            repeated_corners: sum.repeated_corners + one.repeated_corners,
-            covered_triangles: sum.covered_triangles + one.covered_triangles,
-            unusable_colors: sum.unusable_colors + one.unusable_colors,
-            missing_materials: sum.missing_materials + one.missing_materials,
+        all.cloned().fold(Self::default(), |mut sum, mut one| {
+            sum.counts().into_iter().zip(one.counts()).for_each(|((sum, ..), (count, ..))| *sum += *count);
+            sum
         })
+    }
+}
+
+impl Defects {
+    /// Each count with its words, for one and for several.
+    fn counts(&mut self) -> [(&mut usize, &'static str, &'static str); 16] {
+        [
+            (&mut self.degenerate_triangles, "degenerate triangle", "degenerate triangles"),
+            (&mut self.long_polygons, "polygon of too many corners", "polygons of too many corners"),
+            (&mut self.crossing_polygons, "polygon that crosses itself", "polygons that cross themselves"),
+            (&mut self.duplicate_triangles, "duplicate triangle", "duplicate triangles"),
+            (&mut self.doubled_triangles, "triangle written for both sides", "triangles written for both sides"),
+            (&mut self.non_finite_vertices, "vertex that is not finite", "vertices that are not finite"),
+            (&mut self.out_of_range_faces, "face with an index out of range", "faces with an index out of range"),
+            (&mut self.unused_vertices, "unused vertex", "unused vertices"),
+            (&mut self.unusable_normals, "corner without a usable normal", "corners without a usable normal"),
+            (
+                &mut self.averaged_normals,
+                "corner whose normal stands far off its face (harmless)",
+                "corners whose normals stand far off their faces (harmless)",
+            ),
+            (
+                &mut self.unusable_texture_coordinates,
+                "corner without usable texture coordinates",
+                "corners without usable texture coordinates",
+            ),
+            (
+                &mut self.repeated_corners,
+                "polygon that names a corner twice in a row (harmless)",
+                "polygons that name a corner twice in a row (harmless)",
+            ),
+            (
+                &mut self.covered_triangles,
+                "triangle that others cover (harmless)",
+                "triangles that others cover (harmless)",
+            ),
+            (&mut self.unusable_colors, "material without a usable colour", "materials without a usable colour"),
+            (&mut self.missing_materials, "missing material", "missing materials"),
+            (&mut self.unpromised, "part beyond what the header promises", "parts beyond what the header promises"),
+        ]
     }
 }
 
 impl fmt::Display for Defects {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let kinds = [
-            (self.degenerate_triangles, "degenerate triangle", "degenerate triangles"),
-            (self.long_polygons, "polygon of too many corners", "polygons of too many corners"),
-            (self.crossing_polygons, "polygon that crosses itself", "polygons that cross themselves"),
-            (self.duplicate_triangles, "duplicate triangle", "duplicate triangles"),
-            (self.doubled_triangles, "triangle written for both sides", "triangles written for both sides"),
-            (self.non_finite_vertices, "vertex that is not finite", "vertices that are not finite"),
-            (self.out_of_range_faces, "face with an index out of range", "faces with an index out of range"),
-            (self.unused_vertices, "unused vertex", "unused vertices"),
-            (self.unusable_normals, "corner without a usable normal", "corners without a usable normal"),
-            (
-                self.averaged_normals,
-                "corner whose normal stands far off its face (harmless)",
-                "corners whose normals stand far off their faces (harmless)",
-            ),
-            (
-                self.unusable_texture_coordinates,
-                "corner without usable texture coordinates",
-                "corners without usable texture coordinates",
-            ),
-            (
-                self.repeated_corners,
-                "polygon that names a corner twice in a row (harmless)",
-                "polygons that name a corner twice in a row (harmless)",
-            ),
-            (self.covered_triangles, "triangle that others cover (harmless)", "triangles that others cover (harmless)"),
-            (self.unusable_colors, "material without a usable colour", "materials without a usable colour"),
-            (self.missing_materials, "missing material", "missing materials"),
-        ];
         let mut separator = "";
-        for (count, singular, plural) in kinds {
-            if count > 0 {
-                write!(out, "{separator}{count} {}", if count == 1 { singular } else { plural })?;
+        for (count, singular, plural) in self.clone().counts() {
+            if *count > 0 {
+                write!(out, "{separator}{count} {}", if *count == 1 { singular } else { plural })?;
                 separator = ", ";
             }
         }

@@ -184,9 +184,10 @@ fn made(
             "{path}: the model's flat base suggests that {up} points up; if it lies on its side, add --up-axis {up}"
         ));
     }
-    // The reader, which knows their names, has already reported missing materials. What double faces and averaged normals do
-    // depends on the style, which reports them.
-    let others = Defects { missing_materials: 0, doubled_triangles: 0, averaged_normals: 0, ..mesh.defects.clone() };
+    // The reader, which knows their names, has already reported missing materials, and what no header promises. What double faces and
+    // averaged normals do depends on the style, which reports them.
+    let others = Defects { missing_materials: 0, unpromised: 0, ..mesh.defects.clone() };
+    let others = Defects { doubled_triangles: 0, averaged_normals: 0, ..others };
     if others != Defects::default() {
         remarks.push(format!("{path}: {others}; {}", others.consequence()));
     }

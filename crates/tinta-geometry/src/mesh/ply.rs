@@ -47,17 +47,19 @@ pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Resul
     let mut payload = Payload::new(&bytes[header.bytes..], header.encoding, header.lines);
     let mut contents = Contents::new(&header);
     for element in &header.elements {
-        let name = element.name.as_str();
-        let read = match name {
-            "vertex" => contents.vertices(&mut payload, element),
-            "face" => contents.faces(&mut payload, element),
-            "tristrips" => contents.strips(&mut payload, element, bytes.len()),
-            "edge" if element.has("vertex1") && element.has("vertex2") => contents.edges(&mut payload, element),
-            _ => (0..element.count).try_for_each(|_| payload.element(element, |_, _| {})),
-        };
-        read.map_err(|Damage(cause)| {
-            damaged(payload.line(), &format!("{cause} of the file's {}", many(element.count, name)))
+        contents.element(&mut payload, element, bytes.len()).map_err(|Damage(cause)| {
+            damaged(payload.line(), &format!("{cause} of the file's {}", many(element.count, &element.name)))
         })?;
+    }
+    if let Some(last) = header.elements.last_mut() {
+        let (promised, (rest, more)) = (last.count, payload.more(last));
+        last.count = more;
+        if more > 0 {
+            // They have been looked through.
+            contents.element(&mut payload, last, bytes.len()).unwrap_or_default();
+        }
+        last.count += promised;
+        remarks.extend(contents.soup.note_more(path, &many(promised, &last.name), [promised, last.count], rest));
     }
     let mut soup = contents.soup;
     contents.paint.put_on(&mut soup);
@@ -94,14 +96,12 @@ fn check_header(header: &Header) -> std::result::Result<(), &'static str> {
     if !["x", "y", "z"].into_iter().all(|axis| has("vertex", axis)) {
         return Err("its vertices have no x, y and z; export it again");
     }
-    if header.element("face").is_some() && !has("face", "vertex_indices") && !has("face", "vertex_index") {
-        return Err("its faces have no list of vertex_indices; export it again");
+    let lacks_list = |name| header.element(name).is_some_and(|of| !of.has("vertex_indices") && !of.has("vertex_index"));
+    match () {
+        () if lacks_list("face") => Err("its faces have no list of vertex_indices; export it again"),
+        () if lacks_list("tristrips") => Err("its triangle strips have no list of vertex_indices; export it again"),
+        () => Ok(()),
     }
-    if header.element("tristrips").is_some() && !has("tristrips", "vertex_indices") && !has("tristrips", "vertex_index")
-    {
-        return Err("its triangle strips have no list of vertex_indices; export it again");
-    }
-    Ok(())
 }
 
 /// A file's contents.
@@ -129,6 +129,22 @@ impl Contents {
                 .any(|names| names.into_iter().all(has)),
             full_color: vertex.and_then(full_color),
             paint: Paint::of(header),
+        }
+    }
+
+    /// Reads all elements of a kind.
+    fn element(
+        &mut self,
+        payload: &mut Payload<'_>,
+        element: &Element,
+        file_bytes: usize,
+    ) -> std::result::Result<(), Damage> {
+        match element.name.as_str() {
+            "vertex" => self.vertices(payload, element),
+            "face" => self.faces(payload, element),
+            "tristrips" => self.strips(payload, element, file_bytes),
+            "edge" if element.has("vertex1") && element.has("vertex2") => self.edges(payload, element),
+            _ => (0..element.count).try_for_each(|_| payload.element(element, |_, _| {})),
         }
     }
 

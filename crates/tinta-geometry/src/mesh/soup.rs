@@ -69,6 +69,11 @@ pub(super) fn direction(file: DVec3) -> Vec3 {
     (file * half.exp2() * (-power - half).exp2()).as_vec3()
 }
 
+/// How many of the last bytes only fill a file up.
+pub(super) fn padding(bytes: &[u8]) -> usize {
+    bytes.iter().rev().take_while(|byte| **byte == 0 || byte.is_ascii_whitespace()).count()
+}
+
 /// One corner of a polygon: indices into the soup's arrays, [`NONE`] where it has none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Corner {
@@ -187,6 +192,16 @@ impl Soup {
         if self.polygon_sizes.is_empty() {
             self.polygon_sizes = vec![3; self.corners.len() / 3];
         }
+    }
+
+    /// Notes what a file has beyond what its header promises, in words and by count, and what is not read; returns a sentence.
+    pub(super) fn note_more(&mut self, path: &str, promise: &str, of: [usize; 2], unread: &[u8]) -> Option<String> {
+        let [promised, has] = of;
+        let (is_whole, more) = (padding(unread) == unread.len(), has - promised);
+        self.defects.unpromised = more + usize::from(!is_whole);
+        let found =
+            if is_whole { format!(", the file has {has}") } else { "; what follows them is not read".to_owned() };
+        (more > 0 || !is_whole).then(|| format!("{path}: its header promises {promise}{found}"))
     }
 
     /// Rejects a mesh that would exceed the memory allowed for a file of `file_bytes`. Exporters write more bytes per vertex

@@ -41,13 +41,18 @@ fn whole_length(bytes: &[u8]) -> Option<u64> {
     Some(HEADER_BYTES as u64 + facet_count(bytes)? as u64 * FACET_BYTES as u64)
 }
 
-/// Reads an STL file's bytes. `path` is for messages; `remarks` gets a sentence where a text has no end.
+/// Reads an STL file's bytes. `path` is for messages; `remarks` gets a sentence where a text has no end, or a binary file more than
+/// its header promises.
 pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
-    // Some programs leave a few bytes behind the last facet.
-    let holds_all = whole_length(bytes).is_some_and(|length| bytes.len() as u64 >= length);
+    if is_binary(bytes) {
+        return Ok(binary(&bytes[HEADER_BYTES..]));
+    }
     let is_text = is_text(&bytes[..bytes.len().min(4096)]);
-    if is_binary(bytes) || (holds_all && !is_text) {
-        return Ok(binary(bytes));
+    if let (false, Some((facets, rest, count))) = (is_text, longer(bytes)) {
+        let (mut soup, has) = (binary(&facets), facets.len() / FACET_BYTES);
+        let promise = format!("{count} {}", if count == 1 { "triangle" } else { "triangles" });
+        remarks.extend(soup.note_more(path, &promise, [count, has], rest));
+        return Ok(soup);
     }
     if !is_text {
         return Err(Error::model(path, truncated(bytes)));
@@ -96,10 +101,41 @@ fn facets(text: &[u8]) -> std::result::Result<(Soup, bool), (Option<u64>, &'stat
     }
 }
 
-/// A binary file's facets, which are all there.
-fn binary(bytes: &[u8]) -> Soup {
-    let count = facet_count(bytes).unwrap_or_default();
-    let facets = bytes.get(HEADER_BYTES..).and_then(|facets| facets.get(..count * FACET_BYTES)).unwrap_or_default();
+/// The facets of a binary file that is longer than its header's count, what follows them, and that count. They are those of all
+/// files that were joined, or as many as the size has room for, or have as many bytes behind each as it says, or are those promised.
+fn longer(file: &[u8]) -> Option<(Vec<u8>, &[u8], usize)> {
+    let (mut joined, mut rest) = (Vec::new(), file);
+    let length_of = |bytes: &[u8]| usize::try_from(whole_length(bytes)?).ok();
+    while let Some(length) = length_of(rest).filter(|length| joined.is_empty() || *length > HEADER_BYTES) {
+        let Some((own, behind)) = rest.split_at_checked(length) else { break };
+        joined.push(&own[HEADER_BYTES..]);
+        rest = behind;
+    }
+    let (first, all) = (*joined.first()?, &file[HEADER_BYTES..]);
+    let count = first.len() / FACET_BYTES;
+    let facets = match all.len() % FACET_BYTES {
+        _ if rest.is_empty() => Some(joined.concat()),
+        0 => Some(all.to_vec()),
+        _ => apart(Bytes(all), count),
+    };
+    Some(facets.map_or_else(|| (first.to_vec(), &all[first.len()..], count), |facets| (facets, &[][..], count)))
+}
+
+/// So many facets with bytes between them, as many as each says at its end; `None` if the file does not end with them.
+fn apart(mut file: Bytes<'_>, count: usize) -> Option<Vec<u8>> {
+    let mut facets = Vec::new();
+    for _ in 0..count {
+        let facet = file.take(FACET_BYTES)?;
+        facets.extend(facet);
+        // Nothing need follow the last.
+        Bytes(&facet[FACET_BYTES - 2..]).u16().and_then(|bytes| file.take(bytes.into()));
+    }
+    file.0.is_empty().then_some(facets)
+}
+
+/// The soup of facets.
+fn binary(facets: &[u8]) -> Soup {
+    let count = facets.len() / FACET_BYTES;
     let threads = threads_for(count);
     let positions = listed(count, 3, threads, |range, positions| {
         for facet in facets[range.start * FACET_BYTES..range.end * FACET_BYTES].chunks_exact(FACET_BYTES) {
@@ -130,6 +166,7 @@ fn truncated(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::Defects;
 
     fn binary(header: &[u8], triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
         let mut bytes = header.to_vec();
@@ -223,6 +260,54 @@ mod tests {
             let message = of_text(text).unwrap_err();
             assert!(message.starts_with("t.stl: ") && message.contains(sentence), "{message}");
         }
+    }
+
+    /// A file's triangles, its remarks and what `--strict` counts; of each triangle the third corner must be right.
+    fn of_binary(bytes: &[u8]) -> (usize, Vec<String>, usize) {
+        let mut remarks = Vec::new();
+        let soup = read(bytes, "t.stl", &mut remarks).unwrap();
+        assert!(soup.positions.chunks(3).all(|corners| corners[2] == DVec3::new(0.0, 1.0, 0.5)));
+        assert_eq!(soup.defects, Defects { unpromised: soup.defects.unpromised, ..Defects::default() });
+        (soup.corners.len() / 3, remarks, soup.defects.unpromised)
+    }
+
+    #[test]
+    fn what_a_file_holds_beyond_its_count_is_read_where_it_is_facets_and_said() {
+        let three = binary(b"x", &[TRIANGLE; 3]);
+        let promising = |count: u32, more: &[u8]| {
+            let mut file = [three.as_slice(), more].concat();
+            file[80..84].copy_from_slice(&count.to_le_bytes());
+            of_binary(&file)
+        };
+        let said = |words: &str| vec![format!("t.stl: its header promises {words}")];
+        assert_eq!(promising(3, b""), (3, vec![], 0));
+        assert_eq!(promising(1, b""), (3, said("1 triangle, the file has 3"), 2));
+        assert_eq!(promising(0, b""), (3, said("0 triangles, the file has 3"), 3));
+        // Files joined into one; as many headers as facets have room in are no facets.
+        assert_eq!(promising(3, &binary(b"y", &[TRIANGLE; 2])), (5, said("3 triangles, the file has 5"), 2));
+        let more = binary(b"y", &[TRIANGLE]).repeat(25);
+        assert_eq!(promising(3, &more), (28, said("3 triangles, the file has 28"), 25));
+        for padding in [&[0; 2][..], b"\r\n", &[0; 84], &[0; 168]] {
+            assert_eq!(promising(3, padding), (3, vec![], 0));
+        }
+        for more in [&b"end"[..], &three[..90]] {
+            assert_eq!(promising(3, more), (3, said("3 triangles; what follows them is not read"), 1));
+        }
+    }
+
+    #[test]
+    fn bytes_between_facets_are_passed_over_where_each_says_how_many() {
+        let record = |between: u16| {
+            let facet = &binary(b"", &[TRIANGLE])[HEADER_BYTES..];
+            [&facet[..48], &between.to_le_bytes(), &vec![7; between.into()]].concat()
+        };
+        let file = |records: &[Vec<u8>]| [&[0; 80][..], &3u32.to_le_bytes(), &records.concat()].concat();
+        let all = file(&[record(4), record(0), record(300)]);
+        assert_eq!(of_binary(&all), (3, vec![], 0));
+        assert_eq!(of_binary(&all[..all.len() - 300]), (3, vec![], 0), "only between them");
+        // Colours in the same place mean nothing.
+        let colors = [record(4), record(4), record(4)].map(|record| record[..FACET_BYTES].to_vec());
+        assert_eq!(of_binary(&file(&colors)), (3, vec![], 0));
     }
 
     #[test]

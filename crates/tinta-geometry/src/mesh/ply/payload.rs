@@ -3,6 +3,7 @@
 use super::header::{Element, Encoding, PropertyType, ScalarType};
 use crate::bytes::Bytes;
 use crate::mesh::number::number;
+use crate::mesh::soup::padding;
 use crate::threads::{listed, threads_for};
 
 /// Why an element cannot be read, in words that go on with "of the file's 9 vertices".
@@ -41,6 +42,7 @@ impl Value {
 }
 
 /// The part of a file behind its header, from where it was read to.
+#[derive(Clone)]
 pub(super) struct Payload<'a> {
     rest: Bytes<'a>,
     encoding: Encoding,
@@ -58,6 +60,18 @@ impl<'a> Payload<'a> {
     /// The line read last, where the file has lines.
     pub(super) fn line(&self) -> Option<u64> {
         (self.encoding == Encoding::Ascii).then_some(self.lines)
+    }
+
+    /// What is left, and how many elements of this kind that is; 0 if it is anything else.
+    pub(super) fn more(&self, element: &Element) -> (&'a [u8], usize) {
+        let (mut ahead, mut count, padding) = (self.clone(), 0, padding(self.rest.0));
+        while ahead.rest.0.len() > padding {
+            count += 1;
+            if ahead.element(element, |_, _| {}).is_err() {
+                return (self.rest.0, 0);
+            }
+        }
+        (ahead.rest.0, count)
     }
 
     /// How many of an element's promised ones the bytes left can hold; each has a property.

@@ -342,3 +342,40 @@ fn numbers_that_are_none_in_any_librarys_spelling_cost_their_vertex_alone() {
         }
     }
 }
+
+#[test]
+fn what_follows_the_headers_count_is_read_where_it_is_of_the_last_kind_and_said() {
+    let read = |encoding: &str, count: usize, color: &str, data: &[u8]| {
+        let head = format!(
+            "ply\nformat {encoding} 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+             element face {count}\nproperty list uchar int vertex_indices\n{color}end_header\n"
+        );
+        let mut remarks = Vec::new();
+        let soup = read(&[head.as_bytes(), data].concat(), "t.ply", &mut remarks).unwrap();
+        let corners: Vec<u32> = soup.corners.iter().map(|corner| corner.position).collect();
+        (corners, soup.materials.len(), soup.defects.unpromised, remarks.concat())
+    };
+    let said = |words: &str| format!("t.ply: its header promises {words}");
+    let all = vec![0, 1, 2, 0, 2, 3];
+    let points = [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat();
+    let face = |corners: [u32; 3]| [&[3][..], &corners.map(u32::to_le_bytes).concat()].concat();
+    let faces = [face([0, 1, 2]), face([0, 2, 3])].concat();
+    let binary = |count: usize, more: &[u8]| {
+        read("binary_little_endian", count, "", &[points.as_slice(), &faces, more].concat())
+    };
+    assert_eq!(binary(2, b""), (all.clone(), 0, 0, String::new()));
+    assert_eq!(binary(1, b""), (all.clone(), 0, 1, said("1 face, the file has 2")));
+    assert_eq!(binary(0, b"\n"), (all.clone(), 0, 2, said("0 faces, the file has 2")));
+    for padding in [&b"\n"[..], &[0; 7], b"\r\n "] {
+        assert_eq!(binary(2, padding), (all.clone(), 0, 0, String::new()));
+    }
+    assert_eq!(binary(2, b"\x03end"), (all.clone(), 0, 1, said("2 faces; what follows them is not read")));
+    let text = |count: usize, more: &str| {
+        let color = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+        let text = format!("0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 9 9 9\n3 0 2 3 7 7 7\n{more}");
+        read("ascii", count, color, text.as_bytes())
+    };
+    assert_eq!(text(2, "\n \n"), (all.clone(), 2, 0, String::new()));
+    assert_eq!(text(1, "\n\n"), (all.clone(), 2, 1, said("1 face, the file has 2")));
+    assert_eq!(text(2, "the end\n"), (all, 2, 1, said("2 faces; what follows them is not read")));
+}
