@@ -9,6 +9,7 @@ use crate::files::{self, Failure};
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::ffi::{OsStr, OsString};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -19,7 +20,7 @@ use std::sync::Arc;
 pub(super) struct Folder<'a> {
     place: Place<'a>,
     /// The names in each folder on disk, read on first use.
-    names: RefCell<HashMap<PathBuf, Rc<[String]>>>,
+    names: RefCell<HashMap<PathBuf, Rc<[OsString]>>>,
 }
 
 #[derive(Debug)]
@@ -119,7 +120,7 @@ impl<'a> Folder<'a> {
                 continue;
             }
             let names = self.names_in(&file);
-            let same = names.iter().filter(|name| part.to_str().is_some_and(|part| name.eq_ignore_ascii_case(part)));
+            let same = names.iter().filter(|name| is_same(name, part));
             // A folder's entries have no fixed order.
             file.push(same.min()?);
         }
@@ -183,22 +184,22 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// Returns the names of the files and folders in a folder below, if they are text.
-    pub(super) fn names(&self, below: &Path) -> Rc<[String]> {
+    /// Returns the names of the files and folders in a folder below.
+    pub(super) fn names(&self, below: &Path) -> Rc<[OsString]> {
         match &self.place {
             Place::Disk { path, .. } => self.names_in(&path.join(below)),
-            Place::Memory(files) => files.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            Place::Memory(files) => files.iter().map(|(name, _)| name.into()).collect(),
         }
     }
 
     /// The names in a folder on disk; none outside the folder whose files may be read.
-    fn names_in(&self, folder: &Path) -> Rc<[String]> {
+    fn names_in(&self, folder: &Path) -> Rc<[OsString]> {
         let Place::Disk { within, .. } = &self.place else { return Rc::default() };
         let read = || {
             let may_be_read = within.as_ref().is_none_or(|within| files::is_within(listed(folder), within));
             let entries =
                 std::fs::read_dir(listed(folder)).ok().filter(|_| may_be_read).into_iter().flatten().flatten();
-            entries.filter_map(|entry| entry.file_name().into_string().ok()).collect()
+            entries.map(|entry| entry.file_name()).collect()
         };
         Rc::clone(self.names.borrow_mut().entry(folder.to_path_buf()).or_insert_with(read))
     }
@@ -209,11 +210,20 @@ pub(super) fn is_library(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mtl"))
 }
 
+/// Whether two names are the same in any case. A byte that is no UTF-8 may be any letter beyond ASCII: old programs write names in the
+/// code of their system.
+pub(super) fn is_same(one: &OsStr, other: &OsStr) -> bool {
+    let (one, other) = (one.to_string_lossy(), other.to_string_lossy());
+    let is_lost = |a: char, b: char| [a, b].contains(&char::REPLACEMENT_CHARACTER) && !a.is_ascii() && !b.is_ascii();
+    one.chars().count() == other.chars().count()
+        && one.chars().zip(other.chars()).all(|(a, b)| a.eq_ignore_ascii_case(&b) || is_lost(a, b))
+}
+
 /// Finds the file of this exact name, or else in any case and without leading folders.
 fn in_memory<'f, 'a>(files: &'f [(&'a str, &'a [u8])], name: &Path) -> Option<&'f (&'a str, &'a [u8])> {
-    let base = name.file_name()?.to_str()?;
+    let base = name.file_name()?;
     let exact = files.iter().find(|(known, _)| Path::new(known) == name);
-    exact.or_else(|| files.iter().find(|(known, _)| known.eq_ignore_ascii_case(base)))
+    exact.or_else(|| files.iter().find(|(known, _)| is_same(OsStr::new(known), base)))
 }
 
 /// Returns a folder's path for the system: an empty path becomes the current folder.

@@ -1,12 +1,13 @@
 //! Pictures that belong on a model: found beside it, or given with `--skin`.
 
-use super::folder::{Folder, Lookup};
+use super::folder::{Folder, Lookup, is_same};
 use super::soup::Soup;
 use super::{Material, NONE};
 use crate::error::{Error, Result};
 use crate::files::shown;
 use crate::limits::REMARKS;
 use std::collections::HashMap;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 /// Extensions of pictures, in the order they are tried.
@@ -74,31 +75,32 @@ fn stand_in(folder: &Folder<'_>, name: &str, path: &str, found: &Lookup, is_outs
 pub(super) fn lying_there(folder: &Folder<'_>, stem: &str) -> Vec<String> {
     const MOST: usize = 3;
     let stem = stem.to_lowercase();
-    let may_be = |name: &&String| {
+    let may_be = |name: &String| {
         let name = name.to_lowercase();
         let extension = Path::new(&name).extension().and_then(|extension| extension.to_str()).unwrap_or_default();
         EXTENSIONS.contains(&extension) && (name.starts_with(&stem) || extension == EXTENSIONS[0])
     };
     let all = folder.names(Path::new(""));
-    let mut names: Vec<&String> = all.iter().filter(may_be).collect();
-    names.sort_unstable_by_key(|name| (!name.to_lowercase().starts_with(&stem), name.as_str()));
-    names.into_iter().take(MOST).map(|name| shown(name)).collect()
+    let mut names: Vec<String> = all.iter().map(|name| shown(&name.to_string_lossy())).filter(may_be).collect();
+    names.sort_unstable_by_key(|name| (!name.to_lowercase().starts_with(&stem), name.clone()));
+    names.truncate(MOST);
+    names
 }
 
 /// The picture of this name in a folder below, in any case, or else the first with its stem and an extension of a picture.
 fn beside(folder: &Folder<'_>, below: &Path, base: &str) -> Lookup {
     let Some(stem) = Path::new(base).file_stem().and_then(|stem| stem.to_str()) else { return Lookup::Nowhere };
-    let rank = |name: &str| {
-        if name.eq_ignore_ascii_case(base) {
+    let rank = |name: &OsStr| {
+        if is_same(name, OsStr::new(base)) {
             return Some(0);
         }
         let path = Path::new(name);
-        let same_stem = path.file_stem().is_some_and(|other| other.eq_ignore_ascii_case(stem));
+        let same_stem = path.file_stem().is_some_and(|other| is_same(other, OsStr::new(stem)));
         let extension = path.extension().and_then(|extension| extension.to_str()).filter(|_| same_stem)?;
         Some(EXTENSIONS.iter().position(|known| known.eq_ignore_ascii_case(extension))? + 1)
     };
     let names = folder.names(below);
-    let mut candidates: Vec<(usize, &String)> = names.iter().filter_map(|name| Some((rank(name)?, name))).collect();
+    let mut candidates: Vec<(usize, &OsString)> = names.iter().filter_map(|name| Some((rank(name)?, name))).collect();
     // A folder's entries have no fixed order: rank, then name decide.
     candidates.sort_unstable();
     let mut best = Lookup::Nowhere;

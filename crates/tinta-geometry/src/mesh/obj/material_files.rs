@@ -224,6 +224,29 @@ mod tests {
         }
     }
 
+    #[cfg(unix)]
+    #[test]
+    fn names_in_the_code_of_an_old_system_are_found_whatever_the_files_are_in() {
+        use std::os::unix::ffi::OsStrExt;
+        const LATIN: [&[u8]; 2] = [b"m\xe9.mtl", b"t\xe9\xe0.png"];
+        const UTF_8: [&[u8]; 2] = ["mé.mtl".as_bytes(), "téà.png".as_bytes()];
+        for (written, there) in [(LATIN, LATIN), (LATIN, UTF_8), (UTF_8, LATIN), (UTF_8, UTF_8)] {
+            let folder = tempfile::tempdir().unwrap();
+            let place = |name: &[u8]| folder.path().join(std::ffi::OsStr::from_bytes(name));
+            fs::write(place(there[0]), [b"newmtl a\nmap_Kd ", written[1], b"\n"].concat()).unwrap();
+            fs::write(place(there[1]), "").unwrap();
+            fs::write(place(b"a.obj"), [b"mtllib ", written[0], b"\n", FACE.as_bytes()].concat()).unwrap();
+            let loaded = load(place(b"a.obj").to_str().unwrap(), &LoadOptions::default()).unwrap();
+            assert!(loaded.remarks.is_empty(), "{:?}", loaded.remarks);
+            assert_eq!(loaded.mesh.materials[0].texture.as_deref(), Some(place(there[1]).as_path()));
+        }
+        // Another letter is another file, and so is one more.
+        for name in ["ma.mtl", "méé.mtl", "m.mtl"] {
+            let (_folder, mesh, remarks) = loaded("mtllib m\u{fffd}.mtl", &[(name, "newmtl a\n"), ("other.mtl", "")]);
+            assert!(mesh.materials.is_empty() && remarks[0].contains("is missing"), "{name}: {remarks:?}");
+        }
+    }
+
     #[test]
     fn several_names_in_a_statement_may_hold_blanks() {
         let files =
