@@ -15,7 +15,9 @@ pub(super) const INSTANCES: &str = "EXT_mesh_gpu_instancing";
 pub(super) const VISIBILITY: &str = "KHR_node_visibility";
 
 /// Extensions that are read, or that do not affect the drawing.
-const UNDERSTOOD: [&str; 7] = [
+const UNDERSTOOD: [&str; 9] = [
+    "EXT_mesh_primitive_restart",
+    "KHR_mesh_primitive_restart",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "KHR_lights_punctual",
@@ -117,7 +119,7 @@ pub(super) fn tidied(value: Value) -> Value {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{load, problem, triangle};
+    use super::super::tests::{add_accessor, add_floats, load, problem, triangle};
     use serde_json::json;
 
     #[test]
@@ -141,6 +143,26 @@ mod tests {
         assert!(problem(&file).contains("it needs the extension EXT_meshopt_compression"), "{}", problem(&file));
         file["buffers"][0] = json!({"byteLength": 102});
         assert!(problem(&file).contains("its buffer 0 names no data"), "{}", problem(&file));
+    }
+
+    #[test]
+    fn the_largest_index_begins_a_new_strip_loop_or_fan() {
+        let with = |mode: u8, indices: &[u8]| {
+            let mut file = triangle();
+            let corners = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 2.0, 0.0, 0.0, 2.0, 1.0, 0.0];
+            let positions = add_floats(&mut file, "VEC3", &corners);
+            let indices = add_accessor(&mut file, 5121, "SCALAR", indices.len(), indices);
+            file["extensionsUsed"] = json!(["KHR_mesh_primitive_restart"]);
+            file["meshes"][0]["primitives"] =
+                json!([{"attributes": {"POSITION": positions}, "indices": indices, "mode": mode}]);
+            let loaded = load(&file).unwrap();
+            assert!(loaded.remarks.is_empty(), "{:?}", loaded.remarks);
+            (loaded.mesh.triangles.len(), loaded.mesh.curves.segments.len())
+        };
+        let runs = [0, 1, 2, 255, 3, 4, 5, 255, 255];
+        assert_eq!([2, 3, 5, 6].map(|mode| with(mode, &runs)), [(0, 6), (0, 4), (2, 0), (2, 0)]);
+        // Of strips every other triangle is turned, in each from its beginning.
+        assert_eq!(with(5, &[0, 1, 2, 3, 255, 1, 4, 3, 5]), (4, 0));
     }
 
     #[test]

@@ -40,16 +40,27 @@ impl Primitives {
             Some(indices) => accessors.indices(indices, piece.corners)?,
             None => (0..piece.corners as u32).collect(),
         };
+        // The largest number begins a new strip, loop or fan: KHR_mesh_primitive_restart.
+        let end = match (piece.primitive.indices, piece.mode) {
+            (Some(list), Mode::LineStrip | Mode::LineLoop | Mode::TriangleStrip | Mode::TriangleFan) => {
+                Some(accessors.largest(list)?)
+            }
+            _ => None,
+        };
+        let runs = indices.split(|index| Some(*index) == end);
         Ok(match piece.mode {
             Mode::Points => Self::Points(indices),
             Mode::Lines => Self::Segments(indices.as_chunks().0.to_vec()),
             Mode::LineStrip | Mode::LineLoop => {
-                let closing = indices.last().zip(indices.first()).filter(|_| piece.mode == Mode::LineLoop);
-                let pairs = indices.windows(2).map(|pair| [pair[0], pair[1]]);
-                Self::Segments(pairs.chain(closing.map(|(last, first)| [*last, *first])).collect())
+                let segments = runs.flat_map(|run| {
+                    let closing = run.last().zip(run.first()).filter(|_| piece.mode == Mode::LineLoop);
+                    let pairs = run.windows(2).map(|pair| [pair[0], pair[1]]);
+                    pairs.chain(closing.map(|(last, first)| [*last, *first]))
+                });
+                Self::Segments(segments.collect())
             }
             _ => {
-                let every = every_triangle(&indices, piece.mode);
+                let every: Vec<[u32; 3]> = runs.flat_map(|run| every_triangle(run, piece.mode)).collect();
                 let marks = piece.edges.as_ref().map_or(Ok(Vec::new()), |edges| edges.marks(&every, accessors))?;
                 Self::Faces { triangles: without_joins(every, piece.mode), marks }
             }
