@@ -70,6 +70,7 @@ fn contents(
         });
     }
     outline::refuse_too_much(&outlines, &accessors, bytes.len() + buffers.bytes_beside, memory::free())?;
+    remarks.extend(outline::many_copies(&outlines).map(|sentence| format!("{path}: {sentence}")));
     let mut soup = Soup {
         materials: list,
         files: buffers.files.clone(),

@@ -174,6 +174,15 @@ pub(super) fn outlines<'a>(
     places.into_iter().map(outline).collect()
 }
 
+/// A sentence about copies that make a large drawing of a small file.
+pub(super) fn many_copies(outlines: &[(Outline<'_>, Vec<Place>)]) -> Option<String> {
+    const MANY: usize = 1_000_000;
+    let once: usize = outlines.iter().map(|(outline, _)| outline.size().triangles).sum();
+    let whole = whole_size(outlines).triangles;
+    (whole >= MANY && whole / 2 >= once)
+        .then(|| format!("its nodes draw {whole} triangles, copies of {once}, which takes time and memory"))
+}
+
 /// How much all meshes have in all their places.
 fn whole_size(outlines: &[(Outline<'_>, Vec<Place>)]) -> Size {
     let of_mesh = |(outline, places): &(Outline<'_>, Vec<Place>)| {
@@ -301,6 +310,19 @@ mod tests {
         let sentence = "its nodes draw 4260096 vertices and 2147483648 triangles, of which at most 1073741824 can be counted; \
                         export it with fewer copies of its meshes";
         assert_eq!(message, sentence);
+    }
+
+    #[test]
+    fn copies_that_make_a_large_drawing_of_a_small_file_are_said_in_advance() {
+        let said = |side: u16, nodes: usize| {
+            let bytes = serde_json::to_vec(&nodes_of_a_grid(side, nodes)).unwrap();
+            let root = container::parse(&bytes).unwrap();
+            let buffers = Buffers::of(&root, None, &Folder::of_files(&[]));
+            let accessors = Accessors { root: &root, buffers: &buffers };
+            many_copies(&outlines(&Nodes::of(&root).unwrap(), &accessors, &[]).unwrap())
+        };
+        let sentence = "its nodes draw 1000000 triangles, copies of 20000, which takes time and memory";
+        assert_eq!([said(100, 50).as_deref(), said(100, 49).as_deref()], [Some(sentence), None]);
     }
 
     #[test]
