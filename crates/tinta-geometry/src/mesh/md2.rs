@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 /// What every file begins with.
 pub(super) const MAGIC: &[u8] = b"IDP2";
 
-const VERSION: u32 = 8;
+const VERSION: usize = 8;
 const SKIN_BYTES: usize = 64;
 const TEXTURE_COORDINATE_BYTES: usize = 4;
 const TRIANGLE_BYTES: usize = 12;
@@ -32,9 +32,9 @@ const FRAME_NAME_BYTES: usize = 16;
 
 /// The numbers a file begins with, in its order, without the magic.
 struct Header {
-    version: u32,
-    skin_width: u32,
-    skin_height: u32,
+    version: usize,
+    skin_width: usize,
+    skin_height: usize,
     frame_bytes: usize,
     skins: usize,
     vertices: usize,
@@ -51,28 +51,23 @@ struct Header {
 impl Header {
     fn read(bytes: &[u8]) -> Option<Self> {
         let mut bytes = Bytes(bytes.strip_prefix(MAGIC)?);
-        let mut number = || bytes.u32();
-        let [version, skin_width, skin_height] = [number()?, number()?, number()?];
-        let mut size = || number().map(|number| number as usize);
-        let [frame_bytes, skins, vertices] = [size()?, size()?, size()?];
-        let [texture_coordinates, triangles, _gl_commands, frames] = [size()?, size()?, size()?, size()?];
-        let [skins_at, texture_coordinates_at, triangles_at] = [size()?, size()?, size()?];
-        let [frames_at, _gl_commands_at, end] = [size()?, size()?, size()?];
+        let mut next = || bytes.u32().map(|number| number as usize);
         Some(Self {
-            version,
-            skin_width,
-            skin_height,
-            frame_bytes,
-            skins,
-            vertices,
-            texture_coordinates,
-            triangles,
-            frames,
-            skins_at,
-            texture_coordinates_at,
-            triangles_at,
-            frames_at,
-            end,
+            version: next()?,
+            skin_width: next()?,
+            skin_height: next()?,
+            frame_bytes: next()?,
+            skins: next()?,
+            vertices: next()?,
+            texture_coordinates: next()?,
+            triangles: next()?,
+            // Behind the number of GL commands, and below behind their place.
+            frames: next().and(next())?,
+            skins_at: next()?,
+            texture_coordinates_at: next()?,
+            triangles_at: next()?,
+            frames_at: next()?,
+            end: next().and(next())?,
         })
     }
 

@@ -31,20 +31,13 @@ impl Layout {
     fn number(self, element: &[u8], place: usize) -> f64 {
         let size = self.kind.size();
         let mut bytes = Bytes(element.get(place * size..).unwrap_or_default());
-        let whole = match self.kind {
+        let (whole, largest) = match self.kind {
             ComponentType::F32 => return bytes.f32().map(f64::from).unwrap_or_default(),
-            ComponentType::I8 => bytes.u8().map(|byte| f64::from(byte as i8)),
-            ComponentType::U8 => bytes.u8().map(f64::from),
-            ComponentType::I16 => bytes.i16().map(f64::from),
-            ComponentType::U16 => bytes.u16().map(f64::from),
-            ComponentType::U32 => bytes.u32().map(f64::from),
-        };
-        let largest = match self.kind {
-            ComponentType::I8 => 127.0,
-            ComponentType::U8 => 255.0,
-            ComponentType::I16 => 32_767.0,
-            ComponentType::U16 => 65_535.0,
-            ComponentType::U32 | ComponentType::F32 => 1.0,
+            ComponentType::I8 => (bytes.u8().map(|byte| f64::from(byte as i8)), 127.0),
+            ComponentType::U8 => (bytes.u8().map(f64::from), 255.0),
+            ComponentType::I16 => (bytes.i16().map(f64::from), 32_767.0),
+            ComponentType::U16 => (bytes.u16().map(f64::from), 65_535.0),
+            ComponentType::U32 => (bytes.u32().map(f64::from), 1.0),
         };
         let whole = whole.unwrap_or_default();
         if self.normalized { (whole / largest).max(-1.0) } else { whole }
