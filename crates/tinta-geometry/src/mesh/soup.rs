@@ -194,7 +194,7 @@ impl Soup {
         }
     }
 
-    /// Notes what a file has beyond what its header promises, in words and by count, and what is not read; returns a sentence.
+    /// Notes a file's contents beyond its header's promise, in words and by count, and an unread rest; returns a sentence.
     pub(super) fn note_more(&mut self, path: &str, promise: &str, of: [usize; 2], unread: &[u8]) -> Option<String> {
         let [promised, has] = of;
         let (is_whole, more) = (padding(unread) == unread.len(), has - promised);

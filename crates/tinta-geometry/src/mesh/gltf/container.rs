@@ -112,7 +112,7 @@ fn materials(json: &[u8], objects: usize) -> usize {
 }
 
 /// Reads JSON that can be drawn and that the crate refuses: in forms that the standard allows, scenes without a list of nodes, `4.0`
-/// for `4`, or with faults in what is never drawn.
+/// for `4`, or with faults in parts that are never drawn.
 fn mended(mut root: Value) -> Result<Root, serde_json::Error> {
     for (list, member) in
         [("scenes", "nodes"), ("meshes", "primitives"), ("animations", "channels"), ("animations", "samplers")]
@@ -229,7 +229,7 @@ mod tests {
         let mut file = triangle();
         file["nodes"][1]["name"] = json!(5);
         assert_eq!(load(&file).unwrap().mesh.parts[1].name, "5");
-        // What is drawn must be right.
+        // Parts that are drawn must be right.
         for (place, value, sentence) in [
             ("/meshes/0/primitives/0/material", json!(1), "its texture 7 does not exist"),
             ("/bufferViews/0/buffer", json!(1), "no.bin"),

@@ -91,8 +91,8 @@ pub(super) fn said<T: DeserializeOwned>(others: Option<&Map<String, Value>>, nam
     said.map(Some).map_err(|error| format!("its {name} is damaged ({}); export it again", shown(&error.to_string())))
 }
 
-/// JSON as the crate takes it: whole numbers without a point, for the standard allows `4.0` for `4`; numbers as names as text; and
-/// without what nothing here reads, so that its faults refuse nothing.
+/// JSON as the crate takes it: whole numbers without a point, because the standard allows `4.0` for `4`; numbers as names as text;
+/// without members that nothing here reads, whose faults refuse nothing.
 pub(super) fn tidied(value: Value) -> Value {
     /// Beyond it not every whole number is a float.
     const MOST: f64 = 9_007_199_254_740_992.0;

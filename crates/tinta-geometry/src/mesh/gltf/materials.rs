@@ -56,7 +56,7 @@ impl Coordinates {
 #[derive(Default)]
 pub(super) struct Materials {
     pub list: Vec<Material>,
-    /// For each of them the texture coordinates of its picture, or why it cannot be drawn: that is said where it is.
+    /// For each of them the texture coordinates of its picture, or why it cannot be drawn, for those who draw it.
     pub coordinates: Vec<Result<Coordinates, String>>,
     /// Their parts that are not drawn.
     pub left_out: LeftOut,

@@ -62,7 +62,7 @@ impl<'a> Payload<'a> {
         (self.encoding == Encoding::Ascii).then_some(self.lines)
     }
 
-    /// What is left, and how many elements of this kind that is; 0 if it is anything else.
+    /// The rest, and how many elements of this kind it is; 0 if it is anything else.
     pub(super) fn more(&self, element: &Element) -> (&'a [u8], usize) {
         let (mut ahead, mut count, padding) = (self.clone(), 0, padding(self.rest.0));
         while ahead.rest.0.len() > padding {

@@ -22,7 +22,7 @@ pub(super) struct Node {
 }
 
 impl Node {
-    /// Reads a node up to what is damaged of it; it may hold its number, in place of this one.
+    /// Reads a node up to its first damaged part; it may hold its number, in place of this one.
     pub(super) fn read(number: usize, bytes: Bytes<'_>) -> Self {
         let mut node = Self { number: number as u16, ..Self::default() };
         for (number, mut data) in chunks(bytes).flatten() {
@@ -62,7 +62,7 @@ impl Node {
     }
 }
 
-/// What a track has in its first frame.
+/// A track's value in its first frame.
 fn first_key<const N: usize>(mut track: Bytes<'_>) -> Option<[f32; N]> {
     /// Of the flags and lengths before the number of keys.
     const HEAD_BYTES: usize = 10;

@@ -261,7 +261,7 @@ fn meshes_that_stand_where_they_were_modelled_keep_every_digit() {
     matrix[9..].copy_from_slice(&[4.1, 0.1, 0.3]);
     let same = node(0, "wheel", NO_CARRIER, [[0.0; 3], [4.1, 0.1, 0.3], ONE], [0.3, 0.0, 0.0, 1.0]);
     assert_eq!(placed(CORNERS, &matrix, &[same]).0, modelled);
-    // Without a place in the animation, without an inverse, carried by itself.
+    // Without a place in the animation, without an inverse, in a circle of carriers.
     let header = chunk(chunk::NODE_HEADER, &[b"wheel\0", &shorts(&[0, 0, 0])]);
     let still = node(0, "wheel", NO_CARRIER, [[0.0; 3], [1.0; 3], ONE], NO_TURN);
     assert_eq!(placed(CORNERS, &matrix, &[chunk(0xb002, &[&header])]).0, modelled);
