@@ -426,6 +426,20 @@ pub(crate) fn is_read(name: &str) -> bool {
     tinta::mesh::is_read(name)
 }
 
+/// The corners, by number, of the triangles between a flat outline and its holes: (N, 3). `holes` are the numbers of their first points.
+#[pyfunction]
+pub(crate) fn triangles_of_rings<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'_, f64>,
+    holes: Vec<u32>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let mut corners: Vec<u32> = Vec::new();
+    let points = points.as_array();
+    earcut::Earcut::new().earcut(points.rows().into_iter().map(|row| [row[0], row[1]]), &holes, &mut corners);
+    let count = corners.len() / 3;
+    shaped(py, corners, &[count, 3])
+}
+
 /// Combines meshes into a request's drawable scene, while Python's other threads run.
 pub(crate) fn drawable(py: Python<'_>, meshes: Vec<Py<Mesh>>, request: &Request) -> PyResult<Scene> {
     let request = request.clone();

@@ -266,3 +266,127 @@ def test_every_kind_of_plot_is_vectors():
     assert len(scene.get_paths()) > 30 and len(scene._strokes.get_segments()) > 20
     ax.figure.savefig("all.pdf")
     assert b"/Subtype /Image" not in Path("all.pdf").read_bytes()
+
+
+def waves():
+    x, y = np.meshgrid(np.linspace(-3, 3, 13), np.linspace(-2, 2, 12))
+    return x, y, np.sin(x) * np.cos(2 * y) + 0.1 * x
+
+
+def signed(ring):
+    return (np.dot(ring[:, 0], np.roll(ring[:, 1], -1)) - np.dot(ring[:, 1], np.roll(ring[:, 0], -1))) / 2
+
+
+@pytest.mark.parametrize("kind,zdir", [("contourf", "x"), ("contourf", "z"), ("tricontourf", "z")])
+def test_filled_contours_are_planes_with_their_holes(kind, zdir):
+    from matplotlib.path import Path
+
+    ax = plt.figure().add_subplot(projection="3d")
+    u, v, w = map(np.ravel, waves()) if kind == "tricontourf" else waves()
+    filled = getattr(ax, kind)(*((w, u, v) if zdir == "x" else (u, v, w)), zdir=zdir, offset=-4, cmap="magma")
+    ax.set(**{f"{zdir}lim": (-4, 1)})
+    scene = tn.mpl.draw3d(ax)
+    areas = scene.lines.regions()
+    assert set(areas.object) == {-1, 0} and not filled.get_visible()
+    colors = {tuple(color) for color in scene.get_facecolor()}
+    assert len(colors) > 4 and colors <= {tuple(color) for color in filled.get_facecolor()}
+    for level, (corners, codes) in enumerate(filled._3dverts_codes):
+        rings = np.split(corners, np.flatnonzero(codes == Path.MOVETO)[1:])
+        wanted = abs(sum(signed(scene.lines.project(ring)) for ring in rings))
+        assert areas.area[areas.face == level].sum() == pytest.approx(wanted, rel=1e-6, abs=1e-3), level
+
+
+def test_filled_contours_of_a_surface_that_folds_along_their_axis_are_named():
+    ax = plt.figure().add_subplot(projection="3d")
+    x, y, z = waves()
+    ax.plot_surface(x, y, z)
+    filled = ax.contourf(x, y, z, zdir="x", offset=-4)
+    with pytest.warns(UserWarning, match="^QuadContourSet3D: draw3d leaves this to matplotlib"):
+        scene = tn.mpl.draw3d(ax)
+    ax.figure.canvas.draw()
+    assert filled.get_visible() and filled.get_zorder() < scene.get_zorder()
+
+
+def test_filled_contours_are_hidden_where_a_surface_is_in_front():
+    """A figure of matplotlib's gallery: a surface above its own contours."""
+    ax = plt.figure().add_subplot(projection="3d")
+    x, y, z = waves()
+    ax.plot_surface(x, y, z)
+    ax.contourf(x, y, z, zdir="z", offset=-4)
+    ax.view_init(elev=89.9)
+    areas = tn.mpl.draw3d(ax).lines.regions()
+    alone = plt.figure().add_subplot(projection="3d")
+    alone.contourf(x, y, z, zdir="z", offset=-4)
+    alone.set(xlim=ax.get_xlim(), ylim=ax.get_ylim(), zlim=ax.get_zlim())
+    alone.view_init(elev=89.9)
+    whole = tn.mpl.draw3d(alone).lines.regions()
+    # Both are as wide, and perspective shows the nearer one larger.
+    left = areas.area[areas.object == 1].sum() / whole.area[whole.object == 0].sum()
+    assert left < 0.01, left
+
+
+def test_filled_contours_at_their_levels_and_contours_on_them_are_all_seen():
+    ax = plt.figure().add_subplot(projection="3d")
+    x, y, z = waves()
+    ax.contourf(x, y, z)
+    ax.contour(x, y, z, zdir="z", offset=2, colors="k")
+    ax.contourf(x, y, z, zdir="z", offset=2)
+    ax.view_init(elev=60)
+    lines = tn.mpl.draw3d(ax).lines
+    assert lines.visible[lines.cls == "curve"].mean() > 0.99
+
+
+def test_other_artists_are_named():
+    from matplotlib.patches import Circle
+    from mpl_toolkits.mplot3d.art3d import pathpatch_2d_to_3d
+
+    ax = plt.figure().add_subplot(projection="3d")
+    ax.plot([0, 1], [0, 1], [0, 1])
+    ax.text(0, 0, 0, "texts are known to stay")
+    hidden = ax.add_patch(Circle((0, 0), 1, visible=False))
+    circle = ax.add_patch(Circle((5, 5), 3))
+    pathpatch_2d_to_3d(circle, z=0, zdir="x")
+    with pytest.warns(UserWarning, match="^PathPatch3D: draw3d leaves this to matplotlib") as warned:
+        tn.mpl.draw3d(ax)
+    assert len(warned) == 1 and circle.get_visible() and not hidden.get_visible()
+
+
+SCALES = {"log": {}, "symlog": {"linthresh": 2}, "function": {"functions": (np.cbrt, lambda value: value**3)}}
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("axis", ["x", "y", "z"])
+def test_scales_are_those_of_the_axes(axis, scale):
+    ax = plt.figure().add_subplot(projection="3d")
+    if not hasattr(ax, "_get_scaled_limits"):
+        pytest.skip("this matplotlib draws all 3-D axes as linear ones")
+    getattr(ax, f"set_{axis}scale")(scale, **SCALES[scale])
+    way = np.geomspace(1, 100, 9)
+    x, y = np.meshgrid(way, way)
+    surface = ax.plot_surface(x, y, 1 + 0 * x, color="r", shade=False)
+    [curve] = ax.plot(way, way, 2 * way, "k-")
+    dots = ax.scatter(way, way, 3 * way)
+    ax.figure.canvas.draw()
+    by_matplotlib = curve.get_xydata().copy(), np.array(dots.get_offsets()), [path.vertices for path in surface.get_paths()]
+    scene = tn.mpl.draw3d(ax)
+    ends = np.concatenate(scene._strokes.get_segments())
+    assert np.abs(ends[[0, -1]] - by_matplotlib[0][[0, -1]]).max() < 1e-6
+    places = np.array(sorted(scene._marks[0].get_offsets().tolist()))
+    assert np.abs(places - sorted(by_matplotlib[1].tolist())).max() < 1e-6
+    drawn, wanted = (np.concatenate([path.vertices for path in scene.get_paths()]), np.concatenate(by_matplotlib[2]))
+    for side in (np.min, np.max):
+        assert np.abs(side(drawn, axis=0) - side(wanted, axis=0)).max() < 1e-6
+    with pytest.raises(ValueError, match=f"camera: the {axis} axis has a scale that bends faces; give linear axes"):
+        tn.lines("builtin:gear", camera=ax)
+    with pytest.raises(ValueError, match=f"camera: the {axis} axis has a scale"):
+        tn.mpl.draw(ax, "builtin:gear")
+
+
+def test_what_a_logarithmic_axis_cannot_show_is_a_gap():
+    ax = plt.figure().add_subplot(projection="3d")
+    if not hasattr(ax, "_get_scaled_limits"):
+        pytest.skip("this matplotlib draws all 3-D axes as linear ones")
+    ax.set_zscale("log")
+    ax.plot([0, 1, 2, 3, 4], [0] * 5, [1, 10, 0, 10, 100], "k-o")
+    scene = tn.mpl.draw3d(ax)
+    assert len(scene._strokes.get_segments()) == 2 and len(scene._marks[0].get_offsets()) == 4

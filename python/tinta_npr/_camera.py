@@ -25,7 +25,10 @@ def settings_of(camera, settings, is_exact):
                 raise ValueError(f"camera: it has no {key}; choose from {', '.join(sorted(_NAMES))}")
         return {key.replace("-", "_"): value for key, value in camera.items() if value is not None}, None
     if hasattr(camera, "get_proj") and hasattr(camera, "transData"):
+        refuse_scales(camera)
         return {}, of_axes(camera, settings)
+    if isinstance(camera, Matrix):
+        return {}, camera
     if hasattr(camera, "position") and hasattr(camera, "focal_point"):
         return _of_vtk(camera), None
     if hasattr(camera, "camera_transform") and hasattr(camera, "camera"):
@@ -86,6 +89,17 @@ def size_of(settings):
     if len(sides) not in (1, 2) or min(sides) < 1:
         raise ValueError(f"size: {settings['size']!r} is no width and height in pixels")
     return sides[0], sides[-1]
+
+
+def scaled_axes(axes):
+    """The names of the axes whose scale, such as a logarithmic one, matplotlib applies before its matrix; before 3.11 it applied none."""
+    return [name for name in "xyz" if hasattr(axes, "_get_scaled_limits") and getattr(axes, f"get_{name}scale")() != "linear"]
+
+
+def refuse_scales(axes):
+    """Refuses axes on which a flat face may be none."""
+    for name in scaled_axes(axes):
+        raise ValueError(f"camera: the {name} axis has a scale that bends faces; give linear axes")
 
 
 def of_axes(axes, settings):

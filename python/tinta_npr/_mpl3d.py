@@ -15,26 +15,28 @@ from mpl_toolkits.mplot3d import art3d
 from mpl_toolkits.mplot3d.art3d import Line3D, Line3DCollection, Path3DCollection, Poly3DCollection
 
 from . import _native
+from ._camera import scaled_axes
 
 #: What its contours are of; older versions have no name for it.
 Collection3D = getattr(art3d, "Collection3D", ())
 
 
 class Surface:
-    """A `Poly3DCollection`: polygons, each with the colour of its face."""
+    """A `Poly3DCollection`, or filled contours: polygons, each with the colour of its face."""
 
-    def __init__(self, artist, ground):
+    def __init__(self, artist, ground, scaled):
         """`ground` is the colour behind a translucent surface."""
-        polygons, kept = _polygons(artist)
-        count = len(kept)
-        kept = np.flatnonzero(kept)
-        parts = [_simple(polygon) for polygon in polygons]
-        self.polygons = [part for of_polygon in parts for part in of_polygon]
-        kept = np.repeat(kept, [len(of_polygon) for of_polygon in parts])
-        colors = artist.to_rgba(artist.get_array()) if artist.get_array() is not None else artist._facecolor3d
-        self.colors = _one_each(colors, count)[kept]
-        edges = _one_each(artist._edgecolor3d, count)[kept] if np.size(artist._edgecolor3d) else self.colors
-        widths = _one_each(np.atleast_1d(artist.get_linewidth()), count)[kept]
+        if isinstance(artist, Poly3DCollection):
+            self.polygons, kept = _polygons(artist, scaled)
+            self._faces = np.arange(len(kept))
+            colors = artist.to_rgba(artist.get_array()) if artist.get_array() is not None else artist._facecolor3d
+            edges = artist._edgecolor3d
+        else:
+            self.polygons, kept = _levels(artist, scaled)
+            self._faces, colors, edges = kept, artist.get_facecolor(), []
+        self.colors = _one_each(colors, kept)
+        edges = _one_each(edges, kept) if np.size(edges) else self.colors
+        widths = _one_each(np.atleast_1d(artist.get_linewidth()), kept)
         # By default an edge has its face's colour and closes the gap to its neighbour, which areas do anyway.
         self.has_edges = bool(((edges[:, 3] > 0) & (widths > 0) & (np.abs(edges - self.colors).max(axis=1) > 1e-3)).any())
         self.is_seen = self.colors[:, 3] > 0
@@ -47,12 +49,14 @@ class Surface:
 
     def mesh_and_colors(self):
         """The polygons that are seen as a mesh, and a colour for each of its faces."""
-        faces, colors = [], []
-        for polygon, color in zip(self.polygons, self.colors):
-            if color[3] > 0:
+        faces, numbers = [], []
+        colors = np.zeros((self._faces.max() + 1, 4))
+        colors[self._faces] = self.colors
+        for polygon, number in zip(self.polygons, self._faces):
+            if colors[number, 3] > 0:
                 parts = _bent_apart(polygon)
                 faces += parts
-                colors += [color] * len(parts)
+                numbers += [number] * len(parts)
         sizes = np.array([len(face) for face in faces], dtype=np.int64)
         corners = np.arange(sizes.sum(), dtype=np.int64)
         with warnings.catch_warnings():
@@ -60,7 +64,8 @@ class Surface:
             warnings.filterwarnings("ignore", r"surface: \d+ degenerate triangle")
             # Neighbours compute the same corner each in its own way.
             mesh = _native.Mesh.of_arrays(np.concatenate(faces), corners, sizes, "surface", {"weld": 1e-9})
-        return mesh, np.array(colors)
+            mesh = mesh.with_marks(np.array(numbers, dtype=np.uint32), np.empty((0, 2), dtype=np.uint32))
+        return mesh, colors
 
 
 def _bent_apart(polygon):
@@ -128,25 +133,69 @@ def _crossed(polygon, flat):
     return put(polygon), put(flat)
 
 
-def _polygons(artist):
-    """The polygons of finite corners as arrays (K, 3), and which of the artist's they are."""
+def _polygons(artist, scaled):
+    """The polygons of finite corners as arrays (K, 3), and the numbers of the artist's that they are of."""
     if hasattr(artist, "_faces"):
         faces, missing = artist._faces, getattr(artist, "_invalid_vertices", False)
         missing = np.broadcast_to(missing, faces.shape[:2])
-        polygons = [np.asarray(face, dtype=np.float64)[~gap] for face, gap in zip(faces, missing)]
+        polygons = [scaled(np.asarray(face, dtype=np.float64)[~gap]) for face, gap in zip(faces, missing)]
     else:
-        polygons = [np.asarray(artist._vec[:3, part].T, dtype=np.float64) for part in artist._segslices]
+        polygons = [scaled(np.asarray(artist._vec[:3, part].T, dtype=np.float64)) for part in artist._segslices]
     # At a pole two corners of a square are one.
     nothing = 1e-12 * max((np.abs(polygon).max(initial=0.0, where=np.isfinite(polygon)) for polygon in polygons), default=0.0)
     polygons = [polygon[~(np.abs(polygon - np.roll(polygon, 1, axis=0)).max(axis=1) <= nothing)] for polygon in polygons]
-    kept = np.array([len(polygon) > 2 and np.isfinite(polygon).all() for polygon in polygons], dtype=bool)
-    return [polygon for polygon, is_kept in zip(polygons, kept) if is_kept], kept
+    is_kept = [len(polygon) > 2 and np.isfinite(polygon).all() for polygon in polygons]
+    return _numbered([_simple(polygon) if kept else [] for polygon, kept in zip(polygons, is_kept)])
 
 
-def _one_each(values, count):
-    """Values of a collection, which repeat."""
+def _numbered(lists):
+    """The members of lists one after the other, and the numbers of the lists they are of."""
+    return [member for members in lists for member in members], np.repeat(np.arange(len(lists)), [len(members) for members in lists])
+
+
+def _levels(artist, scaled):
+    """The triangles of filled contours and the numbers of the levels that they are of."""
+    levels = []
+    for corners, codes in artist._3dverts_codes:
+        rings = [scaled(ring[:-1]) for ring in np.split(corners, np.flatnonzero(codes == Path.MOVETO)[1:])]
+        rings = [ring for ring in rings if len(ring) > 2 and np.isfinite(ring).all()]
+        levels.append(_cut(rings) if rings else [])
+    return _numbered(levels)
+
+
+class Crossing(ValueError):
+    """Rings that cross, as contours do of a surface that lies above itself along their axis."""
+
+
+def _cut(rings):
+    """Triangles between rings in a plane across an axis: between outlines and holes, which run the other way than the largest ring."""
+    across = np.argmin(np.ptp(np.concatenate(rings), axis=0))
+    flat = [np.delete(ring, across, axis=1) for ring in rings]
+    areas = np.array([np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) for x, y in (ring.T for ring in flat)])
+    is_hole = areas * areas[np.argmax(np.abs(areas))] < 0
+    outlines = sorted(np.flatnonzero(~is_hole), key=lambda ring: abs(areas[ring]))
+    members = {outline: [outline] for outline in outlines}
+    for hole in np.flatnonzero(is_hole):
+        # It is in the smallest outline around it, whose corners it may share.
+        around = [outline for outline in outlines if Path(flat[outline]).contains_points(flat[hole]).mean() > 0.5]
+        if around:
+            members[around[0]].append(hole)
+    triangles = []
+    for own in members.values():
+        starts = np.cumsum([len(flat[ring]) for ring in own])[:-1]
+        numbers = _native.triangles_of_rings(np.concatenate([flat[ring] for ring in own]), starts.tolist())
+        triangles += list(np.concatenate([rings[ring] for ring in own])[numbers])
+    a, b, c = np.reshape(triangles, (-1, 3, 3)).swapaxes(0, 1)
+    # Twice their areas, as those of the rings.
+    if abs(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() - abs(areas.sum())) > 1e-6 * np.abs(areas).sum():
+        raise Crossing
+    return triangles
+
+
+def _one_each(values, numbers):
+    """Values of a collection by number, which repeat."""
     values = np.asarray(values)
-    return values[np.arange(count) % len(values)]
+    return values[numbers % len(values)]
 
 
 def _places(parts):
@@ -154,9 +203,9 @@ def _places(parts):
     return np.column_stack([np.ma.filled(np.ma.asarray(part, dtype=np.float64), np.nan) for part in parts])
 
 
-def _runs(curve):
+def _runs(curve, scaled):
     """A curve's parts between positions that are missing."""
-    curve = np.ma.filled(np.ma.asarray(curve, dtype=np.float64), np.nan)
+    curve = scaled(np.ma.filled(np.ma.asarray(curve, dtype=np.float64), np.nan))
     is_there = np.isfinite(curve).all(axis=1)
     cuts = np.flatnonzero(~is_there)
     parts = np.split(curve, cuts)
@@ -167,9 +216,9 @@ def _runs(curve):
 class Curves:
     """A `Line3D`, a `Line3DCollection` (a wireframe, a quiver), or contour lines: curves with colours and widths."""
 
-    def __init__(self, artist):
+    def __init__(self, artist, scaled):
         if isinstance(artist, Line3D):
-            self.curves = [] if artist.get_linestyle() in ("None", "", " ") else _runs(_places(artist.get_data_3d()))
+            self.curves = [] if artist.get_linestyle() in ("None", "", " ") else _runs(_places(artist.get_data_3d()), scaled)
             color = to_rgba_array(artist.get_color(), artist.get_alpha())[0]
             self.styles = [(color, artist.get_linewidth(), artist.get_linestyle())] * len(self.curves)
             return
@@ -178,11 +227,12 @@ class Curves:
         else:
             several = [np.split(corners, np.flatnonzero(codes == Path.MOVETO)[1:]) for corners, codes in artist._3dverts_codes]
         colors = artist.to_rgba(artist.get_array()) if artist.get_array() is not None else artist.get_edgecolor()
-        colors, widths = _one_each(to_rgba_array(colors), len(several)), _one_each(artist.get_linewidth(), len(several))
+        numbers = np.arange(len(several))
+        colors, widths = _one_each(to_rgba_array(colors), numbers), _one_each(artist.get_linewidth(), numbers)
         dashes = artist.get_linestyle()
         self.curves, self.styles = [], []
         for number, segments in enumerate(several):
-            parts = [part for segment in segments for part in _runs(segment)]
+            parts = [part for segment in segments for part in _runs(segment, scaled)]
             self.curves += parts
             self.styles += [(colors[number], widths[number], dashes[number % len(dashes)])] * len(parts)
 
@@ -190,7 +240,7 @@ class Curves:
 class Dots:
     """A `Path3DCollection` (a scatter), or the markers of a `Line3D`: points with markers."""
 
-    def __init__(self, artist):
+    def __init__(self, artist, scaled):
         if isinstance(artist, Line3D):
             points = _places(artist.get_data_3d())
             marker = MarkerStyle(artist.get_marker())
@@ -204,9 +254,10 @@ class Dots:
             shown = artist.to_rgba(artist.get_array()) if artist.get_array() is not None else None
             faces = artist._facecolors if shown is None else shown
             edges = faces if artist._edgecolors is None or isinstance(artist._edgecolors, str) or shown is not None else artist._edgecolors
-        kept = np.isfinite(points).all(axis=1)
+        points = scaled(points)
+        kept = np.flatnonzero(np.isfinite(points).all(axis=1))
         self.points = points[kept]
-        each = lambda values: _one_each(values, len(points))[kept] if len(np.asarray(values)) else None
+        each = lambda values: _one_each(values, kept) if len(np.asarray(values)) else None
         self.sizes, self.faces, self.edges, self.widths = map(each, (sizes, faces, edges, widths))
 
     def seen(self, chosen):
@@ -234,25 +285,49 @@ def _ground(axes):
     return color
 
 
+def _scales(axes):
+    """The function from positions to those that the axes' matrix projects: places that a scale has not, as 0 on a logarithmic one, become
+    NaN."""
+    scales = [("xyz".index(name), getattr(axes, f"{name}axis")) for name in scaled_axes(axes)]
+
+    def scaled(positions):
+        positions = np.array(positions, dtype=np.float64)
+        for place, axis in scales:
+            values = positions[:, place]
+            positions[:, place] = np.where(axis._scale.val_in_range(values), axis.get_transform().transform(values), np.nan)
+        return positions
+
+    return scaled
+
+
 def _held(axes):
-    surfaces, curves, dots, artists = [], [], [], []
-    ground = _ground(axes)
-    for artist in list(axes.get_children()):
+    surfaces, curves, dots, artists, others = [], [], [], [], set()
+    ground, scaled = _ground(axes), _scales(axes)
+    for artist in [*axes.collections, *axes.lines, *axes.patches, *axes.images, *axes.artists]:
         if not artist.get_visible() or getattr(artist, "is_exact", False):
             continue
         if isinstance(artist, Poly3DCollection):
-            surfaces.append(Surface(artist, ground))
-        elif isinstance(artist, Line3DCollection) or (isinstance(artist, Collection3D) and not getattr(artist, "filled", True)):
-            curves.append(Curves(artist))
+            surfaces.append(Surface(artist, ground, scaled))
+        elif isinstance(artist, Collection3D) and getattr(artist, "filled", False):
+            try:
+                surfaces.append(Surface(artist, ground, scaled))
+            except Crossing:
+                others.add(type(artist).__name__)
+                continue
+        elif isinstance(artist, Line3DCollection) or (isinstance(artist, Collection3D) and hasattr(artist, "filled")):
+            curves.append(Curves(artist, scaled))
         elif isinstance(artist, Line3D):
-            curves.append(Curves(artist))
+            curves.append(Curves(artist, scaled))
             if artist.get_marker() not in (None, "None", "", " "):
-                dots.append(Dots(artist))
+                dots.append(Dots(artist, scaled))
         elif isinstance(artist, Path3DCollection):
-            dots.append(Dots(artist))
+            dots.append(Dots(artist, scaled))
         else:
+            others.add(type(artist).__name__)
             continue
         artists.append(artist)
+    if others:
+        _native.warn(f"{', '.join(sorted(others))}: draw3d leaves this to matplotlib; it hides nothing, and nothing hides it")
     curves = [one for one in curves + surfaces if one.curves]
     # A surface without colour hides nothing; its edges are curves.
     surfaces = [surface for surface in surfaces if surface.is_seen.any()]
@@ -260,7 +335,7 @@ def _held(axes):
 
 
 class _Placed:
-    """A collection in pixels whose place in the order of 3-D axes is given: larger is farther."""
+    """A collection whose place in the order of 3-D axes is given: larger is farther."""
 
     is_exact = True
 
@@ -271,13 +346,13 @@ class _Placed:
 class Strokes(_Placed, LineCollection):
     """The visible pieces of curves and of surfaces' lines."""
 
-    _depth = -1.0
+    _depth = -2e9
 
 
 class Marks(_Placed, PathCollection):
     """The markers of points that are seen."""
 
-    _depth = -2.0
+    _depth = -3e9
 
 
 #: How dark hidden pieces are drawn.

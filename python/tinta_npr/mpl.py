@@ -12,6 +12,7 @@ from matplotlib.transforms import IdentityTransform
 
 from . import CLASSES, Lines, Regions, _native, _reading, _with_settings
 from . import lines as _lines
+from ._camera import of_axes, refuse_scales
 from ._mesh import meshes_of
 
 __all__ = ["ExactAreas", "ExactLines", "ExactScene", "draw", "draw3d", "fill"]
@@ -131,10 +132,11 @@ def fill(
 def draw3d(ax, *, classes=(), hidden=None, color="black", line_width=None, linewidth=None, lw=None, on_surface=None):
     """Draw what 3-D axes hold again, with exact hiding between all of it.
 
-    matplotlib sorts whole artists by one depth each. This takes surfaces (`plot_surface`, `plot_trisurf`, `bar3d`, any
-    `Poly3DCollection`), curves (`plot`, `plot_wireframe`, `quiver`, `contour`) and points (`scatter`, markers) as they are now, makes them
-    invisible, and adds areas, strokes and markers cut exactly where something hides them: vectors in PDF and SVG, found again when the
-    view changes. Colours, widths, dashes and markers stay. Panes, axes, texts and legends stay matplotlib's.
+    matplotlib sorts whole artists by one depth each. This takes surfaces (`plot_surface`, `plot_trisurf`, `bar3d`, `contourf`, any
+    `Poly3DCollection`), curves (`plot`, `plot_wireframe`, `quiver`, `contour`) and points (`scatter`, markers) as they are now, makes
+    them invisible, and adds areas, strokes and markers cut exactly where something hides them: vectors in PDF and SVG, found again when
+    the view changes. Colours, widths, dashes and markers stay. Panes, axes, texts and legends stay matplotlib's; a warning names other
+    artists that do. Give axes their scales, such as logarithmic ones, first.
 
     Parameters
     ----------
@@ -218,6 +220,7 @@ class _InView:
     """A collection that 3-D axes find again in each view."""
 
     def _begin(self, axes, meshes, settings):
+        refuse_scales(axes)
         self._meshes, self._settings = meshes, settings
         ends = [[mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)] for mesh in meshes]
         self._ends = np.concatenate(ends)
@@ -230,7 +233,7 @@ class _InView:
         """Finds them again if the view has changed; 3-D axes call it before they draw."""
         self._find(self.axes)
         # In front of everything with a depth: hidden parts are excluded already.
-        return 0.0
+        return -1e9
 
     def _find(self, axes):
         box = axes.bbox
@@ -238,11 +241,15 @@ class _InView:
         if self._seen is not None and np.array_equal(seen, self._seen):
             return
         self._warn_of_limits(axes)
-        found = _lines(self._meshes or None, camera=axes, **self._settings)
+        settings = dict(self._settings)
+        found = _lines(self._meshes or None, camera=self._view_of(axes, settings), **settings)
         corners = axes.transData.inverted().transform([(box.x0, box.y1), (box.x1, box.y0)])
         scale = (corners[1] - corners[0]) / found.size
         self._take(found, lambda points: points * scale + corners[0])
         self._seen = seen
+
+    def _view_of(self, axes, _settings):
+        return axes
 
     def _warn_of_limits(self, axes):
         low, high = np.sort([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()], axis=1).T
@@ -323,6 +330,10 @@ class ExactScene(_InView, PathCollection):
             artist.set_visible(False)
         for collection in (self, self._strokes, *self._marks):
             axes.add_collection(collection, autolim=False)
+
+    def _view_of(self, axes, settings):
+        # Its positions are on the axes' scales already.
+        return of_axes(axes, settings)
 
     def _find(self, axes):
         with warnings.catch_warnings():
