@@ -26,13 +26,12 @@ class Face:
         self._cut = [Vector(corner) for corner in corners], triangles
 
     def tessellate(self, tolerance, angle):
+        Face.fineness = tolerance, angle
         return self._cut
 
 
 class Shape:
     """As CadQuery's: its faces are cut into triangles one by one."""
-
-    wrapped = object()
 
     def __init__(self, faces):
         self._faces = faces
@@ -108,8 +107,6 @@ def test_marks_stay_in_pickles_and_in_moved_views(block):
 
 def test_an_object_of_another_version_is_refused_in_a_sentence():
     class Part:
-        wrapped = None
-
         def tessellate(self, tolerance):
             return []
 
@@ -121,6 +118,53 @@ def test_an_object_of_another_version_is_refused_in_a_sentence():
     assert "\n" not in str(refusal.value) and "export it as .stl or .glb" in str(refusal.value)
     with pytest.raises(ValueError, match="mesh: this object has no face; make a solid"):
         tn.lines(Shape([]))
+
+
+class EmptyPart:
+    """As build123d's, of which only its kernel's shape is missing."""
+
+    @property
+    def wrapped(self):
+        raise AssertionError
+
+    def tessellate(self, tolerance, angle):
+        raise ValueError("Cannot tessellate an empty shape")
+
+    def bounding_box(self):
+        return Box()
+
+    def faces(self):
+        return []
+
+
+def test_an_empty_part_is_refused_in_a_sentence():
+    with pytest.raises(ValueError, match="mesh: this object has no face; make a solid"):
+        tn.lines(EmptyPart())
+
+
+def test_a_sketch_gives_its_faces_at_their_places(block):
+    class Faces(Shape):
+        makeCompound = staticmethod(lambda faces: Shape(list(faces)))
+
+    class Sketch:
+        _faces = Faces([])
+        distribute = hull = vals = vertices = faces = None
+
+        def __iter__(self):
+            return iter(block.Faces()[:2])
+
+    mesh = tn.mesh(Sketch())
+    assert mesh.name == "sketch" and len(mesh.faces) == 4 and set(mesh.file_faces) == {0, 1}
+
+
+def test_the_distance_of_chords_can_be_given(block):
+    tn.mesh(block)
+    assert Face.fineness == (4e-4, 0.1)
+    tn.mesh(block, tolerance=0.25)
+    assert Face.fineness == (0.25, 0.5)
+    for part, tolerance in [(block, 0), (block, -1), ("builtin:gear", 0.1)]:
+        with pytest.raises(ValueError, match="tolerance: give a number above 0, beside a part"):
+            tn.mesh(part, tolerance=tolerance)
 
 
 def length(mesh, edges):
@@ -163,6 +207,9 @@ class TestBuild123d:
         assert [mesh.name for mesh in lines._asked[0]] == ["part", "pin"]
         assert lines._asked[0][1].vertices.min(axis=0) == pytest.approx((16, 94, -4), abs=0.01)
         assert set(tn.lines([builder, pin]).object.tolist()) == {0, 1}
+        for empty in (cad.Part(), cad.Sketch()):
+            with pytest.raises(ValueError, match="mesh: this object has no face"):
+                tn.lines(empty)
         with pytest.raises(ValueError, match="mesh: this object has no face"):
             tn.lines(cad.Edge.make_line((0, 0, 0), (1, 1, 1)))
 
@@ -188,6 +235,10 @@ class TestCadQuery:
         assert marked == pytest.approx(sum(edge.Length() for edge in part.val().Edges()) - 20, rel=1e-3)
         assert set(mesh.file_faces) == set(range(len(part.val().Faces())))
         assert len(tn.mesh(part.val()).faces) == len(mesh.faces)
+
+    def test_a_sketch_is_its_faces(self):
+        mesh = tn.mesh(self.cq.Sketch().rarray(5, 1, 2, 1).circle(1), tolerance=0.01)
+        assert np.ptp(mesh.vertices, axis=0) == pytest.approx((7, 0, 2), abs=0.05) and set(mesh.file_faces) == {0, 1}
 
     def test_an_assembly_has_its_parts_at_their_places(self):
         cq = self.cq

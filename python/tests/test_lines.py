@@ -338,3 +338,8 @@ def test_bad_curves_points_and_labels_are_refused_by_name(cube):
     assert b"<0001> <03BB>" in greek.pdf()
     with pytest.raises(ValueError, match="no letter '山'; write it as .svg"):
         tn.lines(vertices, faces, points=[[9, 9, 9]], labels=["山"]).pdf()
+
+
+def test_lines_are_as_many_as_they_say_when_one_goes_through_them(cube):
+    lines = tn.lines(*cube, **ISO)
+    assert len(list(lines)) == len(lines) and np.array_equal(np.array(list(lines)), lines.segments)

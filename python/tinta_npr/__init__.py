@@ -41,7 +41,7 @@ __all__ = [
 _atexit.register(_native.close)
 
 
-def mesh(mesh, faces=None, *, name=None, **settings):
+def mesh(mesh, faces=None, *, name=None, tolerance=None, **settings):
     """Read a mesh once, to draw it often.
 
     Parameters
@@ -55,6 +55,9 @@ def mesh(mesh, faces=None, *, name=None, **settings):
         With `mesh` as vertices: each face's corners, counter-clockwise seen from outside; 3 or more.
     name : str, optional
         Its name in errors and drawings.
+    tolerance : float, optional
+        Of a part of build123d or CadQuery: the distance between a curve and its chords, in the part's units; a ten-thousandth of its size by
+        default.
 
     Returns
     -------
@@ -64,7 +67,9 @@ def mesh(mesh, faces=None, *, name=None, **settings):
     Settings
     --------
     """
-    return _one(mesh, faces, name, settings, "mesh")
+    if tolerance is not None and not (_cad.is_cad(mesh) and tolerance > 0):
+        raise ValueError("tolerance: give a number above 0, beside a part of build123d or CadQuery; others have their triangles already")
+    return _one(mesh, faces, name, settings, "mesh", {} if tolerance is None else {"tolerance": tolerance})
 
 
 def lines(
@@ -246,10 +251,10 @@ def compare(
     return Comparison(*_native.compare(meshes, settings, left, right, float(tolerance), backend))
 
 
-def _one(mesh, faces, name, settings, function):
-    """Returns the single mesh of a function; removes the settings for reading it."""
+def _one(mesh, faces, name, settings, function, of_parts=()):
+    """Returns the single mesh of a function; removes the settings for reading it. `of_parts` are those that only parts have."""
     _native.check(function, settings)
-    reading = _reading(settings)
+    reading = {**_reading(settings), **dict(of_parts)}
     found = _meshes_of(mesh, faces, name, reading, tuple(reading))
     if len(found) != 1:
         raise ValueError(f"mesh: {function}() takes one mesh, not {len(found)}")

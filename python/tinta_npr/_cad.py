@@ -12,6 +12,8 @@ from ._arrays import same_places
 
 #: The distance between a curve and its chords, a share of the diagonal of the object's box, and the angle between two chords, radians.
 _CHORD, _ANGLE = 1e-4, 0.1
+#: The angle beside a given distance, which decides.
+_WIDE = 0.5
 #: The distance within which corners of two faces are one, the same share.
 _SAME = 1e-7
 
@@ -20,7 +22,7 @@ def is_cad(thing):
     """Whether this is an object of build123d or CadQuery."""
     return _is_shape(thing) or any(
         all(hasattr(thing, name) for name in names)
-        for names in (("part", "pending_faces"), ("vals", "newObject"), ("toCompound", "children"))
+        for names in (("part", "pending_faces"), ("vals", "newObject"), ("toCompound", "children"), ("distribute", "hull"))
     )
 
 
@@ -30,16 +32,19 @@ def is_among(things):
 
 
 def _is_shape(thing):
-    return hasattr(thing, "tessellate") and hasattr(thing, "wrapped")
+    # An empty part of build123d refuses to say what it wraps.
+    return hasattr(thing, "tessellate") and (hasattr(thing, "bounding_box") or hasattr(thing, "BoundingBox"))
 
 
 def meshes_of(thing, name, reading):
     """A list of `Mesh`, z up unless the reading says otherwise."""
+    reading = dict(reading)
+    tolerance = reading.pop("tolerance", None)
     if reading.get("up_axis") in (None, "auto"):
-        reading = {**reading, "up_axis": "z"}
+        reading["up_axis"] = "z"
     try:
         shapes = [(shape, name or named) for shape, named in _shapes(thing)]
-        cut = [(*_triangles(shape), named) for shape, named in shapes]
+        cut = [(*_triangles(shape, tolerance), named) for shape, named in shapes]
     except (AttributeError, TypeError, ValueError, IndexError, RuntimeError) as problem:
         kind = f"{type(thing).__module__.split('.')[0]}.{type(thing).__name__}"
         raise ValueError(
@@ -55,6 +60,9 @@ def _shapes(thing):
     """The shapes of an object with their names."""
     if _is_shape(thing):
         return _named(thing, thing)
+    if hasattr(thing, "distribute"):
+        # A sketch of CadQuery: it gives its faces at their places.
+        return [(type(thing._faces).makeCompound(thing), "sketch")]
     if hasattr(thing, "vals"):
         return [one for value in thing.vals() if _is_shape(value) for one in _named(value, value)]
     if hasattr(thing, "part"):
@@ -73,15 +81,19 @@ def _named(shape, tree):
     return [(shape, getattr(tree, "label", None) or "part")]
 
 
-def _triangles(shape):
+def _triangles(shape, tolerance):
     """The corners of a shape's triangles (N, 3), triangles (M, 3), and each triangle's face (M,)."""
+    own = list(shape.Faces() if hasattr(shape, "Faces") else shape.faces())
+    if not own:
+        return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), np.empty(0, dtype=np.int64)
     box = shape.BoundingBox() if hasattr(shape, "BoundingBox") else shape.bounding_box()
     diagonal = float(box.DiagonalLength if hasattr(box, "DiagonalLength") else box.diagonal)
     # The whole first: faces share the corners of their edges.
-    shape.tessellate(_CHORD * diagonal, _ANGLE)
+    fineness = (_CHORD * diagonal, _ANGLE) if tolerance is None else (float(tolerance), _WIDE)
+    shape.tessellate(*fineness)
     points, triangles, faces, count = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)], [], 0
-    for number, face in enumerate(shape.Faces() if hasattr(shape, "Faces") else shape.faces()):
-        corners, cut = face.tessellate(_CHORD * diagonal, _ANGLE)
+    for number, face in enumerate(own):
+        corners, cut = face.tessellate(*fineness)
         if not len(cut):
             continue
         points.append(np.array([corner.toTuple() if hasattr(corner, "toTuple") else tuple(corner) for corner in corners], dtype=np.float64))

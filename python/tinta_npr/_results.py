@@ -109,6 +109,10 @@ class Lines:
     def __len__(self):
         return len(self.segments)
 
+    def __iter__(self):
+        """The ends of its pieces, as in ``segments``."""
+        return iter(self.segments)
+
     def __repr__(self):
         width, height = self.size
         seen = int(self.visible.sum())
