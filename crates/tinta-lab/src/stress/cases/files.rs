@@ -18,13 +18,13 @@ pub(super) fn cases() -> Vec<Case> {
         [&0x4d4d_u16.to_le_bytes()[..], &u32::MAX.to_le_bytes(), &0x3d3d_u16.to_le_bytes(), &u32::MAX.to_le_bytes()];
     let mut all = vec![
         case("an empty file", "empty.obj", Content::Bytes(Vec::new()), refused("empty")),
-        case("a file that is not there", "missing.obj", Content::Missing, refused("no such file")),
+        case("a missing file", "missing.obj", Content::Missing, refused("no such file")),
         case("a folder", "folder.obj", Content::Folder, refused("directory")),
         case("a gibibyte of zeros", "zeros.stl", Content::Zeros(1 << 30), refused("zeros.stl")),
         case("a million zeros", "zeros", Content::Zeros(1_000_000), refused("not a model")),
         case("vertices without a face", "square.obj", text(SQUARE), refused("no faces")),
         case(
-            "faces of vertices that are not there",
+            "faces of missing vertices",
             "beyond.obj",
             text(&format!("{SQUARE}f 5 6 7\n")),
             refused("index out of range"),
