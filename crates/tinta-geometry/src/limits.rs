@@ -85,7 +85,7 @@ pub const MATERIALS: usize = 16_384;
 /// Most material files that an OBJ model may name.
 pub const MATERIAL_FILES: usize = 1024;
 
-/// Most levels of a glTF file's tree of nodes: skeletons have a few dozen.
+/// Most levels of the tree of nodes of glTF or 3DS: skeletons have a few dozen.
 pub const NODE_LEVELS: usize = 4096;
 
 /// Most skins searched for an MD2 model; the game's own limit is 32.

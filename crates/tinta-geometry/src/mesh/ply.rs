@@ -19,6 +19,9 @@ use paint::Paint;
 use payload::{Damage, Payload, Value};
 use std::path::Path;
 
+/// Whether elements were read.
+type Read = std::result::Result<(), Damage>;
+
 /// Reads a PLY file's bytes. `path` appears in messages; `remarks` gets a sentence for each ignored part.
 pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
     if !bytes.starts_with(b"ply") {
@@ -97,11 +100,13 @@ fn check_header(header: &Header) -> std::result::Result<(), &'static str> {
         return Err("its vertices have no x, y and z; export it again");
     }
     let lacks_list = |name| header.element(name).is_some_and(|of| !of.has("vertex_indices") && !of.has("vertex_index"));
-    match () {
-        () if lacks_list("face") => Err("its faces have no list of vertex_indices; export it again"),
-        () if lacks_list("tristrips") => Err("its triangle strips have no list of vertex_indices; export it again"),
-        () => Ok(()),
+    if lacks_list("face") {
+        return Err("its faces have no list of vertex_indices; export it again");
     }
+    if lacks_list("tristrips") {
+        return Err("its triangle strips have no list of vertex_indices; export it again");
+    }
+    Ok(())
 }
 
 /// A file's contents.
@@ -133,12 +138,7 @@ impl Contents {
     }
 
     /// Reads all elements of a kind.
-    fn element(
-        &mut self,
-        payload: &mut Payload<'_>,
-        element: &Element,
-        file_bytes: usize,
-    ) -> std::result::Result<(), Damage> {
+    fn element(&mut self, payload: &mut Payload<'_>, element: &Element, file_bytes: usize) -> Read {
         match element.name.as_str() {
             "vertex" => self.vertices(payload, element),
             "face" => self.faces(payload, element),
@@ -148,7 +148,7 @@ impl Contents {
         }
     }
 
-    fn vertices(&mut self, payload: &mut Payload<'_>, element: &Element) -> std::result::Result<(), Damage> {
+    fn vertices(&mut self, payload: &mut Payload<'_>, element: &Element) -> Read {
         let count = payload.at_most(element);
         self.soup.positions.reserve_exact(count);
         self.soup.normals.reserve_exact(if self.has_normals { count } else { 0 });
@@ -186,7 +186,7 @@ impl Contents {
         Ok(())
     }
 
-    fn faces(&mut self, payload: &mut Payload<'_>, element: &Element) -> std::result::Result<(), Damage> {
+    fn faces(&mut self, payload: &mut Payload<'_>, element: &Element) -> Read {
         let Self { soup, vertices, has_normals, has_texture, paint, .. } = self;
         /// Corners for which there is room before a face is read.
         const LIST: usize = 1024;
@@ -248,7 +248,7 @@ impl Contents {
     }
 
     /// Edges between two vertices: segments of curves.
-    fn edges(&mut self, payload: &mut Payload<'_>, element: &Element) -> std::result::Result<(), Damage> {
+    fn edges(&mut self, payload: &mut Payload<'_>, element: &Element) -> Read {
         self.soup.segments.reserve_exact(payload.at_most(element));
         for _ in 0..element.count {
             let mut ends = [f64::NAN; 2];
@@ -266,12 +266,7 @@ impl Contents {
     }
 
     /// Strips of triangles, as old scans have them: often a single one, with negative indices where a new one begins.
-    fn strips(
-        &mut self,
-        payload: &mut Payload<'_>,
-        element: &Element,
-        file_bytes: usize,
-    ) -> std::result::Result<(), Damage> {
+    fn strips(&mut self, payload: &mut Payload<'_>, element: &Element, file_bytes: usize) -> Read {
         let Self { soup, vertices, has_normals, has_texture, .. } = self;
         let with = |used: bool, index: u32| if used { index } else { NONE };
         let mut is_full = false;
