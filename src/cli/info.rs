@@ -7,6 +7,7 @@ use serde_json::json;
 use tinta::drivers::{Checked, Found, check};
 use tinta::edges::{Class, ClassCounts, ClassSet, Classes, SilhouetteRule, Silhouettes};
 use tinta::gl::context::{Attempt, Outcome, attempts};
+use tinta::glam::DVec3;
 use tinta::record::{CameraRecord, ModelRecord};
 use tinta::settings::Setting;
 use tinta::styles::Inking;
@@ -201,9 +202,10 @@ fn edges(model: &str, arguments: &Arguments) -> Result<()> {
     let mut counts = Classes::new(mesh, list, crease_angle, ClassSet::EDGES).counts();
     counts.silhouette = Silhouettes::new(mesh, list).find(mesh, list, scene.eye(object, rule), rule).len();
     if !arguments.json {
-        let (low, high) = mesh.bounds();
+        let (low, high) = mesh.extent();
         let names: Vec<&str> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
-        let size = format!("{:<16}{} to {}, in the coordinates of --eye\n", "size", low, high);
+        let size =
+            format!("{:<16}{} to {}, in the coordinates of --eye\n", "size", low + DVec3::ZERO, high + DVec3::ZERO);
         let parts = if names.is_empty() { String::new() } else { format!("{:<16}{}\n", "parts", names.join(", ")) };
         return super::print(&(size + &parts + &edges_in_words(list.len(), counts, list.reversed_edges())));
     }

@@ -4,6 +4,7 @@
 use super::groups::inside_now;
 use super::help::options;
 use crate::choice::{meant_or, nearest, no_option};
+use crate::files::shown;
 use crate::request::gone;
 use clap::Command;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -31,9 +32,17 @@ pub(super) fn sentence(error: &clap::Error, whole: &Command, words: &[OsString])
         ErrorKind::UnknownArgument => unknown_option(error, command, words),
         ErrorKind::InvalidValue => unknown_value(error),
         ErrorKind::MissingRequiredArgument => missing(error, whole, command, words),
+        ErrorKind::InvalidUtf8 => words.iter().find(|word| word.to_str().is_none()).map(not_utf_8),
         _ => None,
     };
     better.unwrap_or_else(|| first_paragraph(&error.to_string()))
+}
+
+fn not_utf_8(word: &OsString) -> String {
+    format!(
+        "{} is not in UTF-8; rename the file, or give a model as - on standard input",
+        shown(&word.to_string_lossy())
+    )
 }
 
 /// The first paragraph of a message on one line, which is not without end: a value may be as long as a file.

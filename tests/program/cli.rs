@@ -272,6 +272,36 @@ fn info_lists_every_attempt_in_words_and_as_json() {
 }
 
 #[test]
+fn info_says_the_size_of_curves_and_points_alone_and_no_minus_zero() {
+    let folder = Folder::new();
+    for (text, size) in [
+        ("v 0 0 0\nv 1 0 2\nl 1 2\n", "[0, 0, 0] to [1, 0, 2]"),
+        ("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\nv 3 0 0\np 4\n", "[0, 0, 0] to [3, 0, 1]"),
+    ] {
+        let model = folder.file("a.obj", text.as_bytes());
+        let output = done(&["info", &model]);
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert!(said.contains(&format!("{size}, in the coordinates of --eye")), "{said}");
+    }
+    let model = folder.file("z.obj", b"v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+    let said = String::from_utf8(done(&["info", &model, "--up-axis", "z"]).stdout).unwrap();
+    assert!(said.contains("[0, 0, 0] to [1, 1, 0]"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_argument_that_is_not_in_utf_8_is_named_with_a_way_round_it() {
+    use std::os::unix::ffi::OsStrExt;
+    let name = std::ffi::OsStr::from_bytes(b"m\xe9.obj");
+    let output = Command::new(env!("CARGO_BIN_EXE_tinta")).args([std::ffi::OsStr::new("info"), name]).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let sentence =
+        "tinta: m\u{fffd}.obj is not in UTF-8; rename the file, or give a model as - on standard input; see --help\n";
+    assert_eq!(said, sentence);
+}
+
+#[test]
 fn a_check_of_the_drivers_says_of_each_style_and_question_how_it_came_out() {
     let output = tinta(&["info", "--check", "--backend", "egl"]);
     let text = String::from_utf8(output.stdout).unwrap();
