@@ -53,7 +53,7 @@ impl Explanation {
     ///
     /// # Errors
     ///
-    /// [`Error::CommandLine`] for a place outside of the picture or of background; those of [`Renderer::step_values`] and of
+    /// [`Error::Text`] for a place outside of the picture or of background; those of [`Renderer::step_values`] and of
     /// [`Explainer`].
     pub fn of(style: &Style, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<Self> {
         let mut explained = Self::without_lines(style, scene, renderer, place)?;
@@ -82,7 +82,7 @@ impl Explanation {
     /// As there.
     pub fn without_lines(style: &Style, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<Self> {
         let size = scene.size;
-        let refuse = |problem: String| Error::CommandLine { problem: format!("{},{}: {problem}", place.x, place.y) };
+        let refuse = |problem: String| Error::Text(format!("{},{}: {problem}", place.x, place.y).into());
         let is_within = |at: f64, count: u32| (0.0..f64::from(count)).contains(&at);
         if !is_within(place.x, size.width) || !is_within(place.y, size.height) {
             let (right, low) = (size.width - 1, size.height - 1);
@@ -112,7 +112,7 @@ impl Explanation {
         pixel: [u32; 2],
     ) -> Result<Self> {
         let [x, y] = pixel;
-        let refuse = |problem: String| Error::CommandLine { problem: format!("{x},{y}: {problem}") };
+        let refuse = |problem: String| Error::Text(format!("{x},{y}: {problem}").into());
         let at = [x, scene.size.height - 1 - y];
         let how = Recomputation::like(renderer.context());
         let replaced = renderer.replaced_shaders();

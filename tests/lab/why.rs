@@ -1,6 +1,6 @@
 //! `tinta why` as a user meets it.
 
-use crate::program::{answer, done, refused_in_one_line, tinta};
+use crate::program::{answer, done, refused_in_one_line, said, tinta};
 use crate::support::{Folder, root};
 use serde_json::Value;
 
@@ -70,6 +70,9 @@ fn what_cannot_be_explained_is_refused_in_one_sentence() {
     refused("64,5", &["64,5: this is outside of the picture; choose x from 0 to 63 and y from 0 to 63"]);
     refused("-1,5", &["-1,5: this is outside of the picture"]);
     refused("1,1", &["1,1: this is background, where nothing is drawn; choose a pixel of the model"]);
+    // The window and the page, which say the same, have no --help.
+    let output = tinta(&[&["why", box_, "1,1"], &three[..]].concat());
+    assert!(said(&output).trim_end().ends_with("of the model"), "{}", said(&output));
     refused_in_one_line(&["why", box_, "5,5", "--silhouette", "smooth"], &["ask for exact ones"]);
     refused_in_one_line(
         &["why", box_, "5,5", "-o", "a.png"],

@@ -14,25 +14,6 @@ pub struct LineJob {
     pub style: LineStyle,
 }
 
-/// How the strokes of a view are those of the one before.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stayed {
-    /// Strokes in this view.
-    pub count: usize,
-    /// The number of these that are new in this view; all in a first view.
-    pub new: usize,
-    /// Those of the one before that are not in this one.
-    pub gone: usize,
-}
-
-impl Stayed {
-    /// For the panel.
-    pub(in crate::window) fn text(self) -> String {
-        let Self { count, new, gone } = self;
-        format!("{count} strokes, {new} new, {gone} gone")
-    }
-}
-
 /// Lines that were found.
 #[derive(Debug)]
 pub struct Found {
@@ -40,8 +21,6 @@ pub struct Found {
     pub job: LineJob,
     /// The lines.
     pub strokes: Vec<Strokes>,
-    /// How many of their strokes are those of the view before.
-    pub stayed: Stayed,
     /// Time taken, milliseconds.
     pub ms: f64,
 }

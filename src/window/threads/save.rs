@@ -26,6 +26,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Pictures of a turn, and the time of each, milliseconds, as in `--turntable 36`.
 const TURN: (u32, u16) = (36, 69);
 
+/// Between what is said about a saved file and the command that makes the same.
+pub(in crate::window) const SAME_BY: &str = "; the same by ";
+
 /// How a model is read and where files go.
 #[derive(Debug, Clone)]
 pub(in crate::window) struct Surroundings {
@@ -167,7 +170,7 @@ fn save_of(
         }
     }
     Ok(match command {
-        Ok(command) => format!("{name}; the same by {command}"),
+        Ok(command) => format!("{name}{SAME_BY}{command}"),
         Err(error) => format!("{name}; no command makes the same: {}", error.with_dashes()),
     })
 }

@@ -168,6 +168,9 @@ impl Viewer {
 
     /// Applies an event and returns its effect outside the viewer.
     pub fn event(&mut self, event: ViewerEvent) -> Option<Effect> {
+        if event == ViewerEvent::Dismiss {
+            (self.problem, self.shader_log) = (None, None);
+        }
         let effect = self.state.update(event);
         match effect {
             Some(Effect::Open(models)) => self.open(models),
@@ -177,6 +180,11 @@ impl Viewer {
             None => {}
         }
         None
+    }
+
+    /// Whether a sentence covers the picture that [`ViewerEvent::Dismiss`] takes away.
+    pub(in crate::window) fn has_problem(&self) -> bool {
+        self.problem.is_some() || self.shader_log.is_some()
     }
 
     /// Takes the threads' reports; returns whether it received any.

@@ -86,6 +86,8 @@ pub enum ViewerEvent {
     Panel,
     /// The key sheet.
     KeySheet,
+    /// The sentences about what cannot be drawn, read.
+    Dismiss,
     /// The end of the window.
     Quit,
     /// The whole screen.

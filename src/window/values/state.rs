@@ -371,6 +371,7 @@ impl ViewerState {
             ViewerEvent::Panel => self.has_panel = !self.has_panel,
             ViewerEvent::KeySheet => self.has_key_sheet = !self.has_key_sheet,
             ViewerEvent::Price => self.has_price = !self.has_price,
+            ViewerEvent::Dismiss => {}
             ViewerEvent::Quit => return Ok(Some(Effect::Quit)),
             ViewerEvent::FullScreen => {
                 self.is_full_screen = !self.is_full_screen;

@@ -23,16 +23,12 @@ pub(in crate::window) const HINT: Color32 = Color32::GRAY;
 const COARSE: &str =
     "while the model turns: half the width and height, without the faces that look away, three-pass in one pass";
 
-/// The count of exact lines.
-const STAYED: &str = "strokes of the exact lines in this view, and how many came and went since the view before; a stroke stays as long \
-                      as it runs along the same place of the model";
-
 /// Shows the panel's content.
 pub(in crate::window) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
     let state = &viewer.state;
     panes(ui, state, events);
     models(ui, state, events);
-    drawn(ui, viewer, events);
+    drawn(ui, state, events);
     presets(ui, state, events);
     let style = state.style(state.active);
     let look = state.look().filter(|look| look.has_settings());
@@ -77,8 +73,7 @@ fn models(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
 }
 
 /// What is drawn: the style, lines over it, the look, the buffer.
-fn drawn(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
-    let state = &viewer.state;
+fn drawn(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
     let side = state.active;
     let style = state.style(side);
     let lines = state.lines_shown(side);
@@ -90,9 +85,6 @@ fn drawn(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
         if ui.checkbox(&mut is_over, "exact lines over it").changed() {
             events.push(ViewerEvent::Overlay(side, is_over));
         }
-    }
-    if let Some(found) = viewer.lines.found().filter(|_| lines != LinesShown::None) {
-        ui.label(found.stayed.text()).on_hover_text(STAYED);
     }
     let look = state.look().map_or("none", |look| look.name);
     let looks = LOOKS.into_iter().map(|look| (look.name, look.about));
@@ -106,7 +98,7 @@ fn drawn(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<ViewerEvent>) {
 
 /// Settings from files, coarser pictures, and what can be saved.
 fn presets(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
-    choices(ui, "presets", "choose a paper's", SHIPPED.iter().map(|(name, _)| *name), |name| {
+    choices(ui, "presets", "choose", SHIPPED.iter().map(|(name, _)| *name), |name| {
         events.push(ViewerEvent::OpenPreset(name.to_owned()));
     });
     let preset = file(ui, "from a file", RichText::new("a.toml").color(HINT), "a preset's path");

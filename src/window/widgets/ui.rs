@@ -1,6 +1,7 @@
 //! A frame of the window: panes, panel, sheets, and the events that mouse and keys make in it.
 
 use crate::picture::Picture;
+use crate::window::threads::save::SAME_BY;
 use crate::window::threads::viewer::Viewer;
 use crate::window::values::buffer::{Buffer, CLASS_COLORS};
 use crate::window::values::compose::difference;
@@ -12,7 +13,9 @@ use crate::window::widgets::label;
 use crate::window::widgets::listing;
 use crate::window::widgets::panel;
 use crate::window::widgets::plot;
-use egui::{Align2, Color32, Context, CursorIcon, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2};
+use egui::{
+    Align2, Color32, Context, CursorIcon, Key, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2,
+};
 use std::path::Path;
 use std::time::Duration;
 
@@ -111,6 +114,9 @@ pub(in crate::window) fn frame(
         events.extend((!state.has_panel).then_some(ViewerEvent::Panel));
     } else if has_keys {
         let pressed = |event: &egui::Event| match event {
+            egui::Event::Key { key: Key::Escape, pressed: true, .. } if viewer.has_problem() => {
+                Some(ViewerEvent::Dismiss)
+            }
             egui::Event::Key { key, pressed: true, modifiers, .. } => keys::event(*key, *modifiers, state),
             _ => None,
         };
@@ -171,7 +177,11 @@ fn status(ui: &mut Ui, viewer: &Viewer) {
     ui.horizontal_centered(|ui| {
         let state = &viewer.state;
         if let Some(message) = &state.message {
-            ui.add(egui::Label::new(message).truncate()).on_hover_text(message);
+            let (said, command) = message.split_once(SAME_BY).unwrap_or((message, ""));
+            if !command.is_empty() && ui.small_button("copy the command").clicked() {
+                ui.ctx().copy_text(command.to_owned());
+            }
+            ui.add(egui::Label::new(said).truncate()).on_hover_text(message);
             return;
         }
         let styles: Vec<String> = state
@@ -182,12 +192,11 @@ fn status(ui: &mut Ui, viewer: &Viewer) {
                 let drawing = viewer.costs.frame_ms(*side).or(drawing);
                 let lines = viewer.lines.found().map(|found| found.ms);
                 let ms = match state.lines_shown(*side) {
-                    LinesShown::None => vec![drawing],
-                    LinesShown::Over => vec![drawing, lines],
-                    LinesShown::Alone => vec![lines],
+                    LinesShown::None => drawing,
+                    LinesShown::Over => drawing.map(|ms| ms + lines.unwrap_or_default()),
+                    LinesShown::Alone => lines,
                 };
-                let ms: Vec<String> = ms.into_iter().flatten().map(|ms| format!("{ms:.0}")).collect();
-                let ms = if ms.is_empty() { String::new() } else { format!(" {} ms", ms.join("+")) };
+                let ms = ms.map_or_else(String::new, |ms| format!(" {ms:.0} ms"));
                 format!("{}{ms}", state.drawn_name(*side))
             })
             .collect();
@@ -369,7 +378,8 @@ fn key_sheet(context: &Context) -> bool {
     let shown = window("keys").anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
         // In a small window the rest scrolls.
         let Vec2 { x: width, y: height } = context.content_rect().size();
-        egui::ScrollArea::vertical().max_height(height - KEY_SHEET_MARGIN).show(ui, |ui| {
+        let height = height - KEY_SHEET_MARGIN;
+        egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             let rows: Vec<_> = crate::keys::sheet(false).collect();
             let columns = if width < WIDE { 1 } else { 2 };
             let height = rows.len().div_ceil(columns);

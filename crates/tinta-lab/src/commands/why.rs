@@ -148,7 +148,7 @@ fn explain(arguments: &Arguments, request: &Request, output: Option<Output>, ses
             };
             let why = match (Explanation::of(style, &scene, renderer, place), &line) {
                 // Beside the model there is only a line to explain.
-                (Err(Error::CommandLine { .. }), Some(line)) if output.is_none() => {
+                (Err(Error::Text(_)), Some(line)) if output.is_none() => {
                     return line_said(line, arguments.json);
                 }
                 (why, _) => why?,
