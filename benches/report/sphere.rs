@@ -47,6 +47,7 @@ pub fn bumpy_sphere(triangles: usize) -> Mesh {
         triangle_parts: Vec::new(),
         position_colors: Vec::new(),
         marked: Vec::new(),
+        weld: tinta::tolerances::WELD,
         curves: Default::default(),
         defects: Defects::default(),
     }

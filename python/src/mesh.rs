@@ -347,6 +347,7 @@ impl Mesh {
         let mesh = tinta::Mesh {
             curves,
             marked,
+            weld: LoadOptions::from_options(&options).map_err(raised)?.weld,
             name,
             file_vertices: file_vertices.as_array().to_vec(),
             triangles: corners(faces),

@@ -81,7 +81,7 @@ pub const PARALLEL_COSINE: f64 = 8.0 * f64::EPSILON;
 pub const CREASE_DIGITS: f64 = 1e-5;
 
 /// Largest error of a coordinate with six printed digits, as a share of the model's bounding-box diagonal: corners of one
-/// polygon may lie that far from its plane.
+/// polygon may lie that far from its plane, and from a straight side that they divide.
 pub const PRINTED_DIGITS: f64 = 5e-6;
 
 /// Distance between a point and a face below which they touch, as a share of the shorter of the face's longest side and the

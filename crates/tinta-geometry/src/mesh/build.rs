@@ -112,12 +112,12 @@ impl Soup {
         defects.unused_vertices += unused.into_iter().filter(|unused| *unused).count();
 
         let (positions, file_vertices) = compact(&self.positions, &mut pieces.triangles);
-        let marked = self.marked_edges(&file_vertices, &welded);
         let color = |vertex: &u32| self.colors.get(*vertex as usize).copied();
         let mut mesh = Mesh {
             name: name.to_owned(),
             position_colors: file_vertices.iter().filter_map(color).collect(),
             positions,
+            marked: self.marked_edges(&file_vertices, &welded),
             file_vertices,
             triangles: pieces.triangles,
             normals: Vec::new(),
@@ -129,7 +129,7 @@ impl Soup {
             file_faces: pieces.polygons,
             parts: std::mem::take(&mut self.parts),
             triangle_parts: pieces.parts,
-            marked,
+            weld: options.weld,
             curves,
             defects,
         };

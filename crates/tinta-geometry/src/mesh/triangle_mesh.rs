@@ -1,6 +1,7 @@
 //! Triangles over shared positions, with their normals, texture coordinates and materials.
 
 use super::{Curves, Defects};
+use crate::tolerances::WELD;
 use glam::{DVec3, Vec2, Vec3};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -43,6 +44,8 @@ pub struct Mesh {
     pub triangle_parts: Vec<u32>,
     /// The edges that the file marks as edges to draw, each by its two positions, the lower first; ascending.
     pub marked: Vec<[u32; 2]>,
+    /// The share of its size below which its vertices were joined, as in [`LoadOptions::weld`](super::LoadOptions::weld).
+    pub weld: f64,
     /// Curves and points beside the surface.
     pub curves: Curves,
     /// The file's defects.
@@ -138,6 +141,7 @@ impl Mesh {
             parts: Vec::new(),
             triangle_parts: Vec::new(),
             marked: Vec::new(),
+            weld: WELD,
             curves: Curves::default(),
             defects: Defects::default(),
         }

@@ -2,6 +2,7 @@
 
 extern crate tinta_geometry as tinta;
 
+mod corners;
 mod degenerate;
 mod flicker;
 mod free_lines;

@@ -140,17 +140,9 @@ fn cut(mesh: &Mesh, pieces: usize) -> Mesh {
         triangles,
         normals: mesh.normals.clone(),
         triangle_normals,
-        texture_coordinates: Vec::new(),
-        triangle_texture_coordinates: Vec::new(),
-        materials: Vec::new(),
-        triangle_materials: Vec::new(),
-        file_faces: Vec::new(),
-        parts: Vec::new(),
-        triangle_parts: Vec::new(),
-        position_colors: Vec::new(),
-        marked: Vec::new(),
-        curves: Default::default(),
+        weld: mesh.weld,
         defects: mesh.defects.clone(),
+        ..Mesh::triangle()
     }
 }
 

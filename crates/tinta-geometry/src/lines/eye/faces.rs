@@ -120,6 +120,11 @@ impl Faces {
         self.ghosts = self.numbers.iter().map(|number| ghosts[*number as usize]).collect();
     }
 
+    /// Lets each object's positions count as one up to these distances, too, file units.
+    pub(in crate::lines) fn widen_welds(&mut self, distances: impl Iterator<Item = f64>) {
+        self.objects.iter_mut().zip(distances).for_each(|(object, distance)| object.weld = object.weld.max(distance));
+    }
+
     /// Whether the face at this place hides nothing.
     pub(in crate::lines) fn is_ghost(&self, face: u32) -> bool {
         self.ghosts.get(face as usize).copied().unwrap_or(false)

@@ -1,4 +1,4 @@
-//! Whether faces that meet at an edge lie in one plane.
+//! Whether faces that meet at an edge lie in one plane, and corners on a line between others.
 //!
 //! Input: a mesh and its edges. Output: for two faces at an edge, how they lie; for an edge, the faces that end there.
 
@@ -7,16 +7,20 @@ use crate::mesh::Mesh;
 use crate::tolerances::{CONTACT, PRINTED_DIGITS, WELD};
 use glam::DVec3;
 
-/// A mesh whose faces are tested against one another's planes.
+/// A mesh whose faces and corners are tested against one another's planes and sides.
 pub(super) struct Planar<'a> {
     pub mesh: &'a Mesh,
+    /// The centre and the length of the bounding box's diagonal, file units.
+    pub middle: DVec3,
+    pub diagonal: f64,
     /// Distances, in file units: below `weld` positions coincide, below `digits` coordinates with six digits may
-    /// deviate from a plane.
+    /// deviate from a plane, below `beside` from a side.
     pub weld: f64,
     digits: f64,
+    pub beside: f64,
 }
 
-/// Sine of the largest angle between coplanar faces.
+/// Sine of the largest angle between coplanar faces, and between a side and a corner on it.
 pub(super) const LARGEST_SINE: f64 = 0.01;
 
 /// The position of two faces at an edge.
@@ -33,7 +37,14 @@ impl<'a> Planar<'a> {
     pub(super) fn new(mesh: &'a Mesh) -> Self {
         let (low, high) = mesh.bounds();
         let diagonal = low.distance(high);
-        Self { mesh, weld: WELD * diagonal, digits: PRINTED_DIGITS * diagonal }
+        let [weld, digits, beside] =
+            [WELD, PRINTED_DIGITS, PRINTED_DIGITS.max(mesh.weld)].map(|share| share * diagonal);
+        Self { mesh, middle: (low + high) * 0.5, diagonal, weld, digits, beside }
+    }
+
+    /// Whether a corner lies on the line between two others, by its distances from the line and from the nearer of them.
+    pub(super) fn is_on_line(&self, distance: f64, from_end: f64) -> bool {
+        distance <= self.weld || distance <= self.beside && distance <= LARGEST_SINE * from_end
     }
 
     pub(super) fn corners(&self, face: u32) -> [DVec3; 3] {

@@ -56,6 +56,7 @@ impl<'a> LineInput<'a> {
         if objects.iter().any(|object| matches!(object.edges, Edges::Repaired(_))) {
             let meshes: Vec<_> = objects.iter().map(|object| (object.object, object.shape().clone())).collect();
             faces = Faces::new(&space, &meshes);
+            faces.widen_welds(objects.iter().map(ObjectEdges::beside));
         }
         if let Some(is_ghost) = ghosts {
             faces.set_ghosts(&ghost_faces(&objects, is_ghost));

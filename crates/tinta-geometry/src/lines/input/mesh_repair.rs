@@ -2,20 +2,20 @@
 //!
 //! - Of faces that [cover one another](crate::lines::input::repeated_sheets), as in surfaces modelled from both sides, one
 //!   set stays. The others would turn every edge into one with four faces.
-//! - Faces no higher than the weld distance are removed if they touch others: they are lines.
+//! - Faces with a corner on the opposite side are removed if they touch others: they are lines.
 //! - Faces are split at [T-junctions](crate::lines::input::split_t_junctions), so no line crosses a surface that
 //!   looks whole. The unsplit face still hides other lines: its many slivers would hide the same, only more slowly.
 //!
-//! Cracks wider than `--weld` stay open.
+//! Cracks wider than `--weld` and six digits of a coordinate stay open.
 
+use crate::disjoint_sets::DisjointSets;
 use crate::edges::EdgeList;
-use crate::lines::input::coplanar::{Ending, Kinds, ending_faces};
+use crate::lines::input::coplanar::{Ending, Kinds, Planar, ending_faces};
 use crate::lines::input::face_subset::keep_faces;
 use crate::lines::input::repeated_sheets::repeated_sheets;
 use crate::lines::input::split_t_junctions::{Split, chains, split_at_junctions};
 use crate::mesh::Mesh;
 use crate::threads::{in_chunks, threads_for};
-use crate::tolerances::WELD;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
@@ -114,15 +114,15 @@ impl WorkingMesh<'_> {
     }
 }
 
-/// Faces with their third corner on the opposite side, within the weld distance, that share a side with a face that
-/// has a height. Others are wires and are drawn.
+/// Faces with their third corner on the opposite side that share a side or a polygon with a face that has a height, or with
+/// another such face. Others are wires and are drawn.
 fn faces_without_height(mesh: &Mesh, edges: &EdgeList) -> HashSet<u32> {
-    let (low, high) = mesh.bounds();
-    let weld = WELD * low.distance(high);
+    let planar = Planar::new(mesh);
     let has_height = |face: u32| {
-        let [a, b, c] = mesh.triangles[face as usize].map(|corner| mesh.positions[corner as usize]);
-        let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared()).sqrt();
-        (b - a).cross(c - a).length() > weld * longest
+        let [a, b, c] = planar.corners(face);
+        let mut sides = [a.distance(b), b.distance(c), c.distance(a)];
+        sides.sort_unstable_by(f64::total_cmp);
+        !planar.is_on_line(planar.normal(face).length() / sides[2].max(f64::MIN_POSITIVE), sides[0])
     };
     let found = in_chunks(mesh.triangles.len(), FACES_A_THREAD, threads_for(mesh.triangles.len()), |faces| {
         faces.map(|face| face as u32).filter(|face| !has_height(*face)).collect::<Vec<u32>>()
@@ -131,10 +131,20 @@ fn faces_without_height(mesh: &Mesh, edges: &EdgeList) -> HashSet<u32> {
     if found.is_empty() {
         return HashSet::new();
     }
-    let at_surfaces = (0..edges.len() as u32).map(|edge| edges.faces(edge));
-    let at_surfaces: HashSet<u32> =
-        at_surfaces.filter(|faces| faces.iter().any(|face| has_height(*face))).flatten().copied().collect();
-    found.into_iter().filter(|face| at_surfaces.contains(face)).collect()
+    // All faces with a height are one.
+    let with_height = found.len() as u32;
+    let number = |face: u32| found.binary_search(&face).map_or(with_height, |at| at as u32);
+    let mut sets = DisjointSets::new(found.len() + 1);
+    for edge in 0..edges.len() as u32 {
+        edges.faces(edge).windows(2).for_each(|pair| sets.join([number(pair[0]), number(pair[1])]));
+    }
+    for face in 1..mesh.triangles.len() as u32 {
+        if mesh.file_face(face - 1) == mesh.file_face(face) {
+            sets.join([number(face - 1), number(face)]);
+        }
+    }
+    let surface = sets.root(with_height);
+    found.iter().copied().filter(|face| sets.root(number(*face)) == surface).collect()
 }
 
 /// Faces per batch of a thread.

@@ -33,6 +33,8 @@ pub(in crate::lines) struct RepairedEdges {
     /// Edges with two faces, at least one of which was split, ascending.
     at_split_faces: Vec<u32>,
     on_edges: BTreeMap<[u32; 2], Vec<u32>>,
+    /// The largest distance of a vertex from the edge that it splits, file units.
+    beside: f64,
     covered: usize,
 }
 
@@ -46,7 +48,15 @@ impl RepairedEdges {
         };
         let is_at_one = |edge: &u32| matches!(edges.list().faces(*edge), faces @ [_, _] if faces.iter().any(is_split));
         let at_split_faces = (0..edges.list().len() as u32).filter(is_at_one).collect();
-        Self { edges, shape, crossings, whole_faces, at_split_faces, on_edges, covered }
+        let position = |vertex: &u32| shape.positions[*vertex as usize];
+        let distances = on_edges.iter().flat_map(|([start, end], vertices)| {
+            let (start, end) = (position(start), position(end));
+            vertices
+                .iter()
+                .map(move |vertex| (end - start).normalize_or_zero().cross(position(vertex) - start).length())
+        });
+        let beside = distances.fold(0.0, f64::max);
+        Self { edges, shape, crossings, whole_faces, at_split_faces, on_edges, beside, covered }
     }
 
     /// Whether exactly one of the two faces at an edge is seen from the front. For split faces the whole face
@@ -127,6 +137,14 @@ impl ObjectEdges<'_> {
         match &self.edges {
             Edges::OfScene(_) => &[],
             Edges::Repaired(repaired) => repaired.on_edges.get(&edge).map_or(&[], Vec::as_slice),
+        }
+    }
+
+    /// How far vertices lie beside the edges that they split, file units.
+    pub(in crate::lines) fn beside(&self) -> f64 {
+        match &self.edges {
+            Edges::OfScene(_) => 0.0,
+            Edges::Repaired(repaired) => repaired.beside,
         }
     }
 

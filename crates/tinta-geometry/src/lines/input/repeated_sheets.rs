@@ -228,7 +228,7 @@ impl Planar<'_> {
         let mut vertices = distinct.as_flattened().to_vec();
         vertices.sort_unstable();
         vertices.dedup();
-        let on_sides = vertices_on(self.mesh, &distinct, &vertices);
+        let on_sides = vertices_on(self, &distinct, &vertices);
         let of_face = |face: &u32| {
             let in_pieces = |[from, to]: [u32; 2]| {
                 let mut way = vec![from];

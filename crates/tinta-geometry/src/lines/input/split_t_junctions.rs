@@ -3,18 +3,19 @@
 //! Input: a mesh and its edges. Output: the mesh with such faces split at these vertices, so that both sides become
 //! the same edges. First come chains of edges that cover another edge from end to end, which are that edge cut on one
 //! side. Then come vertices of an open rim on another rim, because surfaces side by side are one. Cracks wider than
-//! `--weld` stay open.
+//! `--weld` and six digits of a coordinate stay open.
 
 use crate::bvh::{Box3, BoxTree};
 use crate::edges::{EdgeList, Incidence};
+use crate::lines::input::coplanar::{LARGEST_SINE, Planar};
 use crate::lines::input::face_subset::with_faces;
 use crate::mesh::Mesh;
-use crate::tolerances::{CONTACT, WELD};
+use crate::tolerances::CONTACT;
 use glam::DVec3;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 
-/// Largest difference between the directions of collinear edges.
+/// Largest difference between the directions of collinear edges; between those of short ones [`LARGEST_SINE`].
 const SAME_DIRECTION: f64 = 1e-4;
 
 /// An edge that others cover from end to end, if it is a rim or they all are. Edges of solids that merely touch along
@@ -28,10 +29,11 @@ pub(in crate::lines) struct Chain {
 /// All chains of a mesh.
 pub(in crate::lines) fn chains(mesh: &Mesh, edges: &EdgeList) -> Vec<Chain> {
     let mut is_asked = vec![false; mesh.positions.len()];
+    let planar = Planar::new(mesh);
     let rims = (0..edges.len()).filter(|edge| edges.incidence()[*edge] == Incidence::Boundary);
     rims.for_each(|rim| edges.positions()[rim].iter().for_each(|end| is_asked[*end as usize] = true));
     loop {
-        let leaving = HalfEdges::new(mesh, edges, |position| is_asked[position as usize]);
+        let leaving = HalfEdges::new(&planar, edges, |position| is_asked[position as usize]);
         let pairs = leaving.along_one_another();
         let ends = pairs.iter().flatten().flat_map(|edge| edges.positions()[*edge as usize]);
         let new: Vec<u32> = ends.filter(|end| !is_asked[*end as usize]).collect();
@@ -44,6 +46,7 @@ pub(in crate::lines) fn chains(mesh: &Mesh, edges: &EdgeList) -> Vec<Chain> {
 
 /// Edges as they leave some positions, sorted by position and direction.
 struct HalfEdges<'a> {
+    planar: &'a Planar<'a>,
     edges: &'a EdgeList,
     half_edges: Vec<HalfEdge>,
 }
@@ -60,19 +63,13 @@ struct HalfEdge {
     skewed: f64,
 }
 
-impl HalfEdge {
-    fn is_along(&self, other: &Self) -> bool {
-        self.direction.dot(other.direction) > 0.0 && self.direction.cross(other.direction).length() <= SAME_DIRECTION
-    }
-}
-
 impl<'a> HalfEdges<'a> {
-    fn new(mesh: &Mesh, edges: &'a EdgeList, is_asked: impl Fn(u32) -> bool) -> Self {
+    fn new(planar: &'a Planar<'a>, edges: &'a EdgeList, is_asked: impl Fn(u32) -> bool) -> Self {
         let skew = DVec3::new(0.453_5, 0.711_7, 0.536_3);
         let mut half_edges = Vec::new();
         for (edge, [low, high]) in (0..).zip(edges.positions()) {
             for (from, to) in [(*low, *high), (*high, *low)].into_iter().filter(|(from, _)| is_asked(*from)) {
-                let along = mesh.positions[to as usize] - mesh.positions[from as usize];
+                let along = planar.mesh.positions[to as usize] - planar.mesh.positions[from as usize];
                 let direction = along.normalize_or_zero();
                 half_edges.push(HalfEdge {
                     from,
@@ -88,7 +85,14 @@ impl<'a> HalfEdges<'a> {
             a.from.cmp(&b.from).then(a.skewed.total_cmp(&b.skewed)).then(a.edge.cmp(&b.edge))
         };
         half_edges.sort_unstable_by(order);
-        Self { edges, half_edges }
+        Self { planar, edges, half_edges }
+    }
+
+    /// Whether the shorter of two half-edges lies along the other.
+    fn are_along(&self, [one, other]: [&HalfEdge; 2]) -> bool {
+        let (sine, shorter) = (one.direction.cross(other.direction).length(), one.length.min(other.length));
+        let is_in_line = sine <= SAME_DIRECTION || self.planar.is_on_line(sine * shorter, shorter);
+        is_in_line && one.direction.dot(other.direction) > 0.0
     }
 
     fn is_rim(&self, edge: u32) -> bool {
@@ -101,8 +105,9 @@ impl<'a> HalfEdges<'a> {
         for (index, half_edge) in self.half_edges.iter().enumerate() {
             let near = self.half_edges[index + 1..]
                 .iter()
-                .take_while(|other| other.from == half_edge.from && other.skewed - half_edge.skewed <= SAME_DIRECTION)
-                .filter(|other| (self.is_rim(half_edge.edge) || self.is_rim(other.edge)) && half_edge.is_along(other));
+                .take_while(|other| other.from == half_edge.from && other.skewed - half_edge.skewed <= LARGEST_SINE)
+                .filter(|other| self.is_rim(half_edge.edge) || self.is_rim(other.edge))
+                .filter(|other| self.are_along([half_edge, other]));
             pairs.extend(near.map(|other| {
                 if half_edge.length > other.length {
                     [half_edge.edge, other.edge]
@@ -128,7 +133,8 @@ impl<'a> HalfEdges<'a> {
         while last.to != long_edge.to {
             let left = long_edge.length - covered;
             last = leaving(last.to)
-                .filter(|half_edge| half_edge.is_along(long_edge) && half_edge.length <= left * (1.0 + SAME_DIRECTION))
+                .filter(|half_edge| half_edge.length <= left * (1.0 + SAME_DIRECTION))
+                .filter(|half_edge| self.are_along([half_edge, long_edge]))
                 .min_by(|a, b| a.length.total_cmp(&b.length))?;
             covered += last.length;
             chain.push(last.edge);
@@ -161,7 +167,7 @@ pub(in crate::lines) fn split_at_junctions(mesh: &Mesh, edges: &EdgeList) -> Opt
     let current = split.as_ref().map_or(mesh, |split| &split.mesh);
     let is_rim = |edge: &usize| edges.incidence()[*edge] == Incidence::Boundary;
     let rims: Vec<[u32; 2]> = (0..edges.len()).filter(is_rim).map(|edge| edges.positions()[edge]).collect();
-    match split_at(current, vertices_on(current, &rims, &ends_of(&rims))) {
+    match split_at(current, vertices_on(&Planar::new(current), &rims, &ends_of(&rims))) {
         Some(next) => Some(Split::after(split, next)),
         None => split,
     }
@@ -181,12 +187,12 @@ fn on_bundles(mesh: &Mesh, edges: &EdgeList, chains: &[Chain]) -> BTreeMap<[u32;
     for Chain { long, edges } in chains {
         bundles.entry(*long).or_insert_with(|| vec![*long]).extend(edges);
     }
-    let mut on_edges = BTreeMap::new();
+    let (planar, mut on_edges) = (Planar::new(mesh), BTreeMap::new());
     for mut bundle in bundles.into_values() {
         bundle.sort_unstable();
         bundle.dedup();
         let bundle: Vec<[u32; 2]> = bundle.into_iter().map(|edge| edges.positions()[edge as usize]).collect();
-        on_edges.extend(vertices_on(mesh, &bundle, &ends_of(&bundle)));
+        on_edges.extend(vertices_on(&planar, &bundle, &ends_of(&bundle)));
     }
     on_edges
 }
@@ -282,16 +288,14 @@ const LONGEST_PART: f64 = 0.1;
 
 /// For each edge, given with its lower position first, the vertices that lie on it, in order; edges without vertices
 /// are absent.
-pub(in crate::lines) fn vertices_on(mesh: &Mesh, edges: &[[u32; 2]], vertices: &[u32]) -> BTreeMap<[u32; 2], Vec<u32>> {
-    let position = |index: u32| mesh.positions[index as usize];
-    let (low, high) = mesh.bounds();
-    let radius = (high - low).length() * 0.5;
-    let weld = WELD * 2.0 * radius;
-    let scaled = |point: DVec3| (point - (low + high) * 0.5) / radius;
+pub(super) fn vertices_on(planar: &Planar, edges: &[[u32; 2]], vertices: &[u32]) -> BTreeMap<[u32; 2], Vec<u32>> {
+    let position = |index: u32| planar.mesh.positions[index as usize];
+    let radius = planar.diagonal * 0.5;
+    let scaled = |point: DVec3| (point - planar.middle) / radius;
     let (mut boxes, mut edge_of) = (Vec::new(), Vec::new());
     for (edge, ends) in edges.iter().enumerate() {
         let [a, b] = ends.map(|end| scaled(position(end)));
-        let margin = DVec3::splat(CONTACT * a.distance(b) + WELD);
+        let margin = DVec3::splat(CONTACT * a.distance(b) + planar.beside / radius);
         // Search in parts: the bounding box of a long edge contains too much.
         let count = (a.distance(b) / LONGEST_PART).ceil().max(1.0);
         for part in 0..count as u32 {
@@ -311,10 +315,10 @@ pub(in crate::lines) fn vertices_on(mesh: &Mesh, edges: &[[u32; 2]], vertices: &
             let distance = (start + along * place).distance(point);
             let length = along.length();
             let from_end = place.min(1.0 - place) * length;
-            // So near an end, the vertex may lie on another edge from that end, unless it is exactly on this one. A
-            // still nearer vertex is the end itself, because it was welded.
-            let touching = if from_end > CONTACT * length { CONTACT * length } else { weld };
-            if distance <= touching && from_end > weld {
+            // Nearer to an end, the vertex may lie on another edge from that end. A still nearer vertex is the end itself,
+            // because it was welded.
+            let touches = distance <= CONTACT * length && from_end > CONTACT * length;
+            if (touches || planar.is_on_line(distance, from_end)) && from_end > planar.weld {
                 places.entry(ends).or_default().push((place, *vertex));
             }
             false
