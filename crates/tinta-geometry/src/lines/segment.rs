@@ -17,8 +17,8 @@ pub struct LineSegment {
     pub is_outline: bool,
     /// Whether there is only background on its right and on its left, looking from its first end to its second.
     pub background: [bool; 2],
-    /// Whether it is hidden, or a ghost's, and overlapped in the picture by a line drawn in its place: a hidden line by a visible one or
-    /// one of an earlier class, a ghost's by a solid part's or another ghost's.
+    /// Whether it is hidden, a ghost's or a stroke of a cut, and overlapped in the picture by a line drawn in its place: a hidden line by
+    /// a visible one or one of an earlier class, a ghost's by a solid part's or another ghost's, a stroke by any or another stroke.
     pub is_covered: bool,
     /// Its ends in the picture: pixels from the upper left corner, y down. Segments that meet at a vertex have
     /// bit-identical ends there. Both ends of a point are the same.

@@ -5,7 +5,8 @@ use crate::support::shapes::{Random, cuboid, joined, mesh};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use tinta::edges::Class;
-use tinta::lines::{Hidden, Layer, VisibleLines, chain, drawn_layers, svg};
+use tinta::lines::{Hidden, Layer, LineSettings, VisibleLines, chain, drawn_layers, svg};
+use tinta::mesh::SectionPlane;
 use tinta::{DrawingSettings, Mesh, Scene};
 
 const NEAR: f64 = 1e-6;
@@ -203,5 +204,17 @@ fn one_object_or_several_have_the_same_hidden_lines() {
             [vec![joined(&parts)], parts.to_vec()].map(|meshes| hidden(&lines(&scene_of(meshes, view(name, true)))));
         assert_near(one[0], several[0], 1e-6, name);
         assert!(one[1] > 0.0 || name == "30,15", "{name}: some lie on others");
+    }
+}
+
+#[test]
+fn strokes_of_a_cut_seen_edge_on_are_covered_by_its_outline() {
+    let plane = SectionPlane { normal: DVec3::Y, offset: 0.5, is_of_file: false };
+    let (cut, _) = cuboid(DVec3::ZERO, DVec3::ONE).section(&plane, Some(0.1)).unwrap();
+    for (at, is_edge_on) in [("front", true), ("30,0", true), ("30,20", false)] {
+        let scene = scene_of(vec![cut.clone()], view(at, true));
+        let found = VisibleLines::of(&scene, &LineSettings::default()).unwrap();
+        let strokes = || found.segments.iter().filter(|segment| segment.class == Class::Curve && segment.is_visible);
+        assert!(strokes().count() > 5 && strokes().all(|stroke| stroke.is_covered == is_edge_on), "{at}");
     }
 }

@@ -336,7 +336,7 @@ impl DrawingSettings {
             (None, Layer::Hidden(class)) => self.width_px(Layer::Visible(class), units) * HIDDEN_WIDTH,
             (None, Layer::Visible(Class::Point)) => px(self.width()) * POINT_WIDTHS,
             (None, Layer::Visible(Class::Tangent)) => px(self.width()) * HIDDEN_WIDTH,
-            (None, Layer::Hatch(_)) => px(self.width()) * HATCH_WIDTH,
+            (None, Layer::Hatch(_)) => HATCH_WIDTH_ON_PAPER.px(units).unwrap_or(px(self.width()) * HATCH_WIDTH),
             (None, _) => px(self.width()),
         }
     }
@@ -401,7 +401,8 @@ const LEAST_TAPERED: f64 = 16.0;
 /// Diameter of the dots that show points, in line widths.
 const POINT_WIDTHS: f64 = 2.0;
 
-/// Width of the strokes of tones, line widths.
+/// Width of the strokes of tones on paper; without paper, in line widths.
+const HATCH_WIDTH_ON_PAPER: Length = Length::Mm(0.2);
 const HATCH_WIDTH: f64 = 0.4;
 
 /// Hidden lines' width and strength, as shares of their class's.
@@ -523,6 +524,17 @@ mod tests {
             DrawingSettings { line_width: Some(Length::Px(4.0)), ..paper }.width_px(layer, units(Some(3.0))),
             4.0
         );
+    }
+
+    #[test]
+    fn strokes_of_tones_are_as_wide_on_every_paper_whatever_the_style() {
+        let widths = [None, Some(Length::Px(2.5)), Some(Length::ScreenOrPaper { percent: 0.3, mm: 0.35 })];
+        for line_width in widths {
+            let settings = DrawingSettings { line_width, ..base() };
+            let width = |px_per_mm| settings.width_px(Layer::Hatch(1), units(px_per_mm));
+            assert_eq!([width(Some(2.0)), width(Some(5.0))], [0.4, 1.0]);
+            assert_eq!(width(None), settings.width_px(Layer::Outline, units(None)) * 0.4);
+        }
     }
 
     #[test]

@@ -125,8 +125,13 @@ impl SceneParts {
     /// The part of the strokes on an object's cut.
     pub(in crate::lines) fn of_cut(&self, object: usize) -> u32 {
         let Numbers { first, others } = &*self.of_objects[object];
-        let cuts = others.values().copied().filter(|part| self.list[*part as usize].name == SECTION);
+        let cuts = others.values().copied().filter(|part| self.is_of_cut(*part));
         cuts.min().unwrap_or(*first)
+    }
+
+    /// Whether this part is a section's cut.
+    pub(in crate::lines) fn is_of_cut(&self, part: u32) -> bool {
+        self.list.get(part as usize).is_some_and(|part| part.name == SECTION)
     }
 
     fn number(&self, object: usize, key: [u32; 2]) -> u32 {
@@ -167,8 +172,7 @@ impl SceneParts {
     /// The part to which a line of several parts belongs: the first that is drawn and hides others, or else the first that is
     /// drawn. A section's cut comes before all others: its outline is the cut's.
     pub(in crate::lines) fn owner(&self, parts: impl Iterator<Item = u32>) -> u32 {
-        let is_of_section = |part: u32| self.list.get(part as usize).is_some_and(|part| part.name == SECTION);
-        parts.min_by_key(|part| (self.role(*part) as u8, !is_of_section(*part))).unwrap_or(0)
+        parts.min_by_key(|part| (self.role(*part) as u8, !self.is_of_cut(*part))).unwrap_or(0)
     }
 
     /// The classes of a part's lines: none if it is not drawn.

@@ -1,9 +1,9 @@
-//! The lines that a drawing leaves out, because it draws another line that overlaps them in their place: hidden lines, and those of
-//! ghosts, which no face of their own hides.
+//! The lines that a drawing leaves out, because it draws another line that overlaps them in their place: hidden lines, those of
+//! ghosts, which no face of their own hides, and the strokes of a cut seen edge-on.
 //!
 //! In: pieces of lines. Out: the same pieces, those lines cut where such a line begins or ends, and marked. A visible line replaces
-//! every hidden one under it, and one of a solid part every ghost's, except that curves and points replace no line of a surface. Of
-//! hidden lines, and of ghosts', the one of the first class stays, and within one class the first. Lines overlap up to [`JOINED_PX`], which a file of three decimals barely resolves. Trees of visible and of hidden lines find the
+//! every hidden one under it, and one of a solid part every ghost's and every stroke of a cut, except that curves and points replace
+//! no line of a surface. Of hidden lines, of ghosts' and of strokes, the one of the first class stays, and within one class the first. Lines overlap up to [`JOINED_PX`], which a file of three decimals barely resolves. Trees of visible and of hidden lines find the
 //! candidates. The search for a line ends when it is covered as a whole.
 
 use crate::edges::ClassSet;
@@ -24,7 +24,7 @@ const WHOLE: [f64; 2] = [0.0, 1.0];
 /// Hidden lines that a thread tests at once.
 const CHUNK: usize = 512;
 
-/// Cuts and marks hidden pieces, and those that are ghosts'.
+/// Cuts and marks hidden pieces, strokes of a cut, and those that are ghosts'.
 ///
 /// # Errors
 ///
@@ -36,6 +36,7 @@ pub(in crate::lines) fn marked(
     progress: &Progress,
 ) -> Result<Vec<LineSegment>> {
     let rank = |segment: &LineSegment| match segment.is_visible {
+        true if is_free(segment) && scene_parts.is_of_cut(segment.part) => Rank::Stroke,
         true if is_free(segment) || !scene_parts.may_be_of_ghost(segment) => Rank::Solid,
         true => Rank::Ghost,
         false => Rank::Hidden,
@@ -74,6 +75,8 @@ pub(in crate::lines) fn marked(
 enum Rank {
     /// Visible lines of parts that hide others, and curves and points. None replaces another.
     Solid,
+    /// Visible strokes of a cut.
+    Stroke,
     /// Visible lines of ghosts.
     Ghost,
     Hidden,

@@ -291,6 +291,12 @@ fn spacing_is_in_millimetres_on_paper_or_in_widths_of_a_stroke() {
     let px_per_mm = ((high - low) / DVec2::new(180.0, 267.0)).max_element();
     let on_sheet = DrawingSettings { page_size: sheet, ..settings(Length::Mm(3.0), 0.0) };
     assert!((gap(&on_sheet) - 3.0 * px_per_mm).abs() < 1e-9, "{px_per_mm}");
+    // Of `auto`, whatever the style's lines are.
+    for line_width in [Length::Px(2.5), Length::Percent(0.4), Length::ScreenOrPaper { percent: 0.3, mm: 0.35 }] {
+        let auto = settings(Length::Times(6.0), 0.0);
+        let auto = DrawingSettings { line_width: Some(line_width), page_size: sheet, ..auto };
+        assert!((gap(&auto) - 1.2 * px_per_mm).abs() < 1e-9, "{line_width}");
+    }
     let mut wide = settings(Length::Times(4.0), 0.0);
     assert!((gap(&wide) - 3.2).abs() < 1e-9, "0.4 of 2 pixels");
     wide.class_widths = "hatch=2.5".parse().unwrap();
