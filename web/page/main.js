@@ -289,6 +289,12 @@ const lecture = lectures(app, { shader: shaders.show, controls: controls.all });
 const save = saving(app);
 const why = asking(app);
 
+/** Draws with WebGL from now on, or without it; what needs it is hidden then. */
+function use(made) {
+  pane = made;
+  document.body.classList.toggle("lines-only", !made);
+}
+
 /** Opens WebGL, or explains why it failed. */
 function begin() {
   const canvas = document.createElement("canvas");
@@ -297,12 +303,12 @@ function begin() {
     lasts("webgl", "This browser's WebGL was lost; the exact lines are shown until it is back. If it does not come back, load the page again.");
     // Now, while nothing comes of it: whenever else it is collected, it deletes objects that the context it has again does not know.
     pane?.free();
-    pane = undefined;
+    use(undefined);
     draw();
   });
   canvas.addEventListener("webglcontextrestored", () => {
     try {
-      pane = new Pane(canvas);
+      use(new Pane(canvas));
       pane.show(shown.read);
       shaders.draw();
       if (state.orbit) pane.setOrbit(state.orbit);
@@ -316,9 +322,10 @@ function begin() {
     }
   });
   try {
-    pane = new Pane(canvas);
+    use(new Pane(canvas));
     if (state.orbit) pane.setOrbit(state.orbit);
   } catch (problem) {
+    use(undefined);
     lasts("webgl", `${problem.message} Only the exact lines are shown.`);
   }
   return canvas;

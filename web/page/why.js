@@ -37,5 +37,5 @@ export function asking({ state, pane, visible, sideOptions }) {
   function forget() {
     at("asked").hidden = at("why").hidden = true;
   }
-  return { asks: (event) => event.altKey || asks(), ask, forget };
+  return { asks: (event) => pane() && (event.altKey || asks()), ask, forget };
 }

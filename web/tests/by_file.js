@@ -62,6 +62,16 @@ await named("a side of lines shows them", async () => {
   await until(hasLines, "the lines of the look technical");
 });
 
+await named("what needs WebGL is offered where it is", () => {
+  const isShown = (id) => at(id).getClientRects().length > 0;
+  for (const id of ["ask", "whole", "dividing", "listings", "left-side"]) assert(isShown(id) === !isExactOnly(), id);
+  assert(isShown("svg"), "the exact lines can be saved anywhere");
+  if (!isExactOnly()) return;
+  at("stage").setPointerCapture = () => {};
+  for (const event of ["pointerdown", "pointerup"]) at("stage").dispatchEvent(new PointerEvent(event, { altKey: true, pointerId: 1 }));
+  assert(at("why").hidden, at("why").textContent);
+});
+
 await named("the other side's error against them is said", async () => {
   if (isExactOnly()) return "SKIPPED: this browser has no WebGL here";
   await until(() => cost("right").includes("line error 0."), "the error");

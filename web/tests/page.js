@@ -359,10 +359,13 @@ export async function testPage(tables) {
     context.loseContext();
     await until(() => at("problem").textContent.includes("lost"), "the sentence");
     await until(() => !at("exact").hidden && at("exact").querySelector("svg"), "the exact lines");
+    const isOffered = () => at("ask").getClientRects().length > 0 || at("left-side").getClientRects().length > 0;
+    assert(!isOffered(), "what needs it is hidden");
     context.restoreContext();
     await until(() => at("status").textContent.includes("back"), "the context");
     await settled();
     assert(at("problem").hidden && at("exact").hidden && differing(before, picture(at("left")), 0) === 0, "the same picture again");
+    assert(isOffered(), "what needs it is back");
   });
 
   await test("the page fits 320 pixels and follows a new size", async () => {
