@@ -41,7 +41,7 @@ pub use target::{Attachment, Attachments, Format, SettingValue, Target, TextureN
 pub use tiles::{Tile, TileLimits};
 
 use crate::mesh::{Part, VertexArrays};
-use crate::scene::Rectangle;
+use crate::scene::{Color, Object, Rectangle, Scene};
 use std::fmt;
 use std::sync::Arc;
 
@@ -212,8 +212,6 @@ pub enum Paint {
     Materials,
     /// One colour for all: red, green, blue, alpha.
     Uniform([f32; 4]),
-    /// White, with a number for each object and material as alpha.
-    Numbers,
     /// White, with a coordinate for each vertex for the first texture unit: a list per object, in the scene's order, with an
     /// entry for each of [`crate::mesh::VertexArrays::vertices`].
     Coordinates(Arc<Vec<Arc<Vec<[f32; 2]>>>>),
@@ -222,11 +220,16 @@ pub enum Paint {
 }
 
 impl Paint {
-    /// The number of an object's material, in steps of 1/255: neighbours in the scene differ, and none is the background's 1.
-    pub(crate) fn number(object: usize, material: u32) -> f32 {
-        // Primes to 255: all numbers come before one is repeated.
-        let steps = (object * 89 + material.wrapping_add(1) as usize * 34) % 255;
-        steps as f32 / 255.0
+    /// The colour of an object's faces of a material, where their vertices do not colour them.
+    pub(crate) fn color(&self, scene: &Scene, object: &Object, material: u32) -> [f32; 4] {
+        match self {
+            Self::Materials => {
+                let Color([red, green, blue]) = scene.material_color(&object.mesh, material);
+                [red, green, blue, 1.0]
+            }
+            Self::Uniform(color) => *color,
+            Self::Coordinates(_) | Self::Colors(_) => [1.0; 4],
+        }
     }
 }
 

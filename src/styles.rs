@@ -295,14 +295,16 @@ impl Style {
             let remark = "the model's textures or colours at vertices are not drawn; --surface textured draws them";
             remarks.push(remark.to_owned());
         }
-        let draws_curves = matches!(self, Self::Inking(_));
-        if !draws_curves && scene.objects.iter().any(|object| object.mesh.curves.has_own()) {
-            remarks.push(
-                "the model's own curves and points are not drawn; --style lines draws them, and inking beside faces"
-                    .to_owned(),
-            );
-        }
         remarks
+    }
+
+    /// A remark on curves and points of the scene that this style does not draw.
+    pub(crate) fn curves_remark(&self, scene: &Scene) -> Option<String> {
+        let draws_curves = matches!(self, Self::Inking(_));
+        let has_own = !draws_curves && scene.objects.iter().any(|object| object.mesh.curves.has_own());
+        let remark =
+            "the model's own curves and points are not drawn; --style lines draws them, and inking beside faces";
+        has_own.then(|| remark.to_owned())
     }
 
     /// Whether the scene has textures that this style could draw but does not.

@@ -1,6 +1,6 @@
 #version 120
 // The normal as a colour, 0.5 n + 0.5, and in alpha the object's number. From improved/map-biased.vert.
-// In:  gl_Vertex, gl_Normal, gl_Color.a: the number, one for each object and material; the fixed-function matrices.
+// In:  gl_Vertex, gl_Normal, gl_Color.a: the number, one for each part and material; the fixed-function matrices.
 // Out: gl_FrontColor.xyz, the normal in eye space, from [-1, 1] to [0, 1]; gl_FrontColor.a, the number.
 
 void main() {

@@ -247,7 +247,7 @@ fn tell(rendering: &Rendering<'_>, drawn: DrawnPicture, renderer: &mut Renderer)
                 ("first frame", first_frame_ms),
             ],
         ];
-        text.push_str(&explain::start(&start.concat()));
+        text.push_str(&(explain::start(&start.concat()) + &explain::harmless(&scene)));
         return super::print(&text);
     }
     let (frame_ms, passes) = timed.unzip();

@@ -9,7 +9,7 @@ use super::objects::Buffer;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Part, VertexArrays};
 use crate::plan::{Draw, FaceList, Faces, Geometry, Paint, Plan, Step, Submission};
-use crate::scene::{Color, Object, Scene};
+use crate::scene::{Object, Scene};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -123,7 +123,7 @@ impl Resources {
                     self.gl.cull(draw.cull_back_faces || part.is_doubled);
                 }
                 // SAFETY: the context is current.
-                unsafe { self.gl.legacy.color(color_of(paint, scene, number, part)) };
+                unsafe { self.gl.legacy.color(paint.color(scene, object, part.material)) };
                 if self.submission != Submission::Buffers {
                     let has_normals = draw.program.is_some();
                     let faces = RunOfFaces { object, listed, part, lists, material_unit, has_normals };
@@ -212,20 +212,6 @@ fn buffer_of<'a, T>(present: &'a [OfVertices<T>], list: &Arc<Vec<T>>) -> Result<
     found.map(|present| &present.buffer).ok_or_else(of_another_scene)
 }
 
-/// The colour of a part that its vertices do not colour.
-fn color_of(paint: &Paint, scene: &Scene, number: usize, part: &Part) -> [f32; 4] {
-    let object = &scene.objects[number];
-    match paint {
-        Paint::Materials => {
-            let Color([red, green, blue]) = scene.material_color(&object.mesh, part.material);
-            [red, green, blue, 1.0]
-        }
-        Paint::Uniform(color) => *color,
-        Paint::Numbers => [1.0, 1.0, 1.0, Paint::number(number, part.material)],
-        Paint::Coordinates(_) | Paint::Colors(_) => [1.0; 4],
-    }
-}
-
 /// A paint's data for each vertex of an object.
 #[derive(Clone, Copy, Default)]
 struct PaintLists<'a> {
@@ -239,7 +225,7 @@ impl<'a> PaintLists<'a> {
             lists.get(object).filter(|list| list.len() == vertex_count).ok_or_else(of_another_scene)
         }
         Ok(match paint {
-            Paint::Materials | Paint::Uniform(_) | Paint::Numbers => Self::default(),
+            Paint::Materials | Paint::Uniform(_) => Self::default(),
             Paint::Coordinates(lists) => {
                 Self { coordinates: Some(list(lists, object, vertex_count)?), ..Self::default() }
             }

@@ -3,7 +3,7 @@
 use crate::gl::square::Square;
 use crate::mesh::{NONE, Part, VertexArrays};
 use crate::plan::{Draw, Faces, Geometry, Paint};
-use crate::scene::{Color, Scene};
+use crate::scene::Scene;
 use glam::{DMat3, DVec3, Mat4, Vec4};
 
 /// The matrices and arrays that a group of triangles is drawn with.
@@ -124,7 +124,7 @@ impl<'a> Triangles<'a> {
         match paint {
             Paint::Coordinates(lists) => coordinates[0] = lists.get(number).map_or(&[], |list| list.as_slice()),
             Paint::Colors(lists) => colors = lists.get(number).map_or(&[], |list| list.as_slice()),
-            Paint::Materials | Paint::Uniform(_) | Paint::Numbers => {}
+            Paint::Materials | Paint::Uniform(_) => {}
         }
         if let Some(slot) = unit.and_then(|unit| coordinates.get_mut(unit)) {
             *slot = &arrays.texture_coordinates;
@@ -139,15 +139,7 @@ impl<'a> Triangles<'a> {
         });
         let clip = self.clip_of_last_group();
         for part in parts {
-            let color = match paint {
-                Paint::Materials => {
-                    let Color([red, green, blue]) = scene.material_color(&object.mesh, part.material);
-                    [red, green, blue, 1.0]
-                }
-                Paint::Uniform(color) => *color,
-                Paint::Numbers => [1.0, 1.0, 1.0, Paint::number(number, part.material)],
-                Paint::Coordinates(_) | Paint::Colors(_) => [1.0; 4],
-            };
+            let color = paint.color(scene, object, part.material);
             let first = part.first as usize;
             for (place, corners) in indices[first..first + part.count as usize].as_chunks::<3>().0.iter().enumerate() {
                 let place = first / 3 + place;

@@ -68,7 +68,6 @@ impl fmt::Display for Draw {
         match &self.geometry {
             Geometry::Objects(Paint::Materials) => write!(out, "draw the objects")?,
             Geometry::Objects(Paint::Uniform([r, g, b, a])) => write!(out, "draw the objects in ({r}, {g}, {b}, {a})")?,
-            Geometry::Objects(Paint::Numbers) => write!(out, "draw the objects in their numbers")?,
             Geometry::Objects(Paint::Coordinates(_)) => write!(out, "draw the objects by texture coordinates")?,
             Geometry::Objects(Paint::Colors(_)) => write!(out, "draw the objects in colours of their vertices")?,
             Geometry::Edges { runs, mark, width_px, is_smooth, line_drawing } => {

@@ -4,7 +4,7 @@ use super::{Ground, Request};
 use crate::clock::{Instant, milliseconds_since};
 use crate::error::Result;
 use crate::lines::{
-    Progress, Regions, Strokes, ground_light, ground_shadow, lay_area, lay_over, lay_strokes, lay_strokes_by,
+    Progress, Region, Regions, Strokes, ground_light, ground_shadow, lay_area, lay_over, lay_strokes, lay_strokes_by,
     raster_of_strokes,
 };
 use crate::picture::Picture;
@@ -94,15 +94,20 @@ impl Around {
     /// Puts the picture of a plan between ground and lines.
     pub(super) fn put(&self, plan: &Plan, picture: &mut Picture) {
         if let Some((shadow, color)) = &self.shadow {
-            self.put_on(shadow, *color, picture);
+            self.put_on(&shadow.regions, *color, picture);
         }
         lay(&self.strokes, plan, picture);
     }
 
-    /// Puts a picture without a background on the ground.
-    fn put_on(&self, shadow: &Regions<()>, color: Color, picture: &mut Picture) {
+    /// Puts the picture of an empty scene on the ground.
+    pub(super) fn put_bare(&self, picture: &mut Picture) {
+        self.shadow.iter().for_each(|(_, color)| self.put_on(&[], *color, picture));
+    }
+
+    /// Puts a picture without a background on the ground with this shadow.
+    fn put_on(&self, shadow: &[Region<()>], color: Color, picture: &mut Picture) {
         let mut ground = raster_of_strokes(&[], picture.size, self.background).pixels;
-        shadow.regions.iter().for_each(|region| lay_area(&region.loops, color, picture.size, &mut ground));
+        shadow.iter().for_each(|region| lay_area(&region.loops, color, picture.size, &mut ground));
         for (below, pixel) in ground.chunks_exact_mut(4).zip(picture.pixels.chunks_exact(4)) {
             let [red, green, blue, opacity] = [0, 1, 2, 3].map(|channel| f32::from(pixel[channel]) / 255.0);
             lay_over(below, Color([red, green, blue]), opacity);

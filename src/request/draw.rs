@@ -240,19 +240,30 @@ impl Request {
         let start = Instant::now();
         let Pruned { plan, omissions, kept } = self.pruned(&published, &scene, renderer)?;
         times.plan_ms = milliseconds_since(start);
+        let mut remarks = self.picture_remarks(&scene, &plan, renderer);
+        let start = Instant::now();
+        let mut picture = renderer.draw(&scene, &plan)?;
+        times.first_frame_ms = milliseconds_since(start);
+        around.put(&plan, &mut picture);
+        remarks.extend(empty_remark(&scene, &published, Some(&around), &picture, renderer)?);
+        Ok(DrawnPicture { scene, files: Vec::new(), published, plan, omissions, kept, remarks, around, picture, times })
+    }
+
+    /// Returns remarks on the picture that a plan draws of a scene, a sentence each.
+    pub(crate) fn picture_remarks(&self, scene: &Scene, plan: &Plan, renderer: &Renderer) -> Vec<String> {
         let has_no_effect = |option: &&String| {
             let is_drawn = self.has_lines_over() || self.is_of_look(option);
             !is_drawn && is_of_vectors(option, self.style.style_name())
         };
         let of_vectors = self.options.keys().filter(has_no_effect);
-        let ignored = ignored_remark(of_vectors.map(String::as_str), &[self.style.name()]);
-        let mut remarks = [self.style.remarks(&scene), renderer.remarks(&plan), ignored.into_iter().collect()].concat();
-        let start = Instant::now();
-        let mut picture = renderer.draw(&scene, &plan)?;
-        times.first_frame_ms = milliseconds_since(start);
-        remarks.extend(empty_remark(&scene, &published, &picture, renderer)?);
-        around.put(&plan, &mut picture);
-        Ok(DrawnPicture { scene, files: Vec::new(), published, plan, omissions, kept, remarks, around, picture, times })
+        let mut remarks = [self.style.remarks(scene), renderer.remarks(plan)].concat();
+        remarks.extend(match self.has_lines_over() {
+            true => scene.far_remark(),
+            false => self.style.curves_remark(scene),
+        });
+        remarks.extend(scene.cut_remark().filter(|_| self.scene.camera.near.is_none()));
+        remarks.extend(ignored_remark(of_vectors.map(String::as_str), &[self.style.name()]));
+        remarks
     }
 
     /// Reads the models and gets a renderer ready meanwhile, unless the session has one.

@@ -298,6 +298,7 @@ impl Request {
         };
         let mut remarks = scene.crack_remarks();
         remarks.extend(scene.far_remark());
+        remarks.extend(scene.cut_remark().filter(|_| self.scene.camera.near.is_none()));
         let fills = matches!(style.drawing.page_size, PageSize::Paper(_)) && lines.px_per_mm.is_none();
         if fills && self.options.contains_key("height") {
             remarks

@@ -1,8 +1,9 @@
 //! A remark on a picture that shows nothing of its scene: whether it is all background, and why.
 //!
-//! The picture decides, not the camera: it is compared with the same plan without the scene. That costs a frame, so it is
+//! The picture decides, lines included, not the camera: it is compared with the same plan without the scene. That costs a frame, so it is
 //! done only for a picture of one colour, or where no face surely covers a pixel.
 
+use super::Around;
 use crate::error::Result;
 use crate::picture::Picture;
 use crate::plan::{Geometry, Plan, Step};
@@ -10,7 +11,8 @@ use crate::renderer::Renderer;
 use crate::scene::{Scene, Unseen};
 use crate::values::short;
 
-/// Returns a remark if this picture, drawn by this plan as published, is all background; `None` for any other picture.
+/// Returns a remark if this picture, drawn by this plan as published with what lies around it, is all background; `None` for any
+/// other picture.
 ///
 /// # Errors
 ///
@@ -18,6 +20,7 @@ use crate::values::short;
 pub fn empty_remark(
     scene: &Scene,
     published: &Plan,
+    around: Option<&Around>,
     picture: &Picture,
     renderer: &mut Renderer,
 ) -> Result<Option<String>> {
@@ -27,8 +30,9 @@ pub fn empty_remark(
     if unseen.is_none() && !picture.is_of_one_color() {
         return Ok(None);
     }
-    let is_empty = renderer.draw(scene, &ground)? == *picture;
-    Ok(is_empty.then(|| format!("the picture is empty: {}", reason(scene, unseen))))
+    let mut below = renderer.draw(scene, &ground)?;
+    around.inspect(|around| around.put_bare(&mut below));
+    Ok((below == *picture).then(|| format!("the picture is empty: {}", reason(scene, unseen))))
 }
 
 /// The plan without its draws of the scene; `None` if it has none.
@@ -108,7 +112,7 @@ mod tests {
                     let Ok(plan) = style.plan(&scene, Show::Final) else { continue };
                     let Ok(picture) = renderer.draw(&scene, &plan) else { continue };
                     let ground = renderer.draw(&scene, &without_scene(&plan).unwrap()).unwrap();
-                    let remark = empty_remark(&scene, &plan, &picture, &mut renderer).unwrap();
+                    let remark = empty_remark(&scene, &plan, None, &picture, &mut renderer).unwrap();
                     assert_eq!(
                         remark.is_some(),
                         picture == ground,
@@ -130,7 +134,7 @@ mod tests {
         let mut plan = Style::named(StyleName::Phong).plan(&scene, Show::Final).unwrap();
         let mut renderer = Renderer::new(Backend::Auto).unwrap();
         let picture = renderer.draw(&scene, &plan).unwrap();
-        assert_eq!(empty_remark(&scene, &plan, &picture, &mut renderer).unwrap(), None);
+        assert_eq!(empty_remark(&scene, &plan, None, &picture, &mut renderer).unwrap(), None);
         // Without light, shaders and colours every face is white.
         for step in plan.passes.iter_mut().flat_map(|pass| &mut pass.steps) {
             if let Step::Draw(draw) = step {
@@ -140,7 +144,7 @@ mod tests {
             }
         }
         let picture = renderer.draw(&scene, &plan).unwrap();
-        let remark = empty_remark(&scene, &plan, &picture, &mut renderer).unwrap().unwrap();
+        let remark = empty_remark(&scene, &plan, None, &picture, &mut renderer).unwrap().unwrap();
         assert!(remark.starts_with("the picture is empty: what is drawn has the background's colour"), "{remark}");
     }
 }

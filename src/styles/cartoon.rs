@@ -204,7 +204,7 @@ impl Cartoon {
             let facts = Facts::constant(encoding.background());
             steps.push(Step::Draw(Draw { depth: Depth::Ignore, facts, ..square }));
         }
-        steps.push(Step::Draw(draw(Geometry::Objects(encoding.paint()))));
+        steps.push(Step::Draw(draw(Geometry::Objects(encoding.paint(scene)))));
         // The picture of a map is in the framebuffer.
         let target = if is_read { encoding.target(self.map_target) } else { Target::Framebuffer };
         if is_read && target == Target::Framebuffer {

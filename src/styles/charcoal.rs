@@ -26,7 +26,7 @@ use crate::picture::Picture;
 use crate::plan::{
     Depth, Draw, Facts, Geometry, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
 };
-use crate::scene::{Background, Scene, Size};
+use crate::scene::{Background, Object, Scene, Size};
 use crate::textures::{ContrastTexture, Generator, NoiseTexture};
 use std::sync::Arc;
 
@@ -177,14 +177,8 @@ impl Charcoal {
         if self.improve.two_sided || self.cull_back_faces {
             return Vec::new();
         }
-        let mut meshes: Vec<&Arc<Mesh>> = Vec::new();
-        for object in &scene.objects {
-            if !meshes.iter().any(|known| Arc::ptr_eq(known, &object.mesh)) {
-                meshes.push(&object.mesh);
-            }
-        }
-        let remark = |mesh: &&Arc<Mesh>| {
-            let (name, doubled) = (&mesh.name, doubled_faces(mesh));
+        let remark = |object: &Object| {
+            let (name, doubled) = (&object.mesh.name, doubled_faces(&object.mesh));
             let pairs = if doubled == 1 { "pair of faces lies" } else { "pairs of faces lie" };
             let remark = format!(
                 "{name}: {doubled} {pairs} on each other, one each way, and the one that faces away may be seen; --improve \
@@ -192,7 +186,7 @@ impl Charcoal {
             );
             (doubled > 0).then_some(remark)
         };
-        meshes.iter().filter_map(remark).collect()
+        scene.originals().filter_map(remark).collect()
     }
 
     /// Paper and drawing.

@@ -85,13 +85,10 @@ impl<'a> Gradients<'a> {
     /// Returns one value for each object; copies with the same orientation to the light share theirs.
     pub(super) fn of_objects<T: Clone>(&self, make: impl Fn(usize, &Object) -> T) -> Arc<Vec<T>> {
         let objects = &self.scene.objects;
-        let mut made: Vec<T> = Vec::with_capacity(objects.len());
-        for (number, object) in objects.iter().enumerate() {
-            let is_copy = |earlier: &Object| Arc::ptr_eq(&earlier.mesh, &object.mesh);
-            let same = (self.row != RampRow::Object).then(|| objects[..number].iter().position(is_copy)).flatten();
-            made.push(same.map_or_else(|| make(number, object), |earlier| made[earlier].clone()));
-        }
-        Arc::new(made)
+        Arc::new(match self.row {
+            RampRow::Object => objects.iter().enumerate().map(|(number, object)| make(number, object)).collect(),
+            _ => self.scene.of_meshes(make),
+        })
     }
 }
 

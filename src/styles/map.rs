@@ -1,7 +1,11 @@
 //! The map of the cartoon styles: how normals and depth are stored between the passes (errata E6 to E8).
 
+use super::gradients::VertexLists;
 use crate::plan::{Attachment, Attachments, Format, Paint, Program, SettingValue, Target, Texture, TextureName};
+use crate::scene::{Object, Scene};
 use crate::settings::Setting;
+use std::collections::HashMap;
+use std::sync::Arc;
 
 tinta_geometry::choices! {
     /// How normals and depth are stored.
@@ -18,8 +22,8 @@ tinta_geometry::choices! {
         Float = "float",
         /// Normals as 0.5 n + 0.5, depth from a copy of the depth buffer.
         DepthTexture = "depth-texture",
-        /// Normals as 0.5 n + 0.5 and, instead of depth, a number for each object and material: the map of Mitchell 2002, whose
-        /// filter sees where two objects touch.
+        /// Normals as 0.5 n + 0.5 and, instead of depth, a number for each part and material of an object: the map of Mitchell 2002,
+        /// whose filter sees where two objects touch.
         Numbers = "numbers",
     }
 }
@@ -27,7 +31,7 @@ tinta_geometry::choices! {
 impl MapEncoding {
     /// The setting's help text.
     pub(super) const HELP: &'static str = "Storage of normals and depth: paper, biased (0.5 n + 0.5), float16, float, \
-         depth-texture (biased, depth from the depth buffer), numbers (biased, objects' numbers instead of depth); mrt has paper only";
+         depth-texture (biased, depth from the depth buffer), numbers (biased, parts' numbers instead of depth); mrt has paper only";
 
     /// Returns the shaders that write it.
     pub(super) fn program(self) -> Program {
@@ -40,9 +44,9 @@ impl MapEncoding {
         Program::new(vertex, [fragment])
     }
 
-    /// What the objects are drawn in.
-    pub(super) fn paint(self) -> Paint {
-        if self == Self::Numbers { Paint::Numbers } else { Paint::Materials }
+    /// What a scene's objects are drawn in.
+    pub(super) fn paint(self, scene: &Scene) -> Paint {
+        if self == Self::Numbers { Paint::Colors(numbers(scene)) } else { Paint::Materials }
     }
 
     /// The map's value for a pixel that neither object nor square covers: no normal, farthest depth.
@@ -98,6 +102,36 @@ impl MapEncoding {
         }
     }
 }
+
+/// White, with a number as alpha for each part and material of an object: neighbours differ much, and none has the background's 1.
+fn numbers(scene: &Scene) -> VertexLists<[f32; 4]> {
+    let mut first = 0;
+    // Copies with the same numbers share their list.
+    let mut known = HashMap::new();
+    let list = |object: &Object| {
+        let (list, count) = known.entry((Arc::as_ptr(&object.mesh), first % NUMBERS)).or_insert_with(|| {
+            let (arrays, mut numbers) = (scene.arrays(object), HashMap::new());
+            let mut colors = vec![[1.0; 4]; arrays.vertices.len()];
+            for (face, corners) in arrays.order.iter().zip(arrays.indices.as_chunks::<3>().0) {
+                let next = first + numbers.len();
+                let number = *numbers.entry(object.mesh.part_and_material(*face as usize)).or_insert(next);
+                corners
+                    .iter()
+                    .for_each(|corner| colors[*corner as usize][3] = (number * STEP % NUMBERS) as f32 / 255.0);
+            }
+            (Arc::new(colors), numbers.len())
+        });
+        first += *count;
+        list.clone()
+    };
+    Arc::new(scene.objects.iter().map(list).collect())
+}
+
+/// The numbers that 8 bits hold beside the background's.
+const NUMBERS: usize = 255;
+
+/// The step from a number to the next: prime to their count, so all of them come before one is repeated.
+const STEP: usize = 38;
 
 tinta_geometry::choices! {
     /// How the map gets from the pass that draws it to the one that reads it.
@@ -160,3 +194,58 @@ const FLOAT_MAP: Attachments = Attachments {
     asked_by: SettingValue { setting: "map-encoding", value: "float" },
     ..FLOAT16_MAP
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{LoadOptions, read_bytes};
+    use crate::scene::SceneSettings;
+    use std::collections::BTreeSet;
+
+    /// A row of so many flush squares, each a part and of a material of its own where asked.
+    fn row(count: usize, has_parts: bool, has_materials: bool, copies: u32) -> Scene {
+        let (mut model, mut materials) = ("mtllib m.mtl\n".to_owned(), String::new());
+        for number in 0..=count {
+            model += &format!("v {number} 0 0\nv {number} 1 0\n");
+        }
+        for number in 0..count {
+            let [a, b, c, d] = [1, 3, 4, 2].map(|corner| corner + number * 2);
+            let part = if has_parts { format!("o part{number}\n") } else { String::new() };
+            let material = if has_materials { format!("usemtl m{number}\n") } else { String::new() };
+            model += &format!("{part}{material}f {a} {b} {c} {d}\n");
+            materials += &format!("newmtl m{number}\nKd 1 0 0\n");
+        }
+        let beside: [(&str, &[u8]); 1] = [("m.mtl", materials.as_bytes())];
+        let mesh = read_bytes(model.as_bytes(), "row.obj", &beside, &LoadOptions::default()).unwrap().mesh;
+        Scene::new([mesh], &SceneSettings { copies, ..SceneSettings::default() }).unwrap()
+    }
+
+    /// The numbers of each object's faces, in drawing order, in 1/255.
+    fn of_faces(scene: &Scene) -> Vec<Vec<u8>> {
+        let lists = numbers(scene);
+        let of_object = |(object, list): (&Object, &Arc<Vec<[f32; 4]>>)| {
+            let face = |corners: &[u32]| {
+                let numbers: Vec<u8> = corners.iter().map(|it| (list[*it as usize][3] * 255.0).round() as u8).collect();
+                assert!(numbers.windows(2).all(|pair| pair[0] == pair[1]), "a face has one number");
+                numbers[0]
+            };
+            scene.arrays(object).indices.chunks(3).map(face).collect()
+        };
+        scene.objects.iter().zip(lists.iter()).map(of_object).collect()
+    }
+
+    #[test]
+    fn each_part_and_material_has_its_number_until_all_are_used() {
+        let distinct = |scene: &Scene| of_faces(scene).concat().into_iter().collect::<BTreeSet<u8>>();
+        for (has_parts, has_materials) in [(true, false), (false, true), (true, true)] {
+            for count in [1, 2, 16, 255, 300] {
+                let found = distinct(&row(count, has_parts, has_materials, 1));
+                assert_eq!(found.len(), count.min(255), "{count} {has_parts} {has_materials}");
+                assert!(!found.contains(&255), "which is the background's");
+            }
+        }
+        assert_eq!(distinct(&row(3, false, false, 1)).len(), 1, "one surface has one number");
+        assert_eq!(distinct(&row(3, true, false, 5)).len(), 15, "copies are objects, too");
+        assert_eq!(distinct(&row(2, true, false, 200)).len(), 255);
+    }
+}

@@ -3,7 +3,6 @@
 use super::Style;
 use crate::mesh::{Defects, Mesh};
 use crate::scene::Scene;
-use std::sync::Arc;
 
 /// Whether a model of the scene has faces that lie on each other, one each way.
 pub(super) fn has_doubled_faces(scene: &Scene) -> bool {
@@ -50,11 +49,5 @@ pub(super) fn of_averaged_normals(scene: &Scene) -> Vec<String> {
 
 /// The remarks on the scene's meshes, each once.
 fn of_models(scene: &Scene, remark: impl Fn(&Mesh, &Defects) -> Option<String>) -> Vec<String> {
-    let mut meshes: Vec<&Arc<Mesh>> = Vec::new();
-    for object in &scene.objects {
-        if !meshes.iter().any(|known| Arc::ptr_eq(known, &object.mesh)) {
-            meshes.push(&object.mesh);
-        }
-    }
-    meshes.iter().filter_map(|mesh| remark(mesh, &mesh.defects)).collect()
+    scene.originals().filter_map(|object| remark(&object.mesh, &object.mesh.defects)).collect()
 }

@@ -3,6 +3,7 @@
 use crate::program::{answer, done, refused_in_one_line, said, tinta};
 use crate::support::{Folder, root};
 use serde_json::Value;
+use tinta::Picture;
 
 /// A plate, faces 0 and 1, and a cube before its lower edge.
 const PLATE_AND_CUBE: &[u8] = b"v -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\n\
@@ -397,5 +398,23 @@ fn uniforms_that_nothing_sets_are_named_once() {
         let expected = "tinta: nothing sets DiffuseWarm, Noise, WarmColor of your phong/phong.frag: numbers are 0";
         assert_eq!(said.matches("nothing sets").count(), 1, "{said}");
         assert!(said.contains(expected), "{said}");
+    }
+}
+
+#[test]
+fn a_pixel_under_an_exact_line_has_the_colour_of_the_picture() {
+    let folder = Folder::new();
+    let out = folder.path("gear.png");
+    done(&["render", "builtin:gear", "-o", &out, "--size", "96"]);
+    let picture = Picture::read_png(&out).unwrap();
+    let places = (0..96 * 96).map(|place| (place % 96, place / 96));
+    let dark: Vec<(i64, i64)> = places.filter(|(x, y)| picture.pixel(*x, *y)[0] < 90).collect();
+    assert!(dark.len() > 100, "{}", dark.len());
+    for (x, y) in dark.iter().step_by(dark.len() / 3) {
+        let [red, green, blue, _] = picture.pixel(*x, *y);
+        let output = done(&["why", &out, &format!("{x},{y}")]);
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(text.starts_with(&format!("With its lines the pixel is [{red}, {green}, {blue}].\n")), "{text}");
+        assert!(text.contains("\nBelow the lines:\n"), "{text}");
     }
 }

@@ -479,7 +479,6 @@ fn curves_and_points_are_inked_in_front_of_faces_and_beside_them_and_not_behind(
                     let scene = with_free_lines([height; 3]);
                     let style =
                         Inking { line_drawing, has_joints, colors, paint: PaintMode::None, ..Inking::default() };
-                    assert!(Style::Inking(style.clone()).remarks(&scene).iter().all(|it| !it.contains("curves")));
                     let picture = draw(&mut renderer, &scene, style, Show::Final);
                     let has = |point: DVec3, color: [bool; 3]| {
                         let (x, y) = pixel(&scene, point);

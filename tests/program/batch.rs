@@ -27,7 +27,7 @@ fn a_jobs_options_are_those_of_the_command_line_and_its_pictures_too() {
     let preset = folder.file("mine.toml", b"tones = 2\n");
     let [_, second] = backend_names();
     let by_second = format!(r#","backend":"{second}","style":"ink""#);
-    let pairs: [(&str, &str, &[&str]); 6] = [
+    let pairs: [(&str, &str, &[&str]); 7] = [
         ("plain", "", &[]),
         (
             "numbers",
@@ -39,6 +39,7 @@ fn a_jobs_options_are_those_of_the_command_line_and_its_pictures_too() {
             r#","parallel":true,"transparent":true,"full":false"#,
             &["--parallel", "--background", "transparent"],
         ),
+        ("ground", r#","background":"transparent""#, &["--background", "transparent"]),
         (
             "styles",
             r#","style":"inking","joints":false,"silhouette":"exact""#,

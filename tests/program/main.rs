@@ -24,6 +24,7 @@ mod presets;
 #[path = "../support/program.rs"]
 mod program;
 mod recipes;
+mod remarks;
 #[path = "../../crates/tinta-geometry/tests/support/rendered.rs"]
 mod rendered;
 mod standard_output;

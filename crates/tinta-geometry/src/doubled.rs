@@ -15,7 +15,7 @@
 
 use crate::bvh::{Box3, BoxTree};
 use crate::limits::DOUBLED_FACES;
-use crate::mesh::{Mesh, triangle_normal};
+use crate::mesh::{Mesh, outside::pairs, triangle_normal};
 use crate::tolerances::{DOUBLED, DOUBLED_AREA};
 use glam::DVec3;
 
@@ -24,25 +24,26 @@ const PAIRS_OF_A_FACE: usize = 100;
 
 /// A face, its middle and how near another must come.
 struct Face {
+    number: u32,
     corners: [DVec3; 3],
     middle: DVec3,
     near: f64,
 }
 
-/// Returns the number of pairs of faces that lie on each other, one each way, and do not keep their sides apart. Faces too
-/// small to matter in a picture do not count, nor do meshes of more than [`DOUBLED_FACES`] faces.
+/// Returns the number of pairs of faces that lie on each other, one each way, do not keep their sides apart, and may be seen. Faces
+/// too small to matter in a picture do not count, nor do meshes of more than [`DOUBLED_FACES`] faces.
 pub fn doubled_faces(mesh: &Mesh) -> usize {
     if mesh.triangles.len() > DOUBLED_FACES {
         return 0;
     }
     let (low, high) = mesh.bounds();
     let origin = (low + high) * 0.5;
-    let face = |triangle: &[u32; 3]| {
+    let face = |(number, triangle): (u32, &[u32; 3])| {
         let corners @ [a, b, c] = triangle.map(|corner| mesh.positions[corner as usize] - origin);
         let shortest = a.distance(b).min(b.distance(c)).min(c.distance(a));
-        Face { corners, middle: (a + b + c) / 3.0, near: shortest * DOUBLED }
+        Face { number, corners, middle: (a + b + c) / 3.0, near: shortest * DOUBLED }
     };
-    let faces: Vec<Face> = mesh.triangles.iter().map(face).collect();
+    let faces: Vec<Face> = (0..).zip(&mesh.triangles).map(face).collect();
     let area = |face: &Face| {
         let [a, b, c] = face.corners;
         (b - a).cross(c - a).length()
@@ -52,14 +53,16 @@ pub fn doubled_faces(mesh: &Mesh) -> usize {
     let boxes: Vec<Box3> =
         faces.iter().map(|face| Box3::new(face.middle - face.near, face.middle + face.near)).collect();
     let (tree, order) = BoxTree::new(&boxes);
-    let (mut doubled, mut looked_at) = (0, 0);
+    let (mut doubled, mut looked_at) = (Vec::new(), 0);
     tree.pairs(|first, second| {
         let [first, second] = [first, second].map(|place| &faces[order[place as usize] as usize]);
-        doubled += usize::from(are_doubled(first, second));
+        if are_doubled(first, second) {
+            doubled.push([first.number, second.number]);
+        }
         looked_at += 1;
         looked_at > faces.len().saturating_mul(PAIRS_OF_A_FACE)
     });
-    doubled
+    pairs(&mesh.triangles, &mesh.positions, doubled).len()
 }
 
 /// Whether the corners of two faces lie near each other, in opposite order, and the second is not behind the first's back.
@@ -148,6 +151,32 @@ mod tests {
         let triangles: Vec<[u32; 3]> =
             (0..500).map(|number| number * 4).flat_map(|at| [[at, at + 1, at + 2], [at, at + 2, at + 3]]).collect();
         assert_eq!(doubled(&corners, &triangles), 0);
+    }
+
+    #[test]
+    fn pairs_inside_touching_solids_do_not_count_and_pairs_outside_do() {
+        /// Boxes that share their sides along x, and one more pair of faces with these corners.
+        fn with_pair(more: [[f64; 3]; 3]) -> (usize, usize) {
+            let (mut corners, mut triangles) = boxes(3, [1.0; 3], 0.0);
+            let first = corners.len() as u32;
+            corners.extend(more);
+            triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 1]]);
+            let corners = corners.iter().map(|corner| DVec3::from_array(*corner)).collect();
+            let mesh = Mesh::of_triangles("boxes", corners, &triangles, &LoadOptions::default()).unwrap();
+            (doubled_faces(&mesh), mesh.defects.doubled_triangles)
+        }
+        let inside = [[0.2, 0.2, 0.2], [0.8, 0.3, 0.2], [0.3, 0.8, 0.6]];
+        assert_eq!(with_pair(inside), (0, 0), "nor in one of them");
+        let shifted = |by: f64| inside.map(|[x, y, z]| [x, y + by, z]);
+        assert_eq!(with_pair(shifted(5.0)), (1, 1), "beside them");
+        assert_eq!(with_pair(shifted(0.7)), (1, 1), "with its middle outside");
+        // A lid of an open box closes it, but the other side of it is outside.
+        let (corners, mut triangles) = boxes(1, [1.0; 3], 0.0);
+        let lid: Vec<[u32; 3]> = triangles[2..4].iter().map(|[a, b, c]| [*c, *b, *a]).collect();
+        triangles.extend(lid);
+        assert_eq!(doubled(&corners, &triangles), 2);
+        let inward: Vec<[u32; 3]> = boxes(2, [1.0; 3], 0.0).1.iter().map(|[a, b, c]| [*c, *b, *a]).collect();
+        assert_eq!(doubled(&boxes(2, [1.0; 3], 0.0).0, &inward), 0, "whatever their winding");
     }
 
     #[test]

@@ -50,6 +50,7 @@ pub mod threads;
 #[doc(hidden)]
 pub mod values;
 pub mod settings;
+mod bvh;
 
 // From a file to visible lines.
 pub mod camera;
@@ -57,7 +58,6 @@ pub mod mesh;
 pub mod edges;
 #[doc(hidden)]
 pub mod curvature;
-mod bvh;
 #[doc(hidden)]
 pub mod culling;
 #[doc(hidden)]

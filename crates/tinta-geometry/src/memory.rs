@@ -90,7 +90,7 @@ pub(crate) fn check_regions(needed: usize, free: Option<u64>) -> Result<()> {
         None => Ok(()),
         Some(both) => {
             let problem = format!("the areas of this scene take {both}; draw fewer or simpler models at once");
-            Err(Error::setting("copies", problem))
+            Err(Error::setting("areas", problem))
         }
     }
 }
@@ -153,7 +153,7 @@ mod tests {
              without intersection"
         );
         let message = check_regions(5 * gib, Some(3 << 29)).unwrap_err().to_string();
-        let sentence = "copies: the areas of this scene take 5.0 GiB of memory, and 1.5 GiB are free; draw fewer or simpler models at \
+        let sentence = "areas: the areas of this scene take 5.0 GiB of memory, and 1.5 GiB are free; draw fewer or simpler models at \
                         once";
         assert_eq!(message, sentence);
     }

@@ -34,6 +34,7 @@ mod normals;
 mod number;
 mod obj;
 mod options;
+pub(crate) mod outside;
 mod pieces;
 mod ply;
 mod same_polygons;

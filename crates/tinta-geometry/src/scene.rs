@@ -22,7 +22,9 @@
 //! # }
 //! ```
 
+mod copies;
 mod extent;
+mod near_plane;
 mod precision;
 mod turntable;
 mod unseen;
@@ -295,7 +297,7 @@ impl Scene {
         let shadow = corners.iter().map(|point| point - light * ((point.y - ground) / light.y));
         let points = corners.iter().copied().chain(shadow);
         let camera = settings.camera.fit(self.centre, self.radius, settings.size.aspect(), points)?;
-        Ok(Self { camera, ..self })
+        Ok(Self { camera, ..self }.with_near_plane(&settings.camera))
     }
 
     /// The size of the box around all objects, world space.
@@ -327,7 +329,7 @@ impl Scene {
             hidden_faces_rest: Arc::default(),
         };
         scene.check_distance()?;
-        Ok(scene)
+        Ok(scene.with_near_plane(&settings.camera))
     }
 
     /// The vertex arrays of an object of this scene: in scene radii, around the mesh's centre.
@@ -442,27 +444,16 @@ impl Scene {
         if !self.objects.iter().any(|object| self.shows_vertex_colors(&object.mesh)) {
             return None;
         }
-        let mut lists: Vec<Arc<Vec<[f32; 4]>>> = Vec::with_capacity(self.objects.len());
-        for object in &self.objects {
-            let same = self.objects[..lists.len()].iter().position(|earlier| Arc::ptr_eq(&earlier.mesh, &object.mesh));
+        Some(self.of_meshes(|_, object| {
             let arrays = self.arrays(object);
-            lists.push(match same {
-                Some(earlier) => lists[earlier].clone(),
-                None if arrays.colors.is_empty() => Arc::new(vec![[1.0; 4]; arrays.vertices.len()]),
-                None => Arc::new(arrays.colors.clone()),
-            });
-        }
-        Some(lists)
+            let has_none = arrays.colors.is_empty();
+            Arc::new(if has_none { vec![[1.0; 4]; arrays.vertices.len()] } else { arrays.colors.clone() })
+        }))
     }
 
     /// A sentence for each mesh that seems to have cracks: open edges side by side.
     pub fn crack_remarks(&self) -> Vec<String> {
-        let objects = self.objects.iter().enumerate();
-        // Copies share a mesh.
-        let is_first = |(number, object): &(usize, &Object)| {
-            self.objects[..*number].iter().all(|earlier| !Arc::ptr_eq(&earlier.mesh, &object.mesh))
-        };
-        objects.filter(is_first).filter_map(|(_, object)| self.edges(object).remark()).collect()
+        self.originals().filter_map(|object| self.edges(object).remark()).collect()
     }
 
     /// Number of triangles of all objects.

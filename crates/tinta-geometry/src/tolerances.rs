@@ -52,9 +52,16 @@ pub(crate) const DEPTH_MARGIN: f64 = 0.01;
 /// eye inside the scene the depth buffer's 24 bits then still separate thousandths of the radius.
 pub(crate) const NEAREST_FRACTION: f64 = 1e-3;
 
+/// Smallest near distance, as a share of the far distance, for an eye among faces that a farther plane would cut off: the farther
+/// half of the scene then still has 512 of the depth buffer's steps.
+pub(crate) const LEAST_NEAR_FRACTION: f64 = 1.0 / 32_768.0;
+
 /// Largest distance of the eye from the scene's centre in a picture by GL, scene radii: beyond it f32 depth in eye space has fewer
 /// than a thousand steps for the whole scene.
 pub(crate) const LARGEST_DISTANCE: f64 = 2e4;
+
+/// Width over height of a picture below which that, not the eye, is why the eye is so far away.
+pub(crate) const NARROW: f64 = 1e-2;
 
 /// Largest distance of the eye for exact lines, scene radii: f64 then still places a point to a ten-thousandth of a pixel of
 /// 512.

@@ -69,13 +69,13 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
         let (published, Pruned { mut plan, .. }) = request.plans(scene, renderer)?;
         plan.submission = run.submission;
         if number == 0 {
-            remarks = [request.style.remarks(scene), renderer.remarks(&plan)].concat();
+            remarks = request.picture_remarks(scene, &plan, renderer);
             remarks.iter().for_each(|remark| super::super::say(&format!("tinta: {remark}")));
         }
         let around = request.around(scene, &LineProgress::default())?;
         let picture = around.drawn(scene, &plan, renderer)?;
         frame_ms.push(milliseconds_since(frame));
-        empty.extend(empty_remark(scene, &published, &picture, renderer)?);
+        empty.extend(empty_remark(scene, &published, Some(&around), &picture, renderer)?);
         if run.verify && verdict == Verdict::Good {
             verdict = prune::verify(output, renderer, scene, (&published, &around), &picture)?;
         }

@@ -2,9 +2,11 @@
 
 use tinta::edges::Class;
 use tinta::lines::{InconsistencyKind, Phase, Polyline, Strokes, VisibleLines};
+use tinta::mesh::Defects;
 use tinta::plan::Plan;
 use tinta::record::{LineCounts, Summary};
 use tinta::renderer::PassTime;
+use tinta::scene::Scene;
 
 /// The plan, each pass's time, the whole picture's.
 pub(super) fn frames(plan: &Plan, passes: &[PassTime], times: &Summary, frames: usize) -> String {
@@ -17,6 +19,13 @@ pub(super) fn frames(plan: &Plan, passes: &[PassTime], times: &Summary, frames: 
     let count = if frames == 1 { "1 frame".to_owned() } else { format!("the median of {frames} frames") };
     text.push_str(&format!("{:<20}{:>10.3}            with read-back, {count}\n", "whole picture", times.median));
     text
+}
+
+/// What was found in the models' files that does not change the picture.
+pub(super) fn harmless(scene: &Scene) -> String {
+    let found = scene.originals().map(|object| (&object.mesh.name, object.mesh.defects.others()));
+    let harmless = found.filter(|(_, others)| *others != Defects::default() && others.consequence().is_none());
+    harmless.map(|(name, others)| format!("\n{name}: {others}; this does not change the picture\n")).collect()
 }
 
 /// How long it took from the start to the first frame, part by part.

@@ -79,7 +79,8 @@ fn one_view(
     drawn.written(format, Some(paths), recipe.as_ref())?.write(output, request.is_transparent())?;
     let lines_ms = milliseconds_since(start);
     if run.explain {
-        super::super::print(&(explain::lines(lines, &counts, &explain::parts(*load_ms, &phases, lines_ms)) + &pens))?;
+        let text = explain::lines(lines, &counts, &explain::parts(*load_ms, &phases, lines_ms));
+        super::super::print(&(text + &explain::harmless(scene) + &pens))?;
     }
     if !run.json {
         return Ok(Verdict::Good);

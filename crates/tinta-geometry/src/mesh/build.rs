@@ -97,8 +97,8 @@ impl Soup {
         let used = self.used(&finite);
         let welded = self.welded(&used, options.weld, name)?;
         let mut pieces = Pieces::of(&self, &finite, &welded);
-        pieces.drop_duplicates(self.positions.len());
-        pieces.count(&mut defects);
+        pieces.drop_duplicates(&self.positions);
+        pieces.count(self.positions.len(), &mut defects);
         let curves = Curves::of(&self, &finite);
         check_coordinates(&curves.positions, name)?;
         if pieces.triangles.is_empty() && curves.is_empty() {
@@ -249,7 +249,7 @@ fn nothing_to_draw(name: &str, soup: &Soup, defects: &Defects) -> Error {
             format!(
                 "its faces cut into triangles, for one that is not convex may have {CONCAVE_CORNERS} corners, and {CROSSING_CORNERS} if it crosses itself"
             )
-        } else if defects.degenerate_triangles > 0 {
+        } else if defects.degenerate_triangles + defects.vanished_triangles > 0 {
             "faces that have area".to_owned()
         } else {
             "faces whose vertices exist and are finite".to_owned()

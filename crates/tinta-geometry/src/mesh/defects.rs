@@ -10,6 +10,8 @@ use std::fmt;
 pub struct Defects {
     /// Triangles without area (also faces of fewer than three corners), left out.
     pub degenerate_triangles: usize,
+    /// Triangles of parts so small that welding leaves nothing of them.
+    pub vanished_triangles: usize,
     /// Polygons with too many corners to triangulate, left out: [`limits`](crate::limits).
     pub long_polygons: usize,
     /// Polygons that cross themselves: which parts of them are filled is chance.
@@ -52,10 +54,18 @@ impl Defects {
         *self == Self { repeated_corners, covered_triangles, averaged_normals, ..Self::default() }
     }
 
-    /// Returns the defects' effect on the picture, and whether the reader must act.
-    pub(crate) fn consequence(&self) -> &'static str {
-        if self.long_polygons + self.non_finite_vertices + self.out_of_range_faces > 0 {
+    /// Without those that readers name or styles weigh, which report them.
+    #[must_use]
+    pub fn others(&self) -> Self {
+        Self { missing_materials: 0, unpromised: 0, doubled_triangles: 0, averaged_normals: 0, ..self.clone() }
+    }
+
+    /// Returns the defects' effect on the picture and what to do; `None` if nothing changes.
+    pub fn consequence(&self) -> Option<&'static str> {
+        Some(if self.long_polygons + self.non_finite_vertices + self.out_of_range_faces > 0 {
             "parts of the model are missing; export it again"
+        } else if self.vanished_triangles > 0 {
+            "those parts are gone; --weld 0 keeps them"
         } else if self.unusable_normals + self.unusable_texture_coordinates > 0 {
             "shading or textures may be wrong there; export the model again"
         } else if self.crossing_polygons > 0 {
@@ -63,25 +73,26 @@ impl Defects {
         } else if self.unusable_colors > 0 {
             "those materials have other colours; correct the material file"
         } else {
-            "this does not change the picture"
-        }
+            return None;
+        })
     }
 }
 
 impl<'a> std::iter::Sum<&'a Self> for Defects {
     fn sum<I: Iterator<Item = &'a Self>>(all: I) -> Self {
         all.cloned().fold(Self::default(), |mut sum, mut one| {
-            sum.counts().into_iter().zip(one.counts()).for_each(|((sum, ..), (count, ..))| *sum += *count);
+            sum.counts().into_iter().zip(one.counts()).for_each(|((sum, ..), (one, ..))| *sum += *one);
             sum
         })
     }
 }
 
 impl Defects {
-    /// Each count with its words, for one and for several.
-    fn counts(&mut self) -> [(&mut usize, &'static str, &'static str); 16] {
+    /// The counts, each with its name for one and for several.
+    fn counts(&mut self) -> [(&mut usize, &'static str, &'static str); 17] {
         [
             (&mut self.degenerate_triangles, "degenerate triangle", "degenerate triangles"),
+            (&mut self.vanished_triangles, "triangle that welding erases", "triangles that welding erases"),
             (&mut self.long_polygons, "polygon of too many corners", "polygons of too many corners"),
             (&mut self.crossing_polygons, "polygon that crosses itself", "polygons that cross themselves"),
             (&mut self.duplicate_triangles, "duplicate triangle", "duplicate triangles"),
@@ -119,13 +130,10 @@ impl Defects {
 
 impl fmt::Display for Defects {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut separator = "";
-        for (count, singular, plural) in self.clone().counts() {
-            if *count > 0 {
-                write!(out, "{separator}{count} {}", if *count == 1 { singular } else { plural })?;
-                separator = ", ";
-            }
-        }
-        if separator.is_empty() { out.write_str("no defects") } else { Ok(()) }
+        let mut own = self.clone();
+        let found = own.counts().into_iter().filter(|(count, ..)| **count > 0);
+        let told = found.map(|(count, one, several)| format!("{count} {}", if *count == 1 { one } else { several }));
+        let told = told.collect::<Vec<_>>().join(", ");
+        out.write_str(if told.is_empty() { "no defects" } else { &told })
     }
 }

@@ -5,7 +5,7 @@ use super::format::{self, Format};
 #[cfg(feature = "gltf")]
 use super::gltf;
 use super::options::check;
-use super::{Defects, Mesh, md2, obj, ply, skin, soup::Soup, stl, text, three_ds, up_axis_guess};
+use super::{Mesh, md2, obj, ply, skin, soup::Soup, stl, text, three_ds, up_axis_guess};
 use crate::clock::Instant;
 use crate::error::{Error, FileKind, Result};
 use crate::files::{self, Failure};
@@ -184,13 +184,8 @@ fn made(
             "{path}: the model's flat base suggests that {up} points up; if it lies on its side, add --up-axis {up}"
         ));
     }
-    // The reader, which knows their names, has already reported missing materials, and what no header promises. What double faces and
-    // averaged normals do depends on the style, which reports them.
-    let others = Defects { missing_materials: 0, unpromised: 0, ..mesh.defects.clone() };
-    let others = Defects { doubled_triangles: 0, averaged_normals: 0, ..others };
-    if others != Defects::default() {
-        remarks.push(format!("{path}: {others}; {}", others.consequence()));
-    }
+    let others = mesh.defects.others();
+    remarks.extend(others.consequence().map(|consequence| format!("{path}: {others}; {consequence}")));
     Ok(Loaded { mesh, frames, files, remarks, stages: Vec::new() })
 }
 

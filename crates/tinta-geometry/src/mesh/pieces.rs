@@ -6,7 +6,7 @@ use super::coincident::{Coincident, coincident, sorted};
 use super::same_polygons::{in_order_of, same_polygons};
 use super::soup::{Corner, Soup};
 use super::triangulate::{self, Cut};
-use super::{Defects, NONE, triangle_normal};
+use super::{Defects, NONE, outside, triangle_normal};
 use crate::threads::{in_parallel, threads_for};
 use earcut::Earcut;
 use glam::DVec3;
@@ -30,22 +30,28 @@ pub(super) struct Pieces {
     pub parts: Vec<u32>,
     /// How many triangles had no area.
     pub degenerate: usize,
+    /// Those of them that have area in the file, by their welded vertices.
+    collapsed: Vec<[u32; 3]>,
     /// How many polygons had too many corners to be cut.
     pub too_long: usize,
     /// How many polygons cross themselves.
     pub crossing: usize,
     /// How many belonged to a polygon that repeated another.
     pub duplicate: usize,
-    /// How many have another on their back: pairs with the same corners.
+    /// How many have another on their back: pairs with the same corners that may be seen.
     pub doubled: usize,
     /// How many polygons named a corner twice in a row.
     pub repeated_corners: usize,
 }
 
 impl Pieces {
-    /// Adds what was left out to a file's defects.
-    pub(super) fn count(&self, defects: &mut Defects) {
-        defects.degenerate_triangles += self.degenerate;
+    /// Adds what was left out to a file's defects. `vertices` is the total number of vertices.
+    pub(super) fn count(&self, vertices: usize, defects: &mut Defects) {
+        let mut is_left = vec![false; vertices];
+        self.triangles.as_flattened().iter().for_each(|vertex| is_left[*vertex as usize] = true);
+        let vanished = self.collapsed.iter().filter(|corners| !corners.iter().any(|it| is_left[*it as usize])).count();
+        defects.vanished_triangles += vanished;
+        defects.degenerate_triangles += self.degenerate - vanished;
         defects.long_polygons += self.too_long;
         defects.crossing_polygons += self.crossing;
         defects.repeated_corners += self.repeated_corners;
@@ -167,6 +173,9 @@ impl Pieces {
         let triangle = corners.map(|corner| welded[corner.position as usize]);
         let Some(face_normal) = triangle_normal(triangle.map(|index| soup.positions[index as usize])) else {
             self.degenerate += 1;
+            if triangle_normal(corners.map(|corner| soup.positions[corner.position as usize])).is_some() {
+                self.collapsed.push(triangle);
+            }
             return;
         };
         if polygon != self.first + self.triangles.len() {
@@ -209,17 +218,18 @@ impl Pieces {
         self.polygons.append(&mut other.polygons);
         self.parts.append(&mut other.parts);
         self.degenerate += other.degenerate;
+        self.collapsed.append(&mut other.collapsed);
+        self.crossing += other.crossing;
         self.too_long += other.too_long;
         self.repeated_corners += other.repeated_corners;
     }
 
     /// Drops polygons with the same triangles as an earlier one, in the same orientation; the opposite side is another polygon. A
-    /// triangle that two different polygons have in common belongs to both. Counts triangles that have another on their back.
-    ///
-    /// `vertices` is the total number of vertices.
-    pub(super) fn drop_duplicates(&mut self, vertices: usize) {
-        let Coincident { repeated, opposite } = coincident(&self.triangles, vertices);
-        self.doubled += opposite.len();
+    /// triangle that two different polygons have in common belongs to both. Counts triangles that have another on their back and may
+    /// be seen.
+    pub(super) fn drop_duplicates(&mut self, positions: &[DVec3]) {
+        let Coincident { repeated, opposite } = coincident(&self.triangles, positions.len());
+        self.doubled += outside::pairs(&self.triangles, positions, opposite).len();
         if repeated.is_empty() {
             return;
         }

@@ -157,6 +157,11 @@ impl Mesh {
         self.file_faces.get(triangle as usize).copied().unwrap_or(triangle)
     }
 
+    /// The numbers of a triangle's part and material, [`NONE`] for none.
+    pub fn part_and_material(&self, triangle: usize) -> [u32; 2] {
+        [&self.triangle_parts, &self.triangle_materials].map(|list| list.get(triangle).copied().unwrap_or(NONE))
+    }
+
     /// Returns a triangle's corners; `None` if one does not exist.
     pub(crate) fn corners(&self, triangle: &[u32; 3]) -> Option<[DVec3; 3]> {
         let corner = |position: u32| self.positions.get(position as usize).copied();

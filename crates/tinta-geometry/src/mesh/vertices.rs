@@ -111,7 +111,7 @@ impl CornerVertices {
             }
             position_vertices.push(if corners.is_empty() { NONE } else { vertices.len() as u32 });
             for group in corners.chunk_by(|a, b| a.0 == b.0) {
-                let [normal, texture, _] = group[0].0;
+                let [normal, texture, ..] = group[0].0;
                 let [nx, ny, nz] = mesh.normals[normal as usize].to_array();
                 for (_, corner) in group {
                     corner_vertices[*corner as usize / 3][*corner as usize % 3] = vertices.len() as u32;
@@ -128,12 +128,12 @@ impl CornerVertices {
     }
 }
 
-/// What tells the vertices at one position apart: normal, texture coordinate where the mesh has textures, material where
+/// What tells the vertices at one position apart: normal, texture coordinate where the mesh has textures, material and part where
 /// it has several.
 struct CornerKeys<'a> {
     mesh: &'a Mesh,
     has_textures: bool,
-    has_materials: bool,
+    has_kinds: bool,
 }
 
 impl<'a> CornerKeys<'a> {
@@ -142,22 +142,19 @@ impl<'a> CornerKeys<'a> {
         Self {
             mesh,
             has_textures: has_coordinates && mesh.materials.iter().any(|material| material.has_texture()),
-            has_materials: mesh.materials.len() > 1,
+            has_kinds: mesh.materials.len() > 1 || mesh.parts.len() > 1,
         }
     }
 
-    fn of(&self, corner: usize) -> [u32; 3] {
+    fn of(&self, corner: usize) -> [u32; 4] {
         let (triangle, corner) = (corner / 3, corner % 3);
         let normal = self.mesh.triangle_normals[triangle][corner];
         let texture = match self.has_textures {
             true => self.mesh.triangle_texture_coordinates[triangle][corner],
             false => NONE,
         };
-        let material = match self.has_materials {
-            true => self.mesh.triangle_materials.get(triangle).copied().unwrap_or(NONE),
-            false => NONE,
-        };
-        [normal, texture, material]
+        let [part, material] = if self.has_kinds { self.mesh.part_and_material(triangle) } else { [NONE; 2] };
+        [normal, texture, material, part]
     }
 }
 

@@ -3,7 +3,9 @@
 use super::Scene;
 use crate::camera::{Camera, Projection};
 use crate::error::{Error, Result};
-use crate::tolerances::{COORDINATE_NOISE, LARGEST_DISTANCE, LARGEST_EXACT_DISTANCE, LEAST_DEPTH_STEPS, LOST_PX};
+use crate::tolerances::{
+    COORDINATE_NOISE, LARGEST_DISTANCE, LARGEST_EXACT_DISTANCE, LEAST_DEPTH_STEPS, LOST_PX, NARROW,
+};
 use crate::values::short;
 
 impl Scene {
@@ -67,6 +69,11 @@ impl Scene {
         {
             let problem = "GL cannot enlarge the model so much; show more of it";
             return Err(Error::value("height", short(height), problem));
+        }
+        let aspect = self.size.aspect();
+        if distance > LARGEST_DISTANCE && distance * aspect < LARGEST_DISTANCE && aspect < NARROW {
+            let problem = "so narrow a picture puts the eye too far away for GL; make it wider, or use --parallel";
+            return Err(Error::value("size", self.size, problem));
         }
         if distance > LARGEST_DISTANCE || !clip_from_view.is_finite() {
             return Err(Error::settings(
@@ -159,6 +166,10 @@ mod tests {
         let refused = |camera| cube(DVec3::ZERO, camera).check_precision().unwrap_err().to_string();
         let height = refused(CameraSettings { parallel: true, height: Some(1e-300), ..CameraSettings::default() });
         assert!(height.starts_with("height 1e-300: "), "{height}");
+        let thin = SceneSettings { size: crate::scene::Size { width: 1, height: 40_000 }, ..SceneSettings::default() };
+        let thin =
+            cube(DVec3::ZERO, CameraSettings::default()).seen_with(&thin).unwrap().check_precision().unwrap_err();
+        assert!(thin.to_string().starts_with("size 1x40000: so narrow a picture"), "{thin}");
         let planes = refused(CameraSettings { near: Some(1e-300), ..CameraSettings::default() });
         assert!(planes.contains("1e-300") && planes.len() < 300, "{planes}");
         let crossed = CameraSettings { near: Some(1e300), far: Some(1e-300), ..CameraSettings::default() };

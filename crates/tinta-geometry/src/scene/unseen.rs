@@ -24,7 +24,7 @@ pub enum Unseen {
 }
 
 /// The sides of the picture, then the near and far planes: points inside have products of at least 0 with all of them.
-const SIDES: [DVec4; 4] = [
+pub(super) const SIDES: [DVec4; 4] = [
     DVec4::new(1.0, 0.0, 0.0, 1.0),
     DVec4::new(-1.0, 0.0, 0.0, 1.0),
     DVec4::new(0.0, 1.0, 0.0, 1.0),
@@ -37,7 +37,11 @@ impl Scene {
     /// `culls` says whether faces turned away from the eye are left out.
     pub fn unseen(&self, surface: Size, culls: bool) -> Option<Unseen> {
         let mut farthest = Unseen::Behind;
-        for object in &self.objects {
+        let (outside, mut seen): (Vec<&Object>, Vec<_>) = self.objects.iter().partition(|it| self.is_outside(it, 0.0));
+        if seen.is_empty() {
+            seen = outside;
+        }
+        for object in seen {
             let arrays = self.arrays(object);
             let view_from_object = self.view_from_object(object, arrays.centre).as_dmat4();
             let clip_from_view = self.clip_from_view().as_dmat4();
@@ -46,12 +50,6 @@ impl Scene {
                     corners.iter().map(|corner| view_from_object.transform_point3(*corner)).collect();
                 reach(&view, clip_from_view, surface, culls)
             };
-            // Its boxes speak for an object outside, whose faces may be many.
-            if self.is_outside(object, 0.0) {
-                let leaves = self.box_sides(object).map(|side| reach(&side).unwrap_or(Unseen::CutOff));
-                farthest = leaves.map(|leaves| leaves.min(Unseen::CutOff)).fold(farthest, Unseen::max);
-                continue;
-            }
             for face in arrays.indices.chunks_exact(3) {
                 let corner = |number: usize| {
                     let [x, y, z, ..] = arrays.vertices[face[number] as usize];
@@ -69,23 +67,6 @@ impl Scene {
             }
         }
         Some(farthest)
-    }
-
-    /// The corners of each side of an object's boxes, in the space of its arrays.
-    fn box_sides(&self, object: &Object) -> impl Iterator<Item = [DVec3; 4]> {
-        self.boxes(object).iter().flat_map(|[low, high]| {
-            let [low, high] = [low.as_dvec3(), high.as_dvec3()];
-            (0..6).map(move |side| {
-                let (axis, at) = (side / 2, if side % 2 == 0 { low } else { high });
-                [[false, false], [true, false], [true, true], [false, true]].map(|[first, second]| {
-                    let mut corner = at;
-                    let [one, other] = [(axis + 1) % 3, (axis + 2) % 3];
-                    corner[one] = if first { high[one] } else { low[one] };
-                    corner[other] = if second { high[other] } else { low[other] };
-                    corner
-                })
-            })
-        })
     }
 }
 
@@ -111,7 +92,7 @@ fn reach(view: &[DVec3], clip_from_view: DMat4, surface: Size, culls: bool) -> O
 }
 
 /// The part of a convex polygon on the inner side of a plane.
-fn inside(polygon: &[DVec4], plane: DVec4) -> Vec<DVec4> {
+pub(super) fn inside(polygon: &[DVec4], plane: DVec4) -> Vec<DVec4> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (number, to) in polygon.iter().enumerate() {
         let from = polygon[(number + polygon.len() - 1) % polygon.len()];

@@ -160,8 +160,11 @@ fn explain(arguments: &Arguments, request: &Request, output: Option<Output>, ses
                 (true, _) => print_json(&Both { why: &why, line: line.as_ref() }),
                 (false, Some(_)) => Ok(()),
                 (false, None) => {
-                    let line = line.map_or(String::new(), |line| line::in_words(&line) + "\nBelow the lines:\n\n");
-                    print(&(line + &why.to_string()))
+                    let Some(line) = line else { return print(&why.to_string()) };
+                    let [x, y] = [place.x, place.y].map(|at| at.floor() as i64);
+                    let [red, green, blue, _] = request.picture_of(&scene, renderer)?.pixel(x, y);
+                    let above = format!("With its lines the pixel is [{red}, {green}, {blue}].\n\n");
+                    print(&(above + &line::in_words(&line) + "\nBelow the lines:\n\n" + &why.to_string()))
                 }
             }
         }

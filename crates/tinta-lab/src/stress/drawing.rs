@@ -98,7 +98,7 @@ impl Subject {
         let picture = renderer.draw(&self.scene, &prune(&plan, &self.scene, &pruning).plan)?;
         let full = renderer.draw(&self.scene, &plan)?;
         let mut figures = self.figures.clone();
-        let empty_said = empty_remark(&self.scene, &plan, &picture, renderer)?.is_some();
+        let empty_said = empty_remark(&self.scene, &plan, None, &picture, renderer)?.is_some();
         let covered_px = covered_px(&picture);
         figures.extend([
             ("covered_px", covered_px),

@@ -72,7 +72,10 @@ fn check(scene: &Scene, settings: &LineSettings) -> Result<()> {
     }
     let all_positions: usize = scene.objects.iter().map(|object| object.mesh.positions.len()).sum();
     if scene.triangle_count().max(all_positions) > u32::MAX as usize / 4 {
-        return Err(Error::setting("copies", "the scene has too many faces to find its lines; ask for fewer"));
+        return Err(Error::setting(
+            "classes",
+            "the scene has too many faces to find its lines; draw fewer models at once",
+        ));
     }
     if settings.reference && (settings.has_smooth_contours() || settings.counts_changes) {
         return Err(Error::setting("silhouette", "smooth silhouettes follow other rules; ask for exact ones"));

@@ -43,11 +43,6 @@ struct Numbers {
 /// The numbers of part and material of triangles without both, and of curves and points.
 const WHOLE: [u32; 2] = [NONE; 2];
 
-/// The numbers of a triangle's part and material.
-fn key(mesh: &Mesh, face: usize) -> [u32; 2] {
-    [&mesh.triangle_parts, &mesh.triangle_materials].map(|list| list.get(face).copied().unwrap_or(NONE))
-}
-
 impl SceneParts {
     /// Numbers the parts of a scene and applies the rules.
     ///
@@ -94,7 +89,7 @@ impl SceneParts {
         let mut others = HashMap::new();
         let mut last = WHOLE;
         let count = mesh.triangle_parts.len().max(mesh.triangle_materials.len());
-        for key in (0..count).map(|face| key(mesh, face)).filter(|key| *key != WHOLE) {
+        for key in (0..count).map(|face| mesh.part_and_material(face)).filter(|key| *key != WHOLE) {
             if key != last {
                 others.entry(key).or_insert_with(|| add(key));
                 last = key;
@@ -114,7 +109,7 @@ impl SceneParts {
 
     /// The part of a face, in an object's mesh or in a repaired one.
     pub(in crate::lines) fn of_face(&self, object: usize, mesh: &Mesh, face: u32) -> u32 {
-        self.number(object, key(mesh, face as usize))
+        self.number(object, mesh.part_and_material(face as usize))
     }
 
     /// The part of an object's curves and points.

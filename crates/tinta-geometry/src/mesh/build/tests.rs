@@ -245,3 +245,46 @@ fn normals_that_only_repeat_the_faces_are_computed_where_creases_are_to_last() {
     assert!(shared(normals), "computed, smooth at 20 degrees");
     assert!(!shared([Vec3::Z, Vec3::new(0.5, 0.0, 1.0)]), "the file's own");
 }
+
+#[test]
+fn a_part_that_welding_leaves_nothing_of_is_told_from_a_sliver() {
+    // A slab, and a box of this size on it.
+    let slab_with = |size: DVec3, weld: f64| {
+        let corner = |number: u32| DVec3::from_array([0, 1, 2].map(|axis| f64::from(number >> axis & 1)));
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let of = |low: DVec3, size: DVec3| (0..8).map(move |number| low + corner(number) * size);
+        let slab = of(DVec3::new(-1e6, -1.0, -1e6), DVec3::new(2e6, 1.0, 2e6));
+        let positions: Vec<DVec3> = slab.chain(of(DVec3::new(10.0, 0.0, 20.0), size)).collect();
+        let corners = [0, 8].into_iter().flat_map(|first| sides.map(|side| side.map(|it| Corner::at(it + first))));
+        let corners = corners.flatten().collect();
+        let soup = Soup { positions, corners, polygon_sizes: vec![4; 12], ..Soup::default() };
+        let mesh = soup.into_mesh("slab", &LoadOptions { weld, ..LoadOptions::default() }).unwrap();
+        (mesh.defects.vanished_triangles, mesh.defects.degenerate_triangles, mesh.defects.consequence().is_some())
+    };
+    assert_eq!(slab_with(DVec3::splat(2e-3), 1e-7), (12, 0, true));
+    assert_eq!(slab_with(DVec3::splat(2e-3), 0.0), (0, 0, false));
+    assert_eq!(slab_with(DVec3::new(2e-3, 2e-3, 9.0), 1e-7), (12, 0, true), "a needle becomes a line");
+    assert_eq!(slab_with(DVec3::splat(9.0), 1e-7), (0, 0, false));
+    // A fan with a sliver, whose corners stay where its neighbours end.
+    let mut soup = square();
+    soup.positions.push(DVec3::new(1.0, 1.0 + 1e-8, 0.0));
+    soup.corners = [0, 1, 2, 0, 2, 4, 0, 4, 3].map(Corner::at).to_vec();
+    soup.polygon_sizes = Vec::new();
+    let mesh = mesh(soup);
+    assert_eq!((mesh.defects.vanished_triangles, mesh.defects.degenerate_triangles), (0, 1));
+    assert_eq!((mesh.triangles.len(), mesh.defects.consequence()), (2, None));
+}
+
+#[test]
+fn crossing_polygons_are_counted_in_every_piece() {
+    let bow = [[0.0, 0.0], [2.0, 0.0], [0.0, 1.0], [2.0, 1.0], [1.0, 3.0]];
+    const COUNT: u32 = 40_000;
+    let at = |number: u32| bow.map(|[x, y]| DVec3::new(x + f64::from(number) * 3.0, y, 0.0));
+    let soup = Soup {
+        positions: (0..COUNT).flat_map(at).collect(),
+        corners: (0..COUNT * 5).map(Corner::at).collect(),
+        polygon_sizes: vec![5; COUNT as usize],
+        ..Soup::default()
+    };
+    assert_eq!(mesh(soup).defects.crossing_polygons, COUNT as usize);
+}

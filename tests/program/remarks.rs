@@ -1,0 +1,65 @@
+//! Remarks: each is said where it is true and not near it, by the table in `remarks.toml`.
+
+use crate::program::{done, said};
+use std::path::Path;
+use toml::de::{DeTable, DeValue};
+
+/// A text of the table, or a table in it.
+fn entry<'t>(table: &'t DeTable<'_>, key: &str) -> Option<&'t DeValue<'t>> {
+    table.iter().find(|(name, _)| name.get_ref().as_ref() == key).map(|(_, value)| value.get_ref())
+}
+
+#[test]
+fn each_remark_is_said_where_it_is_true_and_not_beside_it() {
+    let table = DeTable::parse(include_str!("remarks.toml")).unwrap();
+    let Some(DeValue::Array(remarks)) = entry(table.get_ref(), "remark") else { panic!("no remarks") };
+    assert!(remarks.len() > 50);
+    let mut wrong = Vec::new();
+    for remark in remarks.iter() {
+        let DeValue::Table(remark) = remark.get_ref() else { panic!("{remark:?}") };
+        let text =
+            |key: &str| entry(remark, key).and_then(DeValue::as_str).unwrap_or_else(|| panic!("{key}: {remark:?}"));
+        let folder = tempfile::tempdir().unwrap();
+        if let Some(DeValue::Table(files)) = entry(remark, "files") {
+            for (name, text) in files.iter() {
+                let path = folder.path().join(name.get_ref().as_ref());
+                std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+                std::fs::write(path, text.get_ref().as_str().unwrap()).unwrap();
+            }
+        }
+        for (key, is_true) in [("said", true), ("silent", false)] {
+            let said = run(text(key), folder.path());
+            if said.contains(text("words")) != is_true {
+                wrong.push(format!("{}: {:?}, {key}: {said}", text(key), text("words")));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// What the program says on standard error; small pictures, unless a line gives their size.
+fn run(line: &str, folder: &Path) -> String {
+    let line = line.replace("{}", folder.to_str().unwrap());
+    let mut words: Vec<&str> = line.split(' ').collect();
+    if !line.contains("--size") {
+        words.extend(["--size", "48"]);
+    }
+    said(&done(&words))
+}
+
+#[test]
+fn what_changes_nothing_is_said_by_explain_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("a.obj");
+    std::fs::write(&model, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\nf 1 1 2\nf 1 2 3\n").unwrap();
+    let [model, picture, lines] = [model, folder.path().join("a.png"), folder.path().join("a.svg")];
+    let counts =
+        "a.obj: 1 degenerate triangle, 1 duplicate triangle, 1 unused vertex; this does not change the picture";
+    for file in [picture, lines] {
+        let line = ["render", model.to_str().unwrap(), "-o", file.to_str().unwrap(), "--size", "16"];
+        assert_eq!(said(&done(&line)), "");
+        let explained = done(&[&line[..], &["--explain"]].concat());
+        assert_eq!(said(&explained), "");
+        assert!(String::from_utf8_lossy(&explained.stdout).contains(counts), "{explained:?}");
+    }
+}
