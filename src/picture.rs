@@ -14,6 +14,7 @@
 //! # }
 //! ```
 
+mod averaged;
 mod materials;
 mod pcx;
 pub(crate) mod png_text;
@@ -30,7 +31,8 @@ use crate::values::Size;
 #[cfg(feature = "gltf")]
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::{bmp::BmpEncoder, png, pnm, tga::TgaEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+use image::imageops::thumbnail;
+use image::{ExtendedColorType, ImageBuffer, ImageEncoder, Rgba};
 use std::borrow::Cow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -51,6 +53,14 @@ impl Picture {
         let y = y.clamp(0, i64::from(self.size.height) - 1) as usize;
         let start = (y * self.size.width as usize + x) * 4;
         [0, 1, 2, 3].map(|channel| self.pixels[start + channel])
+    }
+
+    /// Returns the picture in a smaller size, each pixel the mean of those in its place.
+    #[must_use]
+    fn reduced(&self, Size { width, height }: Size) -> Self {
+        let image = ImageBuffer::<Rgba<u8>, &[u8]>::from_raw(self.size.width, self.size.height, &self.pixels);
+        let pixels = image.map_or_else(Vec::new, |image| thumbnail(&image, width, height).into_raw());
+        Self { size: Size { width, height }, pixels }
     }
 
     /// Whether all its pixels are the same.

@@ -173,6 +173,14 @@ impl Draw {
             facts: Facts::default(),
         }
     }
+
+    /// The unit of the materials' own pictures, and whether they are averaged; `None` if it reads none.
+    pub(crate) fn material_unit(&self) -> Option<(usize, bool)> {
+        self.textures.iter().enumerate().find_map(|(unit, (_, texture))| match texture {
+            Texture::Material { is_averaged } => Some((unit, *is_averaged)),
+            _ => None,
+        })
+    }
 }
 
 /// Geometry to draw.

@@ -181,11 +181,11 @@ impl Resources {
         match &draw.geometry {
             Geometry::Objects(paint) => {
                 self.check_back_faces(draw)?;
-                let material_unit = draw.textures.iter().position(|(_, texture)| *texture == plan::Texture::Material);
-                if material_unit.is_some_and(|unit| unit as u32 >= legacy::FIXED_UNITS) {
+                let material_unit = draw.material_unit().map(|(unit, _)| unit as u32);
+                if material_unit.is_some_and(|unit| unit >= legacy::FIXED_UNITS) {
                     return Err(Error::gl("drawing", "a plan reads the models' own pictures by a third unit"));
                 }
-                self.draw_objects(scene, draw, paint, material_unit.map(|unit| unit as u32))?;
+                self.draw_objects(scene, draw, paint, material_unit)?;
             }
             Geometry::Edges { runs, mark, width_px, is_smooth, line_drawing } => {
                 let by_gl = self.gl.info.draws_edges(*width_px, *is_smooth) && (self.has_pipeline || !*is_smooth);
@@ -220,7 +220,7 @@ impl Resources {
                 plan::Texture::DepthMap => self.targets.depth_map(),
                 plan::Texture::Table(number) => self.textures.table(*number),
                 plan::Texture::Picture(number) => self.textures.picture(*number),
-                plan::Texture::Material => self.textures.white(),
+                plan::Texture::Material { .. } => self.textures.white(),
             };
             texture
                 .ok_or_else(|| Error::gl("drawing", "a plan was carried out without being checked"))?

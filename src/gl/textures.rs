@@ -4,11 +4,12 @@ use super::Gl;
 use super::legacy;
 use super::objects::Texture;
 use crate::error::{Error, Result};
-use crate::mesh::NONE;
 use crate::picture::{MaterialPictures, Picture};
-use crate::plan::{self, Draw, Plan, PlanTable, Sampling, Step};
+use crate::plan::{Plan, PlanTable, Sampling, Step};
 use crate::scene::{Object, Scene, Size};
 use glow::HasContext;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -17,12 +18,15 @@ use std::sync::Arc;
 pub(super) struct Textures {
     /// The tables of the last plan that had any; its numbers index them.
     tables: Vec<(PlanTable, Texture)>,
-    pictures: Vec<(Arc<Picture>, Sampling, Texture)>,
-    /// The index in `pictures` of each of the plan's pictures.
-    plan_pictures: Vec<usize>,
+    pictures: HashMap<Key, (Arc<Picture>, Texture)>,
+    /// The keys of the plan's pictures.
+    plan_pictures: Vec<Key>,
     white: Option<Texture>,
     materials: MaterialPictures,
 }
+
+/// A picture's place in memory, and how it is read.
+type Key = (*const Picture, Sampling);
 
 impl Textures {
     /// Uploads the missing textures that this plan reads, and releases the others.
@@ -35,37 +39,31 @@ impl Textures {
         }
         let mut wanted: Vec<(Arc<Picture>, Sampling)> =
             plan.pictures.iter().map(|picture| (picture.picture.clone(), picture.sampling)).collect();
-        let reads_materials = plan.steps().any(|(_, step)| {
-            matches!(step, Step::Draw(Draw { textures, .. }) if textures.iter().any(|(_, t)| *t == plan::Texture::Material))
+        let of_materials = plan.steps().find_map(|(_, step)| match step {
+            Step::Draw(draw) => draw.material_unit(),
+            _ => None,
         });
-        if reads_materials {
+        if let Some((_, is_averaged)) = of_materials {
             if self.white.is_none() {
                 let size = Size { width: 1, height: 1 };
                 self.white = Some(upload(gl, &Picture { size, pixels: vec![u8::MAX; 4] }, Sampling::NearestClamped)?);
             }
-            self.materials.prepare(&scene.objects)?;
+            self.materials.prepare(scene, is_averaged.then(|| scene.size.times(plan.supersample)))?;
             for object in &scene.objects {
-                let pictures = self.materials.of(object).iter().flatten();
+                let materials = 0..object.mesh.materials.len() as u32;
+                let pictures = materials.filter_map(|material| self.materials.of(object, material));
                 wanted.extend(pictures.map(|picture| (picture.clone(), Sampling::LinearRepeated)));
             }
         }
-        let is_same = |a: &(Arc<Picture>, Sampling), b: &Arc<Picture>, sampling: Sampling| {
-            Arc::ptr_eq(&a.0, b) && a.1 == sampling
-        };
-        self.pictures.retain(|(picture, sampling, _)| wanted.iter().any(|want| is_same(want, picture, *sampling)));
-        for want in &wanted {
-            if !self.pictures.iter().any(|(picture, sampling, _)| is_same(want, picture, *sampling)) {
-                let texture = upload(gl, &want.0, want.1)?;
-                self.pictures.push((want.0.clone(), want.1, texture));
+        let keys: Vec<Key> = wanted.iter().map(|(picture, sampling)| (Arc::as_ptr(picture), *sampling)).collect();
+        self.pictures.retain(|key, _| keys.contains(key));
+        for (key, (picture, sampling)) in keys.iter().zip(wanted) {
+            if let Entry::Vacant(place) = self.pictures.entry(*key) {
+                let texture = upload(gl, &picture, sampling)?;
+                place.insert((picture, texture));
             }
         }
-        let place = |want: &(Arc<Picture>, Sampling)| {
-            self.pictures
-                .iter()
-                .position(|(picture, sampling, _)| is_same(want, picture, *sampling))
-                .unwrap_or_default()
-        };
-        self.plan_pictures = wanted[..plan.pictures.len()].iter().map(place).collect();
+        self.plan_pictures = keys[..plan.pictures.len()].to_vec();
         Ok(())
     }
 
@@ -76,7 +74,7 @@ impl Textures {
 
     /// The plan's picture of this number.
     pub(super) fn picture(&self, number: usize) -> Option<&Texture> {
-        self.pictures.get(*self.plan_pictures.get(number)?).map(|(.., texture)| texture)
+        self.pictures.get(self.plan_pictures.get(number)?).map(|(_, texture)| texture)
     }
 
     /// One white texel.
@@ -86,16 +84,9 @@ impl Textures {
 
     /// Binds a material's picture, or white if it has none.
     pub(super) fn bind_material(&self, object: &Object, material: u32, unit: u32) {
-        let pictures = self.materials.of(object);
-        let picture = if material == NONE { None } else { pictures.get(material as usize).and_then(Option::as_ref) };
-        let texture = picture.and_then(|picture| {
-            let found = self
-                .pictures
-                .iter()
-                .find(|(known, sampling, _)| Arc::ptr_eq(known, picture) && *sampling == Sampling::LinearRepeated);
-            found.map(|(.., texture)| texture)
-        });
-        if let Some(texture) = texture.or(self.white()) {
+        let picture = self.materials.of(object, material);
+        let texture = picture.and_then(|it| self.pictures.get(&(Arc::as_ptr(it), Sampling::LinearRepeated)));
+        if let Some(texture) = texture.map(|(_, texture)| texture).or(self.white()) {
             texture.bind(unit);
         }
     }

@@ -1,10 +1,11 @@
-//! The pictures on a mesh's materials.
+//! The pictures on a mesh's materials, as their files hold them or averaged for a view.
 
 use super::Picture;
+use super::averaged::average;
 use crate::error::Result;
 use crate::limits::{MEMORY_FACTOR, MODEL_PICTURES_BYTES};
 use crate::mesh::{EmbeddedPicture, Material, TextureAlpha};
-use crate::scene::{Object, ObjectIdentity};
+use crate::scene::{Object, ObjectIdentity, Scene, Size};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::Path;
@@ -19,30 +20,44 @@ enum Source<'a> {
     Embedded(*const EmbeddedPicture),
 }
 
-/// The pictures on the materials of a scene's objects, each read once for all copies of an object.
+/// The pictures on the materials of a scene's objects, each read once for all copies of an object: as read and as shown.
 #[derive(Debug, Default)]
-pub struct MaterialPictures(Vec<(ObjectIdentity, Vec<Option<Arc<Picture>>>)>);
+pub struct MaterialPictures(Vec<(ObjectIdentity, Vec<Option<[Arc<Picture>; 2]>>)>);
 
 impl MaterialPictures {
-    /// Reads these objects' missing pictures and releases unused ones.
+    /// Reads a scene's missing pictures and releases unused ones. Those finer than the pixels are averaged if the size of the surface
+    /// that the scene is drawn into is given, pixels.
     ///
     /// # Errors
     ///
     /// [`Error::File`](crate::Error::File) when one cannot be read.
-    pub fn prepare(&mut self, objects: &[Object]) -> Result<()> {
-        self.0.retain(|(identity, _)| objects.iter().any(|object| identity.is_of(object)));
-        for object in objects {
+    pub fn prepare(&mut self, scene: &Scene, surface: Option<Size>) -> Result<()> {
+        self.0.retain(|(identity, _)| scene.objects.iter().any(|object| identity.is_of(object)));
+        for object in &scene.objects {
             if self.0.iter().all(|(identity, _)| !identity.is_of(object)) {
-                self.0.push((object.identity(), material_pictures(&object.mesh.materials)?));
+                let read = material_pictures(&object.mesh.materials)?.into_iter();
+                self.0.push((object.identity(), read.map(|read| read.map(|read| [read.clone(), read])).collect()));
+            }
+        }
+        for (identity, pictures) in &mut self.0 {
+            let mut sizes: Vec<Option<Size>> =
+                pictures.iter().map(|it| it.as_ref().map(|[read, _]| read.size)).collect();
+            if let Some(surface) = surface {
+                average(&mut sizes, scene, scene.objects.iter().filter(|object| identity.is_of(object)), surface);
+            }
+            for ([read, shown], size) in pictures.iter_mut().flatten().zip(sizes.into_iter().flatten()) {
+                if shown.size != size {
+                    *shown = if size == read.size { read.clone() } else { Arc::new(read.reduced(size)) };
+                }
             }
         }
         Ok(())
     }
 
-    /// Returns an object's pictures, by material; `None` for a material without one, and an empty list before
-    /// [`MaterialPictures::prepare`].
-    pub fn of(&self, object: &Object) -> &[Option<Arc<Picture>>] {
-        self.0.iter().find(|(identity, _)| identity.is_of(object)).map_or(&[], |(_, pictures)| pictures)
+    /// Returns the picture that an object shows on a material; `None` where it has none, or before [`MaterialPictures::prepare`].
+    pub fn of(&self, object: &Object, material: u32) -> Option<&Arc<Picture>> {
+        let (_, pictures) = self.0.iter().find(|(identity, _)| identity.is_of(object))?;
+        pictures.get(material as usize)?.as_ref().map(|[_, shown]| shown)
     }
 }
 

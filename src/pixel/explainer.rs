@@ -250,7 +250,7 @@ fn prepared<'a>(
     let fragments: Vec<(&str, &str)> =
         program.fragments.iter().map(|path| text(path, replaced)).collect::<Result<_>>()?;
     let stage = |texts: &[(&str, &str)]| tinta_glsl::Stage::new(texts).map_err(misunderstood);
-    let material = draw.textures.iter().position(|(_, texture)| *texture == plan::Texture::Material);
+    let material = draw.material_unit().map(|(unit, _)| unit);
     let samplers = (0_u32..)
         .zip(&draw.textures)
         .map(|(unit, (name, _))| fixed_function::sampler(draw, &program, unit).unwrap_or(name));

@@ -2,7 +2,6 @@
 
 use super::recomputation::Filtering;
 use crate::error::{Error, Result};
-use crate::mesh::NONE;
 use crate::picture::{MaterialPictures, Picture};
 use crate::plan::{Draw, Plan, PlanTable, Sampling, Step, Target, Texture};
 use crate::renderer::StepValues;
@@ -88,13 +87,13 @@ impl<'a> Images<'a> {
                     }
                     Image::Picture(found.picture.clone(), found.sampling == Sampling::LinearRepeated)
                 }
-                Texture::Material => Image::Material,
+                Texture::Material { .. } => Image::Material,
             })
         };
         let images = draw.textures.iter().map(|(_, texture)| image(texture)).collect::<Result<_>>()?;
         let mut materials = MaterialPictures::default();
-        if draw.textures.iter().any(|(_, texture)| *texture == Texture::Material) {
-            materials.prepare(&scene.objects)?;
+        if let Some((_, is_averaged)) = draw.material_unit() {
+            materials.prepare(scene, is_averaged.then_some(scene.size))?;
         }
         Ok(Self { images, surface: scene.size, filtering, scene, materials })
     }
@@ -130,9 +129,7 @@ impl tinta_glsl::Textures for OfTriangle<'_> {
             }
             Image::Material => {
                 let object = self.images.scene.objects.get(self.object?)?;
-                let pictures = self.images.materials.of(object);
-                let number = (self.material != NONE).then_some(self.material as usize);
-                match number.and_then(|number| pictures.get(number)?.as_ref()) {
+                match self.images.materials.of(object, self.material) {
                     Some(picture) => Some(linear(picture, at, self.images.filtering)),
                     None => Some(Sample { value: [1.0; 4], texels: Vec::new() }),
                 }

@@ -205,7 +205,7 @@ impl Written {
     fn check_textures(&self, plan: &Plan, draw: &Draw, target: Target, pass: &'static str) -> Result<(), Flaw> {
         for (_, texture) in &draw.textures {
             match *texture {
-                Texture::Material => {}
+                Texture::Material { .. } => {}
                 Texture::Table(number) if number >= plan.tables.len() => {
                     return Err(missing(pass, &format!("table {number}, counted from 0")));
                 }

@@ -92,6 +92,7 @@ impl fmt::Display for Draw {
         }
         for (sampler, texture) in &self.textures {
             match texture {
+                Texture::Material { .. } => write!(out, ", {sampler} = Material")?,
                 Texture::Drawn(name) => write!(out, ", {sampler} = {name}")?,
                 _ => write!(out, ", {sampler} = {texture:?}")?,
             }

@@ -80,7 +80,10 @@ pub enum Texture {
     /// The plan's picture of this number.
     Picture(usize),
     /// The texture of each material, by the model's own texture coordinates, LINEAR, GL_REPEAT; white for materials without one.
-    Material,
+    Material {
+        /// Whether one finer than the pixels is averaged first.
+        is_averaged: bool,
+    },
 }
 
 impl Program {
@@ -105,7 +108,7 @@ pub struct PlanPicture {
 pub(crate) const TOOTH: &str = "tooth";
 
 /// The reading of a texture between and beyond its texels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Sampling {
     /// NEAREST, CLAMP_TO_EDGE.
     NearestClamped,

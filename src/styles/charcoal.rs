@@ -279,7 +279,7 @@ impl Charcoal {
         let mut textures = Vec::new();
         if is_sand && show == Show::Final {
             // First, because the listing reads the first unit's coordinates.
-            textures.push(("origTexture", Texture::Material));
+            textures.push(("origTexture", Texture::Material { is_averaged: false }));
         }
         textures.extend([
             ("noiseTexture", Texture::Picture(NOISE)),

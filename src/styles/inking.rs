@@ -361,7 +361,7 @@ impl Inking {
             }
         };
         if self.has_texture && !matches!(paint_mode, None | Some(PaintMode::None)) {
-            textures.push(("own", Texture::Material));
+            textures.push(("own", Texture::Material { is_averaged: false }));
         }
         // Its factor counts depth steps between pixels, which shrink with the pixels; its units do not.
         let [factor, units] = self.polygon_offset;

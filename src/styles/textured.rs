@@ -14,7 +14,7 @@ pub(super) fn textured(scene: &Scene, shaded: &Draw) -> Option<Step> {
         };
         let Draw { cull_back_faces, culls_doubled_faces, polygon_offset, .. } = *shaded;
         Step::Draw(Draw {
-            textures: vec![("own", Texture::Material)],
+            textures: vec![("own", Texture::Material { is_averaged: true })],
             depth: Depth::Equal,
             blend: Blend::Multiply,
             cull_back_faces,

@@ -108,7 +108,7 @@ pub(super) fn unread_textures(plan: &mut Plan) -> Result<Omission, String> {
         match texture {
             Texture::Table(number) => *number = tables.number(*number),
             Texture::Picture(number) => *number = pictures.number(*number),
-            Texture::BorderMap | Texture::DepthMap | Texture::Drawn(_) | Texture::Material => {}
+            Texture::BorderMap | Texture::DepthMap | Texture::Drawn(_) | Texture::Material { .. } => {}
         }
     }
     Ok(Omission {

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 use tinta::error::Result;
-use tinta::picture::{MaterialPictures, Picture};
+use tinta::picture::{Picture, material_pictures};
 use tinta::scene::Scene;
 use tinta::styles::{CetCoordinate, CetFilter, Charcoal, ContrastOperator, Noise, Phong, Style, Tones};
 
@@ -60,9 +60,8 @@ impl<'a> Shading<'a> {
                 }
                 let sand = match style {
                     Style::Sand(_) => {
-                        let mut pictures = MaterialPictures::default();
-                        pictures.prepare(&scene.objects)?;
-                        Some(scene.objects.iter().map(|object| pictures.of(object).to_vec()).collect::<Sand>())
+                        let pictures = scene.objects.iter().map(|object| material_pictures(&object.mesh.materials));
+                        Some(pictures.collect::<Result<Sand>>()?)
                     }
                     _ => None,
                 };
