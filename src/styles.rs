@@ -158,7 +158,7 @@ row::styles! {
         has_lines: |ink| ink.is_inked,
         shows: &[Show::Final, Show::Map, Show::Borders, Show::Tones],
         origin: Origin::Own,
-        mark: None,
+        mark: Some(Mark { rgb: [200, 50, 80], outline: Outline::Polygon { corners: 3, turn: -PI / 2.0 } }),
     }
 
     /// Grain by tone, on paper: Valente 2007.
