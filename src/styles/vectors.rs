@@ -5,8 +5,8 @@ use super::surfaces::of_averaged_normals;
 use super::{Cartoon, Ink, LineStyle, LineWidth, Mrt, Style, Tones};
 use crate::error::{Error, Result};
 use crate::lines::{
-    Areas, DrawingSettings, Joined, LineSettings, Progress, Regions, Surface, ToneLight, ToneRule, TonedSurface,
-    VisibleLines, fills, hatches, painted,
+    Areas, DrawingSettings, FillGroup, Joined, LineSettings, Progress, Regions, Surface, ToneLight, ToneRule,
+    TonedSurface, VisibleLines, fills, hatches, painted,
 };
 use crate::mesh::NONE;
 use crate::scene::{Color, Scene, Size};
@@ -149,7 +149,7 @@ impl Vectors {
                     None => fills(&regions, color),
                 };
                 let hatches = hatches(scene, (&rule, &regions), lines, &self.drawing, progress)?;
-                let drawn = Areas { fills, hatches, ..Areas::around(&regions) };
+                let drawn = Areas { fills: named(scene, fills), hatches, ..Areas::around(&regions) };
                 Ok(ViewAreas { regions: regions.labelled(|seen| seen.map(Surface::from)), drawn })
             }
             AreaRule::Joined(_) if spacing.is_some() => Err(Error::setting(
@@ -160,7 +160,7 @@ impl Vectors {
                 let regions = whole(Regions::joined_by(scene, *joined, progress)?)?;
                 let fills =
                     painted(&regions, self.lines.is_some(), |number| joined_color(scene, &regions, number, *joined));
-                Ok(ViewAreas { drawn: Areas { fills, ..Areas::around(&regions) }, regions })
+                Ok(ViewAreas { drawn: Areas { fills: named(scene, fills), ..Areas::around(&regions) }, regions })
             }
         }
     }
@@ -190,6 +190,16 @@ impl Vectors {
         }
         remarks
     }
+}
+
+/// Areas with the names that the models' files give their materials.
+fn named(scene: &Scene, mut fills: Vec<FillGroup>) -> Vec<FillGroup> {
+    for group in &mut fills {
+        let object = scene.objects.get(group.object as usize);
+        let material = object.and_then(|object| object.mesh.materials.get(group.material as usize));
+        group.name = material.map_or_else(String::new, |material| material.name.clone());
+    }
+    fills
 }
 
 fn tone_rule(scene: &Scene, tones: &Tones, light: Option<FarLight>) -> ToneRule {

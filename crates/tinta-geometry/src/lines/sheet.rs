@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::lines::drawing::scale::round_below;
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::sheet_text::{strokes, width_of};
-use crate::lines::{Label, LineSegment, LineSettings, Progress, VisibleLines};
+use crate::lines::{Label, LineSegment, LineSettings, PartStyle, Progress, VisibleLines};
 use crate::scene::{Scene, Size};
 use crate::settings::Value;
 use glam::{BVec3, DMat3, DVec2, DVec3};
@@ -113,6 +113,9 @@ impl VisibleLines {
             let lines = Self::with_progress(&seen, &settings, progress)?;
             sheet.put(lines, layout.middle_px(view) - px * 0.5);
         }
+        // What is the sheet's own has a layer of its own.
+        sheet.looks.resize_with(sheet.looks.len().max(1), PartStyle::default);
+        sheet.looks.push(PartStyle { name: "sheet".to_owned(), ..PartStyle::default() });
         sheet.put_names(&layout, &views);
         let right_px = sheet.put_bar(&layout, &drawing.units.text(), scene.size);
         sheet.put_scale(&layout, right_px, drawing)?;
@@ -195,7 +198,9 @@ impl VisibleLines {
     }
 
     fn put_strokes(&mut self, strokes: Vec<[DVec2; 2]>) {
-        self.segments.extend(strokes.into_iter().map(|ends| LineSegment::new(Class::Curve, ends, [DVec3::ZERO; 2])));
+        let look = self.looks.len() as u32 - 1;
+        let stroke = |ends| LineSegment { look, ..LineSegment::new(Class::Curve, ends, [DVec3::ZERO; 2]) };
+        self.segments.extend(strokes.into_iter().map(stroke));
     }
 }
 

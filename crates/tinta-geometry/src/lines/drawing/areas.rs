@@ -31,15 +31,7 @@ impl Areas {
         }
         let surface = Surface { object: NONE, material: None, tone: None, face: None };
         let fill = Fill { surface, color, loops, trap: Vec::new() };
-        let group = FillGroup {
-            object: NONE,
-            material: GROUND,
-            opacity: 1.0,
-            is_crisp: false,
-            clip: Vec::new(),
-            fills: vec![fill],
-        };
-        self.fills.insert(0, group);
+        self.fills.insert(0, FillGroup::of(NONE, GROUND, vec![fill]));
     }
 
     /// Returns the corners around regions, and neither fills nor strokes.

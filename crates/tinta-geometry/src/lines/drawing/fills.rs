@@ -26,6 +26,8 @@ pub struct FillGroup {
     pub object: u32,
     /// The material in the object's mesh, or [`crate::mesh::NONE`]; of strokes below areas the number of their view, if there are several.
     pub material: u32,
+    /// The material's name in the model's file; empty without one.
+    pub name: String,
     /// The opacity of the group, and of those with the same one before and after it, as one picture: from 0 to 1.
     pub opacity: f32,
     /// Whether edges are not smoothed: then each pixel is of one area.
@@ -34,6 +36,13 @@ pub struct FillGroup {
     pub clip: Vec<Vec<DVec2>>,
     /// The areas, in the order in which they are painted.
     pub fills: Vec<Fill>,
+}
+
+impl FillGroup {
+    /// Opaque areas with smoothed edges and without a name.
+    pub(super) fn of(object: u32, material: u32, fills: Vec<Fill>) -> Self {
+        Self { object, material, name: String::new(), opacity: 1.0, is_crisp: false, clip: Vec::new(), fills }
+    }
 }
 
 /// An area of one colour. One of a tone includes those of brighter tones, which are painted above it.
@@ -68,14 +77,7 @@ pub fn fills(regions: &Regions<Option<TonedSurface>>, color: impl Fn(TonedSurfac
             Fill { surface: (*surface).into(), color: color(*surface), loops, trap }
         };
         let fills = of_group.iter().map(fill).collect();
-        FillGroup {
-            object: lowest.object,
-            material: lowest.material,
-            opacity: 1.0,
-            is_crisp: false,
-            clip: Vec::new(),
-            fills,
-        }
+        FillGroup::of(lowest.object, lowest.material, fills)
     };
     groups.map(group).collect()
 }

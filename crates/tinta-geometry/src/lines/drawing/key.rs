@@ -50,7 +50,7 @@ mod tests {
             let loops = vec![vec![DVec2::ZERO, DVec2::new(9.0, 0.0), DVec2::new(0.0, 9.0)]];
             let surface = Surface { object, material: None, tone: None, face: Some(7) };
             let fills = vec![Fill { surface, color: Color([1.0, 0.0, 0.0]), loops, trap: Vec::new() }];
-            FillGroup { object, material: crate::mesh::NONE, opacity, is_crisp: false, clip: Vec::new(), fills }
+            FillGroup { opacity, ..FillGroup::of(object, crate::mesh::NONE, fills) }
         };
         let text = |left: f64, below: f64| {
             let (text, at_px) = ("Height".to_owned(), DVec2::new(50.0, 20.0));

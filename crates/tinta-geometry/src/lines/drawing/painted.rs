@@ -24,14 +24,7 @@ pub fn painted(regions: &Regions<Option<Surface>>, has_traps: bool, color: impl 
     let group = |of_group: &[(Surface, usize)]| {
         let Surface { object, material, .. } = of_group[0].0;
         let fills = of_group.iter().map(fill).collect();
-        FillGroup {
-            object,
-            material: material.unwrap_or(NONE),
-            opacity: 1.0,
-            is_crisp: !has_traps,
-            clip: Vec::new(),
-            fills,
-        }
+        FillGroup { is_crisp: !has_traps, ..FillGroup::of(object, material.unwrap_or(NONE), fills) }
     };
     let below = has_traps.then(|| seams(regions, &order, &color)).filter(|below| !below.fills.is_empty());
     below.into_iter().chain(of_objects.map(group)).collect()
@@ -47,7 +40,7 @@ fn seams(regions: &Regions<Option<Surface>>, order: &[(Surface, usize)], color: 
     let all = regions.joined(|seen| seen.map(|_| ()));
     let clip = polygons(all.regions.iter().flat_map(|region| &region.loops));
     let fills = order.iter().map(fill).filter(|fill| !fill.trap.is_empty()).collect();
-    FillGroup { object: NONE, material: NONE, opacity: 1.0, is_crisp: false, clip, fills }
+    FillGroup { clip, ..FillGroup::of(NONE, NONE, fills) }
 }
 
 /// Loops without corners that do not change their shape.

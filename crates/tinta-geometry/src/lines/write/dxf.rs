@@ -10,7 +10,7 @@ use crate::lines::VisibleLines;
 use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::drawn_labels::height_px;
-use crate::lines::drawing::drawn_layers::Drawing;
+use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer};
 use crate::lines::drawing::page::{PAGE_DECIMALS, Page};
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::drawing::text::decimal;
@@ -21,6 +21,9 @@ use std::fmt::{Display, Write};
 
 /// The number of the unit of coordinates.
 const MILLIMETRES: u8 = 4;
+
+/// The longest name of a layer.
+const LONGEST_NAME: usize = 31;
 
 /// The layer of labels.
 const LABELS: &str = "labels";
@@ -63,7 +66,7 @@ pub fn dxf_of_paths(
     let settings = &DrawingSettings { tapers: false, ..settings.clone() };
     let drawing = Drawing::new(lines, paths, areas, settings)?;
     let mut out = Text { out: String::new(), page: &drawing.page };
-    let mut layers: Vec<(String, Color)> = drawing.layers.iter().map(|layer| (layer.id(), layer.color)).collect();
+    let mut layers: Vec<(String, Color)> = drawing.layers.iter().map(|layer| (name(layer), layer.color)).collect();
     if let Some(label) = drawing.labels.first() {
         layers.push((LABELS.to_owned(), label.color));
     }
@@ -84,6 +87,13 @@ pub fn dxf_of_paths(
     out.pair(0, "ENDSEC");
     out.pair(0, "EOF");
     Ok(out.out)
+}
+
+/// The name of a layer: with that of its parts if the format allows it.
+fn name(layer: &DrawnLayer) -> String {
+    let label = layer.label().replace(' ', "-");
+    let is_plain = label.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '-' || letter == '_');
+    if is_plain && label.len() <= LONGEST_NAME { label } else { layer.id() }
 }
 
 /// The number of the nearest colour.

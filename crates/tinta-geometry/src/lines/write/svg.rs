@@ -150,7 +150,10 @@ fn write_fills(group: &FillGroup, out: &mut String) {
         NONE if object == NONE => ("fill-seams".to_owned(), "below seams".to_owned()),
         view if object == NONE => (format!("fill-seams-{view}"), format!("below seams of view {view}")),
         NONE => (format!("fill-{object}"), format!("object {object}")),
-        material => (format!("fill-{object}-{material}"), format!("object {object} material {material}")),
+        material => {
+            let named = if group.name.is_empty() { format!("material {material}") } else { escaped(&group.name) };
+            (format!("fill-{object}-{material}"), format!("object {object} {named}"))
+        }
     };
     let edges = match group.is_crisp {
         true => r#"shape-rendering="crispEdges""#.to_owned(),
