@@ -72,7 +72,9 @@ impl Command {
 ///
 /// [`Error::CommandLine`] for an argument that is missing.
 pub fn given<A: FromArgMatches>(matches: &ArgMatches) -> Result<A> {
-    A::from_arg_matches(matches).map_err(|error| Error::CommandLine { problem: error.to_string() })
+    A::from_arg_matches(matches).map_err(|error| Error::CommandLine {
+        problem: error.to_string().trim_start_matches("error: ").trim_end().to_owned(),
+    })
 }
 
 /// All commands, and the measure of lines that the window shows.

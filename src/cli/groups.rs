@@ -73,11 +73,22 @@ impl<T: Clone + Send + Sync + 'static> Group<T> {
             .allow_hyphen_values(true)
     }
 
+    /// How the settings inside it are given.
+    fn holding(&self) -> String {
+        let names: Vec<&str> = self.inside.iter().map(|setting| setting.name).collect();
+        format!("write NAME=VALUE with one of {}", names.join(", "))
+    }
+
     /// Checks each value alone.
     fn checked(&self, table: &Table<T>, text: &str) -> Result<(), String> {
         self.split(text)?.into_iter().try_for_each(|(name, value)| match value {
             OptionValue::Text(value) => {
-                let told = |problem| if name == self.name { problem } else { format!("{name}: {problem}") };
+                let is_choice = self.plain.is_some_and(|plain| matches!(plain.kind, Kind::Choice(_)));
+                let told = |problem: String| match name == self.name {
+                    true if problem.ends_with('?') || !is_choice => problem,
+                    true => format!("{problem}, or {}", self.holding()),
+                    false => format!("{name}: {problem}"),
+                };
                 table.check(name, &value).map_err(told)
             }
             _ => Ok(()),
@@ -98,8 +109,7 @@ impl<T: Clone + Send + Sync + 'static> Group<T> {
                 (None, _, None, Some(plain)) => given.push((plain.name, OptionValue::text(word))),
                 _ => {
                     let names: Vec<&str> = self.inside.iter().map(|setting| setting.name).collect();
-                    let all = format!("write NAME=VALUE with one of {}", names.join(", "));
-                    return Err(meant_or(name, &names, &all));
+                    return Err(meant_or(name, &names, &self.holding()));
                 }
             }
         }

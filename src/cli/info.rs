@@ -8,6 +8,7 @@ use tinta::drivers::{Checked, Found, check};
 use tinta::edges::{Class, ClassCounts, ClassSet, Classes, SilhouetteRule, Silhouettes};
 use tinta::gl::context::{Attempt, Outcome, attempts};
 use tinta::glam::DVec3;
+use tinta::mesh::UpAxis;
 use tinta::record::{CameraRecord, ModelRecord};
 use tinta::settings::Setting;
 use tinta::styles::Inking;
@@ -202,10 +203,16 @@ fn edges(model: &str, arguments: &Arguments) -> Result<()> {
     let mut counts = Classes::new(mesh, list, crease_angle, ClassSet::EDGES).counts();
     counts.silhouette = Silhouettes::new(mesh, list).find(mesh, list, scene.eye(object, rule), rule).len();
     if !arguments.json {
-        let (low, high) = mesh.extent();
-        let names: Vec<&str> = mesh.parts.iter().map(|part| part.name.as_str()).collect();
-        let size =
-            format!("{:<16}{} to {}, in the coordinates of --eye\n", "size", low + DVec3::ZERO, high + DVec3::ZERO);
+        // Any given axis keeps the file's coordinates.
+        let of_file = LoadOptions { up_axis: UpAxis::Y, section: None, ..read };
+        let (low, high) = super::models::read(model, &of_file)?.mesh.extent();
+        let names: Vec<String> = mesh.parts.iter().map(|part| super::plain(&part.name)).collect();
+        let size = format!(
+            "{:<16}{} to {}, in the axes of the file, as for --section\n",
+            "size",
+            low + DVec3::ZERO,
+            high + DVec3::ZERO
+        );
         let parts = if names.is_empty() { String::new() } else { format!("{:<16}{}\n", "parts", names.join(", ")) };
         return super::print(&(size + &parts + &edges_in_words(list.len(), counts, list.reversed_edges())));
     }

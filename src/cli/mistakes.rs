@@ -5,7 +5,8 @@ use super::groups::inside_now;
 use super::help::options;
 use crate::choice::{meant_or, nearest, no_option};
 use crate::files::shown;
-use crate::request::gone;
+use crate::picture::PictureFormat;
+use crate::request::{DrawingFormat, gone};
 use clap::Command;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::ffi::OsString;
@@ -87,6 +88,12 @@ fn unknown_command(error: &clap::Error, whole: &Command) -> Option<String> {
     if let Some(problem) = gone_command(name) {
         return Some(problem);
     }
+    if DrawingFormat::of_name(name).is_some() || PictureFormat::of(Path::new(name)).is_some() {
+        return Some(format!(
+            "{} is no model; tinta again {0} -o FILE draws a picture of tinta's again",
+            shortened(name)
+        ));
+    }
     let names: Vec<&str> = whole.get_subcommands().map(Command::get_name).collect();
     let choice = meant_or(name, &names, &format!("choose one of {}", names.join(", ")));
     Some(format!("there is no command {}; {choice}", shortened(name)))
@@ -150,12 +157,25 @@ fn missing(error: &clap::Error, whole: &Command, command: &Command, words: &[OsS
     let name = command.get_name();
     let is_model = others == ["<MODEL>..."] || others == ["<MODEL>"];
     // An output's name for the model that is given, or for a cow.
-    let stem = model(whole, words).map_or("cow".to_owned(), |model| stem(&model));
+    let models = models(whole, words);
+    let stem = models.first().map_or("cow".to_owned(), |model| stem(model));
     let into = |output: &str, stem: &str| match output {
         "<DIR>" => "results".to_owned(),
+        _ if name == "page" => format!("{stem}.html"),
         _ => format!("{stem}.png"),
     };
-    let what = |output: &str| if output == "<DIR>" { "folder to write into" } else { "picture to write" };
+    let what = |output: &str| match output {
+        "<DIR>" => "folder to write into",
+        _ if name == "page" => "page to write",
+        _ => "picture to write",
+    };
+    // Many programs take the output as their last word.
+    let meant = models.last().and_then(|last| last.to_str()).filter(|_| models.len() > 1 && others.is_empty());
+    if let Some(meant) =
+        meant.filter(|last| PictureFormat::of(Path::new(last)).is_some() || DrawingFormat::of_name(last).is_some())
+    {
+        return Some(format!("--output is missing; did you mean -o {}?", shortened(meant)));
+    }
     match output {
         Some(output) if others.is_empty() => {
             Some(format!("--output is missing; name the {}: -o {}", what(output), into(output, &stem)))
@@ -168,12 +188,12 @@ fn missing(error: &clap::Error, whole: &Command, command: &Command, words: &[OsS
     }
 }
 
-/// The first model that the words name.
-fn model(whole: &Command, words: &[OsString]) -> Option<OsString> {
-    let matches = whole.clone().ignore_errors(true).try_get_matches_from(words).ok()?;
-    let (_, given) = matches.subcommand()?;
-    let models = given.try_contains_id("models").is_ok_and(|is_there| is_there);
-    given.get_raw(if models { "models" } else { return None })?.next().map(OsString::from)
+/// The models that the words name.
+fn models(whole: &Command, words: &[OsString]) -> Vec<OsString> {
+    let matches = whole.clone().ignore_errors(true).try_get_matches_from(words).ok();
+    let given = matches.as_ref().and_then(|matches| matches.subcommand()).map(|(_, given)| given);
+    let named = |id| given.filter(|given| given.try_contains_id(id).is_ok_and(|is_there| is_there))?.get_raw(id);
+    named("models").or_else(|| named("model")).into_iter().flatten().map(OsString::from).collect()
 }
 
 /// A possible name for a picture of a model, without its ending; `None` for names that a shell would split.
@@ -200,6 +220,14 @@ mod tests {
     fn what_was_meant_is_said() {
         for (line, sentence) in [
             ("tinta redner", "there is no command redner; did you mean render?"),
+            (
+                "tinta a/cow.png",
+                "a/cow.png is no model; tinta again a/cow.png -o FILE draws a picture of tinta's again; see --help",
+            ),
+            (
+                "tinta cow.svg",
+                "cow.svg is no model; tinta again cow.svg -o FILE draws a picture of tinta's again; see --help",
+            ),
             ("tinta render a.obj -o a.png --colour red", "tinta render has no option --colour; did you mean --color?"),
             ("tinta render a.obj -o a.png -size=64", "tinta render has no option -size; did you mean --size?"),
             (
@@ -216,6 +244,15 @@ mod tests {
             (
                 "tinta render a.obj -o a.png --style three_pass",
                 "invalid value 'three_pass' for '--style <STYLE>': did you mean three-pass?",
+            ),
+            (
+                "tinta render a.obj -o a.png --style technical",
+                "invalid value 'technical' for '--style <STYLE>': this is a look; write --look technical; see --help",
+            ),
+            (
+                "tinta render a.obj -o a.png --light top",
+                "invalid value 'top' for '--light <WHERE>': choose one of cpu, vertex-shader, or write NAME=VALUE with one of \
+                 tone-light, light-1, light-2; see --help",
             ),
             (
                 "tinta render a.obj -o a.png --classes crease,boundry",
@@ -242,6 +279,12 @@ mod tests {
             ("tinta render dir/old.cow.obj", picture("old.cow")),
             ("tinta render --size 64 builtin:gear cow.obj", picture("gear")),
             ("tinta render -", picture("picture")),
+            (
+                "tinta page dir/cow.obj",
+                "--output is missing; name the page to write: -o cow.html; see --help".to_owned(),
+            ),
+            ("tinta render cow.obj a.png", "--output is missing; did you mean -o a.png?".to_owned()),
+            ("tinta render cow.obj b.obj a.svg", "--output is missing; did you mean -o a.svg?".to_owned()),
             ("tinta render a;b.obj", picture("picture")),
             (
                 "tinta render",

@@ -9,6 +9,7 @@ mod tests;
 use super::camera_file;
 use super::groups::{groups, in_groups};
 pub use super::selection::Selection;
+use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches, parser::ValueSource};
 use std::ffi::OsStr;
 use std::marker::PhantomData;
@@ -71,7 +72,12 @@ fn arg<T: Clone + Send + Sync + 'static>(table: &'static Table<T>, setting: &'st
         false => arg,
     };
     // Parsing refuses only invalid values; the setting's owner is known later.
-    let check = move |text: &str| table.check(setting.name, text).map(|()| text.to_owned());
+    let check = move |text: &str| match table.check(setting.name, text) {
+        Err(_) if setting.name == "style" && Look::of_name(text).is_ok() => {
+            Err(format!("this is a look; write --look {text}"))
+        }
+        checked => checked.map(|()| text.to_owned()),
+    };
     match &setting.kind {
         Kind::Numbers { .. } | Kind::Text { .. } | Kind::Color | Kind::Colors { .. } => {
             arg.value_parser(check).allow_hyphen_values(true)
@@ -125,8 +131,12 @@ impl<S: Selection> FromArgMatches for Chosen<S> {
         for group in groups(Self::all()).iter().filter(|group| !group.inside.is_empty()) {
             let given = matches.value_source(group.name) == Some(ValueSource::CommandLine);
             for text in matches.get_many::<String>(group.name).into_iter().flatten().filter(|_| given) {
-                let split = group.split(text).unwrap_or_default();
-                chosen.options.extend(split.into_iter().map(|(name, value)| (name.to_owned(), value)));
+                for (name, value) in group.split(text).unwrap_or_default() {
+                    if chosen.options.insert(name.to_owned(), value).is_some() {
+                        let problem = format!("--{name}: it is given twice; leave one of them out");
+                        return Err(clap::Error::raw(ErrorKind::ArgumentConflict, problem));
+                    }
+                }
             }
         }
         let is_alone = |setting: &&Setting<S::Of>| {

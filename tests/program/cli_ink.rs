@@ -141,3 +141,22 @@ fn a_dump_does_not_take_the_pictures_place() {
     let picture = format!("{dump}/01-map-clear.png");
     refused_in_one_line(&["render", "builtin:ant", "-o", &picture, "--dump", &dump], &["01-map-clear.png", "--dump"]);
 }
+
+#[test]
+fn info_says_the_size_in_the_files_axes_and_names_without_their_commands() {
+    let folder = Folder::new();
+    let stl = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 80 0 0\nvertex 0 60 19\nendloop\nendfacet\nendsolid\n";
+    let obj = b"o \x1b[2Jleg\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let text =
+        |model: &str, more: &[&str]| String::from_utf8(tinta(&[&["info", model], more].concat()).stdout).unwrap();
+    let part = folder.file("part.stl", stl.as_bytes());
+    for more in [&[][..], &["--up-axis", "z"], &["--up-axis", "y"]] {
+        let text = text(&part, more);
+        assert!(
+            text.starts_with("size            [0, 0, 0] to [80, 60, 19], in the axes of the file"),
+            "{more:?}: {text}"
+        );
+    }
+    let text = text(&folder.file("leg.obj", obj), &[]);
+    assert!(text.contains("parts           \\u{1b}[2Jleg\n") && !text.contains('\u{1b}'), "{text:?}");
+}

@@ -27,11 +27,26 @@ const FILES: [(&str, &str); 16] = [
 ];
 
 /// Command lines and their errors.
-const MISTAKES: [(&str, &str); 99] = [
+const MISTAKES: [(&str, &str); 105] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
     ("render triangle.obj", "--output is missing; name the picture to write: -o triangle.png; see --help"),
     ("render dir/my-cow.v2.obj", "--output is missing; name the picture to write: -o my-cow.v2.png; see --help"),
+    ("render triangle.obj out.png", "--output is missing; did you mean -o out.png?"),
+    ("page triangle.obj", "--output is missing; name the page to write: -o triangle.html; see --help"),
+    ("out.png", "out.png is no model; tinta again out.png -o FILE draws a picture of tinta's again; see --help"),
+    (
+        "render triangle.obj twice.obj -o %s.png",
+        "%s.png: %s stands for no model's name, because all models make one picture; write a command for each",
+    ),
+    (
+        "render triangle.obj -o out.png --section x=0 --section z=0",
+        "--section: it is given twice; leave one of them out; see --help",
+    ),
+    (
+        "render triangle.obj -o out.png --style print",
+        "invalid value 'print' for '--style <STYLE>': this is a look; write --look print; see --help",
+    ),
     ("render triangle.obj -o out.png --colour red", "tinta render has no option --colour; did you mean --color?"),
     ("render triangle.obj -o out.png -size 64", "tinta render has no option -size; did you mean --size?"),
     (

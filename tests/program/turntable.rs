@@ -1,6 +1,6 @@
 //! `tinta render` into animations, as a user meets it.
 
-use crate::program::{refused_in_one_line, silent};
+use crate::program::{refused_in_one_line, said, silent, tinta};
 use crate::support::{Folder, frames_of_gif as gif, public_models, skip};
 use image::AnimationDecoder;
 use image::codecs::png::PngDecoder;
@@ -219,4 +219,22 @@ fn what_makes_no_animation_is_refused() {
     refused(&out, &["--turntable", "4", "--explain"], &["--explain: this is for one picture"]);
     refused(&out, &["--turntable", "4", "--frames", "9"], &["--frames: this is for one picture"]);
     assert!(!std::path::Path::new(&out).exists());
+}
+
+#[test]
+fn frames_of_an_earlier_and_longer_turn_are_said() {
+    let folder = Folder::new();
+    for ending in ["png", "svg"] {
+        let name = folder.path(&format!("frame-%02d.{ending}"));
+        let turn = |views| {
+            let output = tinta(&["render", "builtin:gear", "-o", &name, "--turntable", views, "--size", "32"]);
+            assert!(output.status.success(), "{}", said(&output));
+            said(&output)
+        };
+        assert_eq!([turn("4"), turn("4")].concat(), "", "{ending}");
+        let left = turn("3");
+        let sentence =
+            format!("frame-04.{ending}: this frame is an earlier animation's; delete it with those after it");
+        assert!(left.contains(&sentence) && left.trim_end().lines().count() == 1, "{left}");
+    }
 }

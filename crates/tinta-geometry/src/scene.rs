@@ -178,7 +178,7 @@ impl SceneSettings {
             background.said("white").common(),
             Setting::flag(
                 "transparent",
-                "No background: alpha 0 outside the model",
+                "Alpha 0 outside the model",
                 |scene: &Self| scene.background == Background::Transparent,
                 |scene, is_on| {
                     if is_on {

@@ -180,7 +180,7 @@ impl<T: Clone + 'static> Setting<T> {
             Ok(())
         };
         let kind = match V::kind() {
-            Kind::Choice(names) => Kind::Choice([open].into_iter().chain(names).collect()),
+            Kind::Choice(names) if !open.is_empty() => Kind::Choice([open].into_iter().chain(names).collect()),
             kind => kind,
         };
         Self { open: Some(open), said_default: Some(open), ..Self::of(name, value_name, kind, help, get, set) }

@@ -6,8 +6,10 @@ use super::super::progress::Progress;
 use super::prune;
 use super::rendering::{Rendering, pictures_of};
 use serde_json::json;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
+use tinta::animation::NumberedName;
 use tinta::lines::Progress as LineProgress;
 use tinta::mesh::ModelFrame;
 use tinta::plan::prune::Pruned;
@@ -29,7 +31,21 @@ pub(super) fn check_name(animation: &AnimationSettings, output: &str) -> Result<
                        such as drawing.png";
         return Err(Error::output(output, problem));
     }
+    if output.contains("%s") {
+        let problem = "%s stands for no model's name, because all models make one picture; write a command for each";
+        return Err(Error::output(output, problem));
+    }
     Ok(())
+}
+
+/// Says which frames of an earlier and longer animation are left behind the last.
+pub(super) fn say_left_over(output: &str, frames: u32) {
+    let next = NumberedName::parse(output).map(|name| name.with(frames + 1));
+    if let Some(next) = next.filter(|next| Path::new(next).exists()) {
+        super::super::say(&format!(
+            "tinta: {next}: this frame is an earlier animation's; delete it with those after it"
+        ));
+    }
 }
 
 /// The animation's target, if one is asked for.
@@ -84,6 +100,7 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
     }
     let written = writer.finish()?;
     drop(progress);
+    say_left_over(output, scenes.len() as u32);
     remarks.extend(of_empty(&empty, scenes.len()).inspect(|remark| super::super::say(&format!("tinta: {remark}"))));
     if !run.json {
         return Ok(verdict);

@@ -23,7 +23,7 @@ use tinta::{Error, LineSettings, Result, Scene, Style, StyleName, Target, TextTa
 pub(super) const COMMAND: Command = Command {
     examples: &[
         "tinta why cow.obj 240,310                       explain why a line is hidden",
-        "tinta why cow.obj 240,310 --style three-pass    explain a pixel",
+        "tinta why cow.obj 256,256 --style three-pass    explain a pixel",
         "tinta why cow.png 640,480                       explain a pixel of a picture by tinta",
     ],
     ..Command::new("why", <Arguments as clap::Args>::augment_args, |matches, call| {

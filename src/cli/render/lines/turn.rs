@@ -2,7 +2,7 @@
 
 use super::super::super::signals::Stop;
 use super::super::super::{Verdict, print_json, say};
-use super::super::animate::delay_ms;
+use super::super::animate::{delay_ms, say_left_over};
 use super::super::rendering::Rendering;
 use super::writing::{is_stopped, progress, watched};
 use serde_json::json;
@@ -72,6 +72,7 @@ pub(super) fn run(
         bytes = text.len() as u64;
         TextTarget::check(output)?.write(&text)?;
     }
+    say_left_over(output, views);
     if ids.count() == 0 {
         say("tinta: no line of these classes is visible in any view; see --classes, --eye and --target");
     }

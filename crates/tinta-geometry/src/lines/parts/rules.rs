@@ -48,8 +48,7 @@ impl PartRules {
 impl PartRule {
     fn text(&self) -> String {
         let setting = |setting: &crate::settings::Setting<PartStyle>| {
-            let value =
-                setting.value(&self.style).filter(|value| setting.open != Some(value.as_str()) && value != "auto")?;
+            let value = setting.value(&self.style).filter(|value| !value.is_empty())?;
             Some(if setting.name == PartStyle::ROLE { value } else { format!("{}={value}", setting.name) })
         };
         let settings: Vec<String> = PartStyle::table().settings.iter().filter_map(setting).collect();
@@ -73,7 +72,8 @@ impl PartRule {
                 return Err(usage().into());
             }
             if !table.has(name) {
-                let names: Vec<&str> = table.settings.iter().map(|setting| setting.name).collect();
+                let names = table.settings.iter().map(|setting| setting.name);
+                let names: Vec<&str> = names.filter(|name| *name != PartStyle::ROLE).collect();
                 let otherwise = format!("choose {}, or ghost, occlude-only or solid alone", names.join(", "));
                 return Err(
                     format!("{pattern}: a part has no setting {name}; {}", meant_or(name, &names, &otherwise)).into()

@@ -50,8 +50,8 @@ const CUT_WIDTH: Length = Length::Times(2.0);
 /// Width of the strokes on it.
 const STROKE_WIDTH: Length = Length::Times(0.7);
 
-/// The text of an unset value.
-const UNSET: &str = "auto";
+/// The text of an unset value, which cannot be given.
+const UNSET: &str = "";
 
 /// Separates classes here, because commas separate settings.
 const BETWEEN_CLASSES: &str = "+";

@@ -448,9 +448,7 @@ fn ball(centre: DVec3, radius: f64, (positions, triangles): &mut (Vec<DVec3>, Ve
         let [a, b] = [step, (step + 1) % around].map(|step| first + row * around + step);
         let sides = [[a, a + around, b], [b, a + around, b + around]];
         let is_at_pole = [row == 0, row + 1 == rows];
-        triangles.extend(
-            sides.into_iter().zip(is_at_pole).filter(|(_, is_at_pole)| !is_at_pole).map(|(t, _)| t),
-        );
+        triangles.extend(sides.into_iter().zip(is_at_pole).filter(|(_, is_at_pole)| !is_at_pole).map(|(t, _)| t));
     }
 }
 
