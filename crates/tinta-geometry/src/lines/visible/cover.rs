@@ -5,10 +5,11 @@
 //! more than any tolerance, and where it may hide it. The walk ends with the last such stretch. Only the stretches that a face may hide
 //! need a ray and the exact rules.
 
-use crate::bvh::{Box3, Exclusion, Line3, Walk};
+use crate::bvh::{Box3, Exclusion, Line3, NO_GROUP, Walk};
 use crate::lines::eye::image::Image;
 use crate::lines::eye::projected_face::ProjectedFace;
 use crate::lines::eye::touch::key_slack;
+use crate::lines::input::feature::Own;
 use crate::lines::visible::contact::ProbedLine;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
@@ -114,7 +115,12 @@ impl LineIndex<'_> {
             return cover.sorted();
         }
         let feature = &self.features[index];
-        let line = ProbedLine::new(self.faces, feature.own, feature.ends, feature.weld);
+        // A line's own faces hide it nowhere, but they lie beside it.
+        let (own, planes) = match search_depth {
+            SearchDepth::Nearer => (feature.own, feature.planes),
+            SearchDepth::Any => (Own::Free, [NO_GROUP; 2]),
+        };
+        let line = ProbedLine::new(self.faces, own, feature.ends, feature.weld);
         // A face that the line ends on may lie a little behind one of its ends.
         let slack = key_slack(image.keys[0]).max(key_slack(image.keys[1]));
         let mut walk = CoverWalk {
@@ -125,7 +131,7 @@ impl LineIndex<'_> {
             least,
             remembered: [None; THRESHOLDS.remembered],
         };
-        self.walk_occluders(Exclusion::planes(feature.planes), &mut walk);
+        self.walk_occluders(Exclusion::planes(planes), &mut walk);
         walk.cover.sorted()
     }
 
