@@ -64,34 +64,27 @@ pub(crate) fn refusal(needed: u64, free: Option<u64>) -> Option<String> {
     too_much(needed, free).map(|both| format!("it takes {both}; close other programs, or make it smaller"))
 }
 
-/// Rejects lines that need more bytes than are free.
-///
-/// # Errors
-///
-/// [`Error::Setting`] with both numbers.
-pub(crate) fn check_lines(needed: usize, free: Option<u64>) -> Result<()> {
-    match too_much(needed as u64, free) {
-        None => Ok(()),
-        Some(both) => {
-            let problem =
-                format!("the lines of this scene take {both}; ask for fewer, for instance without intersection");
-            Err(Error::setting("classes", problem))
-        }
-    }
-}
+/// What a drawing asks for: the setting that names it, its name in a sentence, and how to ask for less.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Asked([&'static str; 3]);
 
-/// Rejects regions that need more bytes than are free.
-///
-/// # Errors
-///
-/// [`Error::Setting`] with both numbers.
-pub(crate) fn check_regions(needed: usize, free: Option<u64>) -> Result<()> {
-    match too_much(needed as u64, free) {
-        None => Ok(()),
-        Some(both) => {
-            let problem = format!("the areas of this scene take {both}; draw fewer or simpler models at once");
-            Err(Error::setting("areas", problem))
-        }
+/// The kinds of work on a drawing.
+pub(crate) const LINES: Asked = Asked(["classes", "lines", "ask for fewer, for instance without intersection"]);
+pub(crate) const AREAS: Asked = Asked(["areas", "areas", "draw fewer or simpler models at once"]);
+pub(crate) const TONES: Asked = Asked(["tones", "areas of tone", "draw fewer or simpler models at once"]);
+pub(crate) const STROKES: Asked = Asked(["hatch", "strokes", "choose a wider spacing, or draw fewer models at once"]);
+
+impl Asked {
+    /// Rejects work that needs more bytes than are free.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] with both numbers.
+    pub(crate) fn check(self, needed: usize, free: Option<u64>) -> Result<()> {
+        let Self([setting, things, advice]) = self;
+        too_much(needed as u64, free).map_or(Ok(()), |both| {
+            Err(Error::setting(setting, format!("the {things} of this scene take {both}; {advice}")))
+        })
     }
 }
 
@@ -145,16 +138,18 @@ mod tests {
     #[test]
     fn lines_that_take_more_than_there_is_say_what_to_leave_out() {
         let gib = 1usize << 30;
-        assert!(check_lines(2 * gib, Some(3 << 30)).is_ok() && check_lines(2 * gib, None).is_ok());
-        let message = check_lines(5 * gib, Some(3 << 29)).unwrap_err().to_string();
+        assert!(LINES.check(2 * gib, Some(3 << 30)).is_ok() && LINES.check(2 * gib, None).is_ok());
+        let message = LINES.check(5 * gib, Some(3 << 29)).unwrap_err().to_string();
         assert_eq!(
             message,
             "classes: the lines of this scene take 5.0 GiB of memory, and 1.5 GiB are free; ask for fewer, for instance \
              without intersection"
         );
-        let message = check_regions(5 * gib, Some(3 << 29)).unwrap_err().to_string();
-        let sentence = "areas: the areas of this scene take 5.0 GiB of memory, and 1.5 GiB are free; draw fewer or simpler models at \
-                        once";
-        assert_eq!(message, sentence);
+        for (asked, start, end) in
+            [(AREAS, "areas: the areas of ", "models at once"), (STROKES, "hatch: the strokes of ", "models at once")]
+        {
+            let message = asked.check(5 * gib, Some(3 << 29)).unwrap_err().to_string();
+            assert!(message.starts_with(start) && message.ends_with(end), "{message}");
+        }
     }
 }

@@ -4,13 +4,12 @@
 //! their vertices. Three steps make them:
 //!
 //! 1. *Borders*. Where one face gives way to another lies the image of a side of a face, of an intersection of faces, or of a cut
-//!    by the near or the far plane. All of these are borders, except those that nearer faces surely hide. One too many does no
-//!    harm.
+//!    by the near or the far plane. The deciders of lines find the visible pieces of all of these. One too many does no harm.
 //! 2. *Cells*. Snap rounding cuts the borders where they cross, on a grid of at most 2^-15 pixels; they bound the cells of a
 //!    planar map. All of this is exact in integers.
 //! 3. *Labels*. In each cell one ray decides what is seen. Borders with the same label on both sides go, which joins their cells.
 //!
-//! No step closes a gap, since none can open: every border is whole, and the visibility of lines plays no part.
+//! No step closes a gap, since none can open: a piece ends on another one, and goes a little beyond it.
 //!
 //! ```
 //! # fn main() -> tinta_geometry::Result<()> {
@@ -27,14 +26,12 @@
 //! # }
 //! ```
 
-mod crossings;
 mod cut;
 mod grid;
 mod ground;
 mod lit;
 mod planar_map;
 mod region;
-mod sheets;
 mod snap;
 mod seen_normals;
 mod surface;
@@ -47,3 +44,4 @@ pub use lit::{chosen_light, lit_scene};
 pub use region::{Region, Regions, SeenFace};
 pub use surface::{Joined, Surface};
 pub use tones::{ToneLight, ToneRule, TonedSurface};
+pub(in crate::lines) use view::View;

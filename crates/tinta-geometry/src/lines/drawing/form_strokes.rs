@@ -1,14 +1,19 @@
 //! Strokes along the form: where parallel planes of the model cut its visible faces.
 //!
-//! In: regions of one face and tone each. Out: strokes. The image of a section with a plane is a straight line in each face, so it is cut
-//! at the sides of the region as exactly as a ruled stroke. Pieces of one plane that meet are one stroke. A darker tone has the strokes of
-//! every plane, a brighter one those of every second; a face seen at an angle leaves out as many as keep the distance.
+//! In: a scene and a rule of tones. Out: strokes. A section with a plane is a straight line in each face. The deciders of lines say which
+//! pieces of it are visible, and its ends' light where its tone changes. Pieces of one plane that meet are one stroke. A darker tone has the
+//! strokes of every plane, a brighter one those of every second; a face seen at an angle leaves out as many as keep the distance.
 
+use crate::error::Result;
 use crate::limits::HATCH_STROKES;
 use crate::lines::drawing::form_planes::FormPlanes;
 use crate::lines::drawing::simplify::simplified;
+use crate::lines::eye::image::Image;
 use crate::lines::eye::space::Space;
-use crate::lines::regions::{Region, Regions, SeenFace};
+use crate::lines::input::line_input::LineInput;
+use crate::lines::progress::Progress;
+use crate::lines::regions::{SeenFace, ToneRule, View};
+use crate::memory::STROKES;
 use crate::scene::Scene;
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, HashMap};
@@ -25,7 +30,13 @@ const LEAST: f64 = 0.7;
 /// How far strokes end before the border of their tone at most, as a share of their distance.
 const UNEVEN: f64 = 1.5;
 
-/// Where a plane meets a region, and whether its tone has a stroke there.
+/// Most cuts, seen or not: those of many layers behind one another.
+const MOST_CUTS: usize = 8 * HATCH_STROKES;
+
+/// Halvings of a stretch that find where its tone changes.
+const HALVINGS: usize = 40;
+
+/// A visible piece of a cut, and whether its tone has a stroke there.
 struct Piece {
     ends: [DVec2; 2],
     is_drawn: bool,
@@ -34,122 +45,161 @@ struct Piece {
 /// An object, the number of a plane's normal there, and the plane.
 type Plane = (u32, u32, i64);
 
-/// Finds the strokes with a distance and a least length in pixels; `None` for more than [`HATCH_STROKES`] pieces.
+/// Where a plane cuts a face.
+struct Cut {
+    place: u32,
+    plane: Plane,
+    /// Every how many planes have a stroke in the face.
+    step: i64,
+    /// The weights of the face's corners at both ends.
+    weights: [[f64; 3]; 2],
+}
+
+/// Finds the strokes of a rule's tones with a distance and a least length in pixels; `None` for more than [`HATCH_STROKES`] pieces.
+///
+/// # Errors
+///
+/// Those of [`Regions::toned`](crate::lines::Regions::toned).
 pub(super) fn form_strokes(
     scene: &Scene,
-    regions: &Regions<Option<(SeenFace, u8)>>,
-    brightest: u8,
+    rule: &ToneRule,
     [spacing_px, least_px]: [f64; 2],
-) -> Option<Vec<Vec<DVec2>>> {
-    let space = Space::of(scene);
+    progress: &Progress,
+) -> Result<Option<Vec<Vec<DVec2>>>> {
+    let view = View::of(scene, STROKES, progress)?;
+    let Some(cuts) = cuts(&view, spacing_px) else { return Ok(None) };
+    let faces = &view.input.faces;
+    let inside = cuts.iter().map(|cut| (cut.place, cut.weights.map(|weights| at(faces.corners(cut.place), weights))));
+    let visible = view.visible(inside, progress)?;
+    if visible.len() > HATCH_STROKES {
+        return Ok(None);
+    }
+    let mut pieces: BTreeMap<Plane, Vec<Piece>> = BTreeMap::new();
+    for (number, range, image) in visible {
+        let cut = &cuts[number];
+        let of_plane = pieces.entry(cut.plane).or_default();
+        let (_, _, row) = cut.plane;
+        for ([from, to], tone) in by_tone(&view, rule, cut, &image, range) {
+            let is_drawn = tone < rule.brightest() && row % (cut.step << tone) == 0;
+            of_plane.push(Piece { ends: [image.at(from), image.at(to)], is_drawn });
+        }
+    }
+    let mut strokes: Vec<Vec<DVec2>> =
+        pieces.iter().flat_map(|(plane, pieces)| drawn(pieces, *plane, spacing_px)).collect();
+    let length = |stroke: &Vec<DVec2>| stroke.windows(2).map(|ends| ends[0].distance(ends[1])).sum::<f64>();
+    strokes.retain(|stroke| length(stroke) >= least_px);
+    Ok(Some(strokes))
+}
+
+/// The point of a face with these weights.
+fn at(corners: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
+    corners.iter().zip(weights).map(|(corner, weight)| *corner * weight).sum()
+}
+
+/// Cuts the faces in the picture by their planes; `None` for too many cuts.
+fn cuts(view: &View, spacing_px: f64) -> Option<Vec<Cut>> {
+    let LineInput { scene, space, faces, .. } = &view.input;
     let px_per_unit = space.px_per_unit((scene.camera.eye - scene.centre).length());
     let steps = (scene.radius * px_per_unit / spacing_px).log2() * STEPS;
     let distance = scene.radius / (steps.round() / STEPS).exp2();
-    let mut planes: HashMap<u32, FormPlanes> = HashMap::new();
-    let mut pieces: BTreeMap<Plane, Vec<Piece>> = BTreeMap::new();
-    let mut count = 0;
-    for region in &regions.regions {
-        let Some((seen, tone)) = region.seen else { continue };
-        let object = &scene.objects[seen.object as usize];
-        let planes =
-            planes.entry(seen.object).or_insert_with(|| FormPlanes::of(&object.mesh, scene.edges(object).list()));
-        let number = planes.of_faces[seen.face as usize];
+    let planes: Vec<FormPlanes> =
+        scene.objects.iter().map(|object| FormPlanes::of(&object.mesh, scene.edges(object).list())).collect();
+    let mut cuts = Vec::new();
+    for place in 0..faces.triangles.len() as u32 {
+        let SeenFace { object, face } = view.face(place);
+        let (planes, mesh) = (&planes[object as usize], &scene.objects[object as usize].mesh);
+        let number = planes.of_faces[face as usize];
         let normal = planes.normals[number as usize] / distance;
-        let Some(corners) = object.mesh.corners(&object.mesh.triangles[seen.face as usize]) else { continue };
-        let face = SeenPlane {
-            space: &space,
-            corners: corners.map(|corner| space.view(corner + object.offset)),
-            normal: space.direction(normal),
-            start: normal.dot(space.world(DVec3::ZERO) - object.offset),
-        };
-        let step = face.step(region, spacing_px);
-        let drawn_step = step << tone;
-        let cuts = face.cuts(region, step)?;
-        count += cuts.len();
-        if count > HATCH_STROKES {
-            return None;
+        let numbers = mesh.triangles[face as usize].map(|corner| normal.dot(mesh.positions[corner as usize]));
+        let is_edge_on = || faces.edge_on.binary_search(&faces.numbers[place as usize]).is_ok();
+        // Most faces of a fine mesh meet no plane.
+        if numbers.iter().all(|number| number.ceil() == numbers[0].ceil()) || is_edge_on() {
+            continue;
         }
-        for (row, ends) in cuts {
-            let is_drawn = tone < brightest && row % drawn_step == 0;
-            pieces.entry((seen.object, number, row)).or_default().push(Piece { ends, is_drawn });
-        }
-    }
-    let mut strokes = Vec::new();
-    for (plane, pieces) in &pieces {
-        strokes.extend(drawn(pieces, *plane, spacing_px));
-    }
-    let length = |stroke: &Vec<DVec2>| stroke.windows(2).map(|ends| ends[0].distance(ends[1])).sum::<f64>();
-    strokes.retain(|stroke| length(stroke) >= least_px);
-    Some(strokes)
-}
-
-/// A face in the eye's space, and planes at whole numbers of `normal · point + start`.
-struct SeenPlane<'a> {
-    space: &'a Space,
-    corners: [DVec3; 3],
-    normal: DVec3,
-    start: f64,
-}
-
-impl SeenPlane<'_> {
-    /// The number of the plane through the place seen at a pixel, times the second number. Both are linear in the picture.
-    fn place(&self, px: DVec2) -> [f64; 2] {
-        let [a, b, c] = self.corners;
-        let across = (b - a).cross(c - a);
-        let [from, to] = self.space.ray(px);
-        let share = across.dot(a - from) / across.dot(to - from);
-        let point = from + (to - from) * share;
-        let scale = if self.space.is_perspective() { -1.0 / point.z } else { 1.0 };
-        [(self.normal.dot(point) + self.start) * scale, scale]
-    }
-
-    /// Every how many planes have a stroke: a power of two that gives the wanted distance.
-    fn step(&self, region: &Region<Option<(SeenFace, u8)>>, spacing_px: f64) -> i64 {
-        let Some(px) = region.loops.first().and_then(|corners| corners.first()) else { return 1 };
-        let number = |px: DVec2| {
-            let [number, scale] = self.place(px);
-            number / scale
-        };
-        let here = number(*px);
-        let slope = DVec2::new(number(*px + DVec2::X) - here, number(*px + DVec2::Y) - here).length();
-        let wanted = LEAST * spacing_px * slope;
-        // Beyond 2^20 a face is seen from its edge.
-        if wanted > 1.0 { 1 << (wanted.log2().ceil().min(20.0) as i64) } else { 1 }
-    }
-
-    /// The strokes of every so many planes in a region; `None` for too many.
-    fn cuts(&self, region: &Region<Option<(SeenFace, u8)>>, step: i64) -> Option<Vec<(i64, [DVec2; 2])>> {
-        let mut cuts: Vec<(i64, DVec2)> = Vec::new();
-        for corners in &region.loops {
-            let places: Vec<[f64; 2]> = corners.iter().map(|px| self.place(*px)).collect();
-            for (side, from) in corners.iter().enumerate() {
-                let next = (side + 1) % corners.len();
-                let (to, [a, q], [b, r]) = (corners[next], places[side], places[next]);
-                let [first, last] = [a / q, b / r].map(|number| (number / step as f64).ceil());
-                if !(first - last).is_finite() || (first - last).abs() > HATCH_STROKES as f64 {
-                    return None;
-                }
-                for row in first.min(last) as i64..first.max(last) as i64 {
-                    let row = row * step;
-                    let number = row as f64;
-                    let share = ((number * q - a) / ((b - a) - number * (r - q))).clamp(0.0, 1.0);
-                    cuts.push((row, from.lerp(to, share)));
-                }
+        let corners = faces.corners(place);
+        let step = step(space, corners, space.direction(normal), spacing_px);
+        for (row, weights) in rows(numbers, step)? {
+            let image = Image::of(space, weights.map(|weights| at(corners, weights)));
+            if image.is_some_and(|image| image.inside(space.size, 0.0).is_some()) {
+                cuts.push(Cut { place, plane: (object, number, row), step, weights });
             }
         }
-        cuts.sort_unstable_by_key(|(row, _)| *row);
-        let mut strokes = Vec::with_capacity(cuts.len() / 2);
-        for of_row in cuts.chunk_by_mut(|one, other| one.0 == other.0) {
-            let (low, high) = of_row
-                .iter()
-                .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), (_, px)| (low.min(*px), high.max(*px)));
-            let is_wide = high.x - low.x >= high.y - low.y;
-            let along = |px: DVec2| if is_wide { px.x } else { px.y };
-            of_row.sort_unstable_by(|(_, one), (_, other)| along(*one).total_cmp(&along(*other)));
-            strokes.extend(of_row.chunks_exact(2).map(|pair| (pair[0].0, [pair[0].1, pair[1].1])));
+        if cuts.len() > MOST_CUTS {
+            return None;
         }
-        Some(strokes)
     }
+    Some(cuts)
+}
+
+/// Every how many planes have a stroke in a face: a power of two that gives the wanted distance at the middle of what lies before the eye.
+/// `normal` is the planes', as long as the inverse of their distance.
+fn step(space: &Space, corners: [DVec3; 3], normal: DVec3, spacing_px: f64) -> i64 {
+    let [a, b, c] = corners;
+    let across = (b - a).cross(c - a);
+    let number = |px: DVec2| {
+        let [from, to] = space.ray(px);
+        normal.dot(from + (to - from) * (across.dot(a - from) / across.dot(to - from)))
+    };
+    let before: Vec<DVec3> = corners.into_iter().filter(|corner| -corner.z >= space.near).collect();
+    let (px, _) = space.project(before.iter().sum::<DVec3>() / before.len() as f64);
+    let slope = DVec2::new(number(px + DVec2::X) - number(px), number(px + DVec2::Y) - number(px)).length();
+    let wanted = LEAST * spacing_px * slope;
+    // Beyond 2^20 a face is seen from its edge.
+    if wanted > 1.0 { 1 << (wanted.log2().ceil().min(20.0) as i64) } else { 1 }
+}
+
+/// Where every so many planes cut a face, whose corners have these numbers; `None` for too many.
+fn rows(numbers: [f64; 3], step: i64) -> Option<Vec<(i64, [[f64; 3]; 2])>> {
+    let mut found: Vec<(i64, [f64; 3])> = Vec::new();
+    for (side, next) in [(0, 1), (1, 2), (2, 0)] {
+        let (from, to) = (numbers[side], numbers[next]);
+        let [first, last] = [from, to].map(|number| (number / step as f64).ceil());
+        if !(first - last).is_finite() || (first - last).abs() > HATCH_STROKES as f64 {
+            return None;
+        }
+        for row in (first.min(last) as i64..first.max(last) as i64).map(|row| row * step) {
+            let share = (row as f64 - from) / (to - from);
+            let mut weights = [0.0; 3];
+            (weights[side], weights[next]) = (1.0 - share, share);
+            found.push((row, weights));
+        }
+    }
+    found.sort_unstable_by_key(|(row, _)| *row);
+    Some(found.chunks_exact(2).map(|pair| (pair[0].0, [pair[0].1, pair[1].1])).collect())
+}
+
+/// The stretches of one tone of a visible range of a cut, with their tones.
+fn by_tone(view: &View, rule: &ToneRule, cut: &Cut, image: &Image, [from, to]: [f64; 2]) -> Vec<([f64; 2], u8)> {
+    let LineInput { space, faces, .. } = &view.input;
+    let lights = rule.lights(view, view.face(cut.place));
+    let [start, end] = cut.weights.map(|weights| at(faces.corners(cut.place), weights));
+    let tone = |place: f64| {
+        let point = space.point(image.at(place), image.key(place));
+        let share = (point - start).dot(end - start) / (end - start).length_squared();
+        rule.tone(
+            &lights,
+            [0, 1, 2].map(|corner| cut.weights[0][corner] * (1.0 - share) + cut.weights[1][corner] * share),
+        )
+    };
+    let mut stretches: Vec<([f64; 2], u8)> = vec![([from, from], tone(from))];
+    for [_, part_end] in image.stretches([from, to], rule.longest_part_px()) {
+        let tone_of_end = tone(part_end);
+        while let Some((stretch, tone_here)) = stretches.last_mut() {
+            let (mut same, mut other) = (stretch[1], part_end);
+            if *tone_here == tone_of_end {
+                stretch[1] = part_end;
+                break;
+            }
+            for _ in 0..HALVINGS {
+                let middle = f64::midpoint(same, other);
+                *(if tone(middle) == *tone_here { &mut same } else { &mut other }) = middle;
+            }
+            stretch[1] = same;
+            let next = tone(other);
+            stretches.push(([same, other], next));
+        }
+    }
+    stretches
 }
 
 /// The strokes of one plane: drawn pieces that meet, their ends inside the surface uneven.

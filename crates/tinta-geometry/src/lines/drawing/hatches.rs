@@ -56,9 +56,8 @@ pub fn hatches(
         if brightest == 0 {
             return Ok(Vec::new());
         }
-        let faces = Regions::labelled_tones(scene, rule, |seen, tone| (seen, tone), progress)?;
         let tone = brightest - 1;
-        let strokes = form_strokes(scene, &faces, brightest, [spacing_px, least_px(tone)]);
+        let strokes = form_strokes(scene, rule, [spacing_px, least_px(tone)], progress)?;
         return Ok(vec![Hatch {
             tone,
             strokes: strokes.ok_or_else(|| too_many(format!("more than {HATCH_STROKES}")))?,

@@ -3,6 +3,7 @@
 use crate::bvh::Box3;
 use crate::lines::eye::face_pair::FacePlane;
 use crate::lines::eye::faces::Faces;
+use crate::lines::eye::pieces::PieceTree;
 use crate::lines::eye::space::Space;
 use crate::scene::Scene;
 use crate::threads::{cores, in_chunks};
@@ -32,7 +33,7 @@ pub fn first_hits(scene: &Scene) -> Vec<Option<Hit>> {
         for y in rows {
             for x in 0..width {
                 let px = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-                hits.push(first_hit(&space, &faces, px));
+                hits.push(first_hit(&space, &faces, None, px));
             }
         }
         hits
@@ -49,25 +50,34 @@ pub(in crate::lines) struct FaceHit {
 }
 
 /// Returns the first hit of the ray through a place in the picture. Of faces that touch there, the one with the lowest number counts, as
-/// in a picture by GL.
-pub(in crate::lines) fn first_hit(space: &Space, faces: &Faces, px: DVec2) -> Option<Hit> {
-    let hits = nearest_hits(space, faces, px).into_iter();
+/// in a picture by GL. A tree of the faces' pieces, without those that are hidden for sure, makes it quicker.
+pub(in crate::lines) fn first_hit(space: &Space, faces: &Faces, pieces: Option<&PieceTree>, px: DVec2) -> Option<Hit> {
+    let hits = nearest_hits(space, faces, pieces, px).into_iter();
     let FaceHit { depth, place, weights } = hits.min_by_key(|hit| faces.numbers[hit.place as usize])?;
     let (object, face) = faces.in_object(faces.numbers[place as usize]);
     Some(Hit { object: object as u32, face, weights, depth })
 }
 
 /// Returns the first hit of the ray through a place in the picture, and those of faces that touch it there.
-pub(in crate::lines) fn nearest_hits(space: &Space, faces: &Faces, px: DVec2) -> Vec<FaceHit> {
+pub(in crate::lines) fn nearest_hits(
+    space: &Space,
+    faces: &Faces,
+    pieces: Option<&PieceTree>,
+    px: DVec2,
+) -> Vec<FaceHit> {
     let column = Box3::new(px.extend(f64::NEG_INFINITY), px.extend(f64::INFINITY));
     let ray = space.ray(px);
     let mut hits: Vec<FaceHit> = Vec::new();
-    faces.tree.any(&column, |place| {
+    let mut add = |place: u32| {
         let hit = meet(space, faces.corners(place), ray);
         let hit = hit.filter(|(depth, _)| (space.near..=space.far).contains(depth));
         hits.extend(hit.map(|(depth, weights)| FaceHit { depth, place, weights }));
         false
-    });
+    };
+    match pieces {
+        Some(pieces) => pieces.any(&column, |place| add(place as u32)),
+        None => faces.tree.any(&column, add),
+    };
     let Some(nearest) = hits.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)).copied() else { return hits };
     let [a, b, c] = faces.corners(nearest.place);
     let point = a * nearest.weights[0] + b * nearest.weights[1] + c * nearest.weights[2];

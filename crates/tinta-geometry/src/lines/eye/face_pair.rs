@@ -45,8 +45,6 @@ pub(in crate::lines) struct FacePlane {
     pub weld: f64,
     /// The largest contact distance with any other face, times the normal's length.
     loose: f64,
-    /// Whether no tolerance is used: each pair of faces that pass through one another is found, and some that do not.
-    is_exact: bool,
 }
 
 /// Two faces that each reach across the other's plane or have an edge in it.
@@ -61,7 +59,6 @@ struct Pair<'a> {
     shared: Option<[usize; 2]>,
     /// The length of the shortest line.
     shortest: f64,
-    is_exact: bool,
     /// Each face's edge that lies in the other's plane.
     touching: [Option<[u32; 2]>; 2],
 }
@@ -78,10 +75,10 @@ impl FacePlane {
     pub(in crate::lines) fn new(space: &Space, faces: &Faces, place: u32) -> Self {
         let face_plane = Self::exact(faces, place);
         let loose = space.contact(face_plane.longest, face_plane.weld) * face_plane.normal_length;
-        Self { loose, is_exact: false, ..face_plane }
+        Self { loose, ..face_plane }
     }
 
-    /// The plane of a face that meets others without tolerance.
+    /// The plane of a face that touches only what lies in it.
     pub(in crate::lines) fn exact(faces: &Faces, place: u32) -> Self {
         let numbers = faces.triangles[place as usize];
         let corners = faces.corners(place);
@@ -89,7 +86,7 @@ impl FacePlane {
         let normal = (b - a).cross(c - a);
         let (normal_length, weld) = (normal.length(), faces.weld(numbers[0]));
         let longest = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared()).sqrt();
-        Self { place, numbers, corners, normal, normal_length, longest, weld, loose: 0.0, is_exact: true }
+        Self { place, numbers, corners, normal, normal_length, longest, weld, loose: 0.0 }
     }
 
     /// Returns the common part of this face and another, if each has corners on both sides of the other's plane.
@@ -113,7 +110,7 @@ impl FacePlane {
         if all(&|distance| distance > self.loose) || all(&|distance| distance < -self.loose) {
             return None;
         }
-        let other = if self.is_exact { Self::exact(faces, other) } else { Self::new(space, faces, other) };
+        let other = Self::new(space, faces, other);
         let contact = self.contact(space, &other);
         // A face no higher than the contact distance is a line and has no plane, but may still pass through a face.
         let is_needle = |face_plane: &Self| face_plane.normal_length <= contact * face_plane.longest;
@@ -128,7 +125,6 @@ impl FacePlane {
         let first = Sides::of(raw, shared.map(|[i, _]| i), contact * other.normal_length)?;
         // Where each only touches the other's plane, they have a line in common if both edges lie on one another.
         if let (Some(edge), Some(other_edge)) = (first.edge, second.edge)
-            && !self.is_exact
             && !lie_on_one_line(edge.map(|i| self.corners[i]), other_edge.map(|i| other.corners[i]), contact)
         {
             return None;
@@ -148,7 +144,6 @@ impl FacePlane {
             direction: face_planes[0].normal.cross(face_planes[1].normal),
             shared: if face_planes[0].place == self.place { shared } else { shared.map(|[i, j]| [j, i]) },
             shortest: contact,
-            is_exact: self.is_exact,
             touching,
         }
         .common()
@@ -169,7 +164,6 @@ impl FacePlane {
             direction: DVec3::ZERO,
             shared: None,
             shortest: contact,
-            is_exact: self.is_exact,
             touching: [None; 2],
         };
         let mut piercings = (0..3)
@@ -193,10 +187,7 @@ impl FacePlane {
 
     /// The distance below which this face and another touch, file units.
     pub(in crate::lines) fn contact(&self, space: &Space, other: &Self) -> f64 {
-        match self.is_exact {
-            true => 0.0,
-            false => space.contact(self.longest.min(other.longest), self.weld.min(other.weld)),
-        }
+        space.contact(self.longest.min(other.longest), self.weld.min(other.weld))
     }
 
     /// Points' distances from the plane, times the normal's length.
@@ -296,16 +287,13 @@ impl Pair<'_> {
     fn crossing(&self, face: usize, from: usize, to: usize) -> Option<Crossing> {
         let numbers = self.faces.triangles[self.places[face] as usize];
         // Two faces that share the side both get the same point, bit for bit.
-        let (from, to) = if self.is_exact || numbers[from] < numbers[to] { (from, to) } else { (to, from) };
+        let (from, to) = if numbers[from] < numbers[to] { (from, to) } else { (to, from) };
         let (start, end) = (self.distances[face][from], self.distances[face][to]);
         if (start < 0.0) == (end < 0.0) {
             return None;
         }
         let positions = [numbers[from], numbers[to]].map(|number| self.faces.positions[number as usize]);
-        let point = match self.is_exact && end == 0.0 {
-            true => positions[1],
-            false => positions[0] + (positions[1] - positions[0]) * (start / (start - end)),
-        };
+        let point = positions[0] + (positions[1] - positions[0]) * (start / (start - end));
         let piercing = Piercing { edge: [numbers[from], numbers[to]], point };
         Some(Crossing { along: point.dot(self.direction), piercing })
     }

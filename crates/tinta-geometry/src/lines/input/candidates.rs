@@ -9,7 +9,7 @@ use crate::lines::input::feature::Feature;
 use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
 use crate::lines::smooth::contours::Contours;
-use crate::lines::visible::intersections::intersections;
+use crate::lines::visible::intersections::{Intersections, intersections};
 use crate::lines::visible::search::Search;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -52,8 +52,14 @@ impl Candidates {
         features.extend(input.form_features(&mut counts));
         features.extend(input.free_features(&mut counts)?);
         features.extend(input.near_plane_features());
+        Ok(Self { contours, counts, silhouette_ms, ..Self::without_contours(features, &found) })
+    }
+
+    /// The same of lines and intersections that are known, without counts.
+    pub(in crate::lines) fn without_contours(features: Vec<Feature>, found: &Intersections) -> Self {
         let mut piercings: HashMap<[u32; 2], Vec<DVec3>> = HashMap::new();
         found.piercings.iter().for_each(|piercing| piercings.entry(piercing.edge).or_default().push(piercing.point));
-        Ok(Self { features, contours, piercings, counts, silhouette_ms, compared: found.compared })
+        let counts = ClassCounts::default();
+        Self { features, contours: None, piercings, counts, silhouette_ms: 0.0, compared: found.compared }
     }
 }

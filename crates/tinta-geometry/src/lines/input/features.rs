@@ -271,7 +271,7 @@ impl LineInput<'_> {
             counts.point += if is_wanted(number, Class::Point) { curves.points.len() } else { 0 };
         }
         let count = counts.curve + counts.point;
-        memory::check_lines(count.saturating_mul(BYTES), memory::free())?;
+        memory::LINES.check(count.saturating_mul(BYTES), memory::free())?;
         let mut features = Vec::with_capacity(count);
         for (number, object) in objects.iter().enumerate() {
             let curves = &object.object.mesh.curves;

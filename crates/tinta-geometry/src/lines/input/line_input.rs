@@ -7,6 +7,7 @@ use crate::lines::eye::space::Space;
 use crate::lines::input::object_edges::{Edges, IsGhost, ObjectEdges, ghost_faces, object_edges};
 use crate::lines::parts::scene_parts::SceneParts;
 use crate::lines::settings::{LineSettings, check_on_surface, not_published};
+use crate::memory::{Asked, LINES};
 use crate::mesh::Mesh;
 use crate::scene::Scene;
 use crate::threads::both;
@@ -24,6 +25,8 @@ pub(in crate::lines) struct LineInput<'a> {
     pub objects: Vec<ObjectEdges<'a>>,
     pub scene_parts: SceneParts,
     pub faces: Faces,
+    /// What the lines are for.
+    pub asked: Asked,
 }
 
 impl<'a> LineInput<'a> {
@@ -61,7 +64,22 @@ impl<'a> LineInput<'a> {
         if let Some(is_ghost) = ghosts {
             faces.set_ghosts(&ghost_faces(&objects, is_ghost));
         }
-        Ok(Self { scene, settings, space, objects, scene_parts, faces })
+        Ok(Self { scene, settings, space, objects, scene_parts, faces, asked: LINES })
+    }
+
+    /// A scene as it is given, without repairs and styles of parts, for areas and strokes.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for too large a scene.
+    pub(in crate::lines) fn as_given(scene: &'a Scene, asked: Asked) -> Result<Self> {
+        let classes = ClassSet::of(&[Class::Intersection]);
+        let settings = LineSettings { classes, finds_hidden: false, ..LineSettings::default() };
+        check(scene, &settings)?;
+        let (scene_parts, space) = (SceneParts::new(scene, &settings)?, Space::of(scene));
+        let edges = || ObjectEdges::all(scene, |_, object| Edges::OfScene(scene.edges(object)));
+        let (objects, faces) = both(edges, || Faces::of(&space, scene));
+        Ok(Self { scene, settings, space, objects, scene_parts, faces, asked })
     }
 }
 

@@ -7,8 +7,13 @@ use super::snap::{Segment, ordered, snapped};
 use super::view::View;
 use crate::error::Result;
 use crate::lines::progress::Progress;
+use crate::memory::AREAS;
 use crate::scene::Scene;
+use crate::threads::{cores, in_chunks};
 use glam::DVec2;
+
+/// Cells that a thread labels at once.
+const CHUNK: usize = 256;
 
 impl Regions {
     /// Cuts a view into regions of one face each.
@@ -26,9 +31,9 @@ impl Regions {
     ///
     /// Those of [`Regions::of`], [`crate::Error::Cancelled`] and [`crate::Error::OutOfTime`].
     pub fn with_progress(scene: &Scene, progress: &Progress) -> Result<Self> {
-        let view = View::of(scene, progress)?;
+        let view = View::of(scene, AREAS, progress)?;
         let seen = |px| view.first_hit(px).map(|hit| SeenFace { object: hit.object, face: hit.face });
-        cut(&view, view.borders(|_| true), seen, progress)
+        cut(&view, view.borders([], |_| true, progress)?, seen, progress)
     }
 }
 
@@ -39,11 +44,15 @@ pub(super) fn cut<T: Copy + PartialEq + Send + Sync>(
     label: impl Fn(DVec2) -> T + Sync,
     progress: &Progress,
 ) -> Result<Regions<T>> {
-    let map = PlanarMap::new(&snapped(borders, progress)?);
+    let map = PlanarMap::new(&snapped(borders, view.input.asked, progress)?);
     progress.go_on()?;
-    let labels = view.labels(map.cell_count(), |cell| label(view.grid.px(map.inside(cell))), progress)?;
-    let (regions, mixed) = dissolved(&map, &labels, &view.grid);
-    Ok(Regions { size: view.scene.size, regions, broken: map.defect + mixed })
+    let labels = in_chunks(map.cell_count(), CHUNK, cores(), |range| {
+        let rest = range.take_while(|_| !progress.is_over());
+        rest.map(|cell| label(view.grid.px(map.inside(cell as u32)))).collect::<Vec<T>>()
+    });
+    progress.go_on()?;
+    let (regions, mixed) = dissolved(&map, &labels.concat(), &view.grid);
+    Ok(Regions { size: view.input.scene.size, regions, broken: map.defect + mixed })
 }
 
 /// Joins neighbouring cells of one label. Returns the regions, and the number of defects.

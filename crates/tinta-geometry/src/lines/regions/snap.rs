@@ -7,7 +7,7 @@
 use crate::bvh::{Box3, BoxTree, NodeSelection};
 use crate::error::Result;
 use crate::lines::progress::Progress;
-use crate::memory::{check_regions, free};
+use crate::memory::{Asked, free};
 use crate::threads::{cores, in_chunks, sort_by, spread_chunks};
 use glam::{DVec2, I64Vec2};
 
@@ -46,7 +46,7 @@ pub(super) fn turn([from, to]: Segment, point: Point) -> i64 {
 /// # Errors
 ///
 /// Those of [`Progress::go_on`], and [`crate::Error::Setting`] if the pieces need more memory than is free.
-pub(super) fn snapped(mut segments: Vec<Segment>, progress: &Progress) -> Result<Vec<Segment>> {
+pub(super) fn snapped(mut segments: Vec<Segment>, asked: Asked, progress: &Progress) -> Result<Vec<Segment>> {
     segments.retain(|[a, b]| a != b);
     sort(&mut segments);
     let (tree, order) = BoxTree::new(&segments.iter().map(around).collect::<Vec<_>>());
@@ -64,7 +64,7 @@ pub(super) fn snapped(mut segments: Vec<Segment>, progress: &Progress) -> Result
     });
     progress.go_on()?;
     let count: usize = found.iter().map(|found| found.cuts.len() + 2 * found.crossings.len()).sum();
-    check_regions((segments.len() + count) * PIECE_BYTES, free())?;
+    asked.check((segments.len() + count) * PIECE_BYTES, free())?;
     let mut cuts: Vec<(u32, Point)> = found.iter().flat_map(|found| &found.cuts).copied().collect();
     let mut crossings: Vec<Point> = found.iter().flat_map(|found| &found.crossings).copied().collect();
     drop(found);

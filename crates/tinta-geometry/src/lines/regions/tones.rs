@@ -6,11 +6,13 @@
 
 use super::cut::cut;
 use super::region::{Regions, SeenFace};
-use super::snap::Segment;
 use super::tone_borders::{Tone, add_borders};
-use super::view::{Sides, View};
+use super::view::View;
 use crate::error::Result;
+use crate::lines::eye::cast::Hit;
+use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
+use crate::memory::TONES;
 use crate::mesh::NONE;
 use crate::scene::Scene;
 use crate::threads::{cores, in_chunks};
@@ -55,6 +57,14 @@ impl ToneRule {
         self.thresholds.iter().map(|threshold| u8::from(*threshold <= 1.0)).sum()
     }
 
+    /// The longest stretch of a face without a border of tone in its middle, pixels: of straight borders any.
+    pub(in crate::lines) fn longest_part_px(&self) -> f64 {
+        match self.light {
+            ToneLight::Near(_) if self.thresholds[1] < 1.0 => 1.0,
+            _ => f64::INFINITY,
+        }
+    }
+
     /// How far the diffuse light is above its threshold.
     fn diffuse(&self, corners: &[NearLight; 3], weights: [f64; 3]) -> f64 {
         mixed(corners, weights, |light| light.diffuse) - self.thresholds[0]
@@ -76,37 +86,34 @@ impl Regions<Option<TonedSurface>> {
     ///
     /// Those of [`Regions::with_progress`].
     pub fn toned(scene: &Scene, rule: &ToneRule, progress: &Progress) -> Result<Self> {
+        let view = View::of(scene, TONES, progress)?;
         let label = |SeenFace { object, face }: SeenFace, tone: u8| {
             let materials = &scene.objects[object as usize].mesh.triangle_materials;
             TonedSurface { object, material: materials.get(face as usize).copied().unwrap_or(NONE), tone }
         };
-        Self::labelled_tones(scene, rule, label, progress)
-    }
-}
-
-impl<T: Copy + PartialEq + Send + Sync> Regions<Option<T>> {
-    /// Cuts a view into regions of one label; `label` gives that of a face where it has a tone.
-    pub(in crate::lines) fn labelled_tones(
-        scene: &Scene,
-        rule: &ToneRule,
-        label: impl Fn(SeenFace, u8) -> T + Sync,
-        progress: &Progress,
-    ) -> Result<Self> {
-        let view = View::of(scene, progress)?;
-        let shading = Shading { view: &view, rule, label };
-        let chunks = in_chunks(view.seen.len(), CHUNK, cores(), |range| {
-            let places = view.seen[range].iter().take_while(|_| !progress.is_over());
-            places.map(|place| shading.face(*place)).collect::<Vec<_>>()
+        let numbers = &view.input.faces.numbers;
+        let chunks = in_chunks(numbers.len(), CHUNK, cores(), |range| {
+            let places = range.take_while(|_| !progress.is_over());
+            places.map(|place| rule.of_face(&view, place as u32)).collect::<Vec<_>>()
         });
         progress.go_on()?;
-        let mut surfaces = vec![None; view.faces.triangles.len()];
-        let mut borders = Vec::new();
-        for (place, (surface, of_face)) in view.seen.iter().zip(chunks.into_iter().flatten()) {
-            surfaces[*place as usize] = surface;
-            borders.extend(of_face);
+        let mut surfaces = vec![None; scene.triangle_count()];
+        let mut inside = Vec::new();
+        for ((place, number), (tone, of_face)) in (0..).zip(numbers).zip(chunks.into_iter().flatten()) {
+            surfaces[*number as usize] = tone.map(|tone| label(view.face(place), tone));
+            inside.extend(of_face.into_iter().map(|line| (place, line)));
         }
-        borders.extend(view.borders(|sides| shading.is_border(sides, &surfaces)));
-        cut(&view, borders, |px| shading.at(px), progress)
+        // Sides of faces with several tones count: their borders end there.
+        let is_border = |sides: [u32; 2]| {
+            let [one, other] = sides.map(|number| surfaces[number as usize]);
+            one.is_none() || one != other
+        };
+        let at = |px: DVec2| {
+            let Hit { object, face, weights, .. } = view.first_hit(px)?;
+            let seen = SeenFace { object, face };
+            Some(label(seen, rule.tone(&rule.lights(&view, seen), weights)))
+        };
+        cut(&view, view.borders(inside, is_border, progress)?, at, progress)
     }
 }
 
@@ -116,22 +123,16 @@ const CHUNK: usize = 512;
 /// Most parts into which a face's side is divided to follow a curve.
 const MOST_PARTS: usize = 512;
 
-struct Shading<'a, L> {
-    view: &'a View<'a>,
-    rule: &'a ToneRule,
-    label: L,
-}
-
 /// The vertex shader's results at the corners of a face.
 #[derive(Debug, Clone, Copy)]
-enum Lights {
+pub(in crate::lines) enum Lights {
     Near([NearLight; 3]),
     /// The light on the side that is seen.
     Far([f64; 3]),
 }
 
 #[derive(Debug, Clone, Copy)]
-struct NearLight {
+pub(in crate::lines) struct NearLight {
     diffuse: f64,
     /// The mirrored direction of the light, and the direction to the eye.
     mirrored: DVec3,
@@ -155,80 +156,64 @@ fn mixed<T, U: std::ops::Mul<f64, Output = U> + std::iter::Sum>(
     corners.iter().zip(weights).map(|(corner, weight)| of(corner) * weight).sum()
 }
 
-impl<T: PartialEq + Copy, L: Fn(SeenFace, u8) -> T> Shading<'_, L> {
-    /// The label at a place of the picture.
-    fn at(&self, px: DVec2) -> Option<T> {
-        let hit = self.view.first_hit(px)?;
-        let seen = SeenFace { object: hit.object, face: hit.face };
-        Some((self.label)(seen, self.tone(&self.lights(seen), hit.weights)))
-    }
-
+impl ToneRule {
     /// The light at a face's corners.
-    fn lights(&self, SeenFace { object, face }: SeenFace) -> Lights {
-        let space = &self.view.space;
-        let object = &self.view.scene.objects[object as usize];
+    pub(in crate::lines) fn lights(&self, view: &View, SeenFace { object, face }: SeenFace) -> Lights {
+        let LineInput { space, scene, .. } = &view.input;
+        let object = &scene.objects[object as usize];
         let mesh = &object.mesh;
         let normal = |normal: u32| space.direction(mesh.normals[normal as usize].as_dvec3());
         let normals = mesh.triangle_normals[face as usize].map(normal);
         let points =
             mesh.triangles[face as usize].map(|position| space.view(mesh.positions[position as usize] + object.offset));
-        match self.rule.light {
+        match self.light {
             ToneLight::Far(direction) => {
                 let [a, b, c] = points;
                 let side = if space.turn(a, b, c).0 < 0.0 { -1.0 } else { 1.0 };
                 Lights::Far(normals.map(|normal| direction.dot(normal) * side))
             }
             ToneLight::Near(light) => Lights::Near(
-                [0, 1, 2].map(|corner| NearLight::of(light, points[corner] / self.view.scene.radius, normals[corner])),
+                [0, 1, 2].map(|corner| NearLight::of(light, points[corner] / scene.radius, normals[corner])),
             ),
         }
     }
 
-    fn tone(&self, lights: &Lights, weights: [f64; 3]) -> u8 {
+    /// The tone at a place of a face.
+    pub(in crate::lines) fn tone(&self, lights: &Lights, weights: [f64; 3]) -> u8 {
         match lights {
-            Lights::Near(corners) if self.rule.specular(corners, weights) > 0.0 => 2,
-            Lights::Near(corners) => u8::from(self.rule.diffuse(corners, weights) >= 0.0),
+            Lights::Near(corners) if self.specular(corners, weights) > 0.0 => 2,
+            Lights::Near(corners) => u8::from(self.diffuse(corners, weights) >= 0.0),
             Lights::Far(corners) => {
                 let light = mixed(corners, weights, |light| *light);
-                self.rule.thresholds.iter().map(|threshold| u8::from(light >= *threshold)).sum()
+                self.thresholds.iter().map(|threshold| u8::from(light >= *threshold)).sum()
             }
         }
     }
 
-    /// The label of a face, `None` where it has several tones, and the borders between these.
-    fn face(&self, place: u32) -> (Option<T>, Vec<Segment>) {
-        let seen = self.view.face(place);
-        let lights = self.lights(seen);
-        let points = self.view.faces.corners(place);
+    /// The tone of a face, `None` where it has several, and the borders between these.
+    fn of_face(&self, view: &View, place: u32) -> (Option<u8>, Vec<[DVec3; 2]>) {
+        let LineInput { space, faces, .. } = &view.input;
+        let lights = self.lights(view, view.face(place));
+        let points = faces.corners(place);
         let mut lines = Vec::new();
         match &lights {
             Lights::Far(lights) => {
-                for threshold in self.rule.thresholds {
+                for threshold in self.thresholds {
                     add_borders(points, 1, &Linear { lights: *lights, threshold }, &mut lines);
                 }
             }
             Lights::Near(corners) => {
                 let lights = corners.map(|corner| corner.diffuse);
-                add_borders(points, 1, &Linear { lights, threshold: self.rule.thresholds[0] }, &mut lines);
-                if self.rule.thresholds[1] < 1.0 {
-                    let [low, high] = self.view.faces.tree.boxes()[place as usize].corners();
-                    let longest_px = (high - low).truncate().min(self.view.space.size).max_element();
+                add_borders(points, 1, &Linear { lights, threshold: self.thresholds[0] }, &mut lines);
+                if self.thresholds[1] < 1.0 {
+                    let [low, high] = faces.tree.boxes()[place as usize].corners();
+                    let longest_px = (high - low).truncate().min(space.size).max_element();
                     let parts = (longest_px.ceil() as usize).clamp(1, MOST_PARTS);
-                    add_borders(points, parts, &Specular { rule: self.rule, corners }, &mut lines);
+                    add_borders(points, parts, &Specular { rule: self, corners }, &mut lines);
                 }
             }
         }
-        match lines.is_empty() {
-            true => (Some((self.label)(seen, self.tone(&lights, [1.0 / 3.0; 3]))), Vec::new()),
-            false => (None, lines.into_iter().flat_map(|line| self.view.across(line)).collect()),
-        }
-    }
-
-    /// Whether what is seen may differ on both sides of an edge. Sides of faces with several tones count: their borders end there.
-    fn is_border(&self, sides: &Sides, surfaces: &[Option<T>]) -> bool {
-        let [(_, first), (_, second)] = *sides.of_edge else { return true };
-        let [one, other] = [first, second].map(|place| surfaces[place as usize]);
-        one.is_none() || one != other || !self.view.goes_on(sides)
+        (lines.is_empty().then(|| self.tone(&lights, [1.0 / 3.0; 3])), lines)
     }
 }
 

@@ -36,7 +36,7 @@ use trace::{Corners, Crest, crests, zero_set};
 impl LineInput<'_> {
     /// The selected form lines, by object and face; counts the segments of each class.
     pub(in crate::lines) fn form_features(&self, counts: &mut ClassCounts) -> Vec<Feature> {
-        let Self { scene, settings, space, objects, scene_parts, faces } = self;
+        let Self { scene, settings, space, objects, scene_parts, faces, .. } = self;
         if settings.classes.and(ClassSet::FORMS).is_empty() {
             return Vec::new();
         }

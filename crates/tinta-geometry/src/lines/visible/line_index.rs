@@ -56,7 +56,7 @@ const LINES_A_GLANCE: usize = 64;
 
 impl<'a> LineIndex<'a> {
     pub(in crate::lines) fn new(
-        LineInput { space, faces, settings, .. }: &'a LineInput<'_>,
+        LineInput { space, faces, settings, asked, .. }: &'a LineInput<'_>,
         Candidates { features, piercings, .. }: &'a Candidates,
         search: &'a Search,
         progress: &Progress,
@@ -108,7 +108,7 @@ impl<'a> LineIndex<'a> {
             overlapping.append(some_overlapping);
         }
         progress.go_on()?;
-        memory::check_lines((rims.len() + overlapping.len()) * BYTES_A_PART, memory::free())?;
+        asked.check((rims.len() + overlapping.len()) * BYTES_A_PART, memory::free())?;
         let is_wanted = |index: usize| features[index].overlaps();
         let bundles = Bundles::new(&images, is_wanted, space.size * 0.5, 2.0 * space.touch_px());
         Ok(Self {

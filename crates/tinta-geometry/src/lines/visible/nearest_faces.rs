@@ -165,7 +165,7 @@ mod tests {
         let pixels = (0..512).flat_map(|y| (0..512).map(move |x| DVec2::new(f64::from(x), f64::from(y)) + 0.5));
         let mut covered = 0;
         for (px, face) in pixels.zip(&nearest_faces.nearest) {
-            let hits = nearest_hits(&space, &faces, px);
+            let hits = nearest_hits(&space, &faces, None, px);
             let first = hits.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)).map_or(NO_GROUP, |hit| hit.place);
             assert_eq!(first, *face, "at {px}");
             covered += usize::from(first != NO_GROUP);
@@ -191,7 +191,7 @@ mod tests {
                 let view = line.ends[0].lerp(line.ends[1], f64::from(step) / 20.0);
                 let px = space.project(view).0;
                 if px.cmpge(DVec2::ZERO).all() && px.cmplt(space.size).all() {
-                    let hit = first_hit(space, faces, px).unwrap();
+                    let hit = first_hit(space, faces, None, px).unwrap();
                     // Up to the tip, where an edge passes through a face.
                     assert!(hit.depth < -view.z + 1e-9, "{line:?} at {step}: {} of {}", hit.depth, -view.z);
                     points += 1;

@@ -33,7 +33,8 @@ impl LineIndex<'_> {
                         break;
                     }
                     let before = steps();
-                    self.add_segments(index, progress, &mut segments);
+                    let pieces = self.decided(index, progress).into_iter();
+                    segments.extend(pieces.flat_map(|piece| self.segments_of(index, piece)));
                     progress.advance(1, steps().wrapping_sub(before));
                 }
                 segments
@@ -45,9 +46,10 @@ impl LineIndex<'_> {
         (segments, compared)
     }
 
-    /// Adds the pieces of a line, unless the time runs out.
-    fn add_segments(&self, index: usize, progress: &Progress, segments: &mut Vec<LineSegment>) {
-        let Some((image, inside)) = self.wanted(index) else { return };
+    /// The pieces of a wanted line: the visible ones, and hidden ones if they are asked for; none if the time runs out.
+    pub(in crate::lines) fn decided(&self, index: usize, progress: &Progress) -> Vec<Interval> {
+        let mut pieces: Vec<Interval> = Vec::new();
+        let Some((image, inside)) = self.wanted(index) else { return pieces };
         let behind = self.behind_nearest(index, &image, inside);
         let overlapping = match self.features[index].overlaps() {
             true => OverlappingLines::new(index, &image, inside),
@@ -71,17 +73,16 @@ impl LineIndex<'_> {
             }
         }
         if !self.finds_hidden && cover.open.is_empty() {
-            return;
+            return pieces;
         }
         self.add_piercings(index, &image, &mut cuts);
         if self.finds_hidden {
             self.add_overlaps(index, &image, &overlapping, inside, false, &mut cuts);
         }
-        let mut pieces: Vec<Interval> = Vec::new();
         let places = self.places(&image, inside, cuts);
         for (number, place) in places.windows(2).enumerate() {
             if number % PIECES_A_GLANCE == PIECES_A_GLANCE - 1 && progress.is_over() {
-                return;
+                return Vec::new();
             }
             let [from, to] = [place[0], place[1]];
             let place = (from + to) * 0.5;
@@ -93,7 +94,7 @@ impl LineIndex<'_> {
             Interval { from, to, is_visible, background: [false; 2] }.add_to(&mut pieces);
         }
         pieces.retain(|piece| piece.is_visible || self.finds_hidden);
-        segments.extend(pieces.into_iter().flat_map(|piece| self.segments_of(index, piece)));
+        pieces
     }
 
     /// A piece of a wanted line as segments: one, or several where the outline begins and ends.

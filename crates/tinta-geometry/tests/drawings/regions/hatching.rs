@@ -465,3 +465,24 @@ fn each_face_of_a_block_has_strokes_of_its_own_direction_at_the_distance_asked_f
     let gaps: Vec<f64> = rows.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > 0.5).collect();
     assert!(gaps.len() > 10 && gaps.iter().all(|gap| (0.7..1.42).contains(&(gap / 8.0))), "{gaps:?}");
 }
+
+/// Two squares that overlap in one plane: strokes of the first alone lie where both are.
+#[test]
+fn where_sheets_lie_on_one_another_one_has_strokes() {
+    let square = |from: f64| {
+        let at = |x: f64, y: f64| DVec3::new(from + x, y, 0.0);
+        shapes::mesh(vec![at(0.0, 0.0), at(2.0, 0.0), at(2.0, 2.0), at(0.0, 2.0)], vec![[0, 1, 2], [0, 2, 3]])
+    };
+    let rule = ToneRule { thresholds: [0.999, 2.0], ..rules()[0] };
+    let total = |meshes: Vec<Mesh>| {
+        let settings = SceneSettings { camera: view("front", true), size: SIZE, ..SceneSettings::default() };
+        let scene = with_normals(Scene::new(meshes, &settings).unwrap(), false);
+        let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+        let seen = regions.regions.iter().filter(|region| region.seen.is_some());
+        let area: f64 = seen.map(|region| region.area_px).sum();
+        let strokes = formed(&scene, &rule, 8.0);
+        strokes.iter().flat_map(|stroke| stroke.windows(2)).map(|ends| ends[0].distance(ends[1])).sum::<f64>() / area
+    };
+    let [one, both] = [vec![square(0.0)], vec![square(0.0), square(1.0)]].map(total);
+    assert!((both / one - 1.0).abs() < 0.2, "length of strokes by area: {one} of one, {both} of both");
+}
