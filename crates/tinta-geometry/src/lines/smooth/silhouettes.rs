@@ -185,7 +185,7 @@ mod tests {
             let faces = Faces::new(&space, &[(&scene.objects[0], scene.objects[0].mesh.clone())]);
             let hidden = |end: &DVec3| {
                 let view = space.view(*end);
-                let hit = first_hit(&space, &faces, space.project(view).0);
+                let hit = first_hit(&space, &faces, None, space.project(view).0);
                 hit.is_some_and(|hit| hit.depth < -view.z - 1e-5)
             };
             let silhouette = &smooth_silhouettes(&scene, smooth().crease_angle)[0];
