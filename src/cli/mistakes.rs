@@ -158,7 +158,7 @@ fn missing(error: &clap::Error, whole: &Command, command: &Command, words: &[OsS
     let is_model = others == ["<MODEL>..."] || others == ["<MODEL>"];
     // An output's name for the model that is given, or for a cow.
     let models = models(whole, words);
-    let stem = models.first().map_or("cow".to_owned(), |model| stem(model));
+    let stem = models.first().map_or("cow".to_owned(), stem);
     let into = |output: &str, stem: &str| match output {
         "<DIR>" => "results".to_owned(),
         _ if name == "page" => format!("{stem}.html"),

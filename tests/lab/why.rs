@@ -406,7 +406,7 @@ fn a_pixel_under_an_exact_line_has_the_colour_of_the_picture() {
     let folder = Folder::new();
     let out = folder.path("gear.png");
     done(&["render", "builtin:gear", "-o", &out, "--size", "96"]);
-    let picture = Picture::read_png(&out).unwrap();
+    let picture = Picture::read_png(std::path::Path::new(&out)).unwrap();
     let places = (0..96 * 96).map(|place| (place % 96, place / 96));
     let dark: Vec<(i64, i64)> = places.filter(|(x, y)| picture.pixel(*x, *y)[0] < 90).collect();
     assert!(dark.len() > 100, "{}", dark.len());
