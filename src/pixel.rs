@@ -34,7 +34,6 @@ mod recomputation;
 mod textures;
 mod tolerance;
 mod triangles;
-mod variable;
 mod verdict;
 
 pub use explainer::{Explainer, PixelStep, is_background};
@@ -44,5 +43,4 @@ pub use listing::{LineState, ListedLine};
 pub use recomputation::{Filtering, Recomputation};
 pub use tinta_glsl::{Base, Comparison, Event, Mistake, Precision, Sample, Texel, Type, Value, What};
 pub use tolerance::LineTolerance;
-pub use variable::Variable;
 pub use verdict::{AgainstLines, Flip, INK_FROM, Verdict, against_lines, flips};

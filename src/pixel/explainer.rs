@@ -127,12 +127,6 @@ impl<'a> Explainer<'a> {
         Self { plan, values, draws }.at_step(number, at, Trace::Nothing)
     }
 
-    /// The names of the variables that a step's fragment shaders set or are given from the vertices.
-    pub(super) fn variables(&self, number: usize) -> Vec<&str> {
-        let Some(prepared) = self.draws.get(number).and_then(Option::as_ref) else { return Vec::new() };
-        [prepared.fragment.varyings(), prepared.fragment.assigned()].concat()
-    }
-
     /// Explains a pixel, counted from the picture's lower left as GL does. It must lie within the values' part.
     ///
     /// # Errors
@@ -144,7 +138,7 @@ impl<'a> Explainer<'a> {
     }
 
     /// Explains one prepared step at a pixel.
-    pub(super) fn at_step(&self, number: usize, at: [u32; 2], trace: Trace<'_>) -> Result<PixelStep> {
+    pub(super) fn at_step(&self, number: usize, at: [u32; 2], trace: Trace) -> Result<PixelStep> {
         let steps: Vec<(&Pass, &Step)> = all_steps(self.plan).collect();
         let (pass, step) = steps[number];
         let StepValues { part, colors, .. } = &self.values[number];
@@ -191,7 +185,7 @@ impl<'a> Explainer<'a> {
         &self,
         step: &Step,
         (number, target): (usize, Target),
-        (at, depth, trace): ([u32; 2], Option<f32>, Trace<'_>),
+        (at, depth, trace): ([u32; 2], Option<f32>, Trace),
         explained: &mut PixelStep,
     ) -> Result<()> {
         let before: Vec<[f64; 4]> = explained.before.iter().map(|color| color.map(f64::from)).collect();

@@ -85,7 +85,7 @@ type Varyings = Vec<(String, Value)>;
 
 impl PreparedDraw<'_> {
     /// Runs every triangle that covers a pixel, in drawing order, from the depth that the driver held before.
-    pub(super) fn fragments(&self, at: [u32; 2], depth: Option<f32>, trace: Trace<'_>) -> Result<Vec<Fragment>> {
+    pub(super) fn fragments(&self, at: [u32; 2], depth: Option<f32>, trace: Trace) -> Result<Vec<Fragment>> {
         if !self.draw.scissor.is_none_or(|part| {
             (part.x..part.x + part.width).contains(&at[0]) && (part.y..part.y + part.height).contains(&at[1])
         }) {
@@ -125,7 +125,7 @@ impl PreparedDraw<'_> {
         at: [u32; 2],
         depth: f64,
         is_nearer: Option<bool>,
-        trace: Trace<'_>,
+        trace: Trace,
     ) -> Result<Fragment> {
         let triangle = cover.triangle;
         let group = &self.triangles.groups[triangle.group];
@@ -162,7 +162,7 @@ impl PreparedDraw<'_> {
     }
 
     /// What the vertex shader did for a corner, if everything is traced, and what it passed on.
-    fn corner(&self, cover: &Cover<'_>, corner: u32, trace: Trace<'_>) -> Result<(Vec<Event>, Varyings)> {
+    fn corner(&self, cover: &Cover<'_>, corner: u32, trace: Trace) -> Result<(Vec<Event>, Varyings)> {
         if trace == Trace::Everything {
             let run = self.run_vertex(cover, corner, trace)?;
             let varyings = self.passed(&run);
@@ -183,7 +183,7 @@ impl PreparedDraw<'_> {
     }
 
     /// Runs the vertex shader for a corner.
-    fn run_vertex(&self, cover: &Cover<'_>, corner: u32, trace: Trace<'_>) -> Result<Run> {
+    fn run_vertex(&self, cover: &Cover<'_>, corner: u32, trace: Trace) -> Result<Run> {
         let group = &self.triangles.groups[cover.triangle.group];
         let [x, y, z, nx, ny, nz] = group.vertices[corner as usize].map(f64::from);
         let matrix = |matrix: Mat4| Value::matrix(&matrix.to_cols_array().map(f64::from));
@@ -260,7 +260,7 @@ impl PreparedDraw<'_> {
         [x, y]: [f64; 2],
         corners: &[Corner],
         changes: &[[Value; 2]],
-        trace: Trace<'_>,
+        trace: Trace,
     ) -> Result<Run> {
         let varyings = self.interpolated(cover, corners);
         let kept = |number: f64| if self.precision == Precision::Single { f64::from(number as f32) } else { number };

@@ -79,11 +79,10 @@ fn what_cannot_be_explained_is_refused_in_one_sentence() {
         &["why", box_, "5,5", "-o", "a.png"],
         &["--output: it explains the shaders", "--style three-pass"],
     );
-    refused_in_one_line(&["why", box_, "--variable", "border"], &["--variable: it explains the shaders"]);
 }
 
 #[test]
-fn a_sheet_or_a_variable_that_cannot_be_made_is_refused_in_one_sentence() {
+fn a_sheet_that_cannot_be_made_is_refused_in_one_sentence() {
     let refused = |more: &[&str], words: &[&str]| {
         let drawn = ["why", "builtin:open-box", "--size", "64", "--style", "three-pass"];
         refused_in_one_line(&[&drawn[..], more].concat(), words);
@@ -92,13 +91,6 @@ fn a_sheet_or_a_variable_that_cannot_be_made_is_refused_in_one_sentence() {
     refused(&["32,32", "-o", "a.npy"], &["a.npy", "pictures are not written as .npy"]);
     refused(&["32,32", "-o", "-", "--json"], &["cannot share standard output"]);
     refused(&["32,32", "-o", "no/such/a.png"], &["no/such"]);
-    refused(&["32,32", "--variable", "border"], &["--variable"]);
-    refused(&["--variable", "bordr"], &["--variable bordr: did you mean border?"]);
-    refused(
-        &["--variable", "zz"],
-        &["choose another", "tones has reflectVec", "border has B, D, E, F, H, filter, border"],
-    );
-    refused(&["--variable", "map.border"], &["--variable map.border"]);
 }
 
 /// The text and the JSON of a pixel of the open box, in the style and with the options given.
@@ -157,77 +149,6 @@ fn a_pixel_names_the_setting_that_turns_its_ink_over() {
         }
     }
     assert!(turned >= 2, "{turned}");
-}
-
-/// A file of NumPy: its shape, and its floats.
-fn read_npy(path: &str) -> (Vec<usize>, Vec<f32>) {
-    let bytes = std::fs::read(path).unwrap();
-    let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
-    let header = String::from_utf8_lossy(&bytes[10..start]).into_owned();
-    let shape = header.split_once("'shape': (").unwrap().1.split_once(')').unwrap().0;
-    let shape = shape.split(',').map(|side| side.trim().parse().unwrap()).collect();
-    (shape, bytes[start..].chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect())
-}
-
-/// The styles of triangles, with a variable of each, and its number of components.
-const VARIABLES: [(&str, &str, usize); 8] = [
-    ("three-pass", "border", 1),
-    ("three-pass", "filter", 4),
-    ("three-pass", "tones.lightIntensity", 1),
-    ("two-pass", "reflectDir", 3),
-    ("mrt", "specular", 1),
-    ("dietrich", "facing", 1),
-    ("phong", "normal", 3),
-    ("charcoal", "cetCoord", 2),
-];
-
-#[test]
-fn a_variable_over_the_picture_has_the_value_that_each_pixel_s_explanation_tells() {
-    let folder = Folder::new();
-    for (style, name, components) in VARIABLES {
-        let (numbers, picture) = (folder.path("a.npy"), folder.path("a.png"));
-        let drawn = ["--size", "64", "--style", style];
-        let of = |output: &str| {
-            let variable = ["why", "builtin:open-box", "--variable", name, "-o", output, "--json"];
-            let output = done(&[&variable[..], &drawn].concat());
-            serde_json::from_slice::<Value>(&output.stdout).unwrap()
-        };
-        let (json, again) = (of(&numbers), of(&picture));
-        assert_eq!(json, again);
-        let (shape, floats) = read_npy(&numbers);
-        let expected = if components == 1 { vec![64, 64] } else { vec![64, 64, components] };
-        assert_eq!(shape, expected, "{style} {name}");
-        let [low, high] = [0, 1].map(|end| json["range"][end].as_f64().unwrap());
-        assert!(floats.iter().all(|float| float.is_nan() || (low - 1e-6..=high + 1e-6).contains(&f64::from(*float))));
-        let has_value = floats.chunks_exact(components).filter(|value| !value[0].is_nan()).count();
-        assert_eq!(json["pixels"].as_u64(), Some(has_value as u64), "{style} {name}");
-        let picture = tinta::Picture::read_png(std::path::Path::new(&picture)).unwrap();
-
-        let (pass, short) = name.split_once('.').unwrap_or(("", name));
-        let mut compared = 0;
-        for [x, y] in [[32, 32], [20, 40], [41, 25], [12, 33], [50, 30]] {
-            let output = tinta(&[&["why", "builtin:open-box", &format!("{x},{y}"), "--json"], &drawn[..]].concat());
-            let value = &floats[(y * 64 + x) * components..][..components];
-            let pixel = picture.pixel(x as i64, y as i64);
-            assert_eq!(pixel[3] == 0, value[0].is_nan(), "{style} {name} {x},{y}");
-            let Ok(why) = serde_json::from_slice::<Value>(&output.stdout) else { continue };
-            let steps = why["steps"].as_array().unwrap().iter().filter(|step| step["pass"] == pass || pass.is_empty());
-            let fragments = steps.flat_map(|step| step["fragments"].as_array().unwrap());
-            let written = fragments.filter(|fragment| fragment["is_nearer"] != false);
-            let events = written.flat_map(|fragment| fragment["events"].as_array().unwrap());
-            let mut set = events.filter_map(|event| event.get("set").filter(|set| set["variable"] == short));
-            let Some(last) = set.next_back().map(|set| &set["value"]) else { continue };
-            let told: Vec<f64> = last.as_array().map_or_else(
-                || vec![last.as_f64().unwrap()],
-                |list| list.iter().map(|number| number.as_f64().unwrap()).collect(),
-            );
-            for (told, value) in told.iter().zip(value) {
-                assert!((told - f64::from(*value)).abs() < 1e-6, "{style} {name} {x},{y}: {told} {value}");
-            }
-            compared += 1;
-        }
-        assert!(compared >= 2, "{style} {name}");
-    }
 }
 
 #[test]

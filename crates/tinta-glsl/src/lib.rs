@@ -28,7 +28,6 @@ mod syntax;
 mod state;
 mod parse;
 mod program;
-mod assigned;
 mod variables;
 mod trace;
 mod machine;

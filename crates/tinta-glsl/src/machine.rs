@@ -115,9 +115,7 @@ impl<'a> Machine<'a> {
     }
 
     fn record_set(&mut self, line: u32, name: &str, value: Value) {
-        if [Trace::Everything, Trace::Variable(name)].contains(&self.settings.trace) {
-            self.push(line, What::Set { variable: name.to_owned(), value });
-        }
+        self.record(line, || What::Set { variable: name.to_owned(), value });
     }
 
     fn record_branch(&mut self, condition: &Expression, line: u32, is_taken: bool) {

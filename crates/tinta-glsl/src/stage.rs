@@ -1,6 +1,5 @@
 //! A stage: its shaders, parsed once and run for one vertex or pixel at a time.
 
-use crate::assigned::assigned;
 use crate::machine::run;
 use crate::mistake::Mistake;
 use crate::parse::parse;
@@ -48,11 +47,6 @@ impl Stage {
             }
         }
         names
-    }
-
-    /// Returns the names of the variables that its statements set, each once, in the order of the text: locals, and GL's outputs.
-    pub fn assigned(&self) -> Vec<&str> {
-        assigned(&self.program)
     }
 
     /// Runs `main`. `inputs` gives uniforms, GL's own variables and, for pixels, varyings; samplers are [`crate::Base::Sampler`] numbers

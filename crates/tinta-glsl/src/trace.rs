@@ -10,19 +10,17 @@ pub struct Settings<'a> {
     /// How floats are kept.
     pub precision: Precision,
     /// What to record.
-    pub trace: Trace<'a>,
+    pub trace: Trace,
     /// For each value in [`Run::asked`], in order: its change to the pixel on the right and to the pixel above.
     pub changes: &'a [[Value; 2]],
 }
 
 /// What a run records as events.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Trace<'a> {
+pub enum Trace {
     /// Nothing.
     #[default]
     Nothing,
-    /// The values that variables of this name get.
-    Variable(&'a str),
     /// What every statement does.
     Everything,
 }

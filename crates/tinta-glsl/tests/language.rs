@@ -98,18 +98,6 @@ fn the_trace_tells_what_each_statement_did() {
     assert_eq!(seen[2], &What::Set { variable: "a".to_owned(), value: quarter });
     let compared = Some(Comparison { left: 0.25, operator: ">", right: 0.5 });
     assert_eq!(seen[3..], [&What::Branched { is_taken: false, compared }, &What::Discarded]);
-
-    let of_a = Settings { trace: Trace::Variable("a"), ..Settings::default() };
-    let run = stage.run(&[("map", map)], &One, &of_a).unwrap();
-    let seen: Vec<&What> = run.events.iter().map(|Event { what, .. }| what).collect();
-    assert_eq!(seen, [&What::Set { variable: "a".to_owned(), value: quarter }], "one variable alone");
-}
-
-#[test]
-fn assigned_variables_are_listed_once_wherever_a_statement_sets_them() {
-    let text = "varying float light; void shade(out vec4 color) { color.rgb = vec3(light); }\nvoid main() {\n    float a = 0.0, never;\n    for (int i = 0; i < 2; i++) { a += 1.0; if (a > 1.0) { vec2 b; b[0] = a; } }\n    shade(gl_FragColor);\n    gl_FragColor.a = a;\n}";
-    let stage = Stage::new(&[("a.frag", text)]).unwrap();
-    assert_eq!(stage.assigned(), ["color", "a", "i", "b", "gl_FragColor"]);
 }
 
 #[test]

@@ -1,5 +1,4 @@
-//! `tinta why`: why a pixel has its colour, or why the line at a place is visible or hidden; on a sheet, or a variable of the shaders over
-//! the whole picture.
+//! `tinta why`: why a pixel has its colour, or why the line at a place is visible or hidden, printed or on a sheet.
 
 mod line;
 mod sheet;
@@ -12,12 +11,12 @@ use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, Selection};
 use tinta::cli::{Command, Verdict, given, print, print_json, say};
 use tinta::glam::DVec2;
 use tinta::lines::Why;
-use tinta::pixel::{Explanation, Variable};
+use tinta::pixel::Explanation;
 use tinta::recipe::Recipe;
 use tinta::request::{OptionLayer, Request, Session};
 use tinta::settings::{HasSettings, Options, Setting};
 use tinta::styles::is_of_lines_alone;
-use tinta::{Error, LineSettings, Result, Scene, Style, StyleName, Target, TextTarget, VisibleLines};
+use tinta::{Error, LineSettings, Result, Scene, Style, StyleName, Target, VisibleLines};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -43,14 +42,10 @@ pub(super) struct Arguments {
     model: String,
 
     /// Place in the picture, pixels to the right and down from its upper left corner
-    #[arg(value_name = "X,Y", value_parser = place, allow_hyphen_values = true, required_unless_present = "variable")]
-    place: Option<DVec2>,
+    #[arg(value_name = "X,Y", value_parser = place, allow_hyphen_values = true)]
+    place: DVec2,
 
-    /// Recompute this variable of the fragment shaders in every pixel instead: NAME, or PASS.NAME where several passes have it [default: none]
-    #[arg(long, value_name = "NAME", conflicts_with = "place")]
-    variable: Option<String>,
-
-    /// Picture to write (.png .jpg .bmp .tga .ppm): a sheet that explains the pixel, or the variable, which can also be numbers for NumPy (.npy) [default: none, print the explanation]
+    /// Picture to write (.png .jpg .bmp .tga .ppm): a sheet that explains the pixel [default: none, print the explanation]
     #[arg(short, long, value_name = "FILE")]
     output: Option<String>,
 
@@ -88,25 +83,24 @@ fn place(text: &str) -> std::result::Result<DVec2, String> {
     }
 }
 
-/// Explains a pixel, a variable or a line.
+/// Explains a pixel or a line.
 pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let camera = arguments.camera.camera.as_deref();
     let below = Below { camera, ..Below::default() };
     let (models, layers) = subject(&arguments.model, &arguments.drawing.options)?;
     let (mut request, _) = arguments.drawing.request_over(layers, &models, &below)?;
     if request.style.lines().is_some() {
-        let needed = [("variable", arguments.variable.is_some()), ("output", arguments.output.is_some())];
-        if let Some((option, _)) = needed.iter().find(|(_, is_given)| *is_given) {
+        if arguments.output.is_some() {
             let problem = "it explains the shaders of a style; add one, such as --style three-pass";
-            return Err(Error::setting(*option, problem));
+            return Err(Error::setting("output", problem));
         }
     }
     let files: Vec<&str> = camera.and_then(Path::to_str).into_iter().collect();
     let inputs = Inputs::new(&request.models, &request.options, &files);
-    let output = arguments.output.as_deref().map(|path| Output::check(path, arguments, &inputs)).transpose()?;
+    let output = arguments.output.as_deref().map(|path| checked(path, arguments, &inputs)).transpose()?;
     if request.style.lines().is_some() {
         let scene = Scene::new(load_meshes(&request.models, &request.read)?, &request.scene)?;
-        return line_out(&scene, &request, arguments.place.unwrap_or_default(), arguments.json);
+        return line_out(&scene, &request, arguments.place, arguments.json);
     }
     // Every step is explained.
     request.pruning.is_full = true;
@@ -127,92 +121,50 @@ fn subject(model: &str, given: &Options) -> Result<(Vec<String>, Vec<OptionLayer
     Ok((models, style.into_iter().chain([OptionLayer::Given(options)]).collect()))
 }
 
-/// Explains a pixel or a variable of the request's style.
-fn explain(arguments: &Arguments, request: &Request, output: Option<Output>, session: &mut Session) -> Result<()> {
+/// Explains a pixel of the request's style.
+fn explain(arguments: &Arguments, request: &Request, output: Option<Target>, session: &mut Session) -> Result<()> {
     let (scene, renderer) = request.scene_and_renderer(session)?;
     if request.glsl.is_some() {
         let remarks = renderer.remarks(&request.plan(&scene)?);
         remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
     }
     let style = &request.style_in_passes()?;
-    match (&arguments.variable, arguments.place) {
-        (Some(name), _) => {
-            let variable = Variable::of(style, &scene, renderer, name)?;
-            variable_out(&variable, output.as_ref(), arguments.json)
+    let place = arguments.place;
+    let line = match request.line_style()?.filter(|_| request.has_lines_over()) {
+        Some(lines) => Some(nearest_line(&scene, &lines.lines, place)?),
+        None => None,
+    };
+    let why = match (Explanation::of(style, &scene, renderer, place), &line) {
+        // Beside the model there is only a line to explain.
+        (Err(Error::Text(_)), Some(line)) if output.is_none() => {
+            return line_said(line, arguments.json);
         }
-        (None, place) => {
-            let place = place.unwrap_or_default();
-            let line = match request.line_style()?.filter(|_| request.has_lines_over()) {
-                Some(lines) => Some(nearest_line(&scene, &lines.lines, place)?),
-                None => None,
-            };
-            let why = match (Explanation::of(style, &scene, renderer, place), &line) {
-                // Beside the model there is only a line to explain.
-                (Err(Error::Text(_)), Some(line)) if output.is_none() => {
-                    return line_said(line, arguments.json);
-                }
-                (why, _) => why?,
-            };
-            if let Some(Output::Picture(target)) = &output {
-                target.write(&sheet::sheet(&why, style, &scene, renderer)?)?;
-            }
-            match (arguments.json, output) {
-                (true, _) => print_json(&Both { why: &why, line: line.as_ref() }),
-                (false, Some(_)) => Ok(()),
-                (false, None) => {
-                    let Some(line) = line else { return print(&why.to_string()) };
-                    let [x, y] = [place.x, place.y].map(|at| at.floor() as i64);
-                    let [red, green, blue, _] = request.picture_of(&scene, renderer)?.pixel(x, y);
-                    let above = format!("With its lines the pixel is [{red}, {green}, {blue}].\n\n");
-                    print(&(above + &line::in_words(&line) + "\nBelow the lines:\n\n" + &why.to_string()))
-                }
-            }
+        (why, _) => why?,
+    };
+    if let Some(target) = &output {
+        target.write(&sheet::sheet(&why, style, &scene, renderer)?)?;
+    }
+    match (arguments.json, output) {
+        (true, _) => print_json(&Both { why: &why, line: line.as_ref() }),
+        (false, Some(_)) => Ok(()),
+        (false, None) => {
+            let Some(line) = line else { return print(&why.to_string()) };
+            let [x, y] = [place.x, place.y].map(|at| at.floor() as i64);
+            let [red, green, blue, _] = request.picture_of(&scene, renderer)?.pixel(x, y);
+            let above = format!("With its lines the pixel is [{red}, {green}, {blue}].\n\n");
+            print(&(above + &line::in_words(&line) + "\nBelow the lines:\n\n" + &why.to_string()))
         }
     }
 }
 
-/// Where a sheet or a variable is written.
-enum Output {
-    Picture(Target),
-    /// Of a variable.
-    Numbers(TextTarget),
-}
-
-impl Output {
-    fn check(path: &str, arguments: &Arguments, inputs: &Inputs) -> Result<Self> {
-        tinta::cli::messages::check_output(path)?;
-        inputs.keep(path)?;
-        if path == "-" && arguments.json {
-            return Err(Error::value(
-                "output",
-                "-",
-                "the picture and --json cannot share standard output; name a file",
-            ));
-        }
-        let is_numbers = Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npy"));
-        match arguments.variable.is_some() && is_numbers {
-            true => TextTarget::check(path).map(Self::Numbers),
-            false => Target::check(path, false).map(Self::Picture),
-        }
+/// The file of a sheet.
+fn checked(path: &str, arguments: &Arguments, inputs: &Inputs) -> Result<Target> {
+    tinta::cli::messages::check_output(path)?;
+    inputs.keep(path)?;
+    if path == "-" && arguments.json {
+        return Err(Error::value("output", "-", "the picture and --json cannot share standard output; name a file"));
     }
-}
-
-/// Writes a variable, and says what its picture shows.
-fn variable_out(variable: &Variable, output: Option<&Output>, is_json: bool) -> Result<()> {
-    match output {
-        Some(Output::Picture(target)) => target.write(&variable.picture())?,
-        Some(Output::Numbers(target)) => target.write_bytes(&variable.npy())?,
-        None => {}
-    }
-    if is_json {
-        return print_json(variable);
-    }
-    let is_on_standard_output = matches!(output, Some(Output::Picture(Target::Stdout)));
-    match is_on_standard_output {
-        true => say(&variable.to_string()),
-        false => print(&format!("{variable}\n"))?,
-    }
-    Ok(())
+    Target::check(path, false)
 }
 
 /// A pixel explained, with the exact line nearest to it.
