@@ -41,7 +41,7 @@ pub const KEYWORD: &str = "tinta-recipe";
 /// The longest recipe written or read, bytes of JSON.
 pub const LARGEST_BYTES: usize = 256 << 10;
 
-/// Options that a recipe alone cannot grant, and what they are for.
+/// Options that a recipe alone cannot grant, and their purposes.
 const NOT_GRANTED: [(&str, &str); 2] =
     [("allow-external", "for files outside its model's folder"), ("glsl", "for shaders that come with it")];
 

@@ -17,7 +17,7 @@ const TRIANGLES: usize = 600;
 /// Bytes that choose a part.
 const PART: usize = 7;
 
-/// What is drawn of each scene: options over the default look.
+/// The drawings of each scene: options over the default look.
 pub const DRAWINGS: [&[(&str, &str)]; 4] = [
     &[],
     &[("style", "lines"), ("silhouette", "smooth")],

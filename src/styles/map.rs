@@ -44,7 +44,7 @@ impl MapEncoding {
         Program::new(vertex, [fragment])
     }
 
-    /// What a scene's objects are drawn in.
+    /// The paint of a scene's objects.
     pub(super) fn paint(self, scene: &Scene) -> Paint {
         if self == Self::Numbers { Paint::Colors(numbers(scene)) } else { Paint::Materials }
     }

@@ -37,7 +37,7 @@ fn each_remark_is_said_where_it_is_true_and_not_beside_it() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What the program says on standard error; small pictures, unless a line gives their size.
+/// The program's standard error; small pictures, unless a line gives their size.
 fn run(line: &str, folder: &Path) -> String {
     let line = line.replace("{}", folder.to_str().unwrap());
     let mut words: Vec<&str> = line.split(' ').collect();

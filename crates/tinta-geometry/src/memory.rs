@@ -64,7 +64,7 @@ pub(crate) fn refusal(needed: u64, free: Option<u64>) -> Option<String> {
     too_much(needed, free).map(|both| format!("it takes {both}; close other programs, or make it smaller"))
 }
 
-/// What a drawing asks for: the setting that names it, its name in a sentence, and how to ask for less.
+/// The work of a drawing: the setting that names it, its name in a sentence, and how to ask for less.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Asked([&'static str; 3]);
 

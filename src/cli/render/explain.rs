@@ -21,7 +21,7 @@ pub(super) fn frames(plan: &Plan, passes: &[PassTime], times: &Summary, frames: 
     text
 }
 
-/// What was found in the models' files that does not change the picture.
+/// Faults of the models' files that do not change the picture.
 pub(super) fn harmless(scene: &Scene) -> String {
     let found = scene.originals().map(|object| (&object.mesh.name, object.mesh.defects.others()));
     let harmless = found.filter(|(_, others)| *others != Defects::default() && others.consequence().is_none());

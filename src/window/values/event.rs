@@ -86,7 +86,7 @@ pub enum ViewerEvent {
     Panel,
     /// The key sheet.
     KeySheet,
-    /// The sentences about what cannot be drawn, read.
+    /// The errors of drawing, read.
     Dismiss,
     /// The end of the window.
     Quit,

@@ -1,6 +1,6 @@
 //! Surfaces fitted to vertices by least squares: planes, spheres, cylinders, cones and tori.
 //!
-//! In: points that lie on a surface but for their rounding, and a first guess. Out: the surface, if it passes through all of them. Gauss
+//! In: points on a surface, rounded, and a first guess. Out: the surface, if it passes through all of them. Gauss
 //! and Newton's steps are the same for all kinds: shifts and tilts of an axis, and two sizes.
 
 use glam::{DVec2, DVec3};
@@ -33,7 +33,7 @@ pub(crate) struct FittedSurface {
 /// What a step changes: shifts along two axes across the surface's and along it, its tilts towards the two, two sizes.
 const UNKNOWNS: usize = 7;
 
-/// Steps after which a fit is given up.
+/// The most steps of a fit.
 const STEPS: usize = 12;
 
 /// Least pivot of the equations, as a share of their diagonal: below it rounding decides.
@@ -147,7 +147,7 @@ impl FittedSurface {
     }
 }
 
-/// The unknowns by which linear equations hold best (Cholesky). Unknowns in none of them are 0.
+/// The best unknowns of linear equations (Cholesky). Unknowns in none of them are 0.
 fn least_squares<const N: usize>(equations: impl Iterator<Item = ([f64; N], f64)>) -> Option<[f64; N]> {
     let (mut matrix, mut right) = ([[0.0; N]; N], [0.0; N]);
     for (factors, value) in equations {

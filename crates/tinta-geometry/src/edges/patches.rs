@@ -19,7 +19,7 @@ pub(super) const FLAT: f64 = 1e-3;
 /// Faces of a row: three quadrilaterals.
 const ROW: usize = 6;
 
-/// Least depth of a row, in tolerances: a shallower one is flat but for its rounding.
+/// Least depth of a row, in tolerances: a shallower one is flat within rounding.
 const DEPTH: f64 = 4.0;
 
 /// Largest spread of a row's vertices around the surface that its faces suggest, as a share of the depth.
@@ -111,7 +111,7 @@ impl<'a> Patches<'a> {
         (cosine >= self.smooth).then(|| (first.cross(second).length(), faces))
     }
 
-    /// The face beyond an edge of a face, if the surface goes on smoothly.
+    /// The face beyond an edge of a face, if the surface is smooth there.
     fn beyond(&self, edge: u32, face: u32) -> Option<u32> {
         self.smooth(edge)?.1.into_iter().find(|side| *side != face)
     }
@@ -132,7 +132,7 @@ impl<'a> Patches<'a> {
         self.all.push(patch);
     }
 
-    /// Adds the planes beside other patches, from the largest faces on.
+    /// Adds the planes beside other patches, the largest faces first.
     fn add_planes(&mut self) {
         let area = |face: u32| {
             let [a, b, c] = self.corners(face);

@@ -12,13 +12,13 @@ use crate::mesh::{Mesh, NONE};
 /// Largest angle between two surfaces that meet smoothly, as a share of the turn between the edge's faces.
 const SMOOTH: f64 = 0.1;
 
-/// Least curvature by which two surfaces differ, as a share of the sum of their curvatures.
+/// The least difference of two surfaces' curvatures, as a share of the sum of their curvatures.
 const DIFFERENT: f64 = 0.25;
 
 /// Least share of tangent edges in a border.
 const WHOLE: f64 = 0.75;
 
-/// A smooth edge between a patch and what lies beyond.
+/// A smooth edge between a patch and its neighbour.
 struct Border {
     patch: u32,
     edge: u32,

@@ -113,7 +113,7 @@ impl VisibleLines {
             let lines = Self::with_progress(&seen, &settings, progress)?;
             sheet.put(lines, layout.middle_px(view) - px * 0.5);
         }
-        // What is the sheet's own has a layer of its own.
+        // Labels and scale bars have a layer.
         sheet.looks.resize_with(sheet.looks.len().max(1), PartStyle::default);
         sheet.looks.push(PartStyle { name: "sheet".to_owned(), ..PartStyle::default() });
         sheet.put_names(&layout, &views);

@@ -1,4 +1,4 @@
-//! The near plane of an eye among the faces: fitted to what the picture shows, as near as the depth buffer allows.
+//! The near plane of an eye among the faces: fitted to the visible scene, as near as the depth buffer allows.
 //!
 //! A share of the far plane's distance serves an eye outside. Among the faces it may cut one in the picture, and then the plane comes
 //! nearer.

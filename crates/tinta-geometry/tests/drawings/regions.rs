@@ -199,7 +199,7 @@ fn regions_of_many_scenes_are_the_faces_that_rays_hit() {
     check_families(scenes_wanted().unwrap_or(10 * KINDS as u64));
 }
 
-/// Scenes in which far more borders cross than are seen. The faces of twins nearly touch in wide zones, where one place does not tell
+/// Scenes with far more crossing borders than visible ones. The faces of twins nearly touch in wide zones, where one place does not tell
 /// what is seen in a whole cell.
 #[test]
 fn regions_of_crowded_families_are_the_faces_that_rays_hit() {

@@ -131,7 +131,7 @@ fn cuts(view: &View, spacing_px: f64) -> Option<Vec<Cut>> {
     Some(cuts)
 }
 
-/// Every how many planes have a stroke in a face: a power of two that gives the wanted distance at the middle of what lies before the eye.
+/// Every how many planes have a stroke in a face: a power of two that gives the wanted distance at the middle of the visible part.
 /// `normal` is the planes', as long as the inverse of their distance.
 fn step(space: &Space, corners: [DVec3; 3], normal: DVec3, spacing_px: f64) -> i64 {
     let [a, b, c] = corners;

@@ -78,7 +78,7 @@ impl FacePlane {
         Self { loose, ..face_plane }
     }
 
-    /// The plane of a face that touches only what lies in it.
+    /// The plane of a face, touched by points in it alone.
     pub(in crate::lines) fn exact(faces: &Faces, place: u32) -> Self {
         let numbers = faces.triangles[place as usize];
         let corners = faces.corners(place);

@@ -25,7 +25,7 @@ pub(in crate::lines) struct LineInput<'a> {
     pub objects: Vec<ObjectEdges<'a>>,
     pub scene_parts: SceneParts,
     pub faces: Faces,
-    /// What the lines are for.
+    /// The lines' purpose.
     pub asked: Asked,
 }
 
@@ -67,7 +67,7 @@ impl<'a> LineInput<'a> {
         Ok(Self { scene, settings, space, objects, scene_parts, faces, asked: LINES })
     }
 
-    /// A scene as it is given, without repairs and styles of parts, for areas and strokes.
+    /// A given scene without repairs and styles of parts, for areas and strokes.
     ///
     /// # Errors
     ///

@@ -1,6 +1,6 @@
 //! The borders of a view: where one label may give way to another, as far as that is seen.
 //!
-//! In: a scene's faces as they are given, without repairs. Out: segments of the grid that bound cells of one label each. The deciders of
+//! In: a scene's given faces without repairs. Out: segments of the grid that bound cells of one label each. The deciders of
 //! lines say which pieces of borders are visible. A piece that ends on another one is drawn a little beyond it, so cells close wherever
 //! rounding moves either; a piece too many does no harm.
 //!

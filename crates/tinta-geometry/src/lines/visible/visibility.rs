@@ -46,7 +46,7 @@ impl LineIndex<'_> {
         (segments, compared)
     }
 
-    /// The pieces of a wanted line: the visible ones, and hidden ones if they are asked for; none if the time runs out.
+    /// The pieces of a wanted line: the visible ones, and hidden ones if wanted; none if the time runs out.
     pub(in crate::lines) fn decided(&self, index: usize, progress: &Progress) -> Vec<Interval> {
         let mut pieces: Vec<Interval> = Vec::new();
         let Some((image, inside)) = self.wanted(index) else { return pieces };
