@@ -89,11 +89,9 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let below = Below { camera, ..Below::default() };
     let (models, layers) = subject(&arguments.model, &arguments.drawing.options)?;
     let (mut request, _) = arguments.drawing.request_over(layers, &models, &below)?;
-    if request.style.lines().is_some() {
-        if arguments.output.is_some() {
-            let problem = "it explains the shaders of a style; add one, such as --style three-pass";
-            return Err(Error::setting("output", problem));
-        }
+    if request.style.lines().is_some() && arguments.output.is_some() {
+        let problem = "it explains the shaders of a style; add one, such as --style three-pass";
+        return Err(Error::setting("output", problem));
     }
     let files: Vec<&str> = camera.and_then(Path::to_str).into_iter().collect();
     let inputs = Inputs::new(&request.models, &request.options, &files);
