@@ -390,7 +390,7 @@ impl Classes {
             marked.extend(edges);
         }
         if wanted.contains(Class::Tangent) {
-            let found = tangents(mesh, edges, &normals, threads);
+            let found = tangents(mesh, edges, &normals, CreaseAngle::of_drawings().cosine, threads);
             for edge in &found {
                 let classes = &mut of_edges[*edge as usize];
                 *classes = classes.or(ClassSet::of(&[Class::Tangent]));

@@ -6,7 +6,7 @@
 //! too, the patch is that. Of overlapping patches the largest stays. Faces beside them form planes.
 
 use super::fitted_surfaces::{FittedSurface, Kind};
-use super::{CreaseAngle, EdgeList, Incidence};
+use super::{EdgeList, Incidence};
 use crate::mesh::{Mesh, NONE};
 use crate::threads::in_parallel;
 use crate::tolerances::PRINTED_DIGITS;
@@ -69,14 +69,20 @@ pub(crate) struct Patches<'a> {
 }
 
 impl<'a> Patches<'a> {
-    pub(crate) fn new(mesh: &'a Mesh, edges: &'a EdgeList, normals: &'a [[f64; 3]], threads: usize) -> Self {
+    pub(crate) fn new(
+        mesh: &'a Mesh,
+        edges: &'a EdgeList,
+        normals: &'a [[f64; 3]],
+        smooth: f64,
+        threads: usize,
+    ) -> Self {
         let (low, high) = mesh.bounds();
         let mut patches = Self {
             mesh,
             edges,
             normals,
             edges_of: edges.of_faces(mesh),
-            smooth: CreaseAngle::of_drawings().cosine,
+            smooth,
             tolerance: PRINTED_DIGITS * (high - low).length(),
             all: Vec::new(),
             of_faces: vec![NONE; mesh.triangles.len()],

@@ -26,8 +26,8 @@ struct Border {
 }
 
 /// The tangent edges of a mesh, ascending.
-pub(super) fn tangents(mesh: &Mesh, edges: &EdgeList, normals: &[[f64; 3]], threads: usize) -> Vec<u32> {
-    let patches = Patches::new(mesh, edges, normals, threads);
+pub(super) fn tangents(mesh: &Mesh, edges: &EdgeList, normals: &[[f64; 3]], smooth: f64, threads: usize) -> Vec<u32> {
+    let patches = Patches::new(mesh, edges, normals, smooth, threads);
     let mut borders = Vec::new();
     for edge in 0..edges.len() as u32 {
         let Some((turn, faces)) = patches.smooth(edge) else { continue };

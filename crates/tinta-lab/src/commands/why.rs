@@ -132,10 +132,22 @@ fn explain(arguments: &Arguments, request: &Request, output: Option<Target>, ses
         Some(lines) => Some(nearest_line(&scene, &lines.lines, place)?),
         None => None,
     };
-    let why = match (Explanation::of(style, &scene, renderer, place), &line) {
+    let why = Explanation::of(style, &scene, renderer, place);
+    let above = match &line {
+        Some(line) if output.is_none() && !arguments.json => {
+            let [x, y] = [place.x, place.y].map(|at| at.floor() as i64);
+            let [red, green, blue, _] = request.picture_of(&scene, renderer)?.pixel(x, y);
+            format!(
+                "With its lines the pixel is [{red}, {green}, {blue}].\n\n{}\nBelow the lines:\n\n",
+                line::in_words(line)
+            )
+        }
+        _ => String::new(),
+    };
+    let why = match (why, &line) {
         // Beside the model there is only a line to explain.
         (Err(Error::Text(_)), Some(line)) if output.is_none() => {
-            return line_said(line, arguments.json);
+            return if arguments.json { print_json(line) } else { print(&(above + "background\n")) };
         }
         (why, _) => why?,
     };
@@ -145,13 +157,7 @@ fn explain(arguments: &Arguments, request: &Request, output: Option<Target>, ses
     match (arguments.json, output) {
         (true, _) => print_json(&Both { why: &why, line: line.as_ref() }),
         (false, Some(_)) => Ok(()),
-        (false, None) => {
-            let Some(line) = line else { return print(&why.to_string()) };
-            let [x, y] = [place.x, place.y].map(|at| at.floor() as i64);
-            let [red, green, blue, _] = request.picture_of(&scene, renderer)?.pixel(x, y);
-            let above = format!("With its lines the pixel is [{red}, {green}, {blue}].\n\n");
-            print(&(above + &line::in_words(&line) + "\nBelow the lines:\n\n" + &why.to_string()))
-        }
+        (false, None) => print(&(above + &why.to_string())),
     }
 }
 
@@ -177,11 +183,8 @@ struct Both<'a> {
 /// Explains the line nearest to a place.
 fn line_out(scene: &Scene, request: &Request, place: DVec2, is_json: bool) -> Result<()> {
     let lines = request.style.lines().map_or_else(LineSettings::default, |style| style.lines);
-    line_said(&nearest_line(scene, &lines, place)?, is_json)
-}
-
-fn line_said(why: &Why, is_json: bool) -> Result<()> {
-    if is_json { print_json(why) } else { print(&line::in_words(why)) }
+    let why = nearest_line(scene, &lines, place)?;
+    if is_json { print_json(&why) } else { print(&line::in_words(&why)) }
 }
 
 fn nearest_line(scene: &Scene, lines: &LineSettings, place: DVec2) -> Result<Why> {
