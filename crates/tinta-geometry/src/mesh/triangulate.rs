@@ -1,8 +1,7 @@
 //! Polygons to triangles, each keeping the polygon's orientation.
 //!
 //! Convex polygons become fans; the others go to the earcut crate in the plane of Newell's normal. Long ones, for which earcut
-//! would not come to an end, are cut by [`ears`] if they do not cross themselves. A bent polygon may have corners that are in one line
-//! of that plane and in none in space: such a one is cut for the least area.
+//! would not come to an end, are cut by [`ears`] if they do not cross themselves.
 
 mod blockers;
 mod ears;
@@ -14,9 +13,6 @@ use earcut::Earcut;
 use ears::cut_ears;
 use glam::{DVec2, DVec3};
 use simple_polygon::is_simple;
-
-/// Most corners of a polygon that is cut by its area, which takes their cube.
-const BENT_CORNERS: usize = 64;
 
 /// How a polygon was cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,9 +37,6 @@ pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut
         count => {
             let corners = &of_size_one(corners);
             let normal = newell_normal(corners);
-            if count <= BENT_CORNERS && bends_in_line(corners, normal) && cut_by_area(corners, normal, out) {
-                return Cut::Whole;
-            }
             if normal == DVec3::ZERO || is_convex(corners, normal) {
                 out.extend((1..count as u32 - 1).map(|i| [0, i, i + 1]));
                 let has_area =
@@ -73,45 +66,8 @@ pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut
     Cut::Whole
 }
 
-/// Whether a polygon bends, by all but half a degree, out of its plane alone at a corner.
-fn bends_in_line(corners: &[DVec3], normal: DVec3) -> bool {
-    const UPRIGHT: f64 = 0.01;
-    let mut turns = (0..corners.len()).map(|i| turn([0, 1, 2].map(|next| corners[(i + next) % corners.len()])));
-    let is_upright = |turn: DVec3| turn.dot(normal).abs() < turn.length() * normal.length() * UPRIGHT;
-    turns.any(|turn| is_upright(turn) && turn.length() > NEEDLE)
-}
-
-/// Splits a polygon into the triangles of least area that go round like it in its plane; returns whether it has such.
-fn cut_by_area(corners: &[DVec3], normal: DVec3, out: &mut Vec<[u32; 3]>) -> bool {
-    let count = corners.len();
-    // Of the corners from one to another the least area, and the third corner of the triangle at those two.
-    let mut least = vec![(0.0, 0); count * count];
-    for (first, last) in (0..count).rev().flat_map(|first| (first + 2..count).map(move |last| (first, last))) {
-        let cut_at = |middle: usize| {
-            let triangle = [first, middle, last].map(|corner| corners[corner]);
-            let is_left = turn(triangle).dot(normal) > NEEDLE * normal.length();
-            let own = if is_left { turn(triangle).length() } else { f64::INFINITY };
-            (own + least[first * count + middle].0 + least[middle * count + last].0, middle)
-        };
-        let cuts = (first + 1..last).map(cut_at);
-        least[first * count + last] = cuts.min_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or_default();
-    }
-    let mut waiting = vec![[0, count - 1]];
-    while let Some([first, last]) = waiting.pop().filter(|_| least[count - 1].0.is_finite()) {
-        let middle = least[first * count + last].1;
-        out.push([first, middle, last].map(|corner| corner as u32));
-        waiting.extend([[first, middle], [middle, last]].into_iter().filter(|[first, last]| first + 1 < *last));
-    }
-    !out.is_empty()
-}
-
-/// Twice a triangle's area as a vector along its normal.
-fn turn([a, b, c]: [DVec3; 3]) -> DVec3 {
-    (b - a).cross(c - a)
-}
-
-fn area(triangle: [DVec3; 3]) -> f64 {
-    turn(triangle).length() * 0.5
+fn area([a, b, c]: [DVec3; 3]) -> f64 {
+    (b - a).cross(c - a).length() * 0.5
 }
 
 /// The corners moved to the first one and scaled to a size of 1 to 2, which keeps products of lengths ordinary numbers. The
@@ -179,39 +135,6 @@ mod tests {
     fn a_convex_polygon_becomes_a_fan() {
         let square = [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
         assert_eq!(cut(&square), [[0, 1, 2], [0, 2, 3]]);
-    }
-
-    /// The band between two bent lines, one unit apart, with this first corner, turned somehow.
-    fn band(line: &[[f64; 2]], start: usize) -> Vec<DVec3> {
-        let turn = glam::DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 1.1, -0.7);
-        let back = line.iter().rev().map(|[x, y]| DVec3::new(*x, *y, 1.0));
-        let mut corners: Vec<DVec3> = line.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)).chain(back).collect();
-        corners.rotate_left(start);
-        corners.iter().map(|corner| turn * *corner * 0.7).collect()
-    }
-
-    #[test]
-    fn bent_polygons_are_cut_where_they_bend() {
-        let arc: Vec<[f64; 2]> = (0..9).map(|i| f64::from(i) * 0.2).map(|turn| [turn.sin(), turn.cos()]).collect();
-        let waves = [[0.0, 0.0], [1.0, 0.3], [2.0, 0.0], [3.0, -0.4], [4.0, 0.0]];
-        for line in [&[[0.0, 0.0], [1.0, 0.3], [2.0, 0.0]][..], &arc, &waves] {
-            let length: f64 = line.windows(2).map(|ends| DVec2::from(ends[0]).distance(ends[1].into())).sum();
-            for start in 0..line.len() * 2 {
-                let corners = band(line, start);
-                let triangles = cut(&corners);
-                assert_eq!(triangles.len(), corners.len() - 2);
-                let area = area_vector(&corners, &triangles).1 / 0.49;
-                assert!((area - length).abs() < 1e-12, "{area} of {length} from corner {start}");
-            }
-        }
-        // Notches and corners in line of one that is bent lose nothing either.
-        let notched =
-            [[0.0, 0.0, 0.0], [1.0, 0.3, 0.0], [2.0, 0.0, 0.0], [2.0, 0.0, 2.0], [1.0, 0.3, 0.5], [0.0, 0.0, 2.0]];
-        let corners = notched.map(DVec3::from_array);
-        let triangles = cut(&corners);
-        let (half, whole) = (1.09f64.sqrt() * 1.25, area_vector(&corners, &triangles).1);
-        assert_eq!(triangles.len(), 4);
-        assert!((whole - 2.0 * half).abs() < 1e-12, "{whole}");
     }
 
     #[test]
