@@ -39,7 +39,7 @@ def triangles_of(ax, first):
     found = []
     for artist in ax.get_children():
         if isinstance(artist, Poly3DCollection):
-            for polygon in Surface(artist, np.ones(3)).polygons:
+            for polygon in Surface(artist, np.ones(3), lambda points: points).polygons:
                 for part in _bent_apart(polygon):
                     part = np.roll(part, -first, axis=0)
                     found += [(part[0], one, other) for one, other in zip(part[1:], part[2:])]

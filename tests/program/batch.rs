@@ -61,7 +61,7 @@ fn a_jobs_options_are_those_of_the_command_line_and_its_pictures_too() {
         assert!(alone == job, "{id}: {} and {} bytes", alone.len(), job.len());
     }
     let entries = rows(&format!("{out}/batch-1-of-1.jsonl"));
-    assert_eq!(entries.len(), 6);
+    assert_eq!(entries.len(), pairs.len());
     let backends: Vec<&str> = entries
         .iter()
         .filter(|entry| entry["id"] == "second")

@@ -100,6 +100,8 @@ fn files_that_lie_about_themselves_are_refused_in_a_sentence() {
         file.push("materials", json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}));
         file.push("textures", json!({"source": 0}));
         file.push("images", json!({"uri": "a.png"}));
+        // What no primitive has refuses nothing.
+        file.json["meshes"][0]["primitives"][0]["material"] = json!(0);
         let (parent, key) = pointer.rsplit_once('/').unwrap();
         file.json.pointer_mut(parent).unwrap()[key] = value;
         let message = file.problem();

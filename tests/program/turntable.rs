@@ -144,7 +144,6 @@ fn courses_at(text: &str, share: f64) -> Courses {
 
 #[test]
 fn an_animated_svg_shows_each_view_as_the_numbered_drawings_do() {
-    let folder = Folder::new();
     for (model, views, options) in [
         ("builtin:open-box", 5, &["--hidden", "dashed"][..]),
         ("builtin:ant", 7, &["--line-width", "0.25mm", "--page", "width-mm=100"]),
@@ -152,6 +151,7 @@ fn an_animated_svg_shows_each_view_as_the_numbered_drawings_do() {
         ("builtin:torus", 6, &["--silhouette", "smooth", "--fit-curves", "0.5"]),
         ("builtin:open-box", 1, &[]),
     ] {
+        let folder = Folder::new();
         let (count, animated) = (views.to_string(), folder.path("a.svg"));
         let all = [&["--size", "96x80", "--turntable", &count], options].concat();
         let record = render(&[&[model, "-o", &animated, "--json", "--frame-delay", "50"], &all[..]].concat());
