@@ -180,6 +180,7 @@ fn an_animated_svg_shows_each_view_as_the_numbered_drawings_do() {
     }
     // No dash of a pen is lost.
     let pen = ["builtin:open-box", "--turntable", "2", "--hidden", "dashed", "--pen", "-o"];
+    let folder = Folder::new();
     render(&[&pen[..], &[&folder.path("p.svg")]].concat());
     render(&[&pen[..], &[&folder.path("p-%d.svg")]].concat());
     let lines = |name: &str| std::fs::read_to_string(folder.path(name)).unwrap().matches('M').count();
