@@ -8,10 +8,13 @@ use glam::{DMat3, DVec3};
 
 /// Returns the pairs that are not inside the solids of the faces in no pair.
 pub(crate) fn pairs(triangles: &[[u32; 3]], positions: &[DVec3], all: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
+    if all.is_empty() {
+        return all;
+    }
     let mut is_paired = vec![false; triangles.len()];
     all.as_flattened().iter().for_each(|face| is_paired[*face as usize] = true);
     let rest: Vec<u32> = (0..triangles.len() as u32).filter(|face| !is_paired[*face as usize]).collect();
-    if all.is_empty() || rest.is_empty() {
+    if rest.is_empty() {
         return all;
     }
     // The line runs along no axis and in no plane that models have.

@@ -60,7 +60,10 @@ impl Primitives {
                 Self::Segments(segments.collect())
             }
             _ => {
-                let every: Vec<[u32; 3]> = runs.flat_map(|run| every_triangle(run, piece.mode)).collect();
+                // The first run is mostly the only one and needs no copy.
+                let mut runs = runs.map(|run| every_triangle(run, piece.mode));
+                let mut every = runs.next().unwrap_or_default();
+                runs.for_each(|mut run| every.append(&mut run));
                 let marks = piece.edges.as_ref().map_or(Ok(Vec::new()), |edges| edges.marks(&every, accessors))?;
                 Self::Faces { triangles: without_joins(every, piece.mode), marks }
             }
