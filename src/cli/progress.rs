@@ -59,7 +59,6 @@ impl Drop for Progress {
 fn bar(what: &'static str, count: u64) -> ProgressBar {
     // Draws nothing unless standard error is a terminal, and nothing for a job of a batch, which has its own bar.
     let target = if is_captured() { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let bar = ProgressBar::with_draw_target(Some(count), target);
-    bar.set_message(what);
-    bar
+    // Without drawing: the style comes next.
+    ProgressBar::with_draw_target(Some(count), target).with_message(what)
 }

@@ -8,6 +8,7 @@ mod prune;
 mod rendering;
 #[cfg(test)]
 mod round_trip_tests;
+mod watched;
 
 pub use animate::scenes;
 
@@ -19,6 +20,7 @@ use super::run_settings::{OfRun, RunSettings};
 use super::{Command, given};
 use rendering::{Rendering, pictures_of};
 use std::path::Path;
+use tinta::lines::Progress;
 use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
 use tinta::preset::{LOOKS, Look};
@@ -192,7 +194,9 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
     }
     make_dump_folder(run.dump.as_deref(), output)?;
     session.submission = run.submission;
-    let Drawn::Picture(drawn) = request.draw(session, Wanted::default(), &Default::default())? else {
+    let progress = Progress::default();
+    let drawn = watched::watched(&progress, None, || request.draw(session, Wanted::default(), &progress))?;
+    let Drawn::Picture(drawn) = drawn else {
         return Ok(Verdict::Good);
     };
     let DrawnPicture { scene, files, published, picture, .. } = &*drawn;

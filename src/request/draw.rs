@@ -7,7 +7,7 @@ use super::{ModelCache, Request, Session, Wanted, ignored_remark};
 use crate::clock::Instant;
 use crate::error::{Error, Result};
 use crate::glsl;
-use crate::lines::Progress;
+use crate::lines::{Phase, Progress};
 use crate::mesh::{LoadStage, Mesh};
 use crate::picture::Picture;
 use crate::plan::Plan;
@@ -106,7 +106,7 @@ impl Request {
         let has_vectors = self.style.lines().is_some() || wanted.areas && self.vectors()?.is_some();
         if !has_vectors {
             self.refuse_vectors_options()?;
-            return self.picture(session).map(|picture| Drawn::Picture(Box::new(picture)));
+            return self.picture(session, progress).map(|picture| Drawn::Picture(Box::new(picture)));
         }
         let ReadModels { meshes, files, ms: load_ms, .. } = self.models(&session.models)?;
         let drawn = self.drawn_lines(self.scene(meshes)?, wanted, progress)?;
@@ -209,12 +209,12 @@ impl Request {
     ///
     /// Those of [`Request::models`], [`Scene::new`], [`crate::Style::plan`] and [`Request::renderer`].
     pub fn scene_and_renderer<'a>(&self, session: &'a mut Session) -> Result<(Scene, &'a mut Renderer)> {
-        let (_, loaded) = self.ready(session);
+        let (_, loaded) = self.ready(session, &Progress::default());
         Ok((loaded?.scene, self.renderer(session)?))
     }
 
-    fn picture(&self, session: &mut Session) -> Result<DrawnPicture> {
-        let (mut times, loaded) = self.ready(session);
+    fn picture(&self, session: &mut Session, progress: &Progress) -> Result<DrawnPicture> {
+        let (mut times, loaded) = self.ready(session, progress);
         let Planned { scene, files, published, around, times: of_loading } = loaded?;
         let renderer = self.renderer(session)?;
         let drawn = self.drawn_picture(scene, published, around, renderer)?;
@@ -267,14 +267,14 @@ impl Request {
     }
 
     /// Reads the models and gets a renderer ready meanwhile, unless the session has one.
-    fn ready(&self, session: &mut Session) -> (Times, Result<Planned>) {
+    fn ready(&self, session: &mut Session, progress: &Progress) -> (Times, Result<Planned>) {
         let backend = self.backend;
         if session.has(backend) {
-            return (Times::default(), self.planned(&session.models, session.submission));
+            return (Times::default(), self.planned(&session.models, session.submission, progress));
         }
         let shared = &*session;
         let (models, submission) = (&shared.models, shared.submission);
-        let load = || self.planned(models, submission);
+        let load = || self.planned(models, submission, progress);
         // Opening the context takes as long as reading a large model: both run in parallel. The renderer stays on this thread, as
         // GL requires.
         let (opened, loaded) = std::thread::scope(|scope| {
@@ -314,7 +314,7 @@ impl Request {
     }
 
     /// Reads the models, puts the scene together and plans it, which finds its edges where the style draws them.
-    fn planned(&self, cache: &ModelCache, submission: crate::plan::Submission) -> Result<Planned> {
+    fn planned(&self, cache: &ModelCache, submission: crate::plan::Submission, progress: &Progress) -> Result<Planned> {
         let ReadModels { meshes, files, stages, ms: load_ms } = self.models(cache)?;
         let scene = self.scene(meshes)?;
         let start = Instant::now();
@@ -323,7 +323,8 @@ impl Request {
         let start = Instant::now();
         let published = Plan { submission, ..self.plan(&scene)? };
         let plan_ms = milliseconds_since(start);
-        let around = self.around(&scene, &Progress::default())?;
+        let around = self.around(&scene, progress)?;
+        progress.begin(Phase::Drawing, 0);
         let times = Times { load_ms, stages, arrays_ms, plan_ms, lines_ms: around.found_ms, ..Times::default() };
         Ok(Planned { scene, files, published, around, times })
     }

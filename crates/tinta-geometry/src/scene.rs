@@ -359,7 +359,7 @@ impl Scene {
 
     /// The curvature of an object's surface between creases, smoothed as in [`Curvatures::new`]. The result for the
     /// latest settings is cached.
-    pub fn curvatures(&self, object: &Object, crease_angle: CreaseAngle, smoothing: f64) -> Arc<Curvatures> {
+    pub(crate) fn curvatures(&self, object: &Object, crease_angle: CreaseAngle, smoothing: f64) -> Arc<Curvatures> {
         object.curvatures.get(&object.mesh, self.edges(object).list(), crease_angle, smoothing)
     }
 

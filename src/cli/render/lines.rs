@@ -1,12 +1,12 @@
 //! `tinta render` of exact lines, into an SVG, PDF, DXF, JSON or picture's file. No OpenGL is opened.
 
 mod turn;
-mod writing;
 
 use super::super::messages::is_captured;
 use super::super::signals::Stop;
 use super::super::{Verdict, say};
 use super::rendering::Rendering;
+use super::watched::{is_stopped, progress, watched};
 use super::{explain, keep};
 use std::time::Instant;
 use tinta::lines::{chain, strokes_of_paths};
@@ -16,7 +16,6 @@ use tinta::request::{DrawingFormat, Drawn, DrawnLines, OF_PAPER, OF_PATHS, Sessi
 use tinta::settings::HasSettings;
 use tinta::styles::is_of_lines_alone;
 use tinta::{DrawingSettings, Error, Result, Show, Target, TextTarget};
-use writing::{is_stopped, progress, watched};
 
 /// Finds the lines and writes them.
 pub(super) fn run(rendering: &Rendering<'_>, format: DrawingFormat, session: &mut Session) -> Result<Verdict> {

@@ -40,6 +40,8 @@ pub struct Progress {
 /// The current phase of work on lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
+    /// Models are read; not counted.
+    Reading,
     /// Preparation: edges, faces and their hierarchies; not counted.
     Preparing,
     /// Finds intersections of faces; counts groups of faces.
@@ -52,18 +54,22 @@ pub enum Phase {
     TooShort,
     /// Cuts the view into areas; not counted.
     Areas,
+    /// OpenGL draws; not counted.
+    Drawing,
 }
 
 impl Phase {
     /// The name of the work, for people.
     pub fn words(self) -> &'static str {
         match self {
+            Self::Reading => "reading the model",
             Self::Preparing => "preparing lines",
             Self::Intersections => "finding intersections",
             Self::Lines => "finding lines",
             Self::Contours => "finding smooth silhouettes",
             Self::TooShort => "leaving out specks",
             Self::Areas => "finding areas",
+            Self::Drawing => "drawing",
         }
     }
 }
@@ -85,12 +91,14 @@ impl Progress {
     /// The current phase.
     pub fn phase(&self) -> Phase {
         match self.phase.load(Ordering::Relaxed) {
-            0 => Phase::Preparing,
-            1 => Phase::Intersections,
-            2 => Phase::Lines,
-            3 => Phase::Contours,
-            4 => Phase::TooShort,
-            _ => Phase::Areas,
+            0 => Phase::Reading,
+            1 => Phase::Preparing,
+            2 => Phase::Intersections,
+            3 => Phase::Lines,
+            4 => Phase::Contours,
+            5 => Phase::TooShort,
+            6 => Phase::Areas,
+            _ => Phase::Drawing,
         }
     }
 
@@ -150,7 +158,8 @@ impl Progress {
         times
     }
 
-    pub(crate) fn begin(&self, phase: Phase, total: usize) {
+    /// Begins a phase of so many steps.
+    pub fn begin(&self, phase: Phase, total: usize) {
         let mut begins = self.begins.lock().unwrap_or_else(PoisonError::into_inner);
         if begins.last().is_none_or(|(last, _)| *last != phase) {
             begins.push((phase, Instant::now()));

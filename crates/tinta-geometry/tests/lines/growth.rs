@@ -116,7 +116,7 @@ fn work_is_given_up_while_it_looks_for_intersections() {
     let progress = Progress::default();
     let ended = std::thread::scope(|scope| {
         let work = scope.spawn(|| VisibleLines::with_progress(&scene, &LineSettings::default(), &progress));
-        while progress.phase() == Phase::Preparing && !work.is_finished() {
+        while matches!(progress.phase(), Phase::Reading | Phase::Preparing) && !work.is_finished() {
             std::thread::yield_now();
         }
         assert_eq!(progress.phase(), Phase::Intersections);

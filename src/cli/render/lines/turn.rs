@@ -4,7 +4,7 @@ use super::super::super::signals::Stop;
 use super::super::super::{Verdict, print_json, say};
 use super::super::animate::{delay_ms, say_left_over};
 use super::super::rendering::Rendering;
-use super::writing::{is_stopped, progress, watched};
+use super::super::watched::{is_stopped, progress, watched};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;

@@ -35,8 +35,7 @@ impl LineIndex<'_> {
             }
             stops_at_first && !cuts.is_empty()
         });
-        if is_cut || (!self.finds_hidden && self.add_overlaps(index, image, overlapping, stretch, stops_at_first, cuts))
-        {
+        if is_cut || self.add_overlaps(index, image, overlapping, stretch, [stops_at_first, false], cuts) {
             return true;
         }
         if matches!(feature.own, Own::Edge(_)) {

@@ -6,7 +6,6 @@ use crate::lines::input::feature::Feature;
 use crate::lines::visible::line_index::LineIndex;
 use crate::ranges::{above_zero, united};
 use crate::thresholds::THRESHOLDS;
-use glam::DVec2;
 use std::cell::OnceCell;
 
 /// The lines that lie on one somewhere, found at the first use: most hidden lines need none.
@@ -85,16 +84,19 @@ impl LineIndex<'_> {
         directions.any(|directions| self.overlapping.any(&image.box_around(stretch, touch_px, directions), &mut visit))
     }
 
-    /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a pixel. `None` where it
-    /// lies in space on another of an earlier class, or of the same and a lower number.
+    /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a place. `None` where it
+    /// lies in space on another of an earlier class, or of the same and a lower number: looked for on
+    /// a hidden line only `if_hidden`.
     pub(in crate::lines) fn is_nearest(
         &self,
         index: usize,
         image: &Image,
         overlapping: &OverlappingLines,
-        px: DVec2,
-        depth: f64,
+        place: f64,
+        if_hidden: bool,
     ) -> Option<bool> {
+        let px = image.at(place);
+        let depth = -self.space.point(px, image.key(place)).z;
         let (place, own_key) = (image.place_of(px), image.key(image.place_of(px)));
         let mut others: Vec<(f64, usize)> = Vec::new();
         let is_behind = self.any_overlapping(image, overlapping, [place; 2], |other_index| {
@@ -103,8 +105,7 @@ impl LineIndex<'_> {
                 image.lies_on(&other, self.space).is_some_and(|range| (range[0]..=range[1]).contains(&place));
             if lies_on_it {
                 let key = other.key(other.place_of(px).clamp(0.0, 1.0));
-                // Hidden, and only visible lines count.
-                if !self.finds_hidden && own_key - key > self.clearly_behind(index, &other) {
+                if !if_hidden && own_key - key > self.clearly_behind(index, &other) {
                     return true;
                 }
                 others.push((self.space.depth_of_key(key), other_index));
@@ -143,18 +144,18 @@ impl LineIndex<'_> {
     }
 
     /// Adds where other lines that lie in the picture on a stretch of one begin, end and are as near: all, or only the first line's.
-    /// Returns whether it stopped at the first. Where only visible lines count, leaves out those that are farther away for sure.
+    /// Returns whether it stopped at the first. Unless `if_hidden`, leaves out those that are farther away for sure.
     pub(in crate::lines) fn add_overlaps(
         &self,
         index: usize,
         image: &Image,
         overlapping: &OverlappingLines,
         stretch: [f64; 2],
-        stops_at_first: bool,
+        [stops_at_first, if_hidden]: [bool; 2],
         cuts: &mut Vec<f64>,
     ) -> bool {
         self.any_overlapping(image, overlapping, stretch, |other_index| {
-            let changes_nothing = |other: &Image| !self.finds_hidden && self.is_farther(other_index, other, image);
+            let changes_nothing = |other: &Image| !if_hidden && self.is_farther(other_index, other, image);
             if let Some(other) =
                 self.images[other_index].filter(|other| other_index != index && !changes_nothing(other))
             {

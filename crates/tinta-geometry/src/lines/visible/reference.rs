@@ -87,7 +87,7 @@ impl LineIndex<'_> {
         place: f64,
     ) -> Option<bool> {
         let probe = self.probe(index, image, place);
-        let is_nearest = self.is_nearest(index, image, overlapping, probe.px, -probe.view.z)?;
+        let is_nearest = self.is_nearest(index, image, overlapping, place, true)?;
         Some(is_nearest && self.faces.leave_open(self.space, &probe, |_, hides| self.all_faces().any(hides)))
     }
 

@@ -12,8 +12,8 @@ use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::SearchDepth;
 use crate::lines::visible::overlapping_lines::OverlappingLines;
+use crate::ranges::gaps;
 use crate::threads::{cores, spread_chunks};
-use std::cell::LazyCell;
 
 /// Pieces of one line between two looks at the time.
 const PIECES_A_GLANCE: usize = 64;
@@ -46,54 +46,79 @@ impl LineIndex<'_> {
         (segments, compared)
     }
 
-    /// The pieces of a wanted line: the visible ones, and hidden ones if wanted; none if the time runs out.
+    /// The pieces of a wanted line: the visible ones, and if wanted the rest as hidden ones; none if the time runs out.
     pub(in crate::lines) fn decided(&self, index: usize, progress: &Progress) -> Vec<Interval> {
-        let mut pieces: Vec<Interval> = Vec::new();
-        let Some((image, inside)) = self.wanted(index) else { return pieces };
-        let behind = self.behind_nearest(index, &image, inside);
+        let Some((image, inside)) = self.wanted(index) else { return Vec::new() };
         let overlapping = match self.features[index].overlaps() {
             true => OverlappingLines::new(index, &image, inside),
             false => OverlappingLines::none(index, &image, inside),
         };
+        let visible = self.visible(index, &image, inside, &overlapping, progress);
+        if !self.finds_hidden {
+            return visible;
+        }
+        let seen: Vec<[f64; 2]> = visible.iter().map(|piece| [piece.from, piece.to]).collect();
+        let rest = gaps(inside, &seen).into_iter().take_while(|_| !progress.is_over());
+        let hidden = rest.flat_map(|gap| self.hidden(index, &image, gap, &overlapping));
+        let mut pieces: Vec<Interval> = visible.iter().copied().chain(hidden).collect();
+        pieces.sort_by(|one, other| one.from.total_cmp(&other.from));
+        pieces
+    }
+
+    /// The visible pieces of a line; none if the time runs out.
+    fn visible(
+        &self,
+        index: usize,
+        image: &Image,
+        inside: [f64; 2],
+        overlapping: &OverlappingLines,
+        progress: &Progress,
+    ) -> Vec<Interval> {
+        let behind = self.behind_nearest(index, image, inside);
         let mut cuts = Vec::new();
         let mut cover = self.unknown_cover(inside, &behind);
         // Of a line that nothing cuts, one ray decides all.
-        if cover.open.iter().any(|gap| self.add_cuts(index, &image, &overlapping, *gap, true, &mut cuts)) {
+        if cover.open.iter().any(|gap| self.add_cuts(index, image, overlapping, *gap, true, &mut cuts)) {
             cuts.clear();
-            cover = self.cover(index, &image, inside, &behind, SearchDepth::Nearer);
-            if !self.finds_hidden {
-                let mut hidden = Vec::new();
-                for gap in &cover.open {
-                    self.behind_overlapping_lines(index, &image, &overlapping, *gap, &mut hidden);
-                }
-                cover = self.hide_all(cover, &image, hidden);
-            }
+            cover = self.cover(index, image, inside, &behind, SearchDepth::Nearer);
+            let mut hidden = Vec::new();
             for gap in &cover.open {
-                self.add_cuts(index, &image, &overlapping, *gap, false, &mut cuts);
+                self.behind_overlapping_lines(index, image, overlapping, *gap, &mut hidden);
+            }
+            cover = self.hide_all(cover, image, hidden);
+            for gap in &cover.open {
+                self.add_cuts(index, image, overlapping, *gap, false, &mut cuts);
             }
         }
-        if !self.finds_hidden && cover.open.is_empty() {
+        let mut pieces: Vec<Interval> = Vec::new();
+        if cover.open.is_empty() {
             return pieces;
         }
-        self.add_piercings(index, &image, &mut cuts);
-        if self.finds_hidden {
-            self.add_overlaps(index, &image, &overlapping, inside, false, &mut cuts);
-        }
-        let places = self.places(&image, inside, cuts);
-        for (number, place) in places.windows(2).enumerate() {
+        self.add_piercings(index, image, &mut cuts);
+        for (number, place) in self.places(image, inside, cuts).windows(2).enumerate() {
             if number % PIECES_A_GLANCE == PIECES_A_GLANCE - 1 && progress.is_over() {
                 return Vec::new();
             }
             let [from, to] = [place[0], place[1]];
             let place = (from + to) * 0.5;
-            let is_hidden = cover.hides(place);
-            if is_hidden && !self.finds_hidden {
-                continue;
+            if !cover.hides(place) && self.is_seen(index, image, overlapping, place, &cover) {
+                Interval { from, to, is_visible: true, background: [false; 2] }.add_to(&mut pieces);
             }
-            let Some(is_visible) = self.state(index, &image, &overlapping, place, is_hidden, &cover) else { continue };
-            Interval { from, to, is_visible, background: [false; 2] }.add_to(&mut pieces);
         }
-        pieces.retain(|piece| piece.is_visible || self.finds_hidden);
+        pieces
+    }
+
+    /// The hidden pieces of a stretch of which nothing is visible: all but what another line in the same place stands for.
+    fn hidden(&self, index: usize, image: &Image, stretch: [f64; 2], overlapping: &OverlappingLines) -> Vec<Interval> {
+        let (mut cuts, mut pieces) = (Vec::new(), Vec::new());
+        self.add_overlaps(index, image, overlapping, stretch, [false, true], &mut cuts);
+        for place in self.places(image, stretch, cuts).windows(2) {
+            let [from, to] = [place[0], place[1]];
+            let stands_for_itself = || self.is_nearest(index, image, overlapping, (from + to) * 0.5, true).is_some();
+            if overlapping.are_none(self) || stands_for_itself() {
+                Interval { from, to, is_visible: false, background: [false; 2] }.add_to(&mut pieces);
+            }
+        }
         pieces
     }
 
@@ -114,24 +139,14 @@ impl LineIndex<'_> {
         }
     }
 
-    /// Whether a line is seen at a place; `None` where it lies in space on another line that stands for both. Where faces hide it
-    /// for sure only the latter is asked.
-    fn state(
-        &self,
-        index: usize,
-        image: &Image,
-        overlapping: &OverlappingLines,
-        place: f64,
-        is_hidden: bool,
-        cover: &Cover,
-    ) -> Option<bool> {
-        let probe = LazyCell::new(|| self.probe(index, image, place));
+    /// Whether a line is seen at a place that is not hidden for sure, and no line in the same place stands for it.
+    fn is_seen(&self, index: usize, image: &Image, overlapping: &OverlappingLines, place: f64, cover: &Cover) -> bool {
         let is_nearest =
-            overlapping.are_none(self) || self.is_nearest(index, image, overlapping, probe.px, -probe.view.z)?;
+            || overlapping.are_none(self) || self.is_nearest(index, image, overlapping, place, false) == Some(true);
         let leave_open = || {
-            let planes = self.features[index].planes;
+            let (probe, planes) = (self.probe(index, image, place), self.features[index].planes);
             self.faces.leave_open(self.space, &probe, |column, visit| self.any_occluder(column, planes, visit))
         };
-        Some(is_nearest && !is_hidden && (cover.leaves_open(place) || leave_open()))
+        is_nearest() && (cover.leaves_open(place) || leave_open())
     }
 }

@@ -1,8 +1,8 @@
-//! Work on lines with its time limit, its progress bar and its signals.
+//! Work on a drawing with its time limit, its progress bar and its signals.
 
-use super::super::super::progress::Progress;
-use super::super::super::signals::Stop;
-use super::super::rendering::Rendering;
+use super::super::progress::Progress;
+use super::super::signals::Stop;
+use super::rendering::Rendering;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
 use tinta::lines::{Phase, Progress as LineProgress};
@@ -20,7 +20,7 @@ pub(super) fn progress(rendering: &Rendering<'_>) -> LineProgress {
 /// How often the progress bar is looked after, and how long work takes before it gets one.
 const GLANCE: Duration = Duration::from_millis(200);
 
-/// Works on lines while another thread shows progress and watches for signals.
+/// Draws while another thread shows progress and watches for signals.
 pub(super) fn watched<T>(progress: &LineProgress, stop: Option<&Stop>, work: impl FnOnce() -> T) -> T {
     let (done, is_done) = std::sync::mpsc::channel::<()>();
     std::thread::scope(|scope| {
@@ -35,7 +35,7 @@ pub(super) fn watched<T>(progress: &LineProgress, stop: Option<&Stop>, work: imp
                 // The time left in a phase is computed from its own steps.
                 let (_, bar) = match bar.take().filter(|(known, _)| *known == phase) {
                     Some(known) => bar.insert(known),
-                    None => bar.insert((phase, Progress::new(phase.words(), 0))),
+                    None => bar.insert((phase, Progress::new(phase.words(), total as u64))),
                 };
                 if total == 0 { bar.wait() } else { bar.set(done as u64, total as u64) }
             }
