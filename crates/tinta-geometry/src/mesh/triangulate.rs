@@ -1,7 +1,8 @@
 //! Polygons to triangles, each keeping the polygon's orientation.
 //!
 //! Convex polygons become fans; the others go to the earcut crate in the plane of Newell's normal. Long ones, for which earcut
-//! would not come to an end, are cut by [`ears`] if they do not cross themselves.
+//! would not come to an end, are cut by [`ears`] if they do not cross themselves. A bent polygon may have corners that are in one line
+//! of that plane and in none in space: where an ear there would have no area in the plane, the polygon is cut for the least area.
 
 mod blockers;
 mod ears;
@@ -13,6 +14,9 @@ use earcut::Earcut;
 use ears::cut_ears;
 use glam::{DVec2, DVec3};
 use simple_polygon::is_simple;
+
+/// Most corners of a polygon that is cut by its area, which takes their cube.
+const BENT_CORNERS: usize = 64;
 
 /// How a polygon was cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,37 +41,88 @@ pub(super) fn triangulate(corners: &[DVec3], earcut: &mut Earcut<f64>, out: &mut
         count => {
             let corners = &of_size_one(corners);
             let normal = newell_normal(corners);
-            if normal == DVec3::ZERO || is_convex(corners, normal) {
-                out.extend((1..count as u32 - 1).map(|i| [0, i, i + 1]));
-                let has_area =
-                    normal == DVec3::ZERO && out.iter().any(|cut| area(cut.map(|i| corners[i as usize])) > NEEDLE);
-                return if has_area { Cut::Crossing } else { Cut::Whole };
+            let cut = cut_in_plane(corners, normal, earcut, out);
+            if cut == Cut::Whole && count <= BENT_CORNERS && has_upright_ears(corners, normal, out) {
+                cut_by_area(corners, normal, out);
             }
-            if count > CONCAVE_CORNERS {
-                return Cut::TooLong;
-            }
-            let plane: Vec<DVec2> = project(corners, normal).collect();
-            if count > CROSSING_CORNERS {
-                let is_simple = is_simple(&plane);
-                if is_simple {
-                    cut_ears(&plane, out);
-                }
-                return if is_simple { Cut::Whole } else { Cut::TooLong };
-            }
-            let mut indices: Vec<u32> = Vec::new();
-            earcut.earcut(plane.iter().map(|point| point.to_array()), &[], &mut indices);
-            out.extend(indices.chunks_exact(3).map(|t| oriented([t[0], t[1], t[2]], corners, normal)));
-            let cut: f64 = out.iter().map(|cut| area(cut.map(|i| plane[i as usize].extend(0.0)))).sum();
-            if (cut - normal.length() * 0.5).abs() > NEEDLE {
-                return Cut::Crossing;
-            }
+            return cut;
         }
     }
     Cut::Whole
 }
 
-fn area([a, b, c]: [DVec3; 3]) -> f64 {
-    (b - a).cross(c - a).length() * 0.5
+/// Splits a polygon of four corners or more by what is seen along its normal.
+fn cut_in_plane(corners: &[DVec3], normal: DVec3, earcut: &mut Earcut<f64>, out: &mut Vec<[u32; 3]>) -> Cut {
+    let count = corners.len();
+    if normal == DVec3::ZERO || is_convex(corners, normal) {
+        out.extend((1..count as u32 - 1).map(|i| [0, i, i + 1]));
+        let has_area = normal == DVec3::ZERO && out.iter().any(|cut| area(cut.map(|i| corners[i as usize])) > NEEDLE);
+        return if has_area { Cut::Crossing } else { Cut::Whole };
+    }
+    if count > CONCAVE_CORNERS {
+        return Cut::TooLong;
+    }
+    let plane: Vec<DVec2> = project(corners, normal).collect();
+    if count > CROSSING_CORNERS {
+        let is_simple = is_simple(&plane);
+        if is_simple {
+            cut_ears(&plane, out);
+        }
+        return if is_simple { Cut::Whole } else { Cut::TooLong };
+    }
+    let mut indices: Vec<u32> = Vec::new();
+    earcut.earcut(plane.iter().map(|point| point.to_array()), &[], &mut indices);
+    out.extend(indices.chunks_exact(3).map(|t| oriented([t[0], t[1], t[2]], corners, normal)));
+    let cut: f64 = out.iter().map(|cut| area(cut.map(|i| plane[i as usize].extend(0.0)))).sum();
+    if (cut - normal.length() * 0.5).abs() > NEEDLE { Cut::Crossing } else { Cut::Whole }
+}
+
+/// Whether a cut lacks corners, or it or a corner has a triangle with area in space and none in the polygon's plane.
+fn has_upright_ears(corners: &[DVec3], normal: DVec3, cut: &[[u32; 3]]) -> bool {
+    let count = corners.len();
+    let at_corners = (0..count).map(|i| [corners[i], corners[(i + 1) % count], corners[(i + 2) % count]]);
+    let mut ears = at_corners.chain(cut.iter().map(|ear| ear.map(|corner| corners[corner as usize])));
+    cut.len() + 2 < count || ears.any(|ear| area(ear) > NEEDLE && area_in_plane(ear, normal).abs() <= NEEDLE)
+}
+
+/// A triangle's area as seen along a normal, negative if it goes round it the other way.
+fn area_in_plane(triangle: [DVec3; 3], normal: DVec3) -> f64 {
+    turn(triangle).dot(normal) / normal.length() * 0.5
+}
+
+/// Splits a polygon into the triangles of least area that go round like it in its plane, if it has such.
+fn cut_by_area(corners: &[DVec3], normal: DVec3, out: &mut Vec<[u32; 3]>) {
+    let count = corners.len();
+    // Of the corners from one to another the least area, and the third corner of the triangle at those two.
+    let mut least = vec![(0.0, 0); count * count];
+    for (first, last) in (0..count).rev().flat_map(|first| (first + 2..count).map(move |last| (first, last))) {
+        let cut_at = |middle: usize| {
+            let triangle = [first, middle, last].map(|corner| corners[corner]);
+            let own = if area_in_plane(triangle, normal) > NEEDLE { area(triangle) } else { f64::INFINITY };
+            (own + least[first * count + middle].0 + least[middle * count + last].0, middle)
+        };
+        let cuts = (first + 1..last).map(cut_at);
+        least[first * count + last] = cuts.min_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or_default();
+    }
+    if least[count - 1].0.is_infinite() {
+        return;
+    }
+    out.clear();
+    let mut waiting = vec![[0, count - 1]];
+    while let Some([first, last]) = waiting.pop() {
+        let middle = least[first * count + last].1;
+        out.push([first, middle, last].map(|corner| corner as u32));
+        waiting.extend([[first, middle], [middle, last]].into_iter().filter(|[first, last]| first + 1 < *last));
+    }
+}
+
+/// Twice a triangle's area as a vector along its normal.
+fn turn([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
+}
+
+fn area(triangle: [DVec3; 3]) -> f64 {
+    turn(triangle).length() * 0.5
 }
 
 /// The corners moved to the first one and scaled to a size of 1 to 2, which keeps products of lengths ordinary numbers. The
@@ -135,6 +190,69 @@ mod tests {
     fn a_convex_polygon_becomes_a_fan() {
         let square = [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
         assert_eq!(cut(&square), [[0, 1, 2], [0, 2, 3]]);
+    }
+
+    /// The band between two bent lines, one unit apart, with this first corner, turned somehow.
+    fn band(line: &[[f64; 2]], start: usize) -> Vec<DVec3> {
+        let turn = glam::DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 1.1, -0.7);
+        let back = line.iter().rev().map(|[x, y]| DVec3::new(*x, *y, 1.0));
+        let mut corners: Vec<DVec3> = line.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)).chain(back).collect();
+        corners.rotate_left(start);
+        corners.iter().map(|corner| turn * *corner * 0.7).collect()
+    }
+
+    #[test]
+    fn bent_polygons_are_cut_where_they_bend() {
+        let arc: Vec<[f64; 2]> = (0..9).map(|i| f64::from(i) * 0.2).map(|turn| [turn.sin(), turn.cos()]).collect();
+        let waves = [[0.0, 0.0], [1.0, 0.3], [2.0, 0.0], [3.0, -0.4], [4.0, 0.0]];
+        for line in [&[[0.0, 0.0], [1.0, 0.3], [2.0, 0.0]][..], &arc, &waves] {
+            let length: f64 = line.windows(2).map(|ends| DVec2::from(ends[0]).distance(ends[1].into())).sum();
+            for start in 0..line.len() * 2 {
+                let corners = band(line, start);
+                let triangles = cut(&corners);
+                assert_eq!(triangles.len(), corners.len() - 2);
+                let area = area_vector(&corners, &triangles).1 / 0.49;
+                assert!((area - length).abs() < 1e-12, "{area} of {length} from corner {start}");
+            }
+        }
+        // Notches and corners in line of one that is bent lose nothing either.
+        let notched =
+            [[0.0, 0.0, 0.0], [1.0, 0.3, 0.0], [2.0, 0.0, 0.0], [2.0, 0.0, 2.0], [1.0, 0.3, 0.5], [0.0, 0.0, 2.0]];
+        let corners = notched.map(DVec3::from_array);
+        let triangles = cut(&corners);
+        let (half, whole) = (1.09f64.sqrt() * 1.25, area_vector(&corners, &triangles).1);
+        assert_eq!(triangles.len(), 4);
+        assert!((whole - 2.0 * half).abs() < 1e-12, "{whole}");
+    }
+
+    #[test]
+    fn bent_polygons_on_a_grid_are_cut_as_in_their_plane_unless_an_ear_has_no_area_there() {
+        let mut seed = 1u32;
+        let mut next = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(seed >> 24) / 64.0
+        };
+        let mut otherwise = 0;
+        for case in 0..20_000 {
+            // Round a middle, some corners in line and all out of the plane by up to a quarter.
+            let count = 4 + case % 5;
+            let corner = |i: usize| DVec2::from_angle(std::f64::consts::TAU * i as f64 / count as f64) * 4.0;
+            let flat: Vec<DVec2> = (0..count).map(|i| (corner(i) * (1.0 + next() / 4.0)).round()).collect();
+            let corners: Vec<DVec3> = flat.iter().map(|at| at.extend((next() - 2.0).trunc() * 0.5)).collect();
+            let (normal, mut in_plane) = (newell_normal(&corners), Vec::new());
+            let size_one = of_size_one(&corners);
+            let kind = cut_in_plane(&size_one, newell_normal(&size_one), &mut Earcut::new(), &mut in_plane);
+            let triangles = cut(&corners);
+            if triangles != in_plane {
+                otherwise += 1;
+                assert!(kind == Cut::Whole && has_upright_ears(&size_one, normal, &in_plane), "{corners:?}");
+                let (was, is) = (area_vector(&corners, &in_plane), area_vector(&corners, &triangles));
+                assert!(is.1 < was.1 + 1e-9 && is.0.distance(was.0) < 1e-9 || in_plane.len() < triangles.len());
+                let upright = |ear: &[u32; 3]| area_in_plane(ear.map(|i| corners[i as usize]), normal) < 1e-9;
+                assert!(!triangles.iter().any(upright), "{corners:?} {triangles:?}");
+            }
+        }
+        assert!((20..200).contains(&otherwise), "{otherwise} of 20000");
     }
 
     #[test]
