@@ -35,6 +35,7 @@ mod number;
 mod obj;
 mod options;
 pub(crate) mod outside;
+mod other_diagonals;
 mod pieces;
 mod ply;
 mod same_polygons;

@@ -1,7 +1,7 @@
 //! Triangles with the same three corners: those that repeat another, and pairs that show one surface from both sides.
 //!
-//! In: triangles over welded positions. Out: their numbers. The corners decide alone: triangles that lie on each other with other
-//! corners are not found here.
+//! In: triangles over welded positions. Out: their numbers. The corners decide alone: of triangles that lie on each other with other
+//! corners, only rings are found that may show one quadrilateral from both sides.
 
 use crate::threads::{in_parallel, threads_for};
 
@@ -12,6 +12,8 @@ pub(super) struct Coincident {
     pub repeated: Vec<u32>,
     /// Two of opposite orientation that repeat none, the earlier one first.
     pub opposite: Vec<[u32; 2]>,
+    /// Three that close a ring round the lowest vertex of all of them, in the ring's direction.
+    pub rings: Vec<[u32; 3]>,
 }
 
 /// Returns all triangles with the same corners as another; the corners are below `vertices`.
@@ -36,7 +38,7 @@ pub(super) fn coincident(triangles: &[[u32; 3]], vertices: usize) -> Coincident 
     let starts = ends;
     let found = in_parallel(vertices, threads_for(triangles.len()), |range| {
         let mut found = Coincident::default();
-        let mut some: Vec<([u32; 3], bool, u32)> = Vec::new();
+        let (mut some, mut ways) = (Vec::new(), Vec::new());
         for vertex in range {
             let group = &order[starts[vertex] as usize..starts[vertex + 1] as usize];
             if group.len() > 1 {
@@ -47,6 +49,7 @@ pub(super) fn coincident(triangles: &[[u32; 3]], vertices: usize) -> Coincident 
                 }));
                 some.sort_unstable();
                 some.chunk_by(|a, b| a.0 == b.0).for_each(|same| found.add(same));
+                found.add_rings(&some, &mut ways);
             }
         }
         found
@@ -54,6 +57,7 @@ pub(super) fn coincident(triangles: &[[u32; 3]], vertices: usize) -> Coincident 
     found.into_iter().fold(Coincident::default(), |mut all, mut one| {
         all.repeated.append(&mut one.repeated);
         all.opposite.append(&mut one.opposite);
+        all.rings.append(&mut one.rings);
         all
     })
 }
@@ -68,6 +72,25 @@ impl Coincident {
         }
         if let [first, second] = *firsts {
             self.opposite.push([first.min(second), first.max(second)]);
+        }
+    }
+
+    /// Adds the rings of triangles round their lowest vertex. `ways` is room for each triangle's other corners, in its direction.
+    fn add_rings(&mut self, triangles: &[([u32; 3], bool, u32)], ways: &mut Vec<[u32; 3]>) {
+        ways.clear();
+        ways.extend(triangles.iter().map(
+            |([_, b, c], is_turned_over, number)| {
+                if *is_turned_over { [*c, *b, *number] } else { [*b, *c, *number] }
+            },
+        ));
+        ways.sort_unstable();
+        // A surface leads on once, its back once more.
+        let from = |corner: u32| ways[ways.partition_point(|way| way[0] < corner)..].iter().take(2);
+        for [start, second, first_face] in &*ways {
+            for [from_second, third, second_face] in from(*second) {
+                let closing = from(*third).find(|way| way[..2] == [*third, *start]).filter(|_| from_second == second);
+                self.rings.extend(closing.map(|way| [*first_face, *second_face, way[2]]));
+            }
         }
     }
 }
@@ -115,6 +138,16 @@ mod tests {
             opposite.sort_unstable();
             prop_assert_eq!((found.repeated, found.opposite), (repeated, opposite));
         }
+    }
+
+    #[test]
+    fn three_triangles_that_close_a_ring_at_their_lowest_vertex_are_found() {
+        let ring = [[0, 1, 2], [2, 3, 0], [1, 0, 3], [1, 3, 2]];
+        let mut rings = coincident(&ring, 4).rings;
+        rings.sort_unstable();
+        assert_eq!(rings, [[0, 1, 2], [1, 2, 0], [2, 0, 1]]);
+        assert!(coincident(&[[0, 1, 2], [0, 2, 3], [0, 1, 3]], 4).rings.is_empty(), "the last one goes the other way");
+        assert!(coincident(&[[0, 1, 2], [0, 2, 1], [0, 2, 3]], 4).rings.is_empty(), "two are one from both sides");
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! In: polygons and the vertices' welding. Out: triangles over welded but not yet renumbered positions.
 
 use super::coincident::{Coincident, coincident, sorted};
+use super::other_diagonals;
 use super::same_polygons::{in_order_of, same_polygons};
 use super::soup::{Corner, Soup};
 use super::triangulate::{self, Cut};
@@ -228,7 +229,11 @@ impl Pieces {
     /// triangle that two different polygons have in common belongs to both. Counts triangles that have another on their back and may
     /// be seen.
     pub(super) fn drop_duplicates(&mut self, positions: &[DVec3]) {
-        let Coincident { repeated, opposite } = coincident(&self.triangles, positions.len());
+        let mut found = coincident(&self.triangles, positions.len());
+        if other_diagonals::align(self, positions, &found.rings) {
+            found = coincident(&self.triangles, positions.len());
+        }
+        let Coincident { repeated, opposite, .. } = found;
         self.doubled += outside::pairs(&self.triangles, positions, opposite).len();
         if repeated.is_empty() {
             return;
