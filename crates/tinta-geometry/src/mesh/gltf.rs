@@ -28,6 +28,7 @@ use crate::memory;
 use accessors::Accessors;
 use buffers::Buffers;
 pub use cameras::camera;
+use container::Parts;
 use gltf_json::Root;
 use materials::{LeftOut, Materials};
 use nodes::Nodes;
@@ -54,7 +55,7 @@ fn contents(
     folder: &Folder<'_>,
     remarks: &mut Vec<String>,
 ) -> std::result::Result<Soup, String> {
-    let (json, data) = container::open(bytes)?;
+    let Parts { json, data, unread } = container::open(bytes)?;
     let root = container::parse(json)?;
     extensions::refuse_unknown(&root)?;
     let buffers = Buffers::of(&root, data, folder);
@@ -83,6 +84,7 @@ fn contents(
         parts::put(&mut soup, outline, &accessors, &nodes, &of_nodes)?;
     }
     soup.parts = named;
+    remarks.extend(soup.note_more(path, &format!("{} bytes", bytes.len() - unread.len()), [0, 0], unread));
     remarks.extend(not_drawn(&root, left_out, path));
     Ok(soup)
 }

@@ -366,6 +366,31 @@ mod tests {
         }
     }
 
+    #[test]
+    fn what_follows_the_length_that_a_header_promises_is_said_and_strictly_refused() {
+        for (name, bytes) in valid_files().into_iter().filter(|(name, _)| ["b.md2", "b.3ds", "b.glb"].contains(name)) {
+            let with = |more: &[u8], strict: bool| {
+                let options = LoadOptions { strict, ..LoadOptions::default() };
+                read_bytes(&[&bytes, more].concat(), name, &[], &options)
+            };
+            let sentence = format!("{name}: its header promises {} bytes; what follows them is not read", bytes.len());
+            for padding in [&b""[..], b"\0\0\0", b"\r\n", &[0; 100]] {
+                let loaded = with(padding, false).unwrap();
+                assert!(!loaded.remarks.contains(&sentence) && loaded.mesh.defects.unpromised == 0, "{name}");
+            }
+            for more in [&b"end"[..], &bytes] {
+                let loaded = with(more, false).unwrap();
+                assert!(loaded.remarks.contains(&sentence), "{name}: {:?}", loaded.remarks);
+                assert_eq!(
+                    loaded.mesh.defects,
+                    crate::mesh::Defects { unpromised: 1, ..with(b"", false).unwrap().mesh.defects }
+                );
+                let refusal = with(more, true).unwrap_err().to_string();
+                assert!(refusal.contains("1 part beyond what the header promises"), "{refusal}");
+            }
+        }
+    }
+
     proptest::proptest! {
         #![proptest_config(proptest::prelude::ProptestConfig::with_cases(6000))]
 

@@ -144,6 +144,8 @@ pub(super) fn read(
     if let Some(found) = options.skin.is_none().then(|| find_skin(names, path, folder, remarks)).flatten() {
         folder.put_picture(&mut skin, found);
     }
+    let end = header.end.max(header.frames_at + header.frames * header.frame_bytes);
+    remarks.extend(soup.note_more(path, &format!("{} bytes", header.end), [0, 0], &bytes[end..]));
     soup.polygon_materials = vec![0; soup.polygon_count()];
     soup.materials = vec![skin];
     Ok(soup)

@@ -143,6 +143,7 @@ pub(super) fn read(
         remarks.push(format!("{path}: {several} {stand} in several places by its animation; {drawn}"));
     }
     let mut soup = contents.with_materials(path, remarks);
+    remarks.extend(soup.note_more(path, &format!("{length} bytes"), [0, 0], bytes.get(length..).unwrap_or_default()));
     if options.up_axis == UpAxis::Auto {
         soup.turn_by(|position| UpAxis::Z.to_y_up(position));
     }

@@ -12,8 +12,7 @@ use glam::DVec3;
 ///
 /// A sentence without the file's name for what is no such file.
 pub fn camera(file: &[u8]) -> std::result::Result<Option<(CameraSettings, Option<f64>)>, String> {
-    let (json, _) = container::open(file)?;
-    let root = container::parse(json)?;
+    let root = container::parse(container::open(file)?.json)?;
     let nodes = Nodes::of(&root)?;
     let Some((node, camera)) = nodes.shown.iter().find_map(|node| Some((*node, root.nodes[*node].camera?))) else {
         return Ok(None);

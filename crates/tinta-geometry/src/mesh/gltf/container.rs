@@ -27,10 +27,19 @@ pub(super) const MATERIAL_BYTES: usize = 2560;
 /// The same of a member of a list.
 const MEMBER_BYTES: usize = 64;
 
-/// The JSON and, in GLB, the data that follows it.
-pub(super) fn open(file: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
+/// A file's parts.
+pub(super) struct Parts<'a> {
+    pub json: &'a [u8],
+    /// What GLB has behind the JSON.
+    pub data: Option<&'a [u8]>,
+    /// What follows GLB's end.
+    pub unread: &'a [u8],
+}
+
+/// Takes a file apart.
+pub(super) fn open(file: &[u8]) -> Result<Parts<'_>, String> {
     if !file.starts_with(GLB_MAGIC) {
-        return Ok((file, None));
+        return Ok(Parts { json: file, data: None, unread: &[] });
     }
     let mut bytes = Bytes(file);
     bytes.take(GLB_MAGIC.len());
@@ -62,7 +71,8 @@ pub(super) fn open(file: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
             _ => {}
         }
     }
-    Ok((json.ok_or("it has no chunk of JSON; it is damaged, export it again")?, data))
+    let json = json.ok_or("it has no chunk of JSON; it is damaged, export it again")?;
+    Ok(Parts { json, data, unread: bytes.0 })
 }
 
 /// The JSON with its types, unchecked: indices may be out of range.
