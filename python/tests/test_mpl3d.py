@@ -4,6 +4,7 @@ import os
 import runpy
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ import tinta_npr as tn
 
 plt = pytest.importorskip("matplotlib.pyplot")
 plt.switch_backend("agg")
+Line3DCollection = pytest.importorskip("mpl_toolkits.mplot3d.art3d").Line3DCollection
 
 EXAMPLES = Path(os.environ.get("TINTA_EXAMPLES") or Path(__file__).parents[1] / "examples")
 NAMES = ["orbit", "path_on_waves", "plane_arrow_points", "line_by_a_fold", "bars_and_their_means"]
@@ -198,6 +200,29 @@ def test_a_translucent_surface_is_one_opaque_colour_over_the_background():
         scene = tn.mpl.draw3d(ax)
     assert len(scene.get_paths()) > 30 and np.allclose(scene.get_facecolor(), (1, 0.75, 0, 1))
     assert len(scene._strokes.get_segments()) == 0, "no seams"
+
+
+def test_a_translucent_surface_of_a_colour_map_is_said_and_mixed_like_one_of_one_colour():
+    mapped = {}
+    for alpha in (None, 0.25):
+        ax = plt.figure(facecolor="white").add_subplot(projection="3d", facecolor="yellow")
+        x, y = np.meshgrid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9))
+        ax.plot_surface(x, y, x * y, cmap="viridis", alpha=alpha)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            mapped[alpha] = tn.mpl.draw3d(ax).get_facecolor()
+        assert ["translucent" in str(one.message) for one in said] == [True] * (alpha is not None)
+    assert np.allclose(mapped[0.25][:, :3], mapped[None][:, :3] * 0.25 + np.array([1, 1, 0]) * 0.75)
+
+
+def test_translucent_curves_and_points_of_a_colour_map_stay_translucent():
+    ax = plt.figure().add_subplot(projection="3d")
+    ax.scatter([0, 1], [0, 1], [0, 1], c=[0, 1], cmap="viridis", alpha=0.5, depthshade=False)
+    segments = Line3DCollection([[(0, 0, 0), (1, 0, 0)], [(0, 1, 0), (1, 1, 0)]], cmap="viridis", array=[0, 1], alpha=0.5)
+    ax.add_collection3d(segments)
+    scene = tn.mpl.draw3d(ax)
+    assert np.allclose(scene._marks[0].get_facecolor()[:, 3], 0.5)
+    assert np.allclose(np.array(scene._strokes.get_edgecolor())[:, 3], 0.5)
 
 
 def test_masked_places_are_gaps():

@@ -29,7 +29,8 @@ class Surface:
         if isinstance(artist, Poly3DCollection):
             self.polygons, kept = _polygons(artist, scaled)
             self._faces = np.arange(len(kept))
-            colors = artist.to_rgba(artist.get_array()) if artist.get_array() is not None else artist._facecolor3d
+            mapped = _mapped(artist)
+            colors = artist._facecolor3d if mapped is None else mapped
             edges = artist._edgecolor3d
         else:
             self.polygons, kept = _levels(artist, scaled)
@@ -192,6 +193,12 @@ def _cut(rings):
     return triangles
 
 
+def _mapped(artist):
+    """The colours of an artist's values, as translucent as it is; `None` without values."""
+    values = artist.get_array()
+    return None if values is None else artist.to_rgba(values, artist.get_alpha())
+
+
 def _one_each(values, numbers):
     """Values of a collection by number, which repeat."""
     values = np.asarray(values)
@@ -226,7 +233,8 @@ class Curves:
             several = [[segment] for segment in artist._segments3d]
         else:
             several = [np.split(corners, np.flatnonzero(codes == Path.MOVETO)[1:]) for corners, codes in artist._3dverts_codes]
-        colors = artist.to_rgba(artist.get_array()) if artist.get_array() is not None else artist.get_edgecolor()
+        mapped = _mapped(artist)
+        colors = artist.get_edgecolor() if mapped is None else mapped
         numbers = np.arange(len(several))
         colors, widths = _one_each(to_rgba_array(colors), numbers), _one_each(artist.get_linewidth(), numbers)
         dashes = artist.get_linestyle()
@@ -251,7 +259,7 @@ class Dots:
             points = _places(artist._offsets3d)
             self.paths = artist.get_paths()
             sizes, widths = artist._sizes3d, np.atleast_1d(artist._linewidths3d)
-            shown = artist.to_rgba(artist.get_array()) if artist.get_array() is not None else None
+            shown = _mapped(artist)
             faces = artist._facecolors if shown is None else shown
             edges = faces if artist._edgecolors is None or isinstance(artist._edgecolors, str) or shown is not None else artist._edgecolors
         points = scaled(points)
