@@ -38,7 +38,7 @@ crate::choices! {
         Part = "part",
         /// The model's file marks it as an edge to draw: glTF's EXT_mesh_primitive_edge_visibility.
         Marked = "marked",
-        /// A flat or straight patch of the surface meets a rounding here without a crease.
+        /// Two different surfaces meet here without a crease, such as a plane and a rounding.
         Tangent = "tangent",
         /// No edge of the mesh: two faces intersect along it. Only the exact lines find it.
         Intersection = "intersection",
@@ -390,7 +390,7 @@ impl Classes {
             marked.extend(edges);
         }
         if wanted.contains(Class::Tangent) {
-            let found = tangents(mesh, edges, &normals, threads);
+            let found = tangents(mesh, edges, &normals, CreaseAngle::of_drawings().cosine, threads);
             for edge in &found {
                 let classes = &mut of_edges[*edge as usize];
                 *classes = classes.or(ClassSet::of(&[Class::Tangent]));

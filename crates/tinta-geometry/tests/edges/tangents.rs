@@ -7,6 +7,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use tinta::edges::{Class, ClassSet, Classes, CreaseAngle};
 use tinta::{EdgeList, LineSettings, Mesh, Scene, SceneSettings, VisibleLines};
 
+mod kernel;
+mod surfaces;
+
 /// A solid whose every face belongs to a patch of one kind: flat, cylinder, sphere, torus.
 #[derive(Default)]
 struct Solid {
