@@ -337,6 +337,29 @@ fn chained(lengths: &[(f64, bool)], is_ring: bool) -> VisibleLines {
 }
 
 #[test]
+fn of_two_outlines_with_background_on_one_side_the_outer_one_stays_unless_its_run_is_short() {
+    // Below a line with background below it, others: each from and to, how far below, whether its background lies below it, too.
+    let below = |others: &[(f64, f64, f64, bool)], is_turned: bool| {
+        let mut found = chained(&[(100.0, true)], false);
+        for (from, to, down, is_same_side) in others {
+            let ends = [*from, *to].map(|x| DVec2::new(x, 50.0 + down));
+            let ends_px = if is_turned { [ends[1], ends[0]] } else { ends };
+            let background = [*is_same_side != is_turned, *is_same_side == is_turned];
+            found.segments.push(LineSegment { ends_px, background, ..found.segments[0].clone() });
+        }
+        outline_of(&drawn(&found, "3"), None)
+    };
+    for is_turned in [false, true] {
+        let near = |others: &[(f64, f64, f64, bool)], expected: f64| {
+            assert_near(below(others, is_turned), expected, NEAR, &format!("{others:?} {is_turned}"));
+        };
+        near(&[(40.0, 80.0, 1.0, false)], 60.0);
+        near(&[(40.0, 80.0, 1.0, true)], 100.0);
+        near(&[(40.0, 50.0, 0.1, true), (50.0, 60.0, 0.2, true), (60.0, 70.0, 0.1, true)], 130.0);
+    }
+}
+
+#[test]
 fn a_run_shorter_than_four_widths_is_what_those_on_either_side_are() {
     let outline = |lengths: &[(f64, bool)], is_ring: bool| {
         let lines = chained(lengths, is_ring);

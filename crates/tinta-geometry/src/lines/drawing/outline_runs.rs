@@ -3,7 +3,9 @@
 //! In: pieces of lines and the width of the outline. Out: the same pieces, cut where their class changes. Two rules apply:
 //!
 //! - *Slits.* The ink of two outline lines nearer than [`SLIT`] widths would fill the background between them: both become inner
-//!   lines there. Along the outline, a part shorter than [`SHORT_RUN`] widths, slit or not, takes the class of its neighbours.
+//!   lines there. Of two with background on the same side, as at a face seen nearly edge-on, the outer one stays outline: the inner
+//!   one does in its place where the outer one's run is shorter than [`SHORT_RUN`] widths. Along the outline, a part shorter than that,
+//!   slit or not, takes the class of its neighbours.
 //! - *Short runs.* A run of inner line shorter than [`SHORT_RUN`] widths between two runs of outline becomes outline. A short run
 //!   of outline between two runs of inner line becomes inner line, unless other lines continue the outline at both of its ends: at
 //!   corners, and where silhouettes cross. The shortest run changes first.
@@ -31,8 +33,8 @@ const LONGEST_PART: f64 = 8.0;
 
 /// Returns the pieces as drawn with an outline of this width, pixels. Hidden pieces stay unchanged.
 pub(in crate::lines) fn readable(segments: &[LineSegment], width_px: f64, progress: &Progress) -> Vec<LineSegment> {
-    let (mut pieces, mut is_outline) = cut_at_slits(segments, SLIT * width_px, progress);
     let least_px = SHORT_RUN * width_px;
+    let (mut pieces, mut is_outline) = cut_at_slits(segments, [SLIT * width_px, least_px], progress);
     for chain in chains(&pieces, |piece| piece.is_outline) {
         settle(&pieces, &mut is_outline, &chain, least_px, 1, |_| false);
     }
@@ -49,7 +51,12 @@ pub(in crate::lines) fn readable(segments: &[LineSegment], width_px: f64, progre
 }
 
 /// Cuts pieces where a slit beside them begins or ends. Returns them and, for each, whether it is outline and borders on no slit.
-fn cut_at_slits(segments: &[LineSegment], slit_px: f64, progress: &Progress) -> (Vec<LineSegment>, Vec<bool>) {
+fn cut_at_slits(
+    segments: &[LineSegment],
+    [slit_px, least_px]: [f64; 2],
+    progress: &Progress,
+) -> (Vec<LineSegment>, Vec<bool>) {
+    let is_short = short_runs(segments, least_px);
     let image = |segment: &LineSegment| {
         let [a, b] = segment.ends_px;
         Image { a, b, keys: [0.0; 2], noise_px: 0.0 }
@@ -76,8 +83,9 @@ fn cut_at_slits(segments: &[LineSegment], slit_px: f64, progress: &Progress) -> 
             let mut narrow: Vec<[f64; 2]> = Vec::new();
             for part in image.stretches([0.0, 1.0], LONGEST_PART) {
                 tree.any(&image.box_around(part, slit_px, [0.0; 2]), |other| {
-                    let range = (other != number).then(|| before(&image, side, &segments[other], slit_px)).flatten();
-                    narrow.extend(range);
+                    let faced = before(&image, side, &segments[other], slit_px);
+                    let range = faced.filter(|(_, is_facing)| other != number && (*is_facing || !is_short[other]));
+                    narrow.extend(range.map(|(range, _)| range));
                     false
                 });
             }
@@ -99,8 +107,20 @@ fn cut_at_slits(segments: &[LineSegment], slit_px: f64, progress: &Progress) -> 
     (pieces, is_outline)
 }
 
-/// Returns the range of a line that another line faces on its right (0) or left (1), nearer than a distance.
-fn before(image: &Image, side: usize, other: &LineSegment, distance_px: f64) -> Option<[f64; 2]> {
+/// Returns for each piece of the outline whether its chain is shorter than this.
+fn short_runs(segments: &[LineSegment], least_px: f64) -> Vec<bool> {
+    let mut is_short = vec![false; segments.len()];
+    for Chain { pieces, .. } in chains(segments, |piece| piece.is_outline) {
+        let length = |piece: &usize| segments[*piece].ends_px[0].distance(segments[*piece].ends_px[1]);
+        let is_short_run = pieces.iter().map(length).sum::<f64>() < least_px;
+        pieces.into_iter().for_each(|piece| is_short[piece] = is_short_run);
+    }
+    is_short
+}
+
+/// Returns the range of a line that has another line on its right (0) or left (1), nearer than a distance, and whether the other has
+/// background towards it.
+fn before(image: &Image, side: usize, other: &LineSegment, distance_px: f64) -> Option<([f64; 2], bool)> {
     let along = (image.b - image.a) / image.length();
     let aside = if side == 0 { along.perp() } else { -along.perp() };
     let [first, second] = other.ends_px.map(|end| DVec2::new(along.dot(end - image.a), aside.dot(end - image.a)));
@@ -109,7 +129,9 @@ fn before(image: &Image, side: usize, other: &LineSegment, distance_px: f64) -> 
     let range = clipped(range, [0.0, 1.0], [distance_px - first.y, distance_px - second.y])?;
     let places = range.map(|share| (first.x + (second.x - first.x) * share) / image.length());
     let places = [places[0].min(places[1]).max(0.0), places[0].max(places[1]).min(1.0)];
-    ((places[1] - places[0]) * image.length() > JOINED_PX).then_some(places)
+    let is_along = along.dot(other.ends_px[1] - other.ends_px[0]) > 0.0;
+    let is_facing = other.background[if is_along { 1 - side } else { side }];
+    ((places[1] - places[0]) * image.length() > JOINED_PX).then_some((places, is_facing))
 }
 
 /// Pieces in order: each continues the one before.
