@@ -86,6 +86,17 @@ fn time_grows_with_what_is_there_and_what_is_seen() {
 }
 
 #[test]
+fn the_outline_of_triangles_around_one_edge_takes_a_few_times_the_boxes_of_their_lines() {
+    let scene = scene_of_family(family("book"), 1_000);
+    let compared = |finds_outline: bool| {
+        let settings = LineSettings { finds_hidden: false, finds_outline, ..LineSettings::default() };
+        lines_with(&scene, &settings).times.compared as f64
+    };
+    let ratio = compared(true) / compared(false);
+    assert!(ratio < 10.0, "{ratio} times the boxes");
+}
+
+#[test]
 fn the_same_boxes_are_looked_at_every_time() {
     let scene = scene_of_family(family("hair"), 200);
     let compared = || seen(&scene).times.compared;

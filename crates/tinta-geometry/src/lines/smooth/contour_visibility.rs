@@ -144,7 +144,8 @@ impl ContourLines<'_> {
         let outwards = DVec2::new(summit.aside.x, -summit.aside.y);
         let px = summit.px + outwards * lines.beside_px();
         let beside = Probe { px, view: lines.space.point(px, summit.key), ..*summit };
-        if lines.faces.is_covered(lines.space, &beside, image.touch_px(lines.space)) {
+        let touch_px = image.touch_px(lines.space);
+        if lines.faces.is_covered(lines.space, &beside, touch_px, |column, visit| lines.faces.tree.any(column, visit)) {
             return [false; 2];
         }
         let is_right = (image.b - image.a).perp().dot(outwards) > 0.0;

@@ -25,6 +25,8 @@ pub(in crate::lines) struct Cover {
     maybe: Vec<[f64; 2]>,
     /// Ascending stretches that are not hidden for sure.
     pub open: Vec<[f64; 2]>,
+    /// In place of `maybe` of a search at any depth: the faces that may hide a stretch, each with it, perhaps several times.
+    pub faces: Vec<(u32, [f64; 2])>,
 }
 
 impl Cover {
@@ -56,7 +58,7 @@ impl Cover {
 
     /// Sorts the ranges for lookup.
     fn sorted(self) -> Self {
-        Self { hidden: united(self.hidden), maybe: united(self.maybe), open: self.open }
+        Self { hidden: united(self.hidden), maybe: united(self.maybe), ..self }
     }
 }
 
@@ -67,6 +69,7 @@ struct CoverWalk<'a> {
     probe: OccluderProbe,
     cover: Cover,
     least: f64,
+    enough: f64,
     remembered: [Option<u32>; THRESHOLDS.remembered],
 }
 
@@ -87,18 +90,22 @@ impl Walk for CoverWalk<'_> {
         if let Some(sure) = sure {
             self.cover.hide(sure, self.least);
         }
-        self.cover.maybe.extend(may);
-        self.cover.open.is_empty()
+        match self.probe.is_nearer_sought {
+            true => self.cover.maybe.extend(may),
+            false => self.cover.faces.extend(may.map(|may| (face, may))),
+        }
+        self.cover.open.iter().all(|gap| gap[1] - gap[0] <= self.enough)
     }
 }
 
 impl LineIndex<'_> {
     /// Returns the cover of a line before any test: any face may hide it. Some stretches are known to be hidden.
     pub(in crate::lines) fn unknown_cover(&self, inside: [f64; 2], hidden: &[[f64; 2]]) -> Cover {
-        Cover { hidden: hidden.to_vec(), maybe: vec![inside], open: gaps(inside, hidden) }
+        Cover { hidden: hidden.to_vec(), maybe: vec![inside], open: gaps(inside, hidden), ..Cover::default() }
     }
 
-    /// Returns the cover of a line between two places. Some stretches are known to be hidden.
+    /// Returns the cover of a line between two places. Some stretches are known to be hidden. The search ends where no open stretch is
+    /// longer than `enough`.
     pub(in crate::lines) fn cover(
         &self,
         index: usize,
@@ -106,11 +113,12 @@ impl LineIndex<'_> {
         inside: [f64; 2],
         hidden: &[[f64; 2]],
         search_depth: SearchDepth,
+        enough: f64,
     ) -> Cover {
         let least = self.shortest_px / image.length();
         let is_long = |gap: &[f64; 2]| *gap == inside || gap[1] - gap[0] > least;
         let open: Vec<[f64; 2]> = gaps(inside, hidden).into_iter().filter(is_long).collect();
-        let cover = Cover { hidden: hidden.to_vec(), open, maybe: Vec::new() };
+        let cover = Cover { hidden: hidden.to_vec(), open, ..Cover::default() };
         if cover.open.is_empty() {
             return cover.sorted();
         }
@@ -129,6 +137,7 @@ impl LineIndex<'_> {
             probe: OccluderProbe::new(self.space, (line, feature.ends), image, inside, search_depth),
             cover,
             least,
+            enough,
             remembered: [None; THRESHOLDS.remembered],
         };
         self.walk_occluders(Exclusion::planes(planes), &mut walk);

@@ -32,6 +32,8 @@ pub(in crate::lines) struct LineIndex<'a> {
     pub(in crate::lines) piercings: &'a HashMap<[u32; 2], Vec<DVec3>>,
     /// The rims, where surfaces end: they may cross any line.
     pub(in crate::lines) rims: PieceTree,
+    /// The rims that are hidden for sure, if outlines are found: they change no visible line.
+    pub(in crate::lines) hidden_rims: PieceTree,
     /// The faces that may hide lines, in pieces; `None` where the faces' own tree serves.
     occluders: Option<&'a PieceTree>,
     /// The wanted lines, with the direction of their images as the third coordinate: the candidates for overlapping lines.
@@ -73,7 +75,7 @@ impl<'a> LineIndex<'a> {
         let side = space.size.max_element();
         let high_valence = high_valence(features);
         let stretches = in_chunks(features.len(), MADE_AT_ONCE, cores(), |range| {
-            let (mut rims, mut overlapping) = (Pieces::default(), Pieces::default());
+            let [mut rims, mut hidden_rims, mut overlapping] = <[Pieces; 3]>::default();
             for index in range {
                 if index % LINES_A_GLANCE == 0 && progress.is_over() {
                     break;
@@ -87,10 +89,11 @@ impl<'a> LineIndex<'a> {
                     let ends = stretch.map(|place| (image.at(place), image.key(place)));
                     pyramid.is_some_and(|pyramid| pyramid.hides_line(ends))
                 };
-                // A rim that is hidden for sure changes no visible line. The outline needs rims at any depth.
                 for stretch in image.stretches(range, side / THRESHOLDS.pieces).filter(|_| feature.occludes) {
-                    if finds_outline || !is_hidden(stretch) {
+                    let is_hidden = is_hidden(stretch);
+                    if finds_outline || !is_hidden {
                         let around = image.box_around(stretch, image.noise_px, stretch.map(|place| image.key(place)));
+                        let rims = if is_hidden { &mut hidden_rims } else { &mut rims };
                         rims.add_of_groups(around, index, [feature.plane, vertex_of(&high_valence, feature.own)]);
                     }
                 }
@@ -100,15 +103,15 @@ impl<'a> LineIndex<'a> {
                     }
                 }
             }
-            (rims, overlapping)
+            [rims, hidden_rims, overlapping]
         });
-        let (mut rims, mut overlapping) = (Pieces::default(), Pieces::default());
-        for (some_rims, some_overlapping) in stretches {
-            rims.append(some_rims);
-            overlapping.append(some_overlapping);
+        let mut all = <[Pieces; 3]>::default();
+        for some in stretches {
+            all.iter_mut().zip(some).for_each(|(all, some)| all.append(some));
         }
+        let [rims, hidden_rims, overlapping] = all;
         progress.go_on()?;
-        asked.check((rims.len() + overlapping.len()) * BYTES_A_PART, memory::free())?;
+        asked.check((rims.len() + hidden_rims.len() + overlapping.len()) * BYTES_A_PART, memory::free())?;
         let is_wanted = |index: usize| features[index].overlaps();
         let bundles = Bundles::new(&images, is_wanted, space.size * 0.5, 2.0 * space.touch_px());
         Ok(Self {
@@ -118,6 +121,7 @@ impl<'a> LineIndex<'a> {
             images,
             piercings,
             rims: rims.tree(progress),
+            hidden_rims: hidden_rims.tree(progress),
             occluders: search.occluders.as_ref(),
             overlapping: overlapping.tree(progress),
             bundles,
@@ -154,10 +158,11 @@ impl<'a> LineIndex<'a> {
 
     /// Returns the places where a stretch of a line begins, is cut and ends. A piece below the shortest length joins its neighbour.
     pub(in crate::lines) fn places(&self, image: &Image, [from, to]: [f64; 2], mut cuts: Vec<f64>) -> Vec<f64> {
-        cuts.sort_unstable_by(f64::total_cmp);
         let shortest = self.shortest_px / image.length();
+        cuts.retain(|cut| *cut > from + shortest && *cut < to - shortest);
+        cuts.sort_unstable_by(f64::total_cmp);
         let mut places = vec![from];
-        places.extend(cuts.into_iter().filter(|cut| *cut > from + shortest && *cut < to - shortest));
+        places.extend(cuts);
         places.dedup_by(|next, kept| *next - *kept <= shortest);
         places.push(to);
         places

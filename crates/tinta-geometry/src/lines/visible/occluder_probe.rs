@@ -33,7 +33,7 @@ pub(in crate::lines) struct OccluderProbe {
     touch_px: f64,
     /// How far rounding may move a point, pixels.
     noise_px: f64,
-    is_nearer_sought: bool,
+    pub is_nearer_sought: bool,
 }
 
 impl Own {

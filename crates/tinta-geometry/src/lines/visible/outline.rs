@@ -10,12 +10,12 @@ use crate::lines::eye::faces::Faces;
 use crate::lines::eye::image::Image;
 use crate::lines::eye::space::Space;
 use crate::lines::visible::contact::Probe;
+use crate::lines::visible::cover::Cover;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::SearchDepth;
-use crate::ranges::hold;
+use crate::ranges::{hold, meet, united};
 use crate::tolerances::BESIDE;
-use glam::DVec2;
 
 /// Shortest stretch that is outline or not, in units of [`LineIndex::beside_px`]. At an acute corner of at least eleven degrees, the
 /// parallel of a line reaches over that of the other by no more than this.
@@ -44,15 +44,37 @@ impl LineIndex<'_> {
     /// Cuts a visible piece where background begins or ends beside it.
     pub(in crate::lines) fn with_outline(&self, index: usize, image: &Image, piece: Interval) -> Vec<Interval> {
         let aside = (image.b - image.a).perp().normalize() * self.beside_px();
-        let background = [aside, -aside].map(|aside| self.background(index, image, [piece.from, piece.to], aside));
+        let sides = [aside, -aside].map(|aside| Image { a: image.a + aside, b: image.b + aside, ..*image });
+        let range = [piece.from, piece.to];
+        let least = SHORTEST_PART * self.beside_px() / image.length();
+        let enough = if piece.length() < 2.0 * least { 0.0 } else { least };
+        let are_short = |gaps: &[[f64; 2]]| gaps.iter().all(|gap| gap[1] - gap[0] <= enough);
+        let cover = |side: &Image, enough: f64| self.cover(index, side, range, &[], SearchDepth::Any, enough);
+        let covers = sides.map(|side| cover(&side, enough));
+        // Faces cover the surroundings of most lines except short stretches, which their neighbours would absorb.
+        if are_short(&united(covers.iter().flat_map(|cover| cover.open.clone()).collect())) {
+            return vec![piece];
+        }
+        // A short one matters where it reaches out of a long one on the other side, or leaves little of it.
+        let matters = |gap: &[f64; 2], of: &[f64; 2]| {
+            meet(*gap, *of) && !(of[0] <= gap[0] && gap[1] <= of[1] && of[1] - of[0] >= 2.0 * enough)
+        };
+        let background = [0, 1].map(|side| {
+            let [open, others] = [side, 1 - side].map(|side| &covers[side].open);
+            if !are_short(open) {
+                return self.background(index, &sides[side], range, &covers[side]);
+            }
+            let is_needed = open.iter().any(|gap| others.iter().any(|of| matters(gap, of)));
+            let all = is_needed.then(|| cover(&sides[side], 0.0));
+            all.map_or(Vec::new(), |cover| self.background(index, &sides[side], range, &cover))
+        });
         let cuts = background.iter().flatten().flatten().copied().collect();
         let mut stretches: Vec<Interval> = Vec::new();
-        for place in self.places(image, [piece.from, piece.to], cuts).windows(2) {
+        for place in self.places(image, range, cuts).windows(2) {
             let middle = (place[0] + place[1]) * 0.5;
             let background = [0, 1].map(|side| hold(&background[side], middle));
             Interval { from: place[0], to: place[1], background, ..piece }.add_to(&mut stretches);
         }
-        let least = SHORTEST_PART * self.beside_px() / image.length();
         while let Some(stretch) =
             (0..stretches.len()).filter(|_| stretches.len() > 1).find(|stretch| stretches[*stretch].length() < least)
         {
@@ -66,25 +88,37 @@ impl LineIndex<'_> {
         BESIDE * self.space.size.max_element()
     }
 
-    /// Returns the ranges between two places of a line that have background at a distance beside them; ascending.
-    fn background(&self, index: usize, line: &Image, range: [f64; 2], aside: DVec2) -> Vec<[f64; 2]> {
-        let image = &Image { a: line.a + aside, b: line.b + aside, ..*line };
+    /// Returns the ranges between two places of a line's parallel that have background, given what covers it; ascending.
+    fn background(&self, index: usize, image: &Image, range: [f64; 2], cover: &Cover) -> Vec<[f64; 2]> {
         let touch_px = image.touch_px(self.space);
-        let cover = self.cover(index, image, range, &[], SearchDepth::Any);
         let mut cuts = Vec::new();
         for gap in &cover.open {
-            let line = self.line(image, SearchDepth::Any, 0.0);
-            self.rims.any_along(line, *gap, Exclusion::default(), |other_index| {
-                if let Some(other) = self.images[other_index] {
-                    cuts.extend(image.meetings(&other, self.space));
-                }
-                false
-            });
+            // Beyond a gap only the nearest cuts matter: faces hide the rest.
+            let mut around = range;
+            for rims in [&self.rims, &self.hidden_rims] {
+                rims.any_along(self.line(image, SearchDepth::Any, 0.0), *gap, Exclusion::default(), |other| {
+                    for cut in self.images[other].iter().flat_map(|other| image.meetings(other, self.space)) {
+                        match cut {
+                            _ if cut < gap[0] => around[0] = around[0].max(cut),
+                            _ if cut > gap[1] => around[1] = around[1].min(cut),
+                            _ => cuts.push(cut),
+                        }
+                    }
+                    false
+                });
+            }
+            cuts.extend(around);
         }
         let mut background: Vec<[f64; 2]> = Vec::new();
         for place in self.places(image, range, cuts).windows(2) {
             let middle = (place[0] + place[1]) * 0.5;
-            if cover.hides(middle) || self.faces.is_covered(self.space, &self.probe(index, image, middle), touch_px) {
+            let may_cover = |(_, may): &&(u32, [f64; 2])| may[0] <= middle && middle <= may[1];
+            let is_covered = || {
+                self.faces.is_covered(self.space, &self.probe(index, image, middle), touch_px, |_, visit| {
+                    cover.faces.iter().filter(may_cover).any(|(face, _)| visit(*face))
+                })
+            };
+            if !hold(&cover.open, middle) || is_covered() {
                 continue;
             }
             match background.last_mut() {
@@ -98,13 +132,20 @@ impl LineIndex<'_> {
 
 impl Faces {
     /// Whether faces at any depth cover the surroundings of a point, to both sides at an arbitrarily small distance. A side of a
-    /// face within `touch_px` of the point counts as going through it. Faces seen edge-on cover nothing.
-    pub(in crate::lines) fn is_covered(&self, space: &Space, probe: &Probe, touch_px: f64) -> bool {
+    /// face within `touch_px` of the point counts as going through it. Faces seen edge-on cover nothing. `any` shows it the faces in a
+    /// column until it returns true.
+    pub(in crate::lines) fn is_covered(
+        &self,
+        space: &Space,
+        probe: &Probe,
+        touch_px: f64,
+        any: impl FnOnce(&Box3, &mut dyn FnMut(u32) -> bool) -> bool,
+    ) -> bool {
         let column =
             Box3::new((probe.px - touch_px).extend(f64::NEG_INFINITY), (probe.px + touch_px).extend(f64::INFINITY));
         let touch = touch_px / space.px_per_unit(-probe.view.z);
         let mut covered = [false; 2];
-        self.tree.any(&column, |face| {
+        any(&column, &mut |face| {
             let by_this = self.covers(space, face, probe, touch);
             covered = [covered[0] || by_this[0], covered[1] || by_this[1]];
             covered == [true; 2]

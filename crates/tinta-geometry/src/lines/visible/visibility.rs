@@ -80,7 +80,7 @@ impl LineIndex<'_> {
         // Of a line that nothing cuts, one ray decides all.
         if cover.open.iter().any(|gap| self.add_cuts(index, image, overlapping, *gap, true, &mut cuts)) {
             cuts.clear();
-            cover = self.cover(index, image, inside, &behind, SearchDepth::Nearer);
+            cover = self.cover(index, image, inside, &behind, SearchDepth::Nearer, 0.0);
             let mut hidden = Vec::new();
             for gap in &cover.open {
                 self.behind_overlapping_lines(index, image, overlapping, *gap, &mut hidden);
