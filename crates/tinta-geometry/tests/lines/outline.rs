@@ -1,15 +1,18 @@
 //! Outlines: the pieces of visible lines with only background on one side, on shapes with a known outline and against a twin that
 //! casts rays beside points of lines.
 
+use crate::support::builtin;
 use crate::support::lines::{
     assert_near, distance, length, lines, lines_with, pierce, px, scene_of, shuffled, total, view,
 };
 use crate::support::shapes::{Random, cuboid, icosphere, joined, mesh};
 use glam::{DMat4, DVec2, DVec3};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
-use tinta::edges::Class;
+use tinta::edges::{Class, SilhouetteRule};
 use tinta::lines::{ClassWidths, LineSegment, LineSettings, VisibleLines};
+use tinta::mesh::SectionPlane;
+use tinta::settings::Value as _;
 use tinta::{DrawingSettings, Mesh, Scene};
 
 const NEAR: f64 = 1e-6;
@@ -208,6 +211,33 @@ fn with_outlines_there_are_the_same_lines_as_without() {
         }
         joined.iter_mut().for_each(|segment| (segment.is_outline, segment.background) = (false, [false; 2]));
         assert_eq!(joined, without.segments, "scene {number}");
+    }
+}
+
+#[test]
+fn smooth_silhouettes_are_the_same_with_outlines_and_hidden_lines_as_without() {
+    for name in ["gear", "ant", "pawn"] {
+        let cut = builtin(name).section(&SectionPlane::parse("x=0.3").unwrap(), None).unwrap().0;
+        for (mesh, camera) in [(builtin(name), "310,-20"), (cut.clone(), "310,-20"), (cut, "45,30")] {
+            let scene = scene_of(vec![mesh], view(camera, false));
+            let found = |finds_outline: bool, finds_hidden: bool| {
+                let silhouette = SilhouetteRule::Smooth;
+                let settings = LineSettings { silhouette, finds_outline, finds_hidden, ..LineSettings::default() };
+                let mut lines = VisibleLines::of(&scene, &settings).unwrap();
+                lines.segments.retain(|segment| segment.is_visible && segment.class == Class::Silhouette);
+                lines
+            };
+            let alone = found(false, false);
+            for (finds_outline, finds_hidden) in [(false, true), (true, false), (true, true)] {
+                let others = found(finds_outline, finds_hidden);
+                let what = format!("{name}, {camera}, outlines {finds_outline}, hidden {finds_hidden}");
+                assert_near(total(&others, true), total(&alone, true), 1e-8, &what);
+                let ends = |lines: &VisibleLines| -> BTreeSet<[u64; 2]> {
+                    lines.segments.iter().flat_map(|s| s.ends_px).map(|px| px.to_array().map(f64::to_bits)).collect()
+                };
+                assert!(ends(&others).is_superset(&ends(&alone)), "{what}");
+            }
+        }
     }
 }
 

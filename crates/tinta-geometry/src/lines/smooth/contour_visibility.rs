@@ -124,16 +124,19 @@ impl ContourLines<'_> {
             return whole(vec![Interval { from, to, is_visible: false, background: [false; 2] }]);
         }
         let places = lines.places(&image, inside, self.cuts(piece, &image, inside));
+        let has_outline = lines.finds_outline && !is_ghost;
         let mut intervals: Vec<Interval> = Vec::new();
-        for place in places.windows(2) {
-            let probe = self.probe(piece, &image, (place[0] + place[1]) * 0.5);
-            let is_visible = self.is_seen(&probe);
-            let background = if lines.finds_outline && is_visible && !is_ghost {
-                self.background(&image, &probe)
-            } else {
-                [false; 2]
-            };
-            Interval { from: place[0], to: place[1], is_visible, background }.add_to(&mut intervals);
+        for place in places.windows(2).map(|place| [place[0], place[1]]) {
+            let is_visible = self.is_seen(&self.probe(piece, &image, (place[0] + place[1]) * 0.5));
+            let cuts = if has_outline && is_visible { self.outline_cuts(&image, place) } else { Vec::new() };
+            for part in lines.places(&image, place, cuts).windows(2) {
+                let middle = (part[0] + part[1]) * 0.5;
+                let background = match has_outline && is_visible {
+                    true => self.background(&image, &self.probe(piece, &image, middle)),
+                    false => [false; 2],
+                };
+                Interval { from: part[0], to: part[1], is_visible, background }.add_to(&mut intervals);
+            }
         }
         whole(intervals)
     }
@@ -159,14 +162,10 @@ impl ContourLines<'_> {
         let keys = inside.map(|place| image.key(place));
         let farthest = keys[0].max(keys[1]);
         let nearer = [f64::NEG_INFINITY, farthest + key_slack(farthest)];
-        let sought = if lines.finds_outline { [f64::NEG_INFINITY, f64::INFINITY] } else { nearer };
         let mut cuts = Vec::new();
-        lines.rims.any(&image.box_around(inside, touch_px, sought), |other_index| {
+        lines.rims.any(&image.box_around(inside, touch_px, nearer), |other_index| {
             if let Some(other) = &lines.images[other_index] {
-                match lines.finds_outline {
-                    true => cuts.extend(image.meetings(other, lines.space)),
-                    false => lines.add_crossings(image, other, true, &mut cuts),
-                }
+                lines.add_crossings(image, other, true, &mut cuts);
             }
             false
         });
@@ -175,6 +174,20 @@ impl ContourLines<'_> {
             cuts.extend(point.map(|point| image.place_of(lines.space.project(point).0)));
             false
         });
+        cuts
+    }
+
+    /// The places where background may begin or end beside a visible stretch: rims at any depth.
+    fn outline_cuts(&self, image: &Image, stretch: [f64; 2]) -> Vec<f64> {
+        let lines = self.lines;
+        let mut cuts = Vec::new();
+        let around = image.box_around(stretch, image.touch_px(lines.space), [f64::NEG_INFINITY, f64::INFINITY]);
+        for rims in [&lines.rims, &lines.hidden_rims] {
+            rims.any(&around, |other_index| {
+                cuts.extend(lines.images[other_index].iter().flat_map(|other| image.meetings(other, lines.space)));
+                false
+            });
+        }
         cuts
     }
 
