@@ -27,8 +27,9 @@ const MEETING_PX: f64 = 0.05;
 /// Least distance between strokes, as a share of that asked for, before every second one is left out.
 const LEAST: f64 = 0.7;
 
-/// How far strokes end before the border of their tone at most, as a share of their distance.
+/// How far strokes end before the border of their tone at most, as a share of their distance, and of their length.
 const UNEVEN: f64 = 1.5;
+const SHORTENED: f64 = 0.25;
 
 /// Most cuts, seen or not: those of many layers behind one another.
 const MOST_CUTS: usize = 8 * HATCH_STROKES;
@@ -86,7 +87,6 @@ pub(super) fn form_strokes(
     }
     let mut strokes: Vec<Vec<DVec2>> =
         pieces.iter().flat_map(|(plane, pieces)| drawn(pieces, *plane, spacing_px)).collect();
-    let length = |stroke: &Vec<DVec2>| stroke.windows(2).map(|ends| ends[0].distance(ends[1])).sum::<f64>();
     strokes.retain(|stroke| length(stroke) >= least_px);
     Ok(Some(strokes))
 }
@@ -227,9 +227,10 @@ fn drawn(pieces: &[Piece], plane: Plane, spacing_px: f64) -> Vec<Vec<DVec2>> {
             let mut points: Vec<DVec2> = run.iter().map(|(_, [from, _])| *from).collect();
             points.push(run[run.len() - 1].1[1]);
             let mut points = simplified(&points, false);
+            let most_px = (UNEVEN * spacing_px).min(SHORTENED * length(&points));
             for (is_whole, salt) in [(ends, 1), (begins, 2)] {
                 if !is_whole {
-                    shorten(&mut points, UNEVEN * spacing_px * share_of(plane, salt));
+                    shorten(&mut points, most_px * share_of(plane, salt));
                 }
                 points.reverse();
             }
@@ -258,6 +259,10 @@ fn met(ends: &[DVec2]) -> Vec<Option<usize>> {
         }
     }
     met
+}
+
+fn length(stroke: &[DVec2]) -> f64 {
+    stroke.windows(2).map(|ends| ends[0].distance(ends[1])).sum()
 }
 
 /// Cuts a length off the end of a polyline.

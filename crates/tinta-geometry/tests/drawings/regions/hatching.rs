@@ -3,8 +3,8 @@
 use super::{NEAR_BORDER_PX, distance, rules, tone};
 use crate::support::families::{KINDS, scene_of_kind};
 use crate::support::lines::{scenes_wanted, view};
-use crate::support::public_meshes;
 use crate::support::shapes::{self, Random};
+use crate::support::{builtin, public_meshes};
 use glam::{DVec2, DVec3};
 use tinta::camera::Projection;
 use tinta::lines::{
@@ -405,6 +405,30 @@ fn strokes_along_the_form_lie_in_their_tones_in_every_family() {
     }
     println!("{samples_seen} samples");
     assert!(samples_seen > 5000 && f64::from(wrong) <= 1e-4 * f64::from(samples_seen), "{wrong} of {samples_seen}");
+}
+
+#[test]
+fn of_the_ants_small_dark_areas_nearly_all_have_strokes() {
+    let [_, rule, _] = rules();
+    let (mut areas, mut empty) = (0, 0);
+    for camera in ["30,23", "front", "80,10", "200,40", "310,20", "120,5"] {
+        let settings = SceneSettings { camera: view(camera, false), size: SIZE, ..SceneSettings::default() };
+        let scene = Scene::new([builtin("ant")], &settings).unwrap();
+        let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+        let strokes = DrawingSettings { min_length: None, ..along_form(6.0) };
+        let lines = VisibleLines::none(scene.size);
+        let found = hatches(&scene, (&rule, &regions), &lines, &strokes, &Progress::default()).unwrap();
+        let strokes: Vec<Vec<DVec2>> = found.into_iter().flat_map(|hatch| hatch.strokes).collect();
+        for tone in 0..brightest(&rule) {
+            let of_tone = regions.joined(|seen| seen.filter(|surface| surface.tone == tone).map(|_| ()));
+            for area in of_tone.regions.iter().filter(|area| (150.0..280.0).contains(&area.area_px)) {
+                areas += 1;
+                empty += usize::from(!samples(&strokes, 1.0).any(|px| is_inside(area, px)));
+            }
+        }
+    }
+    // The one lies between two planes.
+    assert!(areas > 20 && empty <= 1, "{empty} of {areas}");
 }
 
 #[test]
