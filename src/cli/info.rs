@@ -194,7 +194,8 @@ fn edges(model: &str, arguments: &Arguments) -> Result<()> {
     else {
         return Ok(());
     };
-    let (read, rule) = (arguments.read.settings()?, SilhouetteRule::Exact);
+    let (mut read, rule) = (arguments.read.settings()?, SilhouetteRule::Exact);
+    read.section.iter_mut().for_each(|plane| plane.is_of_file = true);
     let scene = Scene::new(load_meshes(&[model.to_owned()], &read)?, &SceneSettings::default())?;
     let Some(object) = scene.objects.first() else { return Ok(()) };
     let (mesh, found) = (&object.mesh, scene.edges(object));

@@ -10,7 +10,7 @@ use crate::lines::{
 use crate::picture::Picture;
 use crate::plan::{Plan, TOOTH};
 use crate::renderer::Renderer;
-use crate::scene::{Background, Color, Scene};
+use crate::scene::{Background, Color, Scene, Size};
 use glam::DVec3;
 use std::borrow::Cow;
 
@@ -89,6 +89,13 @@ impl Around {
         let mut picture = renderer.draw(scene, plan)?;
         self.put(plan, &mut picture);
         Ok(picture)
+    }
+
+    /// The exact lines as they lie over the picture of a plan, on nothing: opacity is their share of a pixel.
+    pub fn lines_alone(&self, plan: &Plan, size: Size) -> Picture {
+        let mut picture = Picture { size, pixels: vec![0; size.pixel_count() * 4] };
+        lay(&self.strokes, plan, &mut picture);
+        picture
     }
 
     /// Puts the picture of a plan between ground and lines.

@@ -331,11 +331,28 @@ fn a_pixel_under_an_exact_line_has_the_colour_of_the_picture() {
     let places = (0..96 * 96).map(|place| (place % 96, place / 96));
     let dark: Vec<(i64, i64)> = places.filter(|(x, y)| picture.pixel(*x, *y)[0] < 90).collect();
     assert!(dark.len() > 100, "{}", dark.len());
-    for (x, y) in dark.iter().step_by(dark.len() / 3) {
+    let ink = dark.iter().map(|(x, y)| picture.pixel(*x, *y)).min_by_key(|color| color[0]).unwrap();
+    let half_covered = (0..96 * 96)
+        .map(|place| (place % 96, place / 96))
+        .find(|(x, y)| (120..160).contains(&picture.pixel(*x, *y)[0]));
+    for (x, y) in dark.iter().step_by(dark.len() / 3).chain(&half_covered) {
         let [red, green, blue, _] = picture.pixel(*x, *y);
+        let json = answer(&["why", &out, &format!("{x},{y}"), "--json"]);
+        let share = json["with_lines"]["share"].as_f64().unwrap();
+        assert_eq!(json["with_lines"]["color"], serde_json::json!([red, green, blue]));
+        // Of the ink's colour, the darkest, as much as the share says; of the colour below, or of the white ground, the rest.
+        for (channel, drawn) in [red, green, blue].into_iter().enumerate() {
+            let below = json["color"][channel].as_f64().unwrap_or(255.0);
+            let mixed = below + share * (f64::from(ink[channel]) - below);
+            assert!((mixed - f64::from(drawn)).abs() <= 2.0, "{x},{y}: {mixed} for {drawn}, {share} over {below}");
+        }
         let output = done(&["why", &out, &format!("{x},{y}")]);
         let text = String::from_utf8(output.stdout).unwrap();
-        assert!(text.starts_with(&format!("With its lines the pixel is [{red}, {green}, {blue}].\n")), "{text}");
+        let said = format!(
+            "With its lines the pixel is [{red}, {green}, {blue}].\nTheir share of it is {:.0} %.\n",
+            share * 100.0
+        );
+        assert!(text.starts_with(&said), "{text}");
         assert!(text.contains("\nBelow the lines:\n"), "{text}");
     }
 }

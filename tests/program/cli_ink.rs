@@ -157,6 +157,9 @@ fn info_says_the_size_in_the_files_axes_and_names_without_their_commands() {
             "{more:?}: {text}"
         );
     }
+    // A cut, too, is in the file's axes, as of render: up it leaves nothing open below, across it takes the corner away.
+    let counted = |plane: &str| answer(&["info", &part, "--section", plane, "--json"])["model"]["triangles"].clone();
+    assert_eq!([counted("z=9"), counted("y=30"), counted("z=20")], [2, 2, 1].map(serde_json::Value::from));
     let text = text(&folder.file("leg.obj", obj), &[]);
     assert!(text.contains("parts           \\u{1b}[2Jleg\n") && !text.contains('\u{1b}'), "{text:?}");
 }

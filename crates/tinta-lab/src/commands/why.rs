@@ -10,13 +10,13 @@ use tinta::cli::models::load_meshes;
 use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, Selection};
 use tinta::cli::{Command, Verdict, given, print, print_json, say};
 use tinta::glam::DVec2;
-use tinta::lines::Why;
+use tinta::lines::{Progress, Why};
 use tinta::pixel::Explanation;
 use tinta::recipe::Recipe;
 use tinta::request::{OptionLayer, Request, Session};
 use tinta::settings::{HasSettings, Options, Setting};
 use tinta::styles::is_of_lines_alone;
-use tinta::{Error, LineSettings, Result, Scene, Style, StyleName, Target, VisibleLines};
+use tinta::{Error, LineSettings, Renderer, Result, Scene, Style, StyleName, Target, VisibleLines};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -129,36 +129,47 @@ fn explain(arguments: &Arguments, request: &Request, output: Option<Target>, ses
     let style = &request.style_in_passes()?;
     let place = arguments.place;
     let line = match request.line_style()?.filter(|_| request.has_lines_over()) {
-        Some(lines) => Some(nearest_line(&scene, &lines.lines, place)?),
+        Some(lines) => {
+            let near = nearest_line(&scene, &lines.lines, place)?;
+            Some((near, with_lines(request, &scene, renderer, place)?))
+        }
         None => None,
     };
     let why = Explanation::of(style, &scene, renderer, place);
-    let above = match &line {
-        Some(line) if output.is_none() && !arguments.json => {
-            let [x, y] = [place.x, place.y].map(|at| at.floor() as i64);
-            let [red, green, blue, _] = request.picture_of(&scene, renderer)?.pixel(x, y);
-            format!(
-                "With its lines the pixel is [{red}, {green}, {blue}].\n\n{}\nBelow the lines:\n\n",
-                line::in_words(line)
-            )
-        }
-        _ => String::new(),
-    };
     let why = match (why, &line) {
         // Beside the model there is only a line to explain.
-        (Err(Error::Text(_)), Some(line)) if output.is_none() => {
-            return if arguments.json { print_json(line) } else { print(&(above + "background\n")) };
-        }
-        (why, _) => why?,
+        (Err(Error::Text(_)), Some(_)) if output.is_none() => None,
+        (why, _) => Some(why?),
     };
-    if let Some(target) = &output {
-        target.write(&sheet::sheet(&why, style, &scene, renderer)?)?;
+    if let Some((target, why)) = output.as_ref().zip(why.as_ref()) {
+        target.write(&sheet::sheet(why, style, &scene, renderer)?)?;
     }
-    match (arguments.json, output) {
-        (true, _) => print_json(&Both { why: &why, line: line.as_ref() }),
-        (false, Some(_)) => Ok(()),
-        (false, None) => print(&(above + &why.to_string())),
+    let (line, with_lines) = line.unzip();
+    if arguments.json {
+        return print_json(&Explained { why, line, with_lines });
     }
+    if output.is_some() {
+        return Ok(());
+    }
+    let above = line.zip(with_lines).map(|(line, WithLines { color: [red, green, blue], share })| {
+        format!(
+            "With its lines the pixel is [{red}, {green}, {blue}].\nTheir share of it is {:.0} %.\n\n{}\nBelow the lines:\n\n",
+            share * 100.0,
+            line::in_words(&line)
+        )
+    });
+    let below = why.map_or_else(|| "background\n".to_owned(), |why| why.to_string());
+    print(&(above.unwrap_or_default() + &below))
+}
+
+/// What exact lines make of a pixel.
+fn with_lines(request: &Request, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<WithLines> {
+    let [x, y] = [place.x, place.y].map(|at| at.floor() as i64);
+    let (plan, _) = request.plans(scene, renderer)?;
+    let around = request.around(scene, &Progress::default())?;
+    let [red, green, blue, _] = around.drawn(scene, &plan, renderer)?.pixel(x, y);
+    let [.., share] = around.lines_alone(&plan, scene.size).pixel(x, y);
+    Ok(WithLines { color: [red, green, blue], share: f64::from(share) / 255.0 })
 }
 
 /// The file of a sheet.
@@ -173,11 +184,23 @@ fn checked(path: &str, arguments: &Arguments, inputs: &Inputs) -> Result<Target>
 
 /// A pixel explained, with the exact line nearest to it.
 #[derive(Serialize)]
-struct Both<'a> {
+struct Explained {
+    /// Nothing beside the model.
     #[serde(flatten)]
-    why: &'a Explanation,
+    why: Option<Explanation>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    line: Option<&'a Why>,
+    line: Option<Why>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    with_lines: Option<WithLines>,
+}
+
+/// A pixel under exact lines.
+#[derive(Serialize)]
+struct WithLines {
+    /// Red, green and blue as drawn.
+    color: [u8; 3],
+    /// The share of the pixel that lines cover, 0 to 1.
+    share: f64,
 }
 
 /// Explains the line nearest to a place.
