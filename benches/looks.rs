@@ -4,6 +4,7 @@
 //! Writes each family's scene as OBJ. For each model and scene f3d's picture and the looks' files take turns, round by round, each in a
 //! process of its own, at 1280 x 960. f3d is left out where it is not found. Raw values go to `target/bench/looks.json`.
 
+#[expect(dead_code, reason = "lines_growth tells families and sets their view")]
 #[path = "../crates/tinta-geometry/tests/support/growth.rs"]
 mod families;
 mod report;
