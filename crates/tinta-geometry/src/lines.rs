@@ -33,7 +33,6 @@
 
 mod drawing;
 mod eye;
-mod identity;
 mod input;
 mod labels;
 mod parts;
@@ -77,7 +76,6 @@ pub use drawing::settings::{DrawingSettings, Hidden};
 #[doc(hidden)]
 pub use eye::cast::{Hit, first_hits};
 #[doc(hidden)]
-pub use identity::StrokeIds;
 #[doc(hidden)]
 pub use labels::Label;
 #[doc(hidden)]
@@ -113,8 +111,6 @@ pub use write::raster::{
 };
 pub use write::strokes::{Polyline, Strokes, strokes, strokes_of_paths};
 pub use write::svg::{svg, svg_of_paths};
-#[doc(hidden)]
-pub use write::turn_svg::TurnSvg;
 
 use crate::clock::{Instant, milliseconds_since};
 use crate::error::Result;

@@ -57,7 +57,7 @@ pub(super) fn target(
     (!animation.is_still()).then(|| AnimationTarget::check(output, is_transparent)).transpose()
 }
 
-pub(super) fn delay_ms(animation: &AnimationSettings, frames: usize) -> u16 {
+fn delay_ms(animation: &AnimationSettings, frames: usize) -> u16 {
     let turn = (TURN_MS / frames.max(1) as u32).clamp(20, 200) as u16;
     let as_given = animation.frame_delay_ms.map(|ms| u16::try_from(ms).unwrap_or(u16::MAX));
     as_given.unwrap_or(if animation.animate.is_some() { MODEL_FRAME_MS } else { turn })

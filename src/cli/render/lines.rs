@@ -21,7 +21,7 @@ use tinta::{DrawingSettings, Error, Result, Show, Target, TextTarget};
 pub(super) fn run(rendering: &Rendering<'_>, format: DrawingFormat, session: &mut Session) -> Result<Verdict> {
     let Rendering { request, output, .. } = *rendering;
     let views = request.animation.turntable;
-    let names = if views.is_some() { turn::names(output, format)? } else { None };
+    let names = views.map(|_| turn::names(output, format)).transpose()?;
     let first = names.as_ref().map_or_else(|| output.to_owned(), |names| names.with(1));
     check_output(&first, format, request.is_transparent())?;
     refuse_what_lines_have_not(rendering, format)?;

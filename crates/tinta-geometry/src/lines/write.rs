@@ -8,4 +8,3 @@ mod pdf_font;
 pub(super) mod raster;
 pub(super) mod strokes;
 pub(super) mod svg;
-pub(super) mod turn_svg;

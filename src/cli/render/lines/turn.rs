@@ -1,79 +1,61 @@
-//! `tinta render --turntable` of exact lines: numbered drawings whose strokes keep their ids, or one animated SVG.
+//! `tinta render --turntable` of exact lines: numbered drawings.
 
 use super::super::super::signals::Stop;
 use super::super::super::{Verdict, print_json, say};
-use super::super::animate::{delay_ms, say_left_over};
+use super::super::animate::say_left_over;
 use super::super::rendering::Rendering;
 use super::super::watched::{is_stopped, progress, watched};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
 use tinta::animation::NumberedName;
-use tinta::lines::{StrokeIds, TurnSvg};
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
 use tinta::request::{DrawingFormat, ReadModels, Request, Session};
-use tinta::{Error, Result, Scene, TextTarget};
+use tinta::{Error, Result, Scene};
 
-/// The names of the drawings; `None` for one animated SVG.
+/// The names of the drawings.
 ///
 /// # Errors
 ///
 /// [`Error::File`] for a name without a place for a number, or without a format of lines.
-pub(super) fn names(output: &str, format: DrawingFormat) -> Result<Option<NumberedName>> {
-    match NumberedName::parse(output).filter(|_| format != DrawingFormat::Json) {
-        None if format != DrawingFormat::Svg => {
-            let problem = "this names one drawing; a turn has numbered ones such as frame-%04d.svg, .pdf or .png, or one animated .svg";
-            Err(Error::output(output, problem))
-        }
-        names => Ok(names),
-    }
+pub(super) fn names(output: &str, format: DrawingFormat) -> Result<NumberedName> {
+    NumberedName::parse(output).filter(|_| format != DrawingFormat::Json).ok_or_else(|| {
+        Error::output(output, "this names one drawing; a turn has numbered ones such as frame-%04d.svg, .pdf or .png")
+    })
 }
 
 /// Draws the views of a turn one after the other.
 pub(super) fn run(
     rendering: &Rendering<'_>,
     format: DrawingFormat,
-    (views, names): (u32, Option<&NumberedName>),
+    (views, names): (u32, &NumberedName),
     session: &Session,
     stop: Option<&Stop>,
 ) -> Result<Verdict> {
     let whole = Instant::now();
     let Rendering { request, run, output } = *rendering;
     refuse_what_turns_have_not(request)?;
-    let style = request.line_style()?.unwrap_or_default();
     let ReadModels { meshes, ms: load_ms, .. } = request.models(&session.models)?;
     let scene = Scene::new(meshes, &request.scene)?;
-    let mut animated = names.is_none().then(TurnSvg::default);
-    let mut ids = StrokeIds::new(&scene, &style.wanted());
-    let (mut bytes, mut frame_ms) = (0, Vec::new());
+    let (mut bytes, mut is_empty, mut frame_ms) = (0, true, Vec::new());
     for (number, camera) in (1..).zip(scene.turntable(&request.scene.camera, views)?) {
         let frame = Instant::now();
         let scene = Scene { camera, ..scene.clone() };
-        let name = names.map_or_else(|| output.to_owned(), |names| names.with(number));
+        let name = names.with(number);
         let progress = progress(rendering);
         let drawn = watched(&progress, stop, || request.drawn_lines(scene, format.wanted(false), &progress));
         if is_stopped(stop) || matches!(drawn, Err(Error::Cancelled)) {
-            return Ok(stopped(stop, names.map_or(0, |_| number - 1), views));
+            return Ok(stopped(stop, number - 1, views));
         }
         let drawn = drawn?;
-        let paths = ids.next(&drawn.scene, &drawn.lines);
-        match &mut animated {
-            Some(animated) => animated.add(&drawn.lines, paths, &style.drawing)?,
-            None => {
-                drawn.written(format, Some(paths), None)?.write(&name, request.is_transparent())?;
-                bytes += Path::new(&name).metadata().map_or(0, |metadata| metadata.len());
-            }
-        }
+        is_empty &= drawn.lines.segments.is_empty();
+        drawn.written(format, None, None)?.write(&name, request.is_transparent())?;
+        bytes += Path::new(&name).metadata().map_or(0, |metadata| metadata.len());
         frame_ms.push(milliseconds_since(frame));
     }
-    if let Some(animated) = animated {
-        let text = animated.finish(delay_ms(&request.animation, views as usize));
-        bytes = text.len() as u64;
-        TextTarget::check(output)?.write(&text)?;
-    }
     say_left_over(output, views);
-    if ids.count() == 0 {
+    if is_empty {
         say("tinta: no line of these classes is visible in any view; see --classes, --eye and --target");
     }
     if !run.json {
@@ -86,7 +68,6 @@ pub(super) fn run(
         "style": request.style,
         "size": scene.size,
         "frames": views,
-        "strokes": ids.count(),
         "bytes": bytes,
         "load_ms": load_ms,
         "frame_ms": Summary::new(frame_ms),

@@ -30,9 +30,6 @@ pub struct LinePath {
     pub is_closed: bool,
     /// Indices of the segments in the chained list: segment `k` goes from point `k` to the next.
     pub segments: Vec<usize>,
-    /// The number of its stroke in all frames of a turn, see [`crate::lines::StrokeIds`]; `None` for a single
-    /// drawing.
-    pub stroke: Option<u32>,
 }
 
 impl LinePath {
@@ -47,7 +44,6 @@ impl LinePath {
             points_px,
             is_closed: false,
             segments: Vec::new(),
-            stroke: None,
         }
     }
 
@@ -83,7 +79,6 @@ struct End {
     object: u32,
     look: u32,
     layer: Layer,
-    curve: u32,
     x: u64,
     y: u64,
     number: usize,
@@ -91,20 +86,15 @@ struct End {
 
 impl End {
     fn meets(&self, other: &Self) -> bool {
-        (self.object, self.look, self.layer, self.curve, self.x, self.y)
-            == (other.object, other.look, other.layer, other.curve, other.x, other.y)
+        (self.object, self.look, self.layer, self.x, self.y)
+            == (other.object, other.look, other.layer, other.x, other.y)
     }
 }
 
 /// Joins segments to paths, in the order of each path's first segment. Omits segments without length, except
 /// points, and hidden ones that other lines replace.
 pub fn chain(segments: &[LineSegment]) -> Vec<LinePath> {
-    chain_curves(segments, |_| 0)
-}
-
-/// Like [`chain`], for segments on numbered curves: joins only those of one curve.
-pub(in crate::lines) fn chain_curves(segments: &[LineSegment], curve: impl Fn(&LineSegment) -> u32) -> Vec<LinePath> {
-    let partners = partners(segments, curve);
+    let partners = partners(segments);
     let mut is_drawn = vec![false; segments.len()];
     let mut paths = Vec::new();
     for first in 0..segments.len() {
@@ -124,7 +114,7 @@ fn position(segments: &[LineSegment], end: usize) -> DVec2 {
 }
 
 /// For each end the end that it is joined to, or [`FREE`].
-fn partners(segments: &[LineSegment], curve: impl Fn(&LineSegment) -> u32) -> Vec<usize> {
+fn partners(segments: &[LineSegment]) -> Vec<usize> {
     let mut ends = Vec::with_capacity(segments.len() * 2);
     // A point is a path of its own.
     let is_joined = |segment: &LineSegment| is_drawn_itself(segment) && segment.class != Class::Point;
@@ -134,7 +124,7 @@ fn partners(segments: &[LineSegment], curve: impl Fn(&LineSegment) -> u32) -> Ve
             let [x, y] = [point.x, point.y].map(|value| (value + 0.0).to_bits());
             let layer = segment.layer();
             let LineSegment { object, look, .. } = *segment;
-            ends.push(End { object, look, layer, curve: curve(segment), x, y, number: index * 2 + which });
+            ends.push(End { object, look, layer, x, y, number: index * 2 + which });
         }
     }
     ends.sort_unstable();
@@ -233,7 +223,7 @@ fn walk(segments: &[LineSegment], partners: &[usize], first: usize, is_drawn: &m
         points_px.pop();
     }
     let LineSegment { class, is_visible, is_outline, object, look, .. } = segments[first];
-    LinePath { class, is_visible, is_outline, object, look, points_px, is_closed, segments: pieces, stroke: None }
+    LinePath { class, is_visible, is_outline, object, look, points_px, is_closed, segments: pieces }
 }
 
 #[cfg(test)]

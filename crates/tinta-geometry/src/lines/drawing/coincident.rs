@@ -121,10 +121,8 @@ impl Parts<'_> {
             1.0 => end,
             _ => start.lerp(end, share),
         };
-        // Only the first part keeps the stroke's number: numbers are unique.
-        let stroke = self.path.stroke.filter(|_| self.open.is_empty());
         let (points_px, segments) = (vec![at(from)], Vec::new());
-        let mut part = LinePath { points_px, segments, is_closed: false, stroke, ..*self.path };
+        let mut part = LinePath { points_px, segments, is_closed: false, ..*self.path };
         for place in (first..last).filter(|place| place + 1 == last || share(place + 1) > from) {
             part.segments.push(self.path.segments[place]);
             let is_last = place + 1 == last || share(place + 1) >= to;
@@ -154,7 +152,6 @@ impl Parts<'_> {
         let meets = self.path.is_closed && self.open.len() > 1 && begin == end;
         if let Some(mut last) = self.open.pop_if(|_| meets) {
             let first = &mut self.open[0];
-            last.stroke = first.stroke;
             std::mem::swap(first, &mut last);
             append(first, last);
         }

@@ -191,7 +191,6 @@ mod tests {
             points_px,
             is_closed,
             segments,
-            stroke: None,
         }
     }
 

@@ -187,8 +187,6 @@ pub(in crate::lines) fn dashes(path: &LinePath, dash_px: f64, gap_px: f64) -> Ve
         }
     }
     dashes.extend(dash.filter(|dash| dash.points_px.len() > 1));
-    // Only the first dash keeps the stroke's number, so that numbers stay unique.
-    dashes.iter_mut().skip(1).for_each(|dash| dash.stroke = None);
     dashes
 }
 
@@ -201,7 +199,6 @@ mod tests {
         let points_px: Vec<DVec2> = points.iter().map(|point| DVec2::from_array(*point)).collect();
         let segments = (0..points.len() - usize::from(!is_closed)).collect();
         LinePath {
-            stroke: None,
             class: Class::Crease,
             is_visible: true,
             is_outline: false,

@@ -72,9 +72,9 @@ pub(in crate::lines) fn taper(layers: &mut [Lines<'_>], size: Size) -> Vec<Vec<V
     layers.iter_mut().enumerate().map(of_layer).collect()
 }
 
-/// Whether a path may: not a ring, a model's own curve or point, or a stroke that is the same in other views.
+/// Whether a path may: not a ring, nor a model's own curve or point.
 fn can_taper(path: &LinePath) -> bool {
-    !path.is_closed && !ClassSet::FREE.contains(path.class) && path.stroke.is_none() && length(path) > 0.0
+    !path.is_closed && !ClassSet::FREE.contains(path.class) && length(path) > 0.0
 }
 
 fn length(path: &LinePath) -> f64 {

@@ -226,9 +226,6 @@ pub(super) fn layer_tag(drawn: &DrawnLayer) -> String {
 
 fn write_path(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut String) {
     out.push_str("<path");
-    if let Some(stroke) = path.stroke {
-        let _ = write!(out, r#" id="stroke-{stroke}""#);
-    }
     // Strokes of tones are made of no segments.
     if drawing.settings.has_provenance && !path.segments.is_empty() {
         write_provenance(drawing, class, path, out);
