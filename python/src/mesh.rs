@@ -136,14 +136,11 @@ impl Mesh {
             },
         )?;
         let mesh = made.map_err(|(argument, problem)| wrong(argument, problem))?;
-        let remarks =
-            if mesh.defects.is_empty() { Vec::new() } else { vec![format!("{}: {}", mesh.name, mesh.defects)] };
-        // Arrays of volumes have points inside, which is no defect of them.
-        let mut told = mesh.defects.clone();
-        told.unused_vertices = 0;
-        if !told.is_empty() {
-            warn(py, &remarks)?;
-        }
+        // As of a file: defects that change the picture.
+        let others = mesh.defects.others();
+        let told = others.consequence().map(|consequence| format!("{}: {others}; {consequence}", mesh.name));
+        let remarks: Vec<String> = told.into_iter().collect();
+        warn(py, &remarks)?;
         Ok(Self::new(mesh, None, options, Vec::new(), remarks))
     }
 

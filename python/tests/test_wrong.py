@@ -1,6 +1,7 @@
 """Wrong arguments raise an exception that names them; none ends the interpreter."""
 
 import io
+import warnings
 
 import numpy as np
 import pytest
@@ -110,10 +111,14 @@ def test_there_are_thirty_kinds_and_more():
     assert len({sentence for _, _, sentence in WRONG}) == len(WRONG) > 30
 
 
-def test_what_is_left_out_of_arrays_is_said():
-    with pytest.warns(UserWarning, match="mesh: 1 degenerate triangle") as warnings:
-        tn.lines(V, [*F, [1, 1, 2]])
-    assert warnings[0].filename == __file__
+def test_what_is_left_out_of_arrays_is_said_if_the_picture_lacks_it():
+    crossing = [[0, 0, 9], [1, 1, 9], [1, 0, 9], [0, 1, 9]]
+    with pytest.warns(UserWarning, match="mesh: 1 polygon that crosses itself; what such polygons fill is chance") as said:
+        tn.lines([*V, *crossing], [*F, [len(V) + corner for corner in range(4)]])
+    assert said[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert tn.mesh([*V, [9, 9, 9]], [*F, [1, 1, 2], F[0]]).remarks == []
 
 
 def test_settings_without_effect_are_said():

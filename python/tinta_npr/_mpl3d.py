@@ -3,7 +3,6 @@
 This reads attributes that matplotlib keeps for itself, of its versions 3.8 to 3.11; `mpl` imports it for `draw3d` alone.
 """
 
-import warnings
 
 import matplotlib
 import numpy as np
@@ -60,13 +59,9 @@ class Surface:
                 numbers += [number] * len(parts)
         sizes = np.array([len(face) for face in faces], dtype=np.int64)
         corners = np.arange(sizes.sum(), dtype=np.int64)
-        with warnings.catch_warnings():
-            # Corners on a straight side make triangles without area, and nothing is lost with them.
-            warnings.filterwarnings("ignore", r"surface: \d+ degenerate triangle")
-            # Neighbours compute the same corner each in its own way.
-            mesh = _native.Mesh.of_arrays(np.concatenate(faces), corners, sizes, "surface", {"weld": 1e-9})
-            mesh = mesh.with_marks(np.array(numbers, dtype=np.uint32), np.empty((0, 2), dtype=np.uint32))
-        return mesh, colors
+        # Neighbours compute the same corner each in its own way.
+        mesh = _native.Mesh.of_arrays(np.concatenate(faces), corners, sizes, "surface", {"weld": 1e-9})
+        return mesh.with_marks(np.array(numbers, dtype=np.uint32), np.empty((0, 2), dtype=np.uint32)), colors
 
 
 def _bent_apart(polygon):
