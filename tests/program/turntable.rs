@@ -79,112 +79,22 @@ fn a_models_frames_are_walked_through() {
 }
 
 #[test]
-fn a_turn_of_lines_is_numbered_drawings_whose_paths_have_ids_that_stay() {
+fn a_turn_of_lines_is_numbered_drawings() {
     let folder = Folder::new();
     let model = ["builtin:open-box", "--size", "96x80", "--turntable", "5"];
     let record = render(&[&model[..], &["-o", &folder.path("a-%02d.svg"), "--json", "--hidden", "dashed"]].concat());
-    let ids = |number: usize| -> Vec<String> {
-        let text = std::fs::read_to_string(folder.path(&format!("a-{number:02}.svg"))).unwrap();
-        let document = roxmltree::Document::parse(&text).unwrap();
-        let paths = document.descendants().filter(|node| node.has_tag_name("path"));
-        paths.map(|path| path.attribute("id").expect("every path has one").to_owned()).collect()
-    };
-    let mut all = std::collections::BTreeSet::new();
-    for number in 1..=5 {
-        let ids = ids(number);
-        let different: std::collections::BTreeSet<_> = ids.iter().cloned().collect();
-        assert_eq!(ids.len(), different.len(), "{ids:?}");
-        all.extend(different);
-    }
     let record: serde_json::Value = serde_json::from_str(&record).unwrap();
-    assert_eq!((&record["frames"], &record["strokes"]), (&5.into(), &all.len().into()));
+    assert_eq!(record["frames"], 5);
     assert_eq!((&record["style"]["name"], &record["style"]["hidden"]), (&"lines".into(), &"dashed".into()));
-    let size = |number: usize| std::fs::metadata(folder.path(&format!("a-{number:02}.svg"))).unwrap().len();
-    assert_eq!(record["bytes"], (1..=5).map(size).sum::<u64>());
+    let drawing = |number: usize| std::fs::read_to_string(folder.path(&format!("a-{number:02}.svg"))).unwrap();
+    let drawings: std::collections::BTreeSet<String> = (1..=5).map(drawing).collect();
+    assert_eq!(drawings.len(), 5, "each view is another");
+    assert_eq!(record["bytes"], drawings.iter().map(String::len).sum::<usize>());
     assert!(!std::path::Path::new(&folder.path("a-06.svg")).exists());
-    // The twelve edges of a box with their hidden parts: visible or hidden, the same strokes.
-    assert!(all.len() < 24, "{all:?}");
     render(&[&model[..], &["-o", &folder.path("%d.pdf")]].concat());
     render(&[&model[..], &["-o", &folder.path("%d.png"), "--style", "lines"]].concat());
     assert!(std::fs::read(folder.path("5.pdf")).unwrap().starts_with(b"%PDF"));
     assert_eq!(image::open(folder.path("5.png")).unwrap().into_rgba8().dimensions(), (96, 80));
-    // Without a turn a drawing is one file, and its paths have no ids.
-    render(&["builtin:open-box", "-o", &folder.path("one.svg")]);
-    assert!(!std::fs::read_to_string(folder.path("one.svg")).unwrap().contains("stroke-1"));
-}
-
-/// The paths of a drawing: layer, number of the stroke, course.
-type Courses = std::collections::BTreeSet<(String, String, String)>;
-
-/// The paths of an animated drawing that are shown at a share of its turn, by the rules of SMIL.
-fn courses_at(text: &str, share: f64) -> Courses {
-    let document = roxmltree::Document::parse(text).unwrap();
-    let mut courses = Courses::new();
-    for path in document.descendants().filter(|node| node.has_tag_name("path")) {
-        let layer = path.parent().unwrap().attribute("id").unwrap();
-        let mut course = path.attribute("d").unwrap();
-        if let Some(animate) = path.children().find(|node| node.has_tag_name("animate")) {
-            let of = |name: &str| animate.attribute(name).unwrap();
-            assert_eq!([of("attributeName"), of("calcMode"), of("repeatCount")], ["d", "discrete", "indefinite"]);
-            let times: Vec<f64> = of("keyTimes").split(';').map(|time| time.parse().unwrap()).collect();
-            let values: Vec<&str> = of("values").split(';').collect();
-            assert!(
-                times.len() == values.len() && times[0] == 0.0 && times.is_sorted() && times.last().unwrap() < &1.0
-            );
-            assert_eq!(course, values[0], "without animation the first view is shown");
-            course = values[times.partition_point(|time| *time <= share) - 1];
-        }
-        if course != "M0 0" {
-            let stroke = path.attribute("id").unwrap().strip_prefix(&format!("{layer}-")).unwrap();
-            assert!(courses.insert((layer.to_owned(), stroke.to_owned(), course.to_owned())));
-        }
-    }
-    courses
-}
-
-#[test]
-fn an_animated_svg_shows_each_view_as_the_numbered_drawings_do() {
-    for (model, views, options) in [
-        ("builtin:open-box", 5, &["--hidden", "dashed"][..]),
-        ("builtin:ant", 7, &["--line-width", "0.25mm", "--page", "width-mm=100"]),
-        ("builtin:gear", 3, &["--hidden", "ghost", "--class-colors", "crease=red"]),
-        ("builtin:torus", 6, &["--silhouette", "smooth", "--fit-curves", "0.5"]),
-        ("builtin:open-box", 1, &[]),
-    ] {
-        let folder = Folder::new();
-        let (count, animated) = (views.to_string(), folder.path("a.svg"));
-        let all = [&["--size", "96x80", "--turntable", &count], options].concat();
-        let record = render(&[&[model, "-o", &animated, "--json", "--frame-delay", "50"], &all[..]].concat());
-        render(&[&[model, "-o", &folder.path("a-%d.svg")], &all[..]].concat());
-        let text = std::fs::read_to_string(&animated).unwrap();
-        assert!(!text.contains("<script"));
-        for view in 0..views {
-            let one = std::fs::read_to_string(folder.path(&format!("a-{}.svg", view + 1))).unwrap();
-            let document = roxmltree::Document::parse(&one).unwrap();
-            let of = |path: roxmltree::Node<'_, '_>| {
-                let of = |node: roxmltree::Node<'_, '_>, name: &str| node.attribute(name).unwrap().to_owned();
-                (of(path.parent().unwrap(), "id"), of(path, "id"), of(path, "d"))
-            };
-            let expected: Courses = document.descendants().filter(|it| it.has_tag_name("path")).map(of).collect();
-            assert!(!expected.is_empty());
-            assert_eq!(courses_at(&text, (f64::from(view) + 0.5) / f64::from(views)), expected, "{model}, view {view}");
-            // The same sheet and the same layers' looks.
-            let head = |text: &str| text.split("<g id=").next().unwrap().to_owned();
-            assert_eq!(head(&one), head(&text));
-        }
-        let seconds = f64::from(views * 50) / 1000.0;
-        assert_eq!(text.contains(&format!(r#"dur="{seconds}s""#)), views > 1, "{seconds}");
-        let record: serde_json::Value = serde_json::from_str(&record).unwrap();
-        assert_eq!((&record["frames"], &record["bytes"]), (&views.into(), &text.len().into()));
-        assert_eq!(record["frame_ms"]["all"].as_array().unwrap().len(), views as usize);
-    }
-    // No dash of a pen is lost.
-    let pen = ["builtin:open-box", "--turntable", "2", "--hidden", "dashed", "--pen", "-o"];
-    let folder = Folder::new();
-    render(&[&pen[..], &[&folder.path("p.svg")]].concat());
-    render(&[&pen[..], &[&folder.path("p-%d.svg")]].concat());
-    let lines = |name: &str| std::fs::read_to_string(folder.path(name)).unwrap().matches('M').count();
-    assert!(lines("p.svg") > lines("p-1.svg") + lines("p-2.svg"));
 }
 
 #[test]
@@ -192,10 +102,9 @@ fn what_makes_no_turn_of_lines_is_refused() {
     let refused = |output: &str, options: &[&str], words: &[&str]| {
         refused_in_one_line(&[&["render", "builtin:ant", "-o", output, "--turntable", "4"], options].concat(), words);
     };
-    for output in ["a.pdf", "a.dxf", "a.json", "%d.json"] {
+    for output in ["a.svg", "a.pdf", "a.dxf", "a.json", "%d.json"] {
         refused(output, &[], &[output, "this names one drawing", "frame-%04d.svg"]);
     }
-    refused("no/such/a.svg", &[], &["no/such/a.svg: the folder no/such does not exist"]);
     refused("no/such/%d.svg", &[], &["no/such/1.svg: the folder no/such does not exist"]);
     refused("%d.svg", &["--page", "A4"], &["--page", "each view", "--page width-mm"]);
 }

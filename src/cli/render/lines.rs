@@ -20,15 +20,15 @@ use tinta::{DrawingSettings, Error, Result, Show, Target, TextTarget};
 /// Finds the lines and writes them.
 pub(super) fn run(rendering: &Rendering<'_>, format: DrawingFormat, session: &mut Session) -> Result<Verdict> {
     let Rendering { request, output, .. } = *rendering;
-    let views = request.animation.turntable;
-    let names = views.map(|_| turn::names(output, format)).transpose()?;
-    let first = names.as_ref().map_or_else(|| output.to_owned(), |names| names.with(1));
+    let turn = request.animation.turntable;
+    let turn = turn.map(|views| turn::names(output, format).map(|names| (views, names))).transpose()?;
+    let first = turn.as_ref().map_or_else(|| output.to_owned(), |(_, names)| names.with(1));
     check_output(&first, format, request.is_transparent())?;
     refuse_what_lines_have_not(rendering, format)?;
     // A job of a batch leaves signals to its run.
     let stop = (!is_captured()).then(Stop::on_signals);
-    match views {
-        Some(views) => turn::run(rendering, format, (views, names.as_ref()), session, stop.as_ref()),
+    match turn {
+        Some((views, names)) => turn::run(rendering, format, (views, &names), session, stop.as_ref()),
         None => one_view(rendering, format, session, stop.as_ref()),
     }
 }

@@ -3,7 +3,7 @@
 mod line;
 mod sheet;
 
-use serde::Serialize;
+use serde_json::json;
 use std::path::Path;
 use tinta::cli::inputs::Inputs;
 use tinta::cli::models::load_meshes;
@@ -127,15 +127,11 @@ fn explain(arguments: &Arguments, request: &Request, output: Option<Target>, ses
         remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
     }
     let style = &request.style_in_passes()?;
-    let place = arguments.place;
-    let line = match request.line_style()?.filter(|_| request.has_lines_over()) {
-        Some(lines) => {
-            let near = nearest_line(&scene, &lines.lines, place)?;
-            Some((near, with_lines(request, &scene, renderer, place)?))
-        }
-        None => None,
-    };
-    let why = Explanation::of(style, &scene, renderer, place);
+    let lines = request.line_style()?.filter(|_| request.has_lines_over());
+    let near = lines.map(|lines| nearest_line(&scene, &lines.lines, arguments.place)).transpose()?;
+    let line =
+        near.map(|near| with_lines(request, &scene, renderer, arguments.place).map(|with| (near, with))).transpose()?;
+    let why = Explanation::of(style, &scene, renderer, arguments.place);
     let why = match (why, &line) {
         // Beside the model there is only a line to explain.
         (Err(Error::Text(_)), Some(_)) if output.is_none() => None,
@@ -144,32 +140,35 @@ fn explain(arguments: &Arguments, request: &Request, output: Option<Target>, ses
     if let Some((target, why)) = output.as_ref().zip(why.as_ref()) {
         target.write(&sheet::sheet(why, style, &scene, renderer)?)?;
     }
-    let (line, with_lines) = line.unzip();
     if arguments.json {
-        return print_json(&Explained { why, line, with_lines });
+        let mut record = why.map_or_else(|| json!({}), |why| json!(why));
+        if let Some((line, (color, share))) = line {
+            record["line"] = json!(line);
+            record["with_lines"] = json!({ "color": color, "share": share });
+        }
+        return print_json(&record);
     }
     if output.is_some() {
         return Ok(());
     }
-    let above = line.zip(with_lines).map(|(line, WithLines { color: [red, green, blue], share })| {
+    let above = line.map(|(line, (color, share))| {
         format!(
-            "With its lines the pixel is [{red}, {green}, {blue}].\nTheir share of it is {:.0} %.\n\n{}\nBelow the lines:\n\n",
+            "With its lines the pixel is {color:?}.\nTheir share of it is {:.0} %.\n\n{}\nBelow the lines:\n\n",
             share * 100.0,
             line::in_words(&line)
         )
     });
-    let below = why.map_or_else(|| "background\n".to_owned(), |why| why.to_string());
-    print(&(above.unwrap_or_default() + &below))
+    print(&(above.unwrap_or_default() + &why.map_or_else(|| "background\n".to_owned(), |why| why.to_string())))
 }
 
-/// What exact lines make of a pixel.
-fn with_lines(request: &Request, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<WithLines> {
+/// What exact lines make of a pixel: its red, green and blue, and the share of it that they cover, 0 to 1.
+fn with_lines(request: &Request, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<([u8; 3], f64)> {
     let [x, y] = [place.x, place.y].map(|at| at.floor() as i64);
     let (plan, _) = request.plans(scene, renderer)?;
     let around = request.around(scene, &Progress::default())?;
     let [red, green, blue, _] = around.drawn(scene, &plan, renderer)?.pixel(x, y);
     let [.., share] = around.lines_alone(&plan, scene.size).pixel(x, y);
-    Ok(WithLines { color: [red, green, blue], share: f64::from(share) / 255.0 })
+    Ok(([red, green, blue], f64::from(share) / 255.0))
 }
 
 /// The file of a sheet.
@@ -180,27 +179,6 @@ fn checked(path: &str, arguments: &Arguments, inputs: &Inputs) -> Result<Target>
         return Err(Error::value("output", "-", "the picture and --json cannot share standard output; name a file"));
     }
     Target::check(path, false)
-}
-
-/// A pixel explained, with the exact line nearest to it.
-#[derive(Serialize)]
-struct Explained {
-    /// Nothing beside the model.
-    #[serde(flatten)]
-    why: Option<Explanation>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    line: Option<Why>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    with_lines: Option<WithLines>,
-}
-
-/// A pixel under exact lines.
-#[derive(Serialize)]
-struct WithLines {
-    /// Red, green and blue as drawn.
-    color: [u8; 3],
-    /// The share of the pixel that lines cover, 0 to 1.
-    share: f64,
 }
 
 /// Explains the line nearest to a place.

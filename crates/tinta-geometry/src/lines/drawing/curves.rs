@@ -182,16 +182,7 @@ mod tests {
 
     fn path(points_px: Vec<DVec2>, is_closed: bool) -> LinePath {
         let (class, segments) = (Class::Silhouette, Vec::new());
-        LinePath {
-            class,
-            is_visible: true,
-            is_outline: false,
-            object: 0,
-            look: 0,
-            points_px,
-            is_closed,
-            segments,
-        }
+        LinePath { class, is_visible: true, is_outline: false, object: 0, look: 0, points_px, is_closed, segments }
     }
 
     /// Dense points along the drawn path.
