@@ -167,8 +167,7 @@ fn with_lines(request: &Request, scene: &Scene, renderer: &mut Renderer, place: 
     let (plan, _) = request.plans(scene, renderer)?;
     let around = request.around(scene, &Progress::default())?;
     let [red, green, blue, _] = around.drawn(scene, &plan, renderer)?.pixel(x, y);
-    let [.., share] = around.lines_alone(&plan, scene.size).pixel(x, y);
-    Ok(([red, green, blue], f64::from(share) / 255.0))
+    Ok(([red, green, blue], f64::from(around.lines_alone(&plan, scene.size).pixel(x, y)[3]) / 255.0))
 }
 
 /// The file of a sheet.
