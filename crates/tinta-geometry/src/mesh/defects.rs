@@ -18,7 +18,7 @@ pub struct Defects {
     pub crossing_polygons: usize,
     /// Triangles that repeat another with the same orientation, left out.
     pub duplicate_triangles: usize,
-    /// Pairs of triangles with the same corners, one each way: surfaces written twice, once for each side. Readers keep both.
+    /// Pairs of triangles on each other's backs: surfaces written twice, once for each side, along any diagonal. Readers keep both.
     pub doubled_triangles: usize,
     /// Vertices with a coordinate that is NaN or infinite; the faces that use them are left out.
     pub non_finite_vertices: usize,

@@ -4,15 +4,21 @@
 //! In: triangles and the rings that three of such four form at the lowest corner. Out: the same, both sides along one diagonal, so that
 //! each triangle has one with its corners on its back.
 
-use super::coincident::sorted;
+use super::coincident::{Coincident, coincident, sorted};
 use super::pieces::Pieces;
 use crate::tolerances::NEEDLE;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 
+/// Returns the triangles with the same corners, after such quadrilaterals are cut on both sides alike.
+pub(super) fn aligned(pieces: &mut Pieces, positions: &[DVec3]) -> Coincident {
+    let found = coincident(&pieces.triangles, positions.len());
+    if align(pieces, positions, &found.rings) { coincident(&pieces.triangles, positions.len()) } else { found }
+}
+
 /// Cuts one side of each such quadrilateral as the other is, unless the triangles of that side differ in their attributes where
 /// they meet. Returns whether there were any.
-pub(super) fn align(pieces: &mut Pieces, positions: &[DVec3], rings: &[[u32; 3]]) -> bool {
+fn align(pieces: &mut Pieces, positions: &[DVec3], rings: &[[u32; 3]]) -> bool {
     let is_folded = |ring: &&[u32; 3]| {
         let [first, second, third] = ring.map(|face| pieces.face_normals[face as usize]);
         first.dot(third) < 0.0 && second.dot(third) < 0.0

@@ -2,8 +2,7 @@
 //!
 //! In: polygons and the vertices' welding. Out: triangles over welded but not yet renumbered positions.
 
-use super::coincident::{Coincident, coincident, sorted};
-use super::other_diagonals;
+use super::coincident::{Coincident, sorted};
 use super::same_polygons::{in_order_of, same_polygons};
 use super::soup::{Corner, Soup};
 use super::triangulate::{self, Cut};
@@ -228,12 +227,7 @@ impl Pieces {
     /// Drops polygons with the same triangles as an earlier one, in the same orientation; the opposite side is another polygon. A
     /// triangle that two different polygons have in common belongs to both. Counts triangles that have another on their back and may
     /// be seen.
-    pub(super) fn drop_duplicates(&mut self, positions: &[DVec3]) {
-        let mut found = coincident(&self.triangles, positions.len());
-        if other_diagonals::align(self, positions, &found.rings) {
-            found = coincident(&self.triangles, positions.len());
-        }
-        let Coincident { repeated, opposite, .. } = found;
+    pub(super) fn drop_duplicates(&mut self, positions: &[DVec3], Coincident { repeated, opposite, .. }: Coincident) {
         self.doubled += outside::pairs(&self.triangles, positions, opposite).len();
         if repeated.is_empty() {
             return;
