@@ -34,6 +34,8 @@ fn every_name_offered_is_taken_and_every_choice_is_offered() {
             if let Some(list) = text.split_once("choose ").map(|(_, list)| list.lines().next().unwrap()) {
                 assert!(!offered.is_empty(), "{what} is a choice ({list}): offer its names");
                 choices += 1;
+                // Options inside this one are written, not chosen.
+                let list = list.split(", or write NAME=VALUE").next().unwrap();
                 for name in list.strip_prefix("one of ").into_iter().flat_map(|list| list.split(", ")) {
                     let name = name.trim_start_matches("or ").split(';').next().unwrap();
                     assert!(offered.contains(&name), "{what} takes {name}, which is not offered");
