@@ -3,7 +3,7 @@
 //! It drops and counts bad faces, welds vertices, cuts polygons into triangles, computes missing normals and leaves out unused
 //! vertices.
 
-use super::other_diagonals::aligned;
+use super::other_diagonals::drop_duplicates;
 use super::pieces::Pieces;
 use super::soup::{Corner, Soup};
 use super::{Curves, Cut, Defects, LoadOptions, LoadStage, Mesh, NONE, options, weld};
@@ -98,8 +98,7 @@ impl Soup {
         let used = self.used(&finite);
         let welded = self.welded(&used, options.weld, name)?;
         let mut pieces = Pieces::of(&self, &finite, &welded);
-        let coincident = aligned(&mut pieces, &self.positions);
-        pieces.drop_duplicates(&self.positions, coincident);
+        drop_duplicates(&mut pieces, &self.positions);
         pieces.count(self.positions.len(), &mut defects);
         let curves = Curves::of(&self, &finite);
         check_coordinates(&curves.positions, name)?;

@@ -4,16 +4,19 @@
 //! In: triangles and the rings that three of such four form at the lowest corner. Out: the same, both sides along one diagonal, so that
 //! each triangle has one with its corners on its back.
 
-use super::coincident::{Coincident, coincident, sorted};
+use super::coincident::{coincident, sorted};
 use super::pieces::Pieces;
 use crate::tolerances::NEEDLE;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 
-/// Returns the triangles with the same corners, after such quadrilaterals are cut on both sides alike.
-pub(super) fn aligned(pieces: &mut Pieces, positions: &[DVec3]) -> Coincident {
-    let found = coincident(&pieces.triangles, positions.len());
-    if align(pieces, positions, &found.rings) { coincident(&pieces.triangles, positions.len()) } else { found }
+/// Drops polygons that repeat others, after such quadrilaterals are cut on both sides alike.
+pub(super) fn drop_duplicates(pieces: &mut Pieces, positions: &[DVec3]) {
+    let mut found = coincident(&pieces.triangles, positions.len());
+    if align(pieces, positions, &found.rings) {
+        found = coincident(&pieces.triangles, positions.len());
+    }
+    pieces.drop_duplicates(positions, found);
 }
 
 /// Cuts one side of each such quadrilateral as the other is, unless the triangles of that side differ in their attributes where
