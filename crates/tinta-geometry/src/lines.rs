@@ -76,7 +76,6 @@ pub use drawing::settings::{DrawingSettings, Hidden};
 #[doc(hidden)]
 pub use eye::cast::{Hit, first_hits};
 #[doc(hidden)]
-#[doc(hidden)]
 pub use labels::Label;
 #[doc(hidden)]
 pub use parts::pattern::Pattern;

@@ -30,6 +30,9 @@ pub(crate) struct FittedSurface {
     pub sizes: [f64; 2],
 }
 
+/// Largest turn that counts as flat, radians: more than a file's six digits bend a facet.
+pub(super) const FLAT: f64 = 1e-3;
+
 /// What a step changes: shifts along two axes across the surface's and along it, its tilts towards the two, two sizes.
 const UNKNOWNS: usize = 7;
 
@@ -83,7 +86,7 @@ impl FittedSurface {
         };
         let mut turns: Vec<f64> = points.iter().map(turn).collect();
         turns.sort_by(f64::total_cmp);
-        turns.dedup_by(|next, turn| *next - *turn < 1e-3);
+        turns.dedup_by(|next, turn| *next - *turn < FLAT);
         turns.len()
     }
 

@@ -5,16 +5,13 @@
 //! vertices it passes through. Through two circles there are always a cone and a sphere; if a torus passes through the next circles
 //! too, the patch is that. Of overlapping patches the largest stays. Faces beside them form planes.
 
-use super::fitted_surfaces::{FittedSurface, Kind};
+use super::fitted_surfaces::{FLAT, FittedSurface, Kind};
 use super::{EdgeList, Incidence};
 use crate::mesh::{Mesh, NONE};
 use crate::threads::in_parallel;
 use crate::tolerances::PRINTED_DIGITS;
 use glam::DVec3;
 use std::collections::HashSet;
-
-/// Largest turn between two faces that counts as flat, radians: more than a file's six digits bend a facet.
-pub(super) const FLAT: f64 = 1e-3;
 
 /// Faces of a row: three quadrilaterals.
 const ROW: usize = 6;

@@ -4,8 +4,8 @@
 //! at all, so that a rounding of changing radius is not drawn where a cylinder happens to fit.
 
 use super::EdgeList;
-use super::fitted_surfaces::Kind;
-use super::patches::{FLAT, Patch, Patches};
+use super::fitted_surfaces::{FLAT, Kind};
+use super::patches::{Patch, Patches};
 use crate::disjoint_sets::DisjointSets;
 use crate::mesh::{Mesh, NONE};
 

@@ -84,9 +84,9 @@ impl LineIndex<'_> {
         directions.any(|directions| self.overlapping.any(&image.box_around(stretch, touch_px, directions), &mut visit))
     }
 
-    /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a place. `None` where it
-    /// lies in space on another of an earlier class, or of the same and a lower number: looked for on
-    /// a hidden line only `if_hidden`.
+    /// Whether a line is the nearest to the eye of those wanted ones that lie on it in the picture at a place. `None` where it lies in
+    /// space on another of an earlier class, or of the same and a lower number; unless `if_hidden`, a hidden line may be told as not the
+    /// nearest instead.
     pub(in crate::lines) fn is_nearest(
         &self,
         index: usize,
