@@ -19,9 +19,10 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
+use tinta::culling::DrawnFaces;
 use tinta::mesh::Part;
 use tinta::plan::prune::{Rule, prune};
-use tinta::plan::{Depth, Draw, FaceList, Faces, Geometry, Paint, Pass, Plan, Step};
+use tinta::plan::{Depth, Draw, Faces, Geometry, Paint, Pass, Plan, Step};
 use tinta::renderer::milliseconds_since;
 use tinta::styles::{Cartoon, Mrt};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, load};
@@ -165,7 +166,7 @@ fn owners(scene: &Scene) -> Arc<Vec<Faces>> {
         faces.for_each(|face| indices.extend_from_slice(&arrays.indices[*face as usize * 3..][..3]));
         parts.push(Part { first, count: indices.len() as u32 - first, ..*part });
     }
-    Arc::new(vec![Faces::Listed(Arc::new(FaceList { indices, parts }))])
+    Arc::new(vec![Faces::Listed(Arc::new(DrawnFaces { indices, parts, left_out: 0 }))])
 }
 
 /// The scene with the eye turned by so many degrees.

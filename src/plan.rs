@@ -40,7 +40,8 @@ pub(crate) use target::DEPTH_COPY;
 pub use target::{Attachment, Attachments, Format, SettingValue, Target, TextureName};
 pub use tiles::{Tile, TileLimits};
 
-use crate::mesh::{Part, VertexArrays};
+use crate::culling::DrawnFaces;
+use crate::mesh::VertexArrays;
 use crate::scene::{Color, Object, Rectangle, Scene};
 use std::fmt;
 use std::sync::Arc;
@@ -142,16 +143,7 @@ pub enum Faces {
     /// None.
     None,
     /// These.
-    Listed(Arc<FaceList>),
-}
-
-/// Some of an object's faces, in their drawing order.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FaceList {
-    /// Three indices per face, into the object's [`crate::mesh::VertexArrays::vertices`].
-    pub indices: Vec<u32>,
-    /// The runs of faces that share a material.
-    pub parts: Vec<Part>,
+    Listed(Arc<DrawnFaces>),
 }
 
 impl Draw {

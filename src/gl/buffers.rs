@@ -1,8 +1,9 @@
 //! Scene data on the device: meshes, lists of faces, paint, edges.
 
 use super::objects::Buffer;
+use crate::culling::DrawnFaces;
 use crate::mesh::{Mesh, Part};
-use crate::plan::{EdgeRun, FaceList, Mark};
+use crate::plan::{EdgeRun, Mark};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -32,7 +33,7 @@ pub(super) struct MeshBuffers {
 
 /// Some of an object's faces on the device.
 pub(super) struct FaceIndices {
-    pub(super) list: Arc<FaceList>,
+    pub(super) list: Arc<DrawnFaces>,
     pub(super) buffer: Buffer,
 }
 

@@ -6,9 +6,10 @@ use super::execute::Resources;
 use super::immediate::{Places, Vertices};
 use super::legacy::{FIXED_UNITS, MODELVIEW, PROJECTION};
 use super::objects::Buffer;
+use crate::culling::DrawnFaces;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Part, VertexArrays};
-use crate::plan::{Draw, FaceList, Faces, Geometry, Paint, Plan, Step, Submission};
+use crate::plan::{Draw, Faces, Geometry, Paint, Plan, Step, Submission};
 use crate::scene::{Object, Scene};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -48,7 +49,7 @@ impl Resources {
 
     /// Uploads the missing lists of faces that this plan draws, and releases the others.
     pub(super) fn upload_faces(&mut self, scene: &Scene, plan: &Plan) -> Result<()> {
-        let lists: Vec<(usize, &Arc<FaceList>)> = plan
+        let lists: Vec<(usize, &Arc<DrawnFaces>)> = plan
             .steps()
             .filter_map(
                 |(_, step)| if let Step::Draw(Draw { faces: Some(faces), .. }) = step { Some(faces) } else { None },
@@ -186,7 +187,7 @@ impl Resources {
 struct RunOfFaces<'a> {
     object: &'a Object,
     /// The list they are in, if not all of the object's faces are drawn.
-    listed: Option<&'a Arc<FaceList>>,
+    listed: Option<&'a Arc<DrawnFaces>>,
     /// The run of the list or object.
     part: &'a Part,
     lists: PaintLists<'a>,

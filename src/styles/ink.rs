@@ -7,7 +7,7 @@ use super::border::{reach, taps};
 use super::far_light::{FarLight, unit};
 use super::lens::DepthRange;
 use super::map::map_texture;
-use super::surfaces::has_doubled_faces;
+use super::surfaces::{has_doubled_faces, stacked};
 use super::textured::textured;
 use super::tones::ToneLookup;
 use super::{
@@ -61,16 +61,6 @@ tinta_geometry::choices! {
         Standard = "standard",
         /// Every improvement: drawn larger, without specks, and shrunk.
         Best = "best",
-    }
-}
-
-impl Quality {
-    /// Returns the supersampling factor.
-    fn supersample(self) -> Supersample {
-        match self {
-            Self::Standard => Supersample::One,
-            Self::Best => Supersample::Two,
-        }
     }
 }
 
@@ -190,12 +180,12 @@ impl Ink {
             passes.push(Pass::new(name, ground.into_iter().chain([Step::Draw(square)]).collect()));
         }
         let tables = if show == Show::Borders { Vec::new() } else { self.tones.tables() };
-        let plan = Plan { tables, ..Plan::new(passes) };
+        let plan = stacked(Plan { tables, ..Plan::new(passes) }, scene);
         Ok(sampling.finish(plan, scene.size))
     }
 
     fn supersample(&self) -> Supersample {
-        self.supersample.unwrap_or(self.quality.supersample())
+        self.supersample.unwrap_or(if self.quality == Quality::Best { Supersample::Two } else { Supersample::One })
     }
 
     /// Whether isolated ink at most twice as long as a line is wide goes. Testing the neighbours of all ink takes about half of the

@@ -5,8 +5,9 @@
 //! between vertices; the ramp as a texture is looked up at every pixel.
 
 use super::gradients::{Gradients, Light, VertexLists};
+use crate::culling::DrawnFaces;
 use crate::mesh::Part;
-use crate::plan::{FaceList, Faces};
+use crate::plan::Faces;
 use crate::scene::{Object, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -15,7 +16,7 @@ use std::sync::Arc;
 type Tone = [u8; 3];
 
 /// An object's faces by their tone.
-type ByTone = Arc<BTreeMap<Tone, Arc<FaceList>>>;
+type ByTone = Arc<BTreeMap<Tone, Arc<DrawnFaces>>>;
 
 /// Returns each vertex's tone as a colour: red, green, blue, alpha.
 pub(super) fn vertex_colors(gradients: &Gradients<'_>) -> VertexLists<[f32; 4]> {
@@ -40,16 +41,15 @@ pub(super) fn faces_by_tone(scene: &Scene, gradients: &Gradients<'_>) -> Vec<([f
 /// Returns an object's faces by tone, each list in drawing order.
 fn of_object(scene: &Scene, light: Light, gradients: &Gradients<'_>, number: usize, object: &Object) -> ByTone {
     let (mesh, arrays) = (&object.mesh, scene.arrays(object));
-    let mut lists: BTreeMap<Tone, FaceList> = BTreeMap::new();
+    let mut lists: BTreeMap<Tone, DrawnFaces> = BTreeMap::new();
     for part in &arrays.parts {
         let row = gradients.coordinate(number, part.material);
-        let faces = part.first as usize / 3..(part.first + part.count) as usize / 3;
-        for face in faces {
+        for face in part.first as usize / 3..(part.first + part.count) as usize / 3 {
             let triangle = mesh.triangles[arrays.order[face] as usize];
             let [a, b, c] = triangle.map(|position| mesh.positions[position as usize]);
             let normal = (b - a).cross(c - a).normalize_or_zero().as_vec3();
             let tone = gradients.texel([light.on(normal), row]);
-            let list = lists.entry(tone).or_insert_with(|| FaceList { indices: Vec::new(), parts: Vec::new() });
+            let list = lists.entry(tone).or_default();
             let first = list.indices.len() as u32;
             list.indices.extend_from_slice(&arrays.indices[face * 3..][..3]);
             match list.parts.last_mut() {

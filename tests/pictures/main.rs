@@ -18,6 +18,7 @@ mod prune;
 mod prune_pictures;
 mod shared_models;
 mod small_scenes;
+mod stacked_faces;
 mod submission;
 mod supersampling;
 #[expect(dead_code, reason = "shared with the other tests")]

@@ -23,7 +23,7 @@ use crate::values::Size;
 use glam::{Mat4, Vec2, Vec3, Vec3Swizzles, Vec4Swizzles};
 
 /// The faces that a view needs.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct DrawnFaces {
     /// The arrays' indices, in unchanged order, without the faces left out.
     pub indices: Vec<u32>,

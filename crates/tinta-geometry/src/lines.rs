@@ -74,10 +74,6 @@ pub use drawing::painted::painted;
 pub use drawing::scale::{ModelUnit, Scale};
 pub use drawing::settings::{DrawingSettings, Hidden};
 #[doc(hidden)]
-pub use eye::cast::{Hit, first_hits};
-#[doc(hidden)]
-pub use labels::Label;
-#[doc(hidden)]
 pub use parts::pattern::Pattern;
 pub use parts::rules::{PartRule, PartRules};
 #[doc(hidden)]
@@ -110,6 +106,12 @@ pub use write::raster::{
 };
 pub use write::strokes::{Polyline, Strokes, strokes, strokes_of_paths};
 pub use write::svg::{svg, svg_of_paths};
+#[doc(hidden)]
+pub use {
+    eye::cast::{Hit, first_hits},
+    input::overlaps::stacked_faces,
+    labels::Label,
+};
 
 use crate::clock::{Instant, milliseconds_since};
 use crate::error::Result;

@@ -5,7 +5,7 @@ use super::rule::{Omission, Rule, Situation, counted};
 use crate::culling::{DrawnFaces, faces_not_culled};
 use crate::hidden_faces::faces_not_hidden;
 use crate::limits::DRAWN_AT_ONCE_PIXELS;
-use crate::plan::{Blend, Depth, Draw, EdgeRun, FaceList, Faces, Geometry, Plan, Step};
+use crate::plan::{Blend, Depth, Draw, EdgeRun, Faces, Geometry, Plan, Step};
 use crate::scene::Scene;
 use std::sync::Arc;
 
@@ -155,9 +155,9 @@ fn choose(
     let lists: Vec<Option<Faces>> = (0..scene.objects.len())
         .map(|number| {
             let is_needed = plan.draws().any(|draw| draw.is_of_objects() && is_meant(draw) && is_whole(draw, number));
-            let DrawnFaces { indices, parts, left_out: count } = is_needed.then(|| list(number)).flatten()?;
-            left_out += count;
-            Some(Faces::Listed(Arc::new(FaceList { indices, parts })))
+            let drawn = is_needed.then(|| list(number)).flatten()?;
+            left_out += drawn.left_out;
+            Some(Faces::Listed(Arc::new(drawn)))
         })
         .collect();
     if left_out == 0 {

@@ -12,5 +12,6 @@ pub(super) mod line_input;
 pub(super) mod mesh_repair;
 mod normal_creases;
 pub(super) mod object_edges;
+pub(super) mod overlaps;
 pub(super) mod repeated_sheets;
 pub(super) mod split_t_junctions;

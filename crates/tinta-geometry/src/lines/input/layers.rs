@@ -85,7 +85,7 @@ impl Covering<'_> {
 }
 
 /// Whether two coplanar triangles overlap by more than a strip of this width along a side.
-fn overlap(first: [DVec2; 3], second: [DVec2; 3], distance: f64) -> bool {
+pub(super) fn overlap(first: [DVec2; 3], second: [DVec2; 3], distance: f64) -> bool {
     let is_apart = |one: [DVec2; 3], other: [DVec2; 3]| {
         let turn = (one[1] - one[0]).perp_dot(one[2] - one[0]).signum();
         (0..3).any(|side| {
