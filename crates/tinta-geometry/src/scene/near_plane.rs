@@ -111,4 +111,19 @@ mod tests {
         let far_out = box_on_floor(1e3, CameraSettings::default());
         assert_eq!((far_out.cut_remark(), far_out.camera.near > 0.1), (None, true));
     }
+
+    #[test]
+    fn every_view_of_a_turn_has_its_near_plane_before_the_box() {
+        for height in [0.2, 0.1] {
+            let settings = above(height);
+            let scene = box_on_floor(1e3, settings.clone());
+            let right = visible_px(&box_on_floor(10.0, CameraSettings { near: Some(1e-5), ..settings.clone() }));
+            for camera in scene.turntable(&settings, 4).unwrap() {
+                let view = Scene { camera, ..scene.clone() };
+                let px = visible_px(&view);
+                assert!((px - right).abs() < 0.01 * right, "{height} above: {px} instead of {right}");
+                assert_eq!(view.cut_remark(), None);
+            }
+        }
+    }
 }

@@ -39,8 +39,9 @@ impl Scene {
         Self { camera, ..self.clone() }.check_distance()?;
         let view = |number: u32| {
             let angle = TAU * f64::from(number) / f64::from(views);
-            let turned = |point: DVec3| self.centre + turn(point - self.centre, angle);
-            Camera { eye: turned(camera.eye), target: turned(camera.target), up: turn(camera.up, angle), ..camera }
+            let [eye, target] = [camera.eye, camera.target].map(|it| self.centre + turn(it - self.centre, angle));
+            let camera = Camera { eye, target, up: turn(camera.up, angle), ..camera };
+            Self { camera, ..self.clone() }.with_near_plane(settings).camera
         };
         Ok((0..views).map(view).collect())
     }
