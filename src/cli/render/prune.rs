@@ -104,8 +104,38 @@ fn saved(with_ms: f64, without_ms: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{difference_path, saved};
+    use super::super::super::messages::{capture, captured};
+    use super::{Verdict, difference_path, saved, verify};
     use std::path::Path;
+    use tinta::lines::Progress;
+    use tinta::request::Request;
+    use tinta::{LoadOptions, Renderer, Scene, SceneSettings, Size, load};
+
+    #[test]
+    fn pixels_that_differ_from_the_full_drawing_are_said_and_drawn_and_others_are_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let output = folder.path().join("a.png").display().to_string();
+        let request = Request::default();
+        let mesh = load("builtin:gear", &LoadOptions::default()).unwrap().mesh;
+        let size = Size { width: 32, height: 32 };
+        let scene = Scene::new([mesh], &SceneSettings { size, ..SceneSettings::default() }).unwrap();
+        let mut renderer = Renderer::new(request.backend).unwrap();
+        let (plan, around) = (request.plan(&scene).unwrap(), request.around(&scene, &Progress::default()).unwrap());
+        let mut picture = around.drawn(&scene, &plan, &mut renderer).unwrap();
+        let mut verified = |picture| {
+            capture();
+            let verdict = verify(&output, &mut renderer, &scene, (&plan, &around), picture).unwrap();
+            let said = captured().said.join("\n");
+            (verdict, said, folder.path().join("a-difference.png").exists())
+        };
+        let right = picture.clone();
+        picture.pixels[0] ^= 1;
+        let (verdict, said, has_file) = verified(&picture);
+        assert!(verdict == Verdict::Different && has_file);
+        assert!(said.contains("1 of 1024 pixels differ from the full drawing, black in "), "{said}");
+        let (verdict, said, has_file) = verified(&right);
+        assert!(verdict == Verdict::Good && !has_file && !said.contains("differ"), "{said}");
+    }
 
     #[test]
     fn what_is_within_the_noise_is_not_called_saved() {

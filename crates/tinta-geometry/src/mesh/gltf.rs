@@ -108,10 +108,9 @@ fn not_drawn(root: &Root, of_materials: LeftOut, path: &str) -> Option<String> {
         counted(root.cameras.len(), "camera", "cameras"),
     ];
     parts.extend(others.into_iter().flatten());
-    let extensions = extensions::not_drawn(root).take(crate::limits::REMARKS);
-    parts.extend(extensions.map(|name| format!("the extension {}", shown(name))));
-    // How to get pictures that are read.
-    let remedy = extensions::not_drawn(root).find_map(extensions::pictures_remedy).filter(|_| pictures > 0);
+    let extensions = || extensions::not_drawn(root, pictures > 0);
+    parts.extend(extensions().take(crate::limits::REMARKS).map(|name| format!("the extension {}", shown(name))));
+    let remedy = extensions().find_map(extensions::pictures_remedy);
     let remedy = remedy.map(|remedy| format!("; {remedy}")).unwrap_or_default();
     (!parts.is_empty()).then(|| format!("{path}: not drawn: {}{remedy}", parts.join(", ")))
 }

@@ -55,10 +55,12 @@ pub(super) fn refuse_compressed(others: Option<&Map<String, Value>>) -> Result<(
     }
 }
 
-/// The extensions in use that are not drawn. Of compressed data there is another form, or the file is refused.
-pub(super) fn not_drawn(root: &Root) -> impl Iterator<Item = &str> {
+/// The extensions in use that are not drawn. Of compressed data there is another form, or the file is refused; where no picture is
+/// left out, others stand in for those of extensions.
+pub(super) fn not_drawn(root: &Root, has_pictures: bool) -> impl Iterator<Item = &str> {
+    let is_drawn = move |name: &str| is_understood(name) || !has_pictures && pictures_remedy(name).is_some();
     let names = root.extensions_used.iter().map(String::as_str);
-    names.filter(|name| !is_understood(name) && !COMPRESSED.contains(name))
+    names.filter(move |name| !is_drawn(name) && !COMPRESSED.contains(name))
 }
 
 /// How to get pictures that are read out of a file with this extension; `None` if it has none.
