@@ -15,7 +15,7 @@ pub(super) struct Group<T: 'static> {
 }
 
 /// Between an option's own help and that of the settings inside it.
-pub(super) const ALSO: &str = "; also ";
+pub(super) const ALSO: &str = "\n  ";
 
 /// The value's placeholder of an option without a setting of its own.
 pub(super) const HOLDING: &str = "NAME=VALUE";
@@ -56,10 +56,10 @@ impl<T: Clone + Send + Sync + 'static> Group<T> {
             Kind::Flag => format!("{}: {}", setting.name, setting.help),
             _ => format!("{}={}: {} ({})", setting.name, setting.value_name, setting.help, default(setting)),
         };
-        let inside = self.inside.iter().map(said).collect::<Vec<_>>().join("; ");
+        let inside: Vec<String> = self.inside.iter().map(said).collect();
         let help = match self.plain {
-            Some(plain) => format!("{}{ALSO}{inside} [default: {}]", plain.help, default(plain)),
-            None => format!("{inside} [default: each as in brackets]"),
+            Some(plain) => [vec![format!("{} [default: {}]", plain.help, default(plain))], inside].concat().join(ALSO),
+            None => format!("{}\n[default: each as in brackets]", inside.join("\n")),
         };
         let group = self.clone();
         let check = move |text: &str| group.checked(table, text).map(|()| text.to_owned());

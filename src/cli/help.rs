@@ -111,12 +111,12 @@ fn lines(command: &Command) -> usize {
 /// An option whose help has its own part alone, with one default.
 fn in_short(arg: Arg) -> Arg {
     let Some(help) = arg.get_help().map(ToString::to_string) else { return arg };
-    let (about, default) = help.rsplit_once(DEFAULT).map_or((help.as_str(), String::new()), |(about, default)| {
+    let help = help.split(ALSO).next().unwrap_or_default();
+    let (about, default) = help.rsplit_once(DEFAULT).map_or((help, String::new()), |(about, default)| {
         let default = default.split(OTHERWISE).next().unwrap_or_default().split(';').next().unwrap_or_default();
         (about, format!(" {DEFAULT}{}]", default.trim_end_matches(']')))
     });
-    let about = about.split(ALSO).next().unwrap_or_default().trim_end().to_owned();
-    arg.help(about + &default)
+    arg.help(about.trim_end().to_owned() + &default)
 }
 
 /// A command that lists only these options, in one group, and names the way to the others.
@@ -145,6 +145,8 @@ fn shortened(command: Command, needed: &[String]) -> Command {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tinta::request::Request;
+    use tinta::settings::{HasSettings, Setting};
 
     fn help_of(line: &str) -> String {
         let words: Vec<OsString> = line.split(' ').map(OsString::from).collect();
@@ -208,11 +210,26 @@ mod tests {
                     OptionValue::Switch(_) => "on".to_owned(),
                 };
                 let is_stated = help.contains(&format!("[default: {value}{OTHERWISE}"));
-                assert!(is_stated || help.ends_with(&format!("[default: {value}]")), "{name} --{option}: {help}");
+                assert!(is_stated || help.contains(&format!("[default: {value}]")), "{name} --{option}: {help}");
             }
         }
         let info = command.find_subcommand("info").unwrap();
         assert!(options(info).all(|arg| !arg.get_help().unwrap().to_string().contains(OTHERWISE)));
+    }
+
+    #[test]
+    fn settings_inside_an_option_stand_on_lines_of_their_own() {
+        let lines = help_of("tinta render --help");
+        let inside = Request::table().settings.iter().filter(|setting| setting.group.is_some());
+        let is_listed = |setting: &&Setting<Request>| {
+            let begins = |line: &str| {
+                let text = line.rsplit("<NAME=VALUE>").next().unwrap_or_default().trim_start();
+                text.strip_prefix(setting.name).is_some_and(|rest| rest.starts_with(['=', ':']))
+            };
+            lines.lines().any(begins)
+        };
+        let missing: Vec<&str> = inside.filter(|setting| !is_listed(setting)).map(|setting| setting.name).collect();
+        assert!(missing.is_empty(), "{missing:?}");
     }
 
     #[test]

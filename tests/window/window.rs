@@ -579,6 +579,25 @@ fn a_drag_in_the_window_and_a_preset_lead_to_the_picture_that_tinta_render_draws
 }
 
 #[test]
+fn a_window_is_no_larger_than_its_screen() {
+    let Some(display) = Display::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let here = |name: &str| folder.path().join(name).display().to_string();
+    // The screen has 1280 x 960 pixels.
+    for (scale, size, expected) in
+        [(2, "1280x720", [1280, 960]), (1, "1280x720", [1280, 720]), (2, "320x200", [640, 400])]
+    {
+        let recording = format!("{{\"frame\":1,\"window\":{:?}}}\n", here("window.png"));
+        std::fs::write(here("shot.jsonl"), recording).unwrap();
+        let line = ["builtin:gear", "--window", size, "--replay", &here("shot.jsonl")];
+        let output = display.view_at(scale, &line);
+        assert!(output.status.success(), "{}", said(&output));
+        let Size { width, height } = Picture::read_png(&folder.path().join("window.png")).unwrap().size;
+        assert_eq!([width, height], expected, "{size} at scale {scale}");
+    }
+}
+
+#[test]
 fn while_the_model_turns_no_older_picture_is_shown_after_a_newer_one() {
     let turn = || ViewerEvent::Turn([0.01, 0.005]);
     let mut one_by_one = viewer(&["builtin:gear"], Backend::Auto, None);

@@ -54,9 +54,10 @@ impl Shown {
     ) -> Result<Self> {
         let follows_window = played != Some(true);
         let title = viewer.state.title();
-        let attributes = Window::default_attributes()
-            .with_title(title.clone())
-            .with_inner_size(LogicalSize::new(size.width, size.height));
+        let screen = event_loop.primary_monitor().or(event_loop.available_monitors().next());
+        let room = screen.map_or([u32::MAX; 2].into(), |it| it.size().to_logical(it.scale_factor()));
+        let inner: LogicalSize<u32> = LogicalSize::new(size.width.min(room.width), size.height.min(room.height));
+        let attributes = Window::default_attributes().with_title(title.clone()).with_inner_size(inner);
         let (window, gl) = WindowGl::open(event_loop, attributes)?;
         let context = egui::Context::default();
         context.set_fonts(fonts());
