@@ -2,7 +2,7 @@
 
 use pyo3::PyErr;
 use pyo3::exceptions::{PyFileNotFoundError, PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyValueError};
-use tinta::settings::{HasSettings, Kind};
+use tinta::settings::{HasSettings, Kind, with_mentions};
 use tinta::{Error, FileKind, Request};
 
 /// Returns the Python exception for an error.
@@ -33,22 +33,15 @@ pub(crate) fn python_name(name: &str) -> String {
 /// A sentence of the command line as Python says it: `--page A4` is `page="A4"`, except at the beginning, where it names the setting
 /// and the value that are wrong; style lines is the function.
 pub(crate) fn in_python(sentence: &str) -> String {
-    let mut parts = sentence.split("--");
-    let mut text = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let is_of_name = |c: char| c.is_ascii_lowercase() || c == '-';
-        let end = part.find(|c| !is_of_name(c)).unwrap_or(part.len());
-        let (name, rest) = part.split_at(end);
+    let text = with_mentions(sentence, |before, name, rest| {
         let value = rest.strip_prefix(' ').and_then(|rest| rest.split([' ', ',', ';', ':', ')']).next());
-        let value = value.filter(|_| !text.is_empty());
+        let value = value.filter(|_| !before.is_empty());
         match value.and_then(|value| Some((value, python_value(name, value)?))) {
-            _ if name.is_empty() => text.push_str(&format!("--{rest}")),
-            Some((value, written)) => {
-                text.push_str(&format!("{}={written}{}", python_name(name), &rest[1 + value.len()..]));
-            }
-            None => text.push_str(&(python_name(name) + rest)),
+            _ if name.is_empty() => None,
+            Some((value, written)) => Some(format!("{}={written}{}", python_name(name), &rest[1 + value.len()..])),
+            None => Some(python_name(name) + rest),
         }
-    }
+    });
     text.replace("style lines", "lines()")
 }
 

@@ -4,7 +4,7 @@
 use clap::{Arg, ArgAction};
 use tinta::choice::meant_or;
 use tinta::request::Request;
-use tinta::settings::{HasSettings, Kind, OptionValue, Setting, Table};
+use tinta::settings::{HasSettings, Kind, OptionValue, Setting, Table, with_mentions};
 
 /// An option: the setting of its name, if there is one, and those inside it.
 #[derive(Debug, Clone)]
@@ -119,32 +119,24 @@ impl<T: Clone + Send + Sync + 'static> Group<T> {
 
 /// A sentence with each `--margin 3mm` as the command line takes it: `--page margin=3mm`.
 pub(super) fn in_groups(sentence: &str) -> String {
-    let mut parts = sentence.split("--");
-    let mut text = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let end = part.find(|c: char| !c.is_ascii_lowercase() && !c.is_ascii_digit() && c != '-').unwrap_or(part.len());
-        let (name, rest) = part.split_at(end);
+    with_mentions(sentence, |before, name, rest| {
         // Within a file's name it is no option.
         let is_option =
-            (text.is_empty() || text.ends_with([' ', '(', '`'])) && !rest.starts_with(['/', '\\', '.', '_']);
-        let setting = Request::table().settings.iter().find(|setting| is_option && setting.name == name);
-        let Some((setting, group)) = setting.and_then(|setting| Some((setting, setting.group?))) else {
-            text += &format!("--{part}");
-            continue;
-        };
+            (before.is_empty() || before.ends_with([' ', '(', '`'])) && !rest.starts_with(['/', '\\', '.', '_']);
+        let setting = Request::table().settings.iter().find(|setting| is_option && setting.name == name)?;
+        let group = setting.group?;
         let word = rest.strip_prefix([' ', '=']).and_then(|rest| rest.split([' ', ';', ':', ')', ']']).next());
         // At the beginning stands the value that is wrong.
-        let is_wrong = |word: &str| ["", "tinta: "].contains(&text.as_str()) && word != "and";
+        let is_wrong = |word: &str| ["", "tinta: "].contains(&before) && word != "and";
         let is_value = |word: &&str| {
             let is_plain = !matches!(setting.kind, Kind::Flag | Kind::File) && !word.is_empty();
             is_plain && (is_wrong(word) || Request::table().check(name, word.trim_end_matches(',')).is_ok())
         };
-        text += &match word.filter(is_value) {
+        Some(match word.filter(is_value) {
             Some(word) => format!("--{group} {name}={word}{}", &rest[1 + word.len()..]),
             None => format!("--{group} {name}{rest}"),
-        };
-    }
-    text
+        })
+    })
 }
 
 /// What an option that is inside another is now; `None` for any other name.

@@ -2,7 +2,7 @@
 
 use tinta::Error;
 use tinta::request::Request;
-use tinta::settings::HasSettings;
+use tinta::settings::{HasSettings, with_mentions};
 use wasm_bindgen::JsError;
 
 /// An error of the library's: its sentence, in the page's words.
@@ -16,24 +16,12 @@ pub(crate) fn said(error: Error) -> JsError {
             )
         }
         Error::Shader { log, .. } => format!("This browser rejects the shader: {log}"),
-        error => in_words(&error.to_string()),
+        // The labels of the page's fields stand for the command line's options.
+        error => with_mentions(&error.with_dashes(), |_, name, rest| {
+            let setting = Request::table().settings.iter().find(|setting| setting.name == name)?;
+            Some(format!("“{}”{rest}", setting.label()))
+        }),
     })
-}
-
-/// A sentence with the labels of the page's fields instead of the command line's options, which stand at its beginning or after `--`.
-fn in_words(sentence: &str) -> String {
-    let label = |part: &str| -> Option<String> {
-        let end = part.find(|c: char| !c.is_ascii_lowercase() && c != '-').unwrap_or(part.len());
-        let setting = Request::table().settings.iter().find(|setting| setting.name == &part[..end])?;
-        Some(format!("“{}”{}", setting.label(), &part[end..]))
-    };
-    let mut parts = sentence.split("--");
-    let first = parts.next().unwrap_or_default();
-    let mut words = label(first).unwrap_or_else(|| first.to_owned());
-    for part in parts {
-        words += &label(part).unwrap_or_else(|| format!("--{part}"));
-    }
-    words
 }
 
 /// An error of writing or reading JSON: the page's mistake.

@@ -71,7 +71,7 @@ pub enum Error {
         cause: Option<io::Error>,
     },
     /// A model has defects and `--strict` is set.
-    #[error("{}: {defects}; repair the model, or leave out strict to draw it all the same", path.display())]
+    #[error("{}: {defects}; repair the model, or leave out --strict to draw it all the same", path.display())]
     Strict {
         /// The file as the user named it.
         path: PathBuf,
@@ -112,7 +112,7 @@ pub enum Error {
         problem: String,
     },
     /// Another run is at work on the same slice of a batch.
-    #[error("{}: another run is working on this; wait until it ends, or take another slice", path.display())]
+    #[error("{}: another run is working on this; wait until it ends, or take another --slice", path.display())]
     Busy {
         /// The slice's file.
         path: PathBuf,
@@ -145,7 +145,7 @@ pub enum Error {
     },
     /// The picture is larger than the context can draw.
     #[error(
-        "size {width}x{height}: the largest picture {renderer} can draw is {limit_width}x{limit_height}; ask for a smaller one, or see `tinta info` for a backend that draws larger ones"
+        "size {width}x{height}: the largest picture {renderer} can draw is {limit_width}x{limit_height}; ask for a smaller one, or see `tinta info` for a --backend that draws larger ones"
     )]
     PictureTooLarge {
         /// Requested width, pixels.
@@ -185,7 +185,7 @@ pub enum Error {
         problem: String,
     },
     /// GL reported an error after a plan, or lost its data.
-    #[error("the GL driver failed in {during} ({what}); try another backend, or a smaller size")]
+    #[error("the GL driver failed in {during} ({what}); try another --backend, or a smaller --size")]
     Gl {
         /// The pass or call.
         during: String,
@@ -195,7 +195,7 @@ pub enum Error {
     /// The driver has taken the GL context away, for example after a device hang or a driver update.
     #[error(
         "the GL context was lost in {during} ({what}): the driver reset its device; draw again, and if that fails too, \
-         try another backend or a smaller size"
+         try another --backend or a smaller --size"
     )]
     ContextLost {
         /// The pass or call.
@@ -213,12 +213,6 @@ const INSTALL: &str = if cfg!(windows) {
 } else {
     "install Mesa's software renderer, on Debian: apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri"
 };
-
-/// The end of [`Error::PictureTooLarge`]'s message.
-const BACKEND_FOR_LARGER: &str = "a backend that draws larger ones";
-
-/// The advice of [`Error::Gl`] and [`Error::ContextLost`].
-const ANOTHER_BACKEND: &str = "another backend";
 
 /// Joins names for a sentence: `a`, `a and b`, `a, b and c`.
 fn in_a_row(names: &[String]) -> String {
@@ -331,38 +325,16 @@ impl Error {
         Self::Settings { names: names.iter().map(|name| (*name).to_owned()).collect(), problem: problem.into() }
     }
 
-    /// Returns the sentence for a command line, with settings as options: `--tones 4`. The error's own text has no dashes.
+    /// Returns the sentence for a command line, with the settings at fault as options: `--tones 4`. The error's own text names them
+    /// without dashes; the options that it advises have dashes in both.
     pub fn with_dashes(&self) -> String {
-        let sentence = self.to_string();
-        let dash = |name: &str| if name.len() == 1 { format!("-{name}") } else { format!("--{name}") };
         match self {
-            Self::Setting { name, .. } => sentence.replacen(name.as_str(), &dash(name), 1),
+            Self::Setting { name, .. } if name.len() == 1 => format!("-{self}"),
+            Self::Setting { .. } | Self::PictureTooLarge { .. } => format!("--{self}"),
             Self::Settings { names, problem } => {
-                format!("{}: {problem}", in_a_row(&names.iter().map(|name| dash(name)).collect::<Vec<_>>()))
+                format!("{}: {problem}", in_a_row(&names.iter().map(|name| format!("--{name}")).collect::<Vec<_>>()))
             }
-            Self::Strict { path, defects } => {
-                format!(
-                    "{}: {defects}; repair the model, or leave out --strict to draw it all the same",
-                    path.display()
-                )
-            }
-            Self::Busy { path } => {
-                format!(
-                    "{}: another run is working on this; wait until it ends, or take another --slice",
-                    path.display()
-                )
-            }
-            Self::PictureTooLarge { .. } => {
-                let sentence = sentence.replacen("size", "--size", 1);
-                sentence
-                    .strip_suffix(BACKEND_FOR_LARGER)
-                    .map_or_else(|| sentence.clone(), |start| format!("{start}a --backend that draws larger ones"))
-            }
-            Self::Gl { .. } | Self::ContextLost { .. } => match sentence.rsplit_once(ANOTHER_BACKEND) {
-                Some((start, end)) => format!("{start}another --backend{}", end.replacen("size", "--size", 1)),
-                None => sentence,
-            },
-            _ => sentence,
+            _ => self.to_string(),
         }
     }
 
@@ -413,24 +385,24 @@ mod tests {
             (
                 too_large,
                 "size 9000x10: the largest picture Voodoo 2 can draw is 4096x4096; ask for a smaller one, or see `tinta info` \
-                 for a backend that draws larger ones",
+                 for a --backend that draws larger ones",
                 "--size 9000x10: the largest picture Voodoo 2 can draw is 4096x4096; ask for a smaller one, or see `tinta info` \
                  for a --backend that draws larger ones",
             ),
             (
                 strict,
-                "a.obj: 2 empty faces; repair the model, or leave out strict to draw it all the same",
+                "a.obj: 2 empty faces; repair the model, or leave out --strict to draw it all the same",
                 "a.obj: 2 empty faces; repair the model, or leave out --strict to draw it all the same",
             ),
             (
                 Error::gl("drawing", "GL_SIZE"),
-                "the GL driver failed in drawing (GL_SIZE); try another backend, or a smaller size",
+                "the GL driver failed in drawing (GL_SIZE); try another --backend, or a smaller --size",
                 "the GL driver failed in drawing (GL_SIZE); try another --backend, or a smaller --size",
             ),
             (
                 lost,
                 "the GL context was lost in drawing (GL_OUT_OF_MEMORY): the driver reset its device; draw again, and \
-                 if that fails too, try another backend or a smaller size",
+                 if that fails too, try another --backend or a smaller --size",
                 "the GL context was lost in drawing (GL_OUT_OF_MEMORY): the driver reset its device; draw again, and \
                  if that fails too, try another --backend or a smaller --size",
             ),

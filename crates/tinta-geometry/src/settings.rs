@@ -24,12 +24,14 @@
 //! ```
 
 mod kind;
+mod mentions;
 mod value;
 
 use crate::choice::meant_or;
 
 pub use crate::choice::Choice;
 pub use kind::{Kind, ON_OFF, Problem, on_off};
+pub use mentions::with_mentions;
 pub use value::{Value, names_of};
 
 use crate::error::{Error, Result};
