@@ -2,7 +2,7 @@
 //!
 //! ```
 //! # fn main() -> tinta::Result<()> {
-//! use std::sync::Arc;
+//! use std::sync::{Arc, Mutex};
 //! use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Size, Style, StyleName, load};
 //!
 //! let mesh = load("builtin:gear", &LoadOptions::default())?.mesh;
@@ -29,14 +29,14 @@ use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::plan::prune::{Pruning, prune};
 use crate::plan::{Draw, Geometry, LineDrawing, Plan, Program, Step};
-use crate::scene::{Scene, SceneSettings, Size};
+use crate::scene::{ObjectIdentity, Scene, SceneSettings, Size};
 use crate::styles::{Show, Style};
 use crate::values::Rectangle;
 pub use drawer::StepValues;
 use drawer::{Assembly, Drawer, Frame};
 use serde::Serialize;
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 /// How long a graphics card works before a frame is timed, milliseconds. An NVIDIA H100 goes from 345 to 1980 MHz within 200.
 const RAISING_CLOCK_MS: f64 = 500.0;
@@ -58,6 +58,8 @@ pub struct Renderer {
     used: usize,
     /// Largest surface to draw at once, if below the contexts' largest.
     confined_to: Option<Size>,
+    /// As in [`Pruning`].
+    rest: Arc<Mutex<Option<(ObjectIdentity, u32)>>>,
 }
 
 impl std::fmt::Debug for Renderer {
@@ -115,21 +117,18 @@ impl Renderer {
     /// [`Error::NoContext`] if the browser has no WebGL or lacks a needed part of it.
     #[cfg(target_arch = "wasm32")]
     pub fn on_canvas(canvas: web_sys::HtmlCanvasElement) -> Result<Self> {
-        let context = Context::on_canvas(canvas)?;
-        Ok(Self {
-            backend: Backend::Auto,
-            fault: None,
-            drawers: vec![Drawer::new(context)],
-            used: 0,
-            confined_to: None,
-        })
+        Ok(Self::with(Backend::Auto, None, Context::on_canvas(canvas)?))
     }
 
     /// Draws with one already open context, and no other.
     #[cfg(any(test, all(feature = "cli", not(target_arch = "wasm32"))))]
     pub(crate) fn of(context: Context) -> Self {
+        Self::with(Backend::Egl, None, context)
+    }
+
+    fn with(backend: Backend, fault: Option<Fault>, context: Context) -> Self {
         let drawers = vec![Drawer::new(context)];
-        Self { backend: Backend::Egl, fault: None, drawers, used: 0, confined_to: None }
+        Self { backend, fault, drawers, used: 0, confined_to: None, rest: Arc::default() }
     }
 
     /// Probes whether the driver follows OpenGL. Consumes the renderer, because the probes change its context's state.
@@ -150,8 +149,7 @@ impl Renderer {
     }
 
     fn open(backend: Backend, fault: Option<Fault>) -> Result<Self> {
-        let context = Context::open(backend, fault)?;
-        Ok(Self { backend, fault, drawers: vec![Drawer::new(context)], used: 0, confined_to: None })
+        Ok(Self::with(backend, fault, Context::open(backend, fault)?))
     }
 
     /// Draws larger surfaces in tiles of at most this size, which takes less memory and more time.
@@ -159,7 +157,7 @@ impl Renderer {
     ///
     /// ```
     /// # fn main() -> tinta::Result<()> {
-    /// use std::sync::Arc;
+    /// use std::sync::{Arc, Mutex};
     /// use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Size, Style, StyleName, load};
     ///
     /// let mesh = load("builtin:gear", &LoadOptions::default())?.mesh;
@@ -262,6 +260,7 @@ impl Renderer {
             is_software: info.is_software(),
             subpixel_bits: info.subpixel_bits,
             replaced_shaders: self.drawers[self.used].resources.replaced_shaders(),
+            rest: self.rest.clone(),
         }
     }
 

@@ -25,12 +25,12 @@ mod emptiness;
 mod format;
 mod gone;
 mod layers;
-mod lit_scene;
 mod model_cache;
+mod resolve;
 mod session;
 
 pub use around::{Around, LINES_AT_ONCE_MS};
-pub use draw::{Drawn, DrawnPicture, ReadModels, Times};
+pub use draw::{DrawnPicture, ReadModels, Times};
 pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
 pub use format::{DrawingFormat, Wanted};
@@ -38,8 +38,9 @@ pub use format::{DrawingFormat, Wanted};
 pub(crate) use gone::gone;
 pub use layers::{OF_PAPER, OptionLayer, ignored_remark, layers, pixels_on_paper};
 #[cfg(feature = "cli")]
-pub(crate) use layers::{OF_PATHS, unknown};
+pub(crate) use layers::{OF_PATHS, is_of_camera, unknown};
 pub use model_cache::{Model, ModelCache};
+pub use resolve::Resolved;
 pub use session::Session;
 
 use crate::camera;
@@ -52,7 +53,7 @@ use crate::plan::prune::{Pruning, Rule};
 use crate::recipe::{Driver, FileRecord, Recipe, files_read};
 use crate::renderer::Renderer;
 use crate::scene::{Scene, SceneSettings, Size};
-use crate::settings::{HasSettings, Kind, Options, Setting, Table, names_of, under, within};
+use crate::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table, names_of, under, within};
 use crate::styles::{Show, Style, StyleName, is_of_lines_alone};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -73,7 +74,7 @@ pub struct Request {
     pub show: Show,
     /// Whether the view's exact lines are drawn over the picture, in place of the style's own borders. Default no.
     pub exact_lines: bool,
-    /// What the models stand on. Default nothing.
+    /// The ground below the models. Default nothing.
     pub ground: Ground,
     /// The views or frames to draw.
     pub animation: AnimationSettings,
@@ -98,7 +99,7 @@ tinta_geometry::choices! {
         /// Nothing.
         #[default]
         None = "none",
-        /// A plane below the lowest point, of which only the models' shadow is seen.
+        /// A plane below the lowest point that shows the models' shadow alone.
         Shadow = "shadow",
     }
 }
@@ -360,7 +361,8 @@ impl Request {
 
     /// The recipe of a drawing of this request in a scene that begins with its models. `beside` are the files read besides the
     /// models; `gl` is who drew, `None` for lines. `record` is given each file's path once; a file without a record, such as one
-    /// that is gone since it was read, is left out, and drawing the recipe reports the difference.
+    /// that is gone since it was read, is left out, and drawing the recipe reports the difference. Only the request of
+    /// [`Resolved`] names the view and the light that were chosen.
     pub fn recipe(
         &self,
         scene: &Scene,
@@ -370,8 +372,12 @@ impl Request {
     ) -> Recipe {
         let Size { width, height } = self.scene.size;
         let paths = files_read(&self.models, beside, scene, gl.as_ref().map(|_| &self.style));
-        let mut options = self.options_for(scene);
-        if gl.is_some() && !self.has_lines_over() {
+        let mut options = self.options.clone();
+        if self.style.style_name().draws_lines() {
+            // A file's name does not ask for it.
+            options.entry("style".to_owned()).or_insert_with(|| OptionValue::text(self.style.name()));
+        }
+        if gl.is_some() && self.contents(false).is_ok_and(|contents| contents.lines.is_none()) {
             // A picture without the exact lines that its look draws.
             options.retain(|option, _| !(self.is_of_look(option) && is_of_lines_alone(option)));
         }
@@ -402,7 +408,7 @@ impl Request {
     }
 
     /// The style's name for messages: its look, or its own name.
-    pub fn style_said(&self) -> String {
+    pub(crate) fn style_said(&self) -> String {
         match self.sources.get("style") {
             Some(source) if self.is_of_look("style") => source.name.clone(),
             _ => format!("style {}", self.style.name()),
@@ -410,7 +416,7 @@ impl Request {
     }
 
     /// Whether a look gives this option.
-    pub fn is_of_look(&self, option: &str) -> bool {
+    pub(crate) fn is_of_look(&self, option: &str) -> bool {
         self.sources.get(option).is_some_and(|source| source.name.starts_with("look "))
     }
 
@@ -443,17 +449,13 @@ impl Request {
     }
 }
 
-/// The options that name a file to read.
-fn file_options() -> Vec<&'static str> {
-    let settings = Request::table().of(None).into_iter();
-    settings.filter(|setting| setting.kind == Kind::File).map(|setting| setting.name).collect()
-}
-
 /// Files that the options of a request name.
-pub fn files_named(options: &Options) -> Vec<(&'static str, PathBuf)> {
-    let named = |name: &'static str| match options.get(name) {
-        Some(crate::settings::OptionValue::Text(path)) => Some((name, PathBuf::from(path))),
+#[cfg(feature = "cli")]
+pub(crate) fn files_named(options: &Options) -> Vec<(&'static str, PathBuf)> {
+    let settings = Request::table().of(None).into_iter().filter(|setting| setting.kind == Kind::File);
+    let path = |name: &'static str| match options.get(name) {
+        Some(OptionValue::Text(path)) => Some((name, PathBuf::from(path))),
         _ => None,
     };
-    file_options().into_iter().filter_map(named).collect()
+    settings.filter_map(|setting| path(setting.name)).collect()
 }

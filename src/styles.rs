@@ -26,6 +26,7 @@ mod border;
 mod cartoon;
 mod charcoal;
 mod coarse;
+mod contents;
 mod dietrich;
 mod far_light;
 mod gradients;
@@ -47,7 +48,6 @@ mod supersample;
 mod surfaces;
 mod textured;
 mod tones;
-mod vectors;
 
 pub use crate::lines::ClassColors;
 pub use back_faces::BackFaces;
@@ -58,10 +58,11 @@ pub use charcoal::{
     TextureSource,
 };
 pub use coarse::coarse;
+pub use contents::{Below, Contents, ViewAreas};
 pub use dietrich::Dietrich;
 pub use far_light::FarLight;
-pub(crate) use ignored::is_of_exact_lines;
-pub use ignored::{is_ignored, is_of_lines_alone, is_of_vectors};
+pub use ignored::{is_ignored, is_of_lines_alone};
+pub(crate) use ignored::{is_of_exact_lines, is_of_vectors};
 pub use ink::{Ink, Quality};
 pub use inking::{Inking, LightOn, PaintMode};
 pub use line_style::LineStyle;
@@ -74,9 +75,8 @@ pub use row::{Mark, Origin, Outline, StyleInfo};
 pub use show::Show;
 pub use supersample::Supersample;
 pub use tones::{ToneLookup, Tones};
-pub use vectors::{Vectors, ViewAreas};
 
-use crate::choice::{Choice, meant_or};
+use crate::choice::Choice;
 use crate::error::{Error, ParseError, Result};
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -381,18 +381,6 @@ impl StyleName {
     /// Returns the styles that OpenGL draws in passes, by the user's names.
     pub fn of_passes() -> impl Iterator<Item = (&'static str, Self)> + Clone {
         Self::ALL.into_iter().filter(|(_, style)| !style.draws_lines())
-    }
-
-    /// Returns the style of this name among them.
-    ///
-    /// # Errors
-    ///
-    /// The nearest name, or the list of names.
-    pub fn named_of_passes(name: &str) -> std::result::Result<Self, ParseError> {
-        let names: Vec<&str> = Self::of_passes().map(|(name, _)| name).collect();
-        let found = Self::of_passes().find(|(known, _)| *known == name).map(|(_, style)| style);
-        let otherwise = format!("choose one of {}", names.join(", "));
-        found.ok_or_else(|| ParseError::from(meant_or(name, &names, &otherwise)))
     }
 
     /// Whether it draws exact lines, without OpenGL.

@@ -43,7 +43,7 @@ pub fn drawing(bytes: &[u8]) {
 
 fn svg(bytes: &[u8], options: &[(&str, &str)]) -> Result<String> {
     let (request, scene) = scene(bytes, options)?;
-    let drawn = request.drawn_lines(request.lit(scene), DrawingFormat::Svg.wanted(false), &Default::default())?;
+    let drawn = request.still(scene, true)?.drawn_lines(DrawingFormat::Svg.wanted(false), &Default::default())?;
     let svg = drawn.written(DrawingFormat::Svg, None, None).and_then(DrawingFile::bytes)?;
     Ok(String::from_utf8_lossy(&svg).into_owned())
 }

@@ -1,7 +1,7 @@
 //! Edges by class, and silhouettes from a point.
 
 use crate::arrays::{pairs, shaped};
-use crate::mesh::{Mesh, scene};
+use crate::mesh::Mesh;
 use crate::settings::options;
 use crate::work::done;
 use pyo3::prelude::*;
@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 use tinta::edges::{ClassSet, Classes, Eye, MeshEdges, SilhouetteRule};
 use tinta::glam::DVec3;
 use tinta::settings::HasSettings;
-use tinta::{EdgeList, LineSettings, Mesh as TintaMesh, SceneSettings};
+use tinta::{EdgeList, LineSettings, Mesh as TintaMesh};
 
 /// The edges found, one row each.
 struct Rows {
@@ -67,19 +67,16 @@ pub(crate) fn silhouette<'py>(
     eye: [f64; 3],
     is_direction: bool,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let found = done(
-        py,
-        || (),
-        move || {
-            let eye = DVec3::from_array(eye);
-            let eye = if is_direction { Eye::Direction(eye) } else { Eye::Point(eye) };
-            // The scene keeps the edges for the next eye.
-            let scene = scene(std::slice::from_ref(&mesh), &SceneSettings::default())?;
-            let edges: &MeshEdges = scene.edges(&scene.objects[0]);
-            let found = edges.silhouette(eye, SilhouetteRule::Exact);
-            let numbers = found.into_iter().map(|edge| in_file(edges.mesh(), edges.list().positions()[edge as usize]));
-            Ok(numbers.collect::<Vec<_>>())
-        },
-    )?;
+    let find = move || {
+        let eye = DVec3::from_array(eye);
+        let eye = if is_direction { Eye::Direction(eye) } else { Eye::Point(eye) };
+        // The scene keeps the edges for the next eye.
+        let scene = mesh.get().kept()?;
+        let edges: &MeshEdges = scene.edges(&scene.objects[0]);
+        let found = edges.silhouette(eye, SilhouetteRule::Exact);
+        let numbers = found.into_iter().map(|edge| in_file(edges.mesh(), edges.list().positions()[edge as usize]));
+        Ok(numbers.collect::<Vec<_>>())
+    };
+    let found = done(py, || (), find)?;
     pairs(py, &found)
 }

@@ -47,7 +47,7 @@ pub(crate) fn measure<'py>(
         false => asked.iter().map(setting).collect::<PyResult<_>>()?,
     };
     let asked = Asked::new("measure", &meshes, given, &Basis { style: Some("three-pass"), ..Basis::default() })?;
-    let scene = drawable(py, meshes, &asked.request)?;
+    let scene = drawable(py, meshes, &asked.request)?.scene;
     let subject = done(py, || (), move || Subject::new(&asked.request.title(), scene, 0.0))?;
     let rows = drawn(py, backend, move |renderer| {
         let (measured, left_out) = tinta_lab::measure::measure(renderer, &subject, &settings, &how, |_| ())?;
@@ -124,7 +124,7 @@ pub(crate) fn compare<'py>(
         Ok(style)
     };
     let styles = [style("left", left)?, style("right", right)?];
-    let scene = drawable(py, meshes, &request)?;
+    let scene = drawable(py, meshes, &request)?.scene;
     let (pictures, numbers) = drawn(py, backend, move |renderer| {
         let mut draw =
             |style: &Style, show| -> Result<tinta::Picture> { renderer.draw(&scene, &style.plan(&scene, show)?) };

@@ -2,7 +2,7 @@
 
 use crate::arrays::{pairs, points, shaped};
 use crate::errors::raised;
-use crate::mesh::{Mesh, scene};
+use crate::mesh::{Mesh, resolved};
 use crate::request::{Asked, Basis};
 use crate::settings::options;
 use crate::warnings::warn;
@@ -13,14 +13,15 @@ use pyo3::types::{PyBytes, PyDict};
 use std::sync::{Arc, OnceLock};
 use tinta::glam::DVec3;
 use tinta::lines::{GHOST_OPACITY, LineSegment, Progress, drawn_layers};
-use tinta::request::{DrawingFormat, DrawnLines, Wanted};
-use tinta::{Error, Request, Result, Scene, VisibleLines};
+use tinta::request::{DrawingFormat, DrawnLines, Resolved, Wanted};
+use tinta::styles::Below;
+use tinta::{Error, Result, VisibleLines};
 
 /// The lines found in a scene.
 #[pyclass(frozen, module = "tinta_npr._native")]
 pub(crate) struct Lines {
     pub(crate) lines: Arc<VisibleLines>,
-    pub scene: Arc<Scene>,
+    pub drawn: Arc<Resolved>,
     pub asked: Asked,
     /// The drawing with all pieces, hidden ones and outlines too, on first access.
     all: OnceLock<Arc<DrawnLines>>,
@@ -39,41 +40,26 @@ pub(crate) fn lines(
     let asked = Asked::new("lines", &meshes, given, &Basis { look, preset, ..Basis::default() })?;
     let progress = Arc::new(Progress::default());
     let (watched, request) = (progress.clone(), asked.request.clone());
-    let (lines, scene) = done(
+    let (lines, drawn) = done(
         py,
         || progress.cancel(),
         move || {
-            let scene = request.lit(scene(&meshes, &request.scene)?);
-            let lines = request.all_lines(&scene, Wanted::default(), &watched)?;
-            Ok((lines, scene))
+            let drawn = resolved(&meshes, &request, true)?;
+            let lines = drawn.all_lines(Wanted::default(), &watched)?;
+            Ok((lines, drawn))
         },
     )?;
-    let has_areas = asked.request.vectors().map_err(raised)?.is_some();
-    if !has_areas && !lines.segments.iter().any(|segment| segment.is_visible) {
+    if drawn.contents.below == Below::Nothing && !lines.segments.iter().any(|segment| segment.is_visible) {
         let nothing = "no line of these classes is visible in this picture; see classes, eye and target";
         warn(py, &[nothing.to_owned()])?;
     }
-    Ok(Lines { lines: Arc::new(lines), scene: Arc::new(scene), asked, all: OnceLock::new() })
-}
-
-/// The lines of another request: the existing ones, or new ones if it shows more of them.
-fn found(
-    lines: Arc<VisibleLines>,
-    scene: &Scene,
-    [before, now]: [&Request; 2],
-    wanted: Wanted,
-    progress: &Progress,
-) -> Result<Arc<VisibleLines>> {
-    match before.finds_all_for(now, wanted)? {
-        true => Ok(lines),
-        false => now.all_lines(scene, wanted, progress).map(Arc::new),
-    }
+    Ok(Lines { lines: Arc::new(lines), drawn: Arc::new(drawn), asked, all: OnceLock::new() })
 }
 
 impl Lines {
-    /// Refuses what one camera is needed for.
+    /// Refuses a sheet, which has several cameras.
     fn one_view(&self) -> PyResult<()> {
-        match self.asked.request.line_style().map_err(raised)?.and_then(|style| style.sheet) {
+        match self.drawn.contents.sheet {
             Some(_) => Err(raised(Error::setting("sheet", "a sheet has four cameras; ask for lines of one view"))),
             None => Ok(()),
         }
@@ -86,36 +72,34 @@ impl Lines {
             return Ok(all.clone());
         }
         let wanted = DrawingFormat::Json.wanted(false);
-        let all = self.with_lines(py, self.asked.clone(), wanted, move |Found { asked, scene, lines, progress }| {
-            asked.request.drawing((*scene).clone(), lines, wanted, progress).map(Arc::new)
+        let all = self.with_lines(py, (*self.drawn).clone(), wanted, move |drawn, lines, progress| {
+            drawn.drawing(lines, wanted, progress).map(Arc::new)
         })?;
         // Another thread may have been here first: then both keep its result.
         Ok(self.all.get_or_init(|| all).clone())
     }
 
-    /// Works with the lines that this request wants.
+    /// Works with the lines that a drawing of the same scene wants: those found, or new ones if it shows more of them.
     fn with_lines<T: Send + 'static>(
         &self,
         py: Python<'_>,
-        asked: Asked,
+        drawn: Resolved,
         wanted: Wanted,
-        work: impl FnOnce(Found<'_>) -> Result<T> + Send + 'static,
+        work: impl FnOnce(Resolved, Arc<VisibleLines>, &Progress) -> Result<T> + Send + 'static,
     ) -> PyResult<T> {
-        let (lines, scene, before) = (self.lines.clone(), self.scene.clone(), self.asked.request.clone());
+        let (lines, serves) = (self.lines.clone(), self.drawn.contents.finds_all_for(&drawn.contents, wanted));
         let progress = Arc::new(Progress::default());
         let watched = progress.clone();
         let work = move || {
-            let lines = found(lines, &scene, [&before, &asked.request], wanted, &watched)?;
-            work(Found { asked: &asked, scene, lines, progress: &watched })
+            let lines = if serves { lines } else { drawn.all_lines(wanted, &watched).map(Arc::new)? };
+            work(drawn, lines, &watched)
         };
         done(py, || progress.cancel(), work)
     }
 
-    /// The request with the settings of a drawing, and its title.
-    fn asked_with(&self, given: &Bound<'_, PyDict>, title: Option<String>) -> PyResult<Asked> {
-        let mut asked = self.asked.with(options("Lines.svg", given)?).map_err(raised)?;
-        asked.request.title = title.or(asked.request.title);
-        Ok(asked)
+    /// The drawing with these settings and this title.
+    fn drawn_with(&self, given: &Bound<'_, PyDict>, title: Option<String>) -> PyResult<Resolved> {
+        self.drawn.with_options(options("Lines.svg", given)?, title).map_err(raised)
     }
 
     /// A file of the drawing; `put` is given the drawing and may put others in place of its lines and areas.
@@ -126,12 +110,11 @@ impl Lines {
         format: DrawingFormat,
         put: impl FnOnce(&mut DrawnLines) -> Result<()> + Send + 'static,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let asked = self.asked_with(given, title)?;
-        let wanted = format.wanted(false);
-        let bytes = self.with_lines(py, asked, wanted, move |Found { asked, scene, lines, progress }| {
-            let mut drawn = asked.request.drawing((*scene).clone(), lines, wanted, progress)?;
+        let (asked, wanted) = (self.asked.clone(), format.wanted(false));
+        let bytes = self.with_lines(py, self.drawn_with(given, title)?, wanted, move |drawn, lines, progress| {
+            let mut drawn = drawn.drawing(lines, wanted, progress)?;
             put(&mut drawn)?;
-            drawn.written(format, None, asked.recipe(&scene, None).as_ref())?.bytes()
+            drawn.written(format, None, asked.recipe(&drawn.resolved, None).as_ref())?.bytes()
         })?;
         Ok(PyBytes::new(py, &bytes))
     }
@@ -139,19 +122,7 @@ impl Lines {
 
 /// The format of this name.
 pub(crate) fn format_named(name: &str) -> DrawingFormat {
-    match name {
-        "pdf" => DrawingFormat::Pdf,
-        "png" => DrawingFormat::Picture,
-        _ => DrawingFormat::Svg,
-    }
-}
-
-/// The lines of a request.
-struct Found<'a> {
-    asked: &'a Asked,
-    scene: Arc<Scene>,
-    lines: Arc<VisibleLines>,
-    progress: &'a Progress,
+    DrawingFormat::of_name(&format!("drawing.{name}")).unwrap_or(DrawingFormat::Picture)
 }
 
 #[pymethods]
@@ -219,7 +190,7 @@ impl Lines {
     /// Where the camera shows points of the drawn scene: pixels, y down; NaN behind the eye.
     fn projected<'py>(&self, py: Python<'py>, numbers: PyReadonlyArray2<'_, f64>) -> PyResult<Bound<'py, PyAny>> {
         self.one_view()?;
-        let (camera, size) = (&self.scene.camera, self.scene.size);
+        let (camera, size) = (&self.drawn.scene.camera, self.drawn.scene.size);
         let [width, height] = [size.width, size.height].map(f64::from);
         let clip_from_world = camera.clip_from_view(width / height) * camera.view_from_world();
         let place = |point: [f64; 3]| {
@@ -233,9 +204,8 @@ impl Lines {
 
     /// The drawing as plain values: its layers from the lowest to the highest.
     fn layers<'py>(&self, py: Python<'py>, given: &Bound<'py, PyDict>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let asked = self.asked_with(given, None)?;
-        let layers = self.with_lines(py, asked, Wanted::default(), |Found { asked, lines, .. }| {
-            drawn_layers(&lines, &asked.request.line_style()?.unwrap_or_default().drawing)
+        let layers = self.with_lines(py, self.drawn_with(given, None)?, Wanted::default(), |drawn, lines, _| {
+            drawn_layers(&lines, &drawn.contents.drawing)
         })?;
         let described = |drawn: tinta::lines::DrawnLayer| -> PyResult<Bound<'py, PyDict>> {
             let layer = PyDict::new(py);
@@ -263,7 +233,7 @@ impl Lines {
     /// The labels of points, hidden ones too, each a dict.
     fn labels<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         // Without any, all pieces need not be found.
-        if self.scene.objects.iter().all(|object| object.mesh.curves.labels.is_empty()) {
+        if self.drawn.scene.objects.iter().all(|object| object.mesh.curves.labels.is_empty()) {
             return Ok(Vec::new());
         }
         let described = |label: &tinta::lines::Label| {
@@ -281,7 +251,7 @@ impl Lines {
     fn camera<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         use tinta::camera::Projection;
         self.one_view()?;
-        let (camera, of) = (PyDict::new(py), &self.scene.camera);
+        let (camera, of) = (PyDict::new(py), &self.drawn.scene.camera);
         for (name, vector) in [("eye", of.eye), ("target", of.target), ("up", of.up)] {
             camera.set_item(name, vector.to_array())?;
         }

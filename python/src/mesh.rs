@@ -13,8 +13,9 @@ use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 use tinta::glam::{DVec3, Vec3};
 use tinta::mesh::Curves;
+use tinta::request::Resolved;
 use tinta::settings::{HasSettings, Options};
-use tinta::{LoadOptions, Request, Result, Scene, SceneSettings, load};
+use tinta::{LoadOptions, Request, Result, Scene, load};
 
 /// A mesh, read and checked, with the results cached when it was drawn.
 #[pyclass(frozen, module = "tinta_npr._native")]
@@ -391,6 +392,16 @@ impl Mesh {
 }
 
 impl Mesh {
+    /// Its scene, with the edges and arrays found so far.
+    pub(crate) fn kept(&self) -> Result<&Scene> {
+        let scene = match self.scene.get() {
+            Some(scene) => return Ok(scene),
+            None => Request::default().placed(vec![self.mesh.clone()])?,
+        };
+        // Another thread may have been here first: then both keep its scene.
+        Ok(self.scene.get_or_init(|| scene))
+    }
+
     fn new(
         mesh: tinta::Mesh,
         path: Option<String>,
@@ -438,33 +449,21 @@ pub(crate) fn triangles_of_rings<'py>(
     shaped(py, corners, &[count, 3])
 }
 
-/// Combines meshes into a request's drawable scene, while Python's other threads run.
-pub(crate) fn drawable(py: Python<'_>, meshes: Vec<Py<Mesh>>, request: &Request) -> PyResult<Scene> {
+/// The picture of meshes that a request draws, found while Python's other threads run.
+pub(crate) fn drawable(py: Python<'_>, meshes: Vec<Py<Mesh>>, request: &Request) -> PyResult<Resolved> {
     let request = request.clone();
-    done(
-        py,
-        || (),
-        move || {
-            let scene = request.lit(scene(&meshes, &request.scene)?);
-            scene.make_arrays();
-            Ok(scene)
-        },
-    )
+    let work = move || {
+        let resolved = resolved(&meshes, &request, false)?;
+        resolved.scene.make_arrays();
+        Ok(resolved)
+    };
+    done(py, || (), work)
 }
 
-/// Combines meshes under the settings; a single mesh caches the scene.
-pub(crate) fn scene(meshes: &[Py<Mesh>], settings: &SceneSettings) -> Result<Scene> {
-    let all = || meshes.iter().map(|mesh| mesh.get().mesh.clone());
+/// A request resolved for meshes; a single mesh keeps its scene.
+pub(crate) fn resolved(meshes: &[Py<Mesh>], request: &Request, as_vectors: bool) -> Result<Resolved> {
     match meshes {
-        [only] if settings.copies == 1 => match only.get().scene.get() {
-            Some(scene) => scene.seen_with(settings),
-            None => {
-                let scene = Scene::new(all(), settings)?;
-                // Another thread may have been here first: then both keep its scene.
-                drop(only.get().scene.set(scene.clone()));
-                Ok(scene)
-            }
-        },
-        _ => Scene::new(all(), settings),
+        [only] if request.scene.copies == 1 => request.resolve_again(only.get().kept()?, as_vectors),
+        _ => request.resolve(meshes.iter().map(|mesh| mesh.get().mesh.clone()).collect(), as_vectors),
     }
 }

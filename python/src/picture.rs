@@ -44,11 +44,11 @@ pub(crate) fn render(
 ) -> PyResult<Picture> {
     let asked = Asked::new("render", &meshes, given, &Basis { style, look, preset, show, backend })?;
     warn(py, &ignored(given, asked.request.style.name())?)?;
-    let scene = drawable(py, meshes, &asked.request)?;
+    let resolved = drawable(py, meshes, &asked.request)?;
     let (picture, recipe, remarks) = drawn(py, asked.request.backend, move |renderer| {
-        let (published, around) = (asked.request.plan(&scene)?, asked.request.around(&scene, &Progress::default())?);
-        let drawn = asked.request.drawn_picture(scene, published, around, renderer)?;
-        let recipe = asked.recipe(&drawn.scene, Some(renderer.context()));
+        let (published, around) = (resolved.plan()?, resolved.around(&Progress::default())?);
+        let drawn = resolved.drawn_picture(published, around, renderer)?;
+        let recipe = asked.recipe(&drawn.resolved, Some(renderer.context()));
         Ok((drawn.picture, recipe.as_ref().and_then(Recipe::json), drawn.remarks))
     })?;
     warn(py, &remarks)?;

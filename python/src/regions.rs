@@ -13,26 +13,27 @@ use std::sync::Arc;
 use tinta::choice::Choice;
 use tinta::lines::{Areas, Joined, Progress, Surface, painted};
 use tinta::record::regions_json;
-use tinta::styles::{LineStyle, Vectors, ViewAreas};
-use tinta::{Color, Error, Scene, Size, Style};
+use tinta::request::Resolved;
+use tinta::styles::{Contents, LineStyle, ViewAreas};
+use tinta::{Color, Error, Size, Style};
 
 /// The areas of the lines' view.
 #[pyclass(frozen, module = "tinta_npr._native")]
 pub(crate) struct Regions {
     pub(crate) areas: Arc<ViewAreas>,
-    scene: Arc<Scene>,
+    drawn: Arc<Resolved>,
     lines: Py<Lines>,
     pub(crate) is_alone: bool,
 }
 
-/// The rule of areas: `by` is a name of [`Joined`], or `tone` for those of a style.
+/// The contents of a drawing with areas: `by` is a name of [`Joined`], or `tone` for those of a style.
 fn vectors(
     by: &str,
     given: &Bound<'_, PyDict>,
     (style, look): (Option<&str>, Option<&str>),
     is_alone: bool,
     size: Size,
-) -> PyResult<Vectors> {
+) -> PyResult<Contents> {
     let given = options("Lines.regions", given)?;
     let asked_style = if by == "tone" {
         asked("Lines.regions", given, &Basis { style, look, ..Basis::default() }).map_err(raised)?.style
@@ -67,13 +68,15 @@ pub(crate) fn regions(
     look: Option<&str>,
 ) -> PyResult<Regions> {
     let of = lines.get();
-    let is_alone = of.asked.request.line_style().map_err(raised)?.is_some_and(|style| style.is_of_areas_alone);
-    let vectors = vectors(by, given, (style, look), is_alone, of.scene.size)?;
-    let (scene, found) = (of.scene.clone(), of.lines.clone());
+    let is_alone = of.drawn.contents.lines.is_none();
+    let vectors = vectors(by, given, (style, look), is_alone, of.drawn.scene.size)?;
+    let (drawn, found) = (of.drawn.clone(), of.lines.clone());
     let progress = Arc::new(Progress::default());
-    let (watched, seen) = (progress.clone(), scene.clone());
-    let areas = done(py, || progress.cancel(), move || vectors.areas(&seen, &found, &watched))?;
-    Ok(Regions { areas: Arc::new(areas), scene, lines, is_alone })
+    let (watched, seen) = (progress.clone(), drawn.clone());
+    let none = || Error::setting("by", "this style has no areas");
+    let find = move || vectors.areas(&seen.scene, &found, &watched)?.ok_or_else(none);
+    let areas = done(py, || progress.cancel(), find)?;
+    Ok(Regions { areas: Arc::new(areas), drawn, lines, is_alone })
 }
 
 #[pymethods]
@@ -131,7 +134,7 @@ impl Regions {
 
     /// The JSON file's text.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        let (areas, scene) = (self.areas.clone(), self.scene.clone());
-        done(py, || (), move || regions_json(&areas.regions, &scene))
+        let (areas, drawn) = (self.areas.clone(), self.drawn.clone());
+        done(py, || (), move || regions_json(&areas.regions, &drawn.scene))
     }
 }

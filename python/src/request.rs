@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 use tinta::gl::ContextInfo;
 use tinta::preset::Look;
 use tinta::recipe::{Driver, FileRecord, Recipe};
-use tinta::request::layers;
+use tinta::request::{Resolved, layers};
 use tinta::settings::{OptionValue, Options};
-use tinta::{Error, ParseError, Preset, Request, Result, Scene};
+use tinta::{Error, ParseError, Preset, Request, Result};
 
 /// The function and its request.
 #[derive(Debug, Clone)]
@@ -58,24 +58,10 @@ impl Asked {
         Ok(Self { request, models: paths, beside })
     }
 
-    /// The same with additional options.
-    pub(crate) fn with(&self, options: Options) -> Result<Self> {
-        let mut all = self.request.options.clone();
-        all.extend(options);
-        all.entry("style".to_owned()).or_insert_with(|| OptionValue::text(self.request.style.name()));
-        let request = Request::from_given(&all)?;
-        // The request keeps only given options.
-        let options = all.into_iter().filter(|(name, _)| name != "style" || self.request.options.contains_key("style"));
-        let mut other = Self { request, ..self.clone() };
-        other.request.title = self.request.title.clone();
-        other.request.options = options.collect();
-        Ok(other)
-    }
-
     /// The recipe of a drawing; `None` if a model has no file, because such a drawing cannot be made again.
-    pub(crate) fn recipe(&self, scene: &Scene, context: Option<&ContextInfo>) -> Option<Recipe> {
-        let request = self.request.clone().with_models(self.models.clone()?);
-        Some(request.recipe(scene, &self.beside, context.map(Driver::new), |path| FileRecord::of(path).ok()))
+    pub(crate) fn recipe(&self, drawn: &Resolved, context: Option<&ContextInfo>) -> Option<Recipe> {
+        let request = drawn.request.clone().with_models(self.models.clone()?);
+        Some(request.recipe(&drawn.scene, &self.beside, context.map(Driver::new), |path| FileRecord::of(path).ok()))
     }
 }
 

@@ -73,7 +73,7 @@ pub(crate) fn sheet<'py>(
                 return Err(Error::setting("part", "several views have one style for all parts; leave it out"));
             }
             let on_sheet = |object: u32| objects.get(object as usize).and_then(|object| u32::try_from(*object).ok());
-            let mut lines = lines.without_specks(&drawn.style.drawing)?;
+            let mut lines = lines.without_specks(&drawn.resolved.contents.drawing)?;
             lines
                 .segments
                 .retain_mut(|segment| on_sheet(segment.object).map(|object| segment.object = object).is_some());

@@ -95,7 +95,7 @@ def test_the_wheel_brings_the_program():
     "words, settings",
     [
         ((), {}),
-        (("--look", "charcoal"), {"look": "charcoal"}),
+        (("--look", "sketch"), {"look": "sketch"}),
         (("--style", "three-pass", "--tones", "2"), {"style": "three-pass", "tones": 2}),
         (("--style", "inking", "--line-width", "3", "--silhouette", "exact"), {"style": "inking", "line_width": 3.0, "silhouette": "exact"}),
         (("--background", "transparent", "--show", "borders", "--style", "two-pass"), {"transparent": True, "show": "borders", "style": "two-pass"}),

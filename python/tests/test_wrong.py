@@ -64,7 +64,7 @@ WRONG = [
     (lambda: tn.lines(V, F).project([[1, 2]]), ValueError, r"points: the shape is \(1, 2\); give \(N, 3\)"),
     (lambda: tn.lines(V, F, transparent=True, background="red"), ValueError, r"transparent and background"),
     (lambda: tn.lines(V, F, style="ink"), ValueError, r"lines has no option style"),
-    (lambda: tn.lines(V, F, look="charcoal"), ValueError, r"look charcoal: this look is of pictures"),
+    (lambda: tn.lines(V, F, look="sketch"), ValueError, r"look sketch: this look is of pictures"),
     (lambda: tn.lines(V, F, look="techncal"), ValueError, r"look techncal: did you mean technical\?"),
     (lambda: tn.lines(V, F, preset="nowhere.toml"), FileNotFoundError, r"nowhere.toml: there is no such file"),
     (lambda: tn.lines(V, F, camera=7), TypeError, r"camera: give a view's name"),

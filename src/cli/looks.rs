@@ -9,17 +9,18 @@ use std::path::Path;
 use tinta::markup::escaped;
 use tinta::page::{Pictures, beginning};
 use tinta::picture::PictureFormat;
-use tinta::preset::{LOOKS, Look};
+use tinta::preset::{LOOKS, Look, OptionValue, Preset};
 use tinta::recipe::option_words;
-use tinta::request::{DrawingFormat, Request, Session};
+use tinta::request::{DrawingFormat, Request, Session, is_of_camera};
+use tinta::settings::refuse_exclusive;
 use tinta::{Error, Result, Size, TextTarget};
 
 /// The command `render`, which draws in one look or in all.
 pub(super) const COMMAND: Command = Command {
     run: |matches, call| {
-        let arguments: Arguments = given(matches)?;
+        let mut arguments: Arguments = given(matches)?;
         match arguments.look.looks {
-            Some(Looks::All) => run(&arguments, call.session),
+            Some(Looks::All) => share_camera(&mut arguments).and_then(|()| run(&arguments, call.session)),
             _ => render::run(&arguments, call.session),
         }
     },
@@ -29,6 +30,24 @@ pub(super) const COMMAND: Command = Command {
     },
     ..render::COMMAND
 };
+
+/// Gives all looks the first one's camera and size where none are given: their pictures can be compared.
+fn share_camera(arguments: &mut Arguments) -> Result<()> {
+    let preset = arguments.preset.preset.as_deref().map(Preset::read).transpose()?;
+    let is_said = |name: &str| preset.as_ref().is_some_and(|preset| preset.options.contains_key(name));
+    let of_view = |name: &str| name == "size" || is_of_camera(name) && arguments.camera.camera.is_none();
+    let mut shared = LOOKS[0].preset()?.options;
+    shared.entry("parallel".to_owned()).or_insert(OptionValue::Switch(false));
+    for (name, value) in shared.into_iter().filter(|(name, _)| of_view(name) && !is_said(name)) {
+        let mut options = arguments.options.options.clone();
+        options.entry(name).or_insert(value);
+        // Such as a view where an eye is given.
+        if refuse_exclusive(&options).is_ok() {
+            arguments.options.options = options;
+        }
+    }
+    Ok(())
+}
 
 /// Draws a picture in each look, as pixels and as vectors where it has them, and writes a page that shows them side by side.
 fn run(arguments: &Arguments, session: &mut Session) -> Result<Verdict> {
@@ -58,7 +77,7 @@ fn run(arguments: &Arguments, session: &mut Session) -> Result<Verdict> {
 
 /// The files of a look: pixels unless it draws lines, and vectors where it has them.
 fn files(look: Look, request: &Request) -> Vec<String> {
-    let has_vectors = look.draws_lines() || request.style.vectors(request.scene.size).is_some();
+    let has_vectors = request.style.vectors(request.scene.size).is_some();
     let kinds = [("png", !look.draws_lines()), ("svg", has_vectors)];
     kinds.into_iter().filter(|(_, is)| *is).map(|(kind, _)| format!("{}.{kind}", look.name)).collect()
 }
@@ -68,7 +87,10 @@ fn figure(arguments: &Arguments, look: Look, file: &str, size: Size) -> String {
     let kind = if file.ends_with(".svg") { "vectors" } else { "pixels" };
     let words = ["render".to_owned()].into_iter().chain(arguments.models.iter().cloned());
     let words = words.chain(["-o", file, "--look", look.name].map(str::to_owned));
-    let given = arguments.options.options.iter().flat_map(|(name, value)| option_words(name, value));
+    let given = arguments.options.options.iter().flat_map(|(name, value)| match value {
+        OptionValue::Switch(false) => vec![format!("--no-{name}")],
+        value => option_words(name, value),
+    });
     let mut text = String::new();
     let _ = write!(
         text,
@@ -90,20 +112,41 @@ mod tests {
     use super::*;
 
     #[test]
+    fn all_looks_share_the_camera_that_is_given_or_the_first_ones() {
+        let scenes = |words: &str| {
+            let matches = <Arguments as clap::Args>::augment_args(clap::Command::new("render").no_binary_name(true));
+            let matches = matches.try_get_matches_from(words.split(' ')).unwrap();
+            let mut arguments: Arguments = super::super::given(&matches).unwrap();
+            share_camera(&mut arguments).unwrap();
+            LOOKS.map(|look| arguments.asked_in(Some(look), "a.png").unwrap().0.scene)
+        };
+        let first = Request::from_layers(&[tinta::request::OptionLayer::Look(LOOKS[0])]).unwrap().0.scene;
+        for words in ["a.obj -o looks", "a.obj -o looks --eye 1,2,3", "a.obj -o looks --parallel --view top --size 32"]
+        {
+            let all = scenes(words);
+            assert!(all.iter().all(|scene| scene.camera == all[0].camera && scene.size == all[0].size), "{words}");
+            assert_eq!(
+                (all[0].camera == first.camera, all[0].size == first.size),
+                (words == "a.obj -o looks", !words.contains("--size"))
+            );
+        }
+    }
+
+    #[test]
     fn every_look_is_drawn_in_its_size() {
         let words = ["a<b.obj", "-o", "looks", "--size", "32x24"];
         let matches = <Arguments as clap::Args>::augment_args(clap::Command::new("render").no_binary_name(true));
         let arguments: Arguments = super::super::given(&matches.try_get_matches_from(words).unwrap()).unwrap();
         let files = LOOKS.map(|look| files(look, &arguments.asked_in(Some(look), "a.png").unwrap().0).join(" "));
-        assert_eq!(files, ["print.png print.svg", "technical.svg", "charcoal.png", "published.png published.svg"]);
+        assert_eq!(files, ["print.png print.svg", "technical.svg", "sketch.png", "published.png published.svg"]);
         let size = Size { width: 32, height: 24 };
-        let figure = figure(&arguments, LOOKS[2], "charcoal.png", size);
+        let figure = figure(&arguments, LOOKS[2], "sketch.png", size);
         assert!(figure.contains("a&lt;b.obj") && !figure.contains("a<b"));
-        assert!(figure.contains("-o charcoal.png --look charcoal --size 32x24</code>"), "{figure}");
+        assert!(figure.contains("-o sketch.png --look sketch --size 32x24</code>"), "{figure}");
         // Without a size, pictures have their look's size; published styles use the size of the papers' pictures.
         for (more, size) in [
             ("a.png", [1280, 960]),
-            ("a.png --look charcoal", [1280, 960]),
+            ("a.png --look sketch", [1280, 960]),
             ("a.svg --look technical", [1280, 960]),
             ("a.png --look print --style inking", [1280, 960]),
             ("a.png --look published", [512, 512]),

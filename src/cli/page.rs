@@ -13,13 +13,14 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use tinta::camera::View;
 use tinta::glsl::es::{Stage, transcribed};
 use tinta::mesh::{Loaded, load};
 use tinta::page::NOT_OF_BROWSERS;
 use tinta::request::Request;
 use tinta::settings::{HasSettings, Kind, OptionValue, Setting, names_of, on_off};
-use tinta::{Error, LoadOptions, Result, Scene, SceneSettings, Style, StyleName, TextTarget};
+use tinta::{Error, LoadOptions, Result, SceneSettings, Style, StyleName, TextTarget};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -121,8 +122,8 @@ fn run(arguments: &Arguments) -> Result<()> {
     let loaded = load(&arguments.model, &request.read).map_err(|error| request.attributed(error))?;
     loaded.remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
     let files = files(&arguments.model, &loaded)?;
-    let scene = Scene::new([loaded.mesh], &request.scene).map_err(|error| request.attributed(error))?;
-    request.style.plan(&scene, request.show).map_err(|error| request.attributed(error))?;
+    let scene = request.placed(vec![Arc::new(loaded.mesh)]);
+    scene.and_then(|scene| request.style.plan(&scene, request.show)).map_err(|error| request.attributed(error))?;
     let shaders: BTreeMap<String, String> = request.shaders()?.into_iter().collect();
     if let Some(folder) = &request.glsl {
         say(&format!("tinta: {}", rewritten(folder, &shaders)?));

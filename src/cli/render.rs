@@ -10,7 +10,7 @@ mod rendering;
 mod round_trip_tests;
 mod watched;
 
-pub use animate::scenes;
+pub use animate::views;
 
 use super::Verdict;
 use super::batch::JobOptions;
@@ -25,7 +25,7 @@ use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
 use tinta::preset::{LOOKS, Look};
 use tinta::record::{Made, PictureMade, Summary};
-use tinta::request::{DrawingFormat, Drawn, DrawnPicture, Request, Session, Times, Wanted};
+use tinta::request::{DrawingFormat, DrawnPicture, Request, Session, Times};
 use tinta::settings::refuse_exclusive;
 use tinta::{Error, Renderer, Result, Target};
 
@@ -195,16 +195,14 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
     make_dump_folder(run.dump.as_deref(), output)?;
     session.submission = run.submission;
     let progress = Progress::default();
-    let drawn = watched::watched(&progress, None, || request.draw(session, Wanted::default(), &progress))?;
-    let Drawn::Picture(drawn) = drawn else {
-        return Ok(Verdict::Good);
-    };
-    let DrawnPicture { scene, files, published, picture, .. } = &*drawn;
+    let drawn = watched::watched(&progress, None, || request.picture(session, &progress))?;
+    let DrawnPicture { resolved, files, published, picture, .. } = &drawn;
+    let scene = &resolved.scene;
     drawn.remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
     // Known only now.
     pictures_of(scene).keep(output)?;
     let renderer = request.renderer(session)?;
-    let recipe = keep::recipe(rendering, scene, files, Some(renderer.context()));
+    let recipe = keep::recipe(rendering, resolved, files, Some(renderer.context()));
     target.write_with(picture, recipe.and_then(|recipe| recipe.note()).as_ref())?;
     if let Some(folder) = &run.dump {
         for (number, step) in renderer.step_pictures(scene, published)?.iter().enumerate() {
@@ -217,7 +215,7 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
         false => Verdict::Good,
     };
     if run.is_told() {
-        tell(rendering, *drawn, renderer)?;
+        tell(rendering, drawn, renderer)?;
     }
     Ok(verdict)
 }
@@ -225,20 +223,21 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
 /// Says how the picture was made: as text, or as JSON. Draws again where frames are to be timed.
 fn tell(rendering: &Rendering<'_>, drawn: DrawnPicture, renderer: &mut Renderer) -> Result<()> {
     let Rendering { request, run, .. } = *rendering;
-    let DrawnPicture { scene, published, plan, omissions, kept, remarks, times: first, .. } = drawn;
+    let DrawnPicture { resolved, published, plan, omissions, kept, remarks, times: first, .. } = drawn;
     let Times { load_ms, stages, arrays_ms, plan_ms, lines_ms, context_ms, warm_up_ms, first_frame_ms } = first;
+    let scene = &resolved.scene;
     let frames = run.frames.unwrap_or(u32::from(run.explain)) as usize;
     let timed = match frames {
         0 => None,
         _ => Some((
-            Summary::new(renderer.time_frames(&scene, &plan, WARM_UP, frames)?),
-            renderer.time_passes(&scene, &plan, frames.min(PASS_FRAMES))?,
+            Summary::new(renderer.time_frames(scene, &plan, WARM_UP, frames)?),
+            renderer.time_passes(scene, &plan, frames.min(PASS_FRAMES))?,
         )),
     };
     if let (true, Some((times, passes))) = (run.explain, &timed) {
         let mut text = explain::frames(&plan, passes, times, frames);
         if let Some(pruning) = request.pruning.pruning(renderer) {
-            text.push_str(&prune::explanation(renderer, &scene, &published, &pruning, frames)?);
+            text.push_str(&prune::explanation(renderer, scene, &published, &pruning, frames)?);
         }
         let start = [
             stages.iter().map(|(stage, ms)| (stage.name(), *ms)).collect(),
@@ -251,7 +250,7 @@ fn tell(rendering: &Rendering<'_>, drawn: DrawnPicture, renderer: &mut Renderer)
                 ("first frame", first_frame_ms),
             ],
         ];
-        text.push_str(&(explain::start(&start.concat()) + &explain::harmless(&scene)));
+        text.push_str(&(explain::start(&start.concat()) + &explain::harmless(scene)));
         return super::print(&text);
     }
     let (frame_ms, passes) = timed.unzip();
@@ -270,7 +269,7 @@ fn tell(rendering: &Rendering<'_>, drawn: DrawnPicture, renderer: &mut Renderer)
         first_frame_ms,
         frame_ms,
     }));
-    super::print_json(&rendering.record(&scene, load_ms, remarks, made))
+    super::print_json(&rendering.record(&resolved, load_ms, remarks, made))
 }
 
 fn make_dump_folder(folder: Option<&Path>, output: &str) -> Result<()> {

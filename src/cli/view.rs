@@ -5,8 +5,9 @@ use super::standard_input;
 use super::{Call, Command, Verdict, given};
 use std::path::{Path, PathBuf};
 use tinta::mesh::refuse_address;
+use tinta::preset::Named;
 use tinta::request::Request;
-use tinta::settings::{HasSettings, Setting, names_of};
+use tinta::settings::{HasSettings, Setting};
 
 use tinta::window::{
     Buffer, Layout, Orbit, Replay, SCENE_SETTINGS, Side, ViewerEvent, ViewerOptions, ViewerState, WindowOptions, open,
@@ -16,7 +17,7 @@ use tinta::{Error, LoadOptions, Result, Size, Style, StyleName};
 /// The command.
 pub(super) const COMMAND: Command = Command {
     examples: &["tinta view cow.obj                              turn it, try styles"],
-    offers: |option| if option == "right" { names_of::<StyleName>() } else { Vec::new() },
+    offers: |option| if option == "right" { Named::names() } else { Vec::new() },
     ..Command::new("view", <Arguments as clap::Args>::augment_args, |matches, call| {
         run(&given::<Arguments>(matches)?, call).map(|()| Verdict::Good)
     })
@@ -30,9 +31,9 @@ pub(super) struct Arguments {
     #[arg(value_name = "MODEL", default_value = "builtin:bust", hide_default_value = true)]
     models: Vec<String>,
 
-    /// Second style, right of a divider [default: none]
-    #[arg(long, value_name = "STYLE")]
-    right: Option<StyleName>,
+    /// Second style or look, right of a divider [default: none]
+    #[arg(long, value_name = "STYLE|LOOK")]
+    right: Option<Named>,
 
     /// Size of the window in points, or one number for a square [default: 1280x720]
     #[arg(long, hide_short_help = true, value_name = "WxH", default_value = "1280x720", hide_default_value = true)]
@@ -122,7 +123,7 @@ pub(super) fn run(arguments: &Arguments, call: &Call<'_>) -> Result<()> {
 }
 
 /// The first state.
-fn state(request: &Request, right: Option<StyleName>, is_coarse: bool) -> Result<ViewerState> {
+fn state(request: &Request, right: Option<Named>, is_coarse: bool) -> Result<ViewerState> {
     let mut state = ViewerState::new(request.models.clone(), Orbit::default());
     state.put_scene(request.scene.clone());
     let left = request.style.style_name();
@@ -130,17 +131,56 @@ fn state(request: &Request, right: Option<StyleName>, is_coarse: bool) -> Result
     for (_, name) in StyleName::ALL {
         match request.in_style(name) {
             Ok(request) => state.prepare_style(&request.style),
-            Err(error) if [Some(left), right].contains(&Some(name)) => return Err(error),
+            Err(error) if name == left || right == Some(Named::Style(name)) => return Err(error),
             Err(_) => state.prepare_style(&Style::named(name)),
         }
     }
     state.update(ViewerEvent::Style(Side::Left, left.name().to_owned()));
-    state.update(ViewerEvent::Overlay(Side::Left, request.has_lines_over()));
+    state.update(ViewerEvent::Overlay(Side::Left, request.contents(false)?.lines_over().is_some()));
     if let Some(right) = right {
-        state.update(ViewerEvent::Style(Side::Right, right.name().to_owned()));
-        state.update(ViewerEvent::Layout(Layout::Split));
+        let named = match right {
+            Named::Style(style) => ViewerEvent::Style(Side::Right, style.name().to_owned()),
+            Named::Look(look) => ViewerEvent::Look(look.name.to_owned()),
+        };
+        for event in [
+            ViewerEvent::Layout(Layout::Split),
+            ViewerEvent::Choose(Side::Right),
+            named,
+            ViewerEvent::Choose(Side::Left),
+        ] {
+            state.update(event);
+        }
+        // Two looks are seen as the left one is.
+        if request.is_of_look("style") {
+            state.put_scene(request.scene.clone());
+        }
     }
     state.buffer = Buffer::Show(request.show);
     state.is_coarse_while_moving = is_coarse;
     Ok(state)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tinta::preset::{LOOKS, Look};
+    use tinta::request::OptionLayer;
+
+    #[test]
+    fn a_look_on_the_right_has_its_style_and_lines_and_the_scene_of_the_left_one() {
+        let [print, sketch] = ["print", "sketch"].map(|name| Look::of_name(name).unwrap());
+        let of = |layer| Request::from_layers(&[layer]).unwrap().0;
+        let left = of(OptionLayer::Look(sketch));
+        let shown = state(&left, Some(Named::Look(print)), false).unwrap();
+        assert_eq!(
+            (shown.style(Side::Left), shown.style(Side::Right)),
+            (&left.style, &of(OptionLayer::Look(print)).style)
+        );
+        assert_eq!((shown.layout, shown.active, shown.message), (Layout::Split, Side::Left, None));
+        assert_eq!(shown.orbit.view, left.scene.camera.view);
+        // A style says nothing of the scene: it is the look's.
+        let inking = of(OptionLayer::Style(StyleName::Inking));
+        let shown = state(&inking, Some(Named::Look(LOOKS[0])), false).unwrap();
+        assert_eq!(shown.orbit.view, of(OptionLayer::Look(LOOKS[0])).scene.camera.view);
+    }
 }

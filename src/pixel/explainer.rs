@@ -81,7 +81,7 @@ impl<'a> Explainer<'a> {
     /// # Errors
     ///
     /// As [`Explainer::new`].
-    pub fn with_shaders(
+    pub(crate) fn with_shaders(
         scene: &'a Scene,
         plan: &'a Plan,
         values: &'a [StepValues],

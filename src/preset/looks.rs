@@ -3,7 +3,9 @@
 use super::{OptionValue, Preset};
 use crate::choice::meant_or;
 use crate::error::{ParseError, Result};
+use crate::settings::names_of;
 use crate::styles::StyleName;
+use std::str::FromStr;
 
 /// A look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,9 +30,9 @@ pub static LOOKS: [Look; 4] = [
         text: include_str!("../../presets/looks/technical.toml"),
     },
     Look {
-        name: "charcoal",
+        name: "sketch",
         about: "charcoal on paper with tooth, strokes of a hand and faint outlines",
-        text: include_str!("../../presets/looks/charcoal.toml"),
+        text: include_str!("../../presets/looks/sketch.toml"),
     },
     Look { name: "published", about: "each style as its text prints it; three-pass without --style", text: "" },
 ];
@@ -44,7 +46,11 @@ impl Look {
     pub fn of_name(name: &str) -> std::result::Result<Self, ParseError> {
         let found = LOOKS.into_iter().find(|look| look.name == name);
         let names = LOOKS.map(|look| look.name);
-        found.ok_or_else(|| ParseError::from(meant_or(name, &names, &format!("choose one of {}", Self::list()))))
+        let problem = || match name {
+            "charcoal" => "charcoal is the name of a style; the look of earlier versions is sketch now".to_owned(),
+            _ => meant_or(name, &names, &format!("choose one of {}", Self::list())),
+        };
+        found.ok_or_else(|| ParseError::from(problem()))
     }
 
     /// All names with commas between.
@@ -70,5 +76,57 @@ impl Look {
     /// None in practice: a test reads them all.
     pub fn preset(self) -> Result<Preset> {
         Preset::parse(&format!("look {}", self.name), self.text)
+    }
+}
+
+/// A style as published, or a look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Named {
+    /// A style.
+    Style(StyleName),
+    /// A look.
+    Look(Look),
+}
+
+impl Named {
+    /// All names, those of styles first.
+    pub fn names() -> Vec<&'static str> {
+        names_of::<StyleName>().into_iter().chain(LOOKS.map(|look| look.name)).collect()
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Style(style) => style.name(),
+            Self::Look(look) => look.name,
+        }
+    }
+}
+
+impl FromStr for Named {
+    type Err = ParseError;
+
+    fn from_str(name: &str) -> std::result::Result<Self, ParseError> {
+        let look = || LOOKS.into_iter().find(|look| look.name == name).map(Self::Look);
+        let named = name.parse().ok().map(Self::Style).or_else(look);
+        let names = Self::names();
+        named.ok_or_else(|| ParseError::from(meant_or(name, &names, &format!("choose one of {}", names.join(", ")))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn styles_and_looks_have_names_of_their_own() {
+        let names = Named::names();
+        for (number, name) in names.iter().enumerate() {
+            assert!(!names[..number].contains(name), "{name} means two things");
+            assert_eq!(name.parse::<Named>().unwrap().name(), *name);
+        }
+        assert!("sketsch".parse::<Named>().unwrap_err().to_string().contains("did you mean sketch?"));
+        let gone = Look::of_name("charcoal").unwrap_err().to_string();
+        assert_eq!(gone, "charcoal is the name of a style; the look of earlier versions is sketch now");
     }
 }

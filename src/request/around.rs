@@ -1,20 +1,19 @@
-//! What a picture of passes has below and above it: the shadow on the ground, and exact lines.
+//! The shadow below and the exact lines above a picture of passes.
 
-use super::{Ground, Request};
+use super::{Ground, Request, Resolved};
 use crate::clock::{Instant, milliseconds_since};
 use crate::error::Result;
 use crate::lines::{
-    Progress, Region, Regions, Strokes, ground_light, ground_shadow, lay_area, lay_over, lay_strokes, lay_strokes_by,
+    Progress, Region, Regions, Strokes, ground_shadow, lay_area, lay_over, lay_strokes, lay_strokes_by,
     raster_of_strokes,
 };
 use crate::picture::Picture;
 use crate::plan::{Plan, TOOTH};
 use crate::renderer::Renderer;
 use crate::scene::{Background, Color, Scene, Size};
-use glam::DVec3;
-use std::borrow::Cow;
+use crate::styles::Below;
 
-/// What lies below and above the picture of a scene's plan.
+/// The shadow and the lines around a picture of passes.
 #[derive(Debug, Clone)]
 pub struct Around {
     background: Background,
@@ -29,52 +28,49 @@ pub struct Around {
 /// Exact lines that take less time than this are drawn at once with each picture of a turning model, milliseconds.
 pub const LINES_AT_ONCE_MS: f64 = 30.0;
 
-/// The light that shadows follow where a style's tones have none: from the left, eye space.
-const LIGHT: [f32; 3] = [-0.4, 1.0, 0.6];
-
 /// The share of the background's red, green and blue in a shadow: a warm grey.
 const SHADE: [f32; 3] = [0.85, 0.835, 0.81];
 
-impl Request {
-    /// What lies below and above the picture of a scene.
+impl Resolved {
+    /// Finds the shadow and the lines around the picture of passes.
     ///
     /// # Errors
     ///
-    /// As [`Request::drawing`].
-    pub fn around(&self, scene: &Scene, progress: &Progress) -> Result<Around> {
+    /// As [`Resolved::drawing`].
+    pub fn around(&self, progress: &Progress) -> Result<Around> {
         let start = Instant::now();
-        let strokes = match self.has_lines_over() {
-            true => self.drawn_lines(scene.clone(), Default::default(), progress)?.strokes()?,
-            false => Vec::new(),
+        let strokes = match self.contents.lines {
+            Some(_) => self.drawn_lines(Default::default(), progress)?.strokes()?,
+            None => Vec::new(),
         };
-        let shadow = self.shadow(scene, progress)?;
-        Ok(Around { background: scene.background, shadow, strokes, found_ms: milliseconds_since(start) })
+        let shadow = self.shadow(progress)?;
+        Ok(Around { background: self.scene.background, shadow, strokes, found_ms: milliseconds_since(start) })
     }
 
-    /// The shadow on the ground of a scene, and its colour.
-    pub(super) fn shadow(&self, scene: &Scene, progress: &Progress) -> Result<Option<(Regions<()>, Color)>> {
-        let Some(light) = self.shadow_light(scene) else { return Ok(None) };
-        let ground = match scene.background {
+    /// The shadow on the ground, and its colour.
+    pub(super) fn shadow(&self, progress: &Progress) -> Result<Option<(Regions<()>, Color)>> {
+        if self.request.ground == Ground::None {
+            return Ok(None);
+        }
+        let ground = match self.scene.background {
             Background::Color(Color(channels)) => channels,
             Background::Transparent => [1.0; 3],
         };
-        let shadow = ground_shadow(scene, light, progress)?;
+        let shadow = ground_shadow(&self.scene, self.request.shadow_light(&self.scene), progress)?;
         Ok(Some((shadow, Color([0, 1, 2].map(|channel| ground[channel] * SHADE[channel])))))
     }
 
-    /// The direction towards the light of the shadow, world space; `None` without a shadow.
-    pub(super) fn shadow_light(&self, scene: &Scene) -> Option<DVec3> {
-        (self.ground == Ground::Shadow).then(|| {
-            let far = self.style.far_tones();
-            ground_light(scene, far.map_or(LIGHT, |(light, thresholds)| light.towards(scene, thresholds)))
-        })
-    }
-
-    /// The scene that is planned: on a ground it has no background of its own.
-    pub(super) fn on_ground<'a>(&self, scene: &'a Scene) -> Cow<'a, Scene> {
-        match self.ground {
-            Ground::None => Cow::Borrowed(scene),
-            Ground::Shadow => Cow::Owned(Scene { background: Background::Transparent, ..scene.clone() }),
+    /// The plan of the picture of passes. On a ground it has no background.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`crate::Style::plan`].
+    pub fn plan(&self) -> Result<Plan> {
+        let Request { style, show, ground, .. } = &self.request;
+        let style = if let Below::Passes(style) = &self.contents.below { style } else { style };
+        match ground {
+            Ground::None => style.plan(&self.scene, *show),
+            Ground::Shadow => style.plan(&Scene { background: Background::Transparent, ..self.scene.clone() }, *show),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::around::Around;
 use super::drawing::DrawnLines;
 use super::emptiness::empty_remark;
-use super::{ModelCache, Request, Session, Wanted, ignored_remark};
+use super::{ModelCache, Request, Resolved, Session, Wanted, ignored_remark};
 use crate::clock::Instant;
 use crate::error::{Error, Result};
 use crate::glsl;
@@ -13,26 +13,16 @@ use crate::picture::Picture;
 use crate::plan::Plan;
 use crate::plan::prune::{Kept, Omission, Pruned, prune};
 use crate::renderer::{Renderer, milliseconds_since};
-use crate::scene::Scene;
-use crate::styles::is_of_vectors;
+use crate::styles::{Below, is_of_vectors};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The result of a request.
-#[derive(Debug)]
-pub enum Drawn {
-    /// A picture that OpenGL drew.
-    Picture(Box<DrawnPicture>),
-    /// Exact lines.
-    Lines(Box<DrawnLines>),
-}
-
 /// A picture, and how it was made.
 #[derive(Debug)]
 pub struct DrawnPicture {
-    /// The scene.
-    pub scene: Scene,
+    /// The request and the scene.
+    pub resolved: Resolved,
     /// The files read besides the models' own files.
     pub files: Vec<PathBuf>,
     /// The style's plan for the scene, before pruning.
@@ -45,7 +35,7 @@ pub struct DrawnPicture {
     pub kept: Vec<Kept>,
     /// Remarks for the user, a sentence each.
     pub remarks: Vec<String>,
-    /// What lies below and above what the plan draws.
+    /// The shadow and the lines around the plan's picture.
     pub around: Around,
     /// The picture.
     pub picture: Picture,
@@ -87,9 +77,9 @@ pub struct ReadModels {
     pub ms: f64,
 }
 
-/// A scene ready to draw, with its plan and the exact lines over it.
+/// A picture ready to draw, with its plan and the exact lines over it.
 struct Planned {
-    scene: Scene,
+    resolved: Resolved,
     files: Vec<PathBuf>,
     published: Plan,
     around: Around,
@@ -97,20 +87,15 @@ struct Planned {
 }
 
 impl Request {
-    /// Reads the models and draws them: pixels, or lines and areas where the style draws these or `wanted` asks for them.
+    /// Reads the models and draws their lines and areas, without OpenGL.
     ///
     /// # Errors
     ///
-    /// Those of reading, of the settings with this scene, of the way to OpenGL; [`Error::Cancelled`] where `progress` was.
-    pub fn draw(&self, session: &mut Session, wanted: Wanted, progress: &Progress) -> Result<Drawn> {
-        let has_vectors = self.style.lines().is_some() || wanted.areas && self.vectors()?.is_some();
-        if !has_vectors {
-            self.refuse_vectors_options()?;
-            return self.picture(session, progress).map(|picture| Drawn::Picture(Box::new(picture)));
-        }
+    /// Those of reading, and of the settings with this scene; [`Error::Cancelled`] where `progress` was.
+    pub fn lines(&self, session: &Session, wanted: Wanted, progress: &Progress) -> Result<DrawnLines> {
         let ReadModels { meshes, files, ms: load_ms, .. } = self.models(&session.models)?;
-        let drawn = self.drawn_lines(self.scene(meshes)?, wanted, progress)?;
-        Ok(Drawn::Lines(Box::new(DrawnLines { files, load_ms, ..drawn })))
+        let drawn = self.resolve(meshes, true)?.drawn_lines(wanted, progress)?;
+        Ok(DrawnLines { files, load_ms, ..drawn })
     }
 
     /// Reads the models.
@@ -135,36 +120,6 @@ impl Request {
         }
         models.ms = milliseconds_since(start);
         Ok(models)
-    }
-
-    /// Returns the style's plan for a scene, as published and pruned of everything that cannot change the picture.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`crate::Style::plan`] and [`Renderer::choose_context`].
-    pub fn plans(&self, scene: &Scene, renderer: &mut Renderer) -> Result<(Plan, Pruned)> {
-        let published = self.plan(scene)?;
-        let pruned = self.pruned(&published, scene, renderer)?;
-        Ok((published, pruned))
-    }
-
-    /// Prunes a plan of everything that cannot change the picture.
-    fn pruned(&self, published: &Plan, scene: &Scene, renderer: &mut Renderer) -> Result<Pruned> {
-        renderer.choose_context(scene, published)?;
-        Ok(match self.pruning.pruning(renderer) {
-            Some(pruning) => prune(published, scene, &pruning),
-            None => Pruned { plan: published.clone(), omissions: Vec::new(), kept: Vec::new() },
-        })
-    }
-
-    /// Draws a scene that is there already.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Request::plans`], [`Request::around`] and [`Renderer::draw`].
-    pub fn picture_of(&self, scene: &Scene, renderer: &mut Renderer) -> Result<Picture> {
-        let (_, Pruned { plan, .. }) = self.plans(scene, renderer)?;
-        self.around(scene, &Progress::default())?.drawn(scene, &plan, renderer)
     }
 
     /// The shaders to draw with instead of those built in, by their paths.
@@ -207,63 +162,25 @@ impl Request {
     ///
     /// # Errors
     ///
-    /// Those of [`Request::models`], [`Scene::new`], [`crate::Style::plan`] and [`Request::renderer`].
-    pub fn scene_and_renderer<'a>(&self, session: &'a mut Session) -> Result<(Scene, &'a mut Renderer)> {
+    /// Those of [`Request::models`], [`Request::resolve`], [`Resolved::plan`] and [`Request::renderer`].
+    pub fn resolved_and_renderer<'a>(&self, session: &'a mut Session) -> Result<(Resolved, &'a mut Renderer)> {
         let (_, loaded) = self.ready(session, &Progress::default());
-        Ok((loaded?.scene, self.renderer(session)?))
+        Ok((loaded?.resolved, self.renderer(session)?))
     }
 
-    fn picture(&self, session: &mut Session, progress: &Progress) -> Result<DrawnPicture> {
-        let (mut times, loaded) = self.ready(session, progress);
-        let Planned { scene, files, published, around, times: of_loading } = loaded?;
-        let renderer = self.renderer(session)?;
-        let drawn = self.drawn_picture(scene, published, around, renderer)?;
-        let Times { load_ms, stages, arrays_ms, lines_ms, .. } = of_loading;
-        times.plan_ms = of_loading.plan_ms + drawn.times.plan_ms;
-        let times = Times { load_ms, stages, arrays_ms, lines_ms, first_frame_ms: drawn.times.first_frame_ms, ..times };
-        Ok(DrawnPicture { files, times, ..drawn })
-    }
-
-    /// Draws a scene's plan, pruned of everything that cannot change the picture, between the ground and exact lines.
+    /// Reads the models and draws their picture of passes.
     ///
     /// # Errors
     ///
-    /// Those of [`Request::plans`] and [`Renderer::draw`].
-    pub fn drawn_picture(
-        &self,
-        scene: Scene,
-        published: Plan,
-        around: Around,
-        renderer: &mut Renderer,
-    ) -> Result<DrawnPicture> {
-        let mut times = Times::default();
-        let start = Instant::now();
-        let Pruned { plan, omissions, kept } = self.pruned(&published, &scene, renderer)?;
-        times.plan_ms = milliseconds_since(start);
-        let mut remarks = self.picture_remarks(&scene, &plan, renderer);
-        let start = Instant::now();
-        let mut picture = renderer.draw(&scene, &plan)?;
-        times.first_frame_ms = milliseconds_since(start);
-        around.put(&plan, &mut picture);
-        remarks.extend(empty_remark(&scene, &published, Some(&around), &picture, renderer)?);
-        Ok(DrawnPicture { scene, files: Vec::new(), published, plan, omissions, kept, remarks, around, picture, times })
-    }
-
-    /// Returns remarks on the picture that a plan draws of a scene, a sentence each.
-    pub(crate) fn picture_remarks(&self, scene: &Scene, plan: &Plan, renderer: &Renderer) -> Vec<String> {
-        let has_no_effect = |option: &&String| {
-            let is_drawn = self.has_lines_over() || self.is_of_look(option);
-            !is_drawn && is_of_vectors(option, self.style.style_name())
-        };
-        let of_vectors = self.options.keys().filter(has_no_effect);
-        let mut remarks = [self.style.remarks(scene), renderer.remarks(plan)].concat();
-        remarks.extend(match self.has_lines_over() {
-            true => scene.far_remark(),
-            false => self.style.curves_remark(scene),
-        });
-        remarks.extend(scene.cut_remark().filter(|_| self.scene.camera.near.is_none()));
-        remarks.extend(ignored_remark(of_vectors.map(String::as_str), &[self.style.name()]));
-        remarks
+    /// Those of [`Request::lines`], and of the way to OpenGL.
+    pub fn picture(&self, session: &mut Session, progress: &Progress) -> Result<DrawnPicture> {
+        self.refuse_vectors_options()?;
+        let (Times { context_ms, warm_up_ms, .. }, loaded) = self.ready(session, progress);
+        let Planned { resolved, files, published, around, times } = loaded?;
+        let drawn = resolved.drawn_picture(published, around, self.renderer(session)?)?;
+        let Times { plan_ms, first_frame_ms, .. } = drawn.times;
+        let plan_ms = times.plan_ms + plan_ms;
+        Ok(DrawnPicture { files, times: Times { plan_ms, first_frame_ms, context_ms, warm_up_ms, ..times }, ..drawn })
     }
 
     /// Reads the models and gets a renderer ready meanwhile, unless the session has one.
@@ -307,7 +224,9 @@ impl Request {
         if !models_are_read() {
             let start = Instant::now();
             let pruning = self.pruning.pruning(&renderer);
-            renderer.warm_up(&self.scene, &self.style_in_passes()?, self.show, pruning.as_ref())?;
+            if let Below::Passes(style) = self.contents(false)?.below {
+                renderer.warm_up(&self.scene, &style, self.show, pruning.as_ref())?;
+            }
             times.warm_up_ms = Some(milliseconds_since(start));
         }
         Ok((renderer, times))
@@ -316,16 +235,84 @@ impl Request {
     /// Reads the models, puts the scene together and plans it, which finds its edges where the style draws them.
     fn planned(&self, cache: &ModelCache, submission: crate::plan::Submission, progress: &Progress) -> Result<Planned> {
         let ReadModels { meshes, files, stages, ms: load_ms } = self.models(cache)?;
-        let scene = self.scene(meshes)?;
+        let resolved = self.resolve(meshes, false)?;
         let start = Instant::now();
-        scene.make_arrays();
+        resolved.scene.make_arrays();
         let arrays_ms = milliseconds_since(start);
         let start = Instant::now();
-        let published = Plan { submission, ..self.plan(&scene)? };
+        let published = Plan { submission, ..resolved.plan()? };
         let plan_ms = milliseconds_since(start);
-        let around = self.around(&scene, progress)?;
+        let around = resolved.around(progress)?;
         progress.begin(Phase::Drawing, 0);
         let times = Times { load_ms, stages, arrays_ms, plan_ms, lines_ms: around.found_ms, ..Times::default() };
-        Ok(Planned { scene, files, published, around, times })
+        Ok(Planned { resolved, files, published, around, times })
+    }
+}
+
+impl Resolved {
+    /// Returns the plan as published, and pruned of everything that cannot change the picture.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Resolved::plan`] and [`Renderer::choose_context`].
+    pub fn plans(&self, renderer: &mut Renderer) -> Result<(Plan, Pruned)> {
+        let published = self.plan()?;
+        let pruned = self.pruned(&published, renderer)?;
+        Ok((published, pruned))
+    }
+
+    /// Prunes a plan of everything that cannot change the picture.
+    fn pruned(&self, published: &Plan, renderer: &mut Renderer) -> Result<Pruned> {
+        renderer.choose_context(&self.scene, published)?;
+        Ok(match self.request.pruning.pruning(renderer) {
+            Some(pruning) => prune(published, &self.scene, &pruning),
+            None => Pruned { plan: published.clone(), omissions: Vec::new(), kept: Vec::new() },
+        })
+    }
+
+    /// Draws the picture of passes, with its shadow and lines.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Resolved::plans`], [`Resolved::around`] and [`Renderer::draw`].
+    pub fn picture(&self, renderer: &mut Renderer) -> Result<Picture> {
+        let (_, Pruned { plan, .. }) = self.plans(renderer)?;
+        self.around(&Progress::default())?.drawn(&self.scene, &plan, renderer)
+    }
+
+    /// Draws a plan, pruned of everything that cannot change the picture, between the ground and exact lines.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Resolved::plans`] and [`Renderer::draw`].
+    pub fn drawn_picture(self, published: Plan, around: Around, renderer: &mut Renderer) -> Result<DrawnPicture> {
+        let mut times = Times::default();
+        let start = Instant::now();
+        let Pruned { plan, omissions, kept } = self.pruned(&published, renderer)?;
+        times.plan_ms = milliseconds_since(start);
+        let mut remarks = self.picture_remarks(&plan, renderer);
+        let start = Instant::now();
+        let mut picture = renderer.draw(&self.scene, &plan)?;
+        times.first_frame_ms = milliseconds_since(start);
+        around.put(&plan, &mut picture);
+        remarks.extend(empty_remark(&self.scene, &published, Some(&around), &picture, renderer)?);
+        let files = Vec::new();
+        Ok(DrawnPicture { resolved: self, files, published, plan, omissions, kept, remarks, around, picture, times })
+    }
+
+    /// Returns remarks on the picture that a plan draws, a sentence each.
+    pub(crate) fn picture_remarks(&self, plan: &Plan, renderer: &Renderer) -> Vec<String> {
+        let (Request { style, options, .. }, scene) = (&self.request, &self.scene);
+        let has_lines_over = self.contents.lines.is_some();
+        let has_no_effect = |option: &&String| {
+            let is_drawn = has_lines_over || self.request.is_of_look(option);
+            !is_drawn && is_of_vectors(option, style.style_name())
+        };
+        let of_vectors = options.keys().filter(has_no_effect);
+        let mut remarks = [style.remarks(scene), renderer.remarks(plan)].concat();
+        remarks.extend(if has_lines_over { scene.far_remark() } else { style.curves_remark(scene) });
+        remarks.extend(scene.cut_remark().filter(|_| self.request.scene.camera.near.is_none()));
+        remarks.extend(ignored_remark(of_vectors.map(String::as_str), &[style.name()]));
+        remarks
     }
 }

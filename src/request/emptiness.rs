@@ -11,7 +11,7 @@ use crate::renderer::Renderer;
 use crate::scene::{Scene, Unseen};
 use crate::values::short;
 
-/// Returns a remark if this picture, drawn by this plan as published with what lies around it, is all background; `None` for any
+/// Returns a remark if this picture, drawn by this plan as published with its shadow and lines, is all background; `None` for any
 /// other picture.
 ///
 /// # Errors

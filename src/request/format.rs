@@ -27,8 +27,6 @@ pub struct Wanted {
     pub all: bool,
     /// Hidden lines, and the number of places where smooth silhouettes break.
     pub hidden: bool,
-    /// The vectors of a style of passes: areas of tone, and exact lines above them.
-    pub areas: bool,
 }
 
 fn extension(output: &str) -> Option<&str> {
@@ -38,7 +36,7 @@ fn extension(output: &str) -> Option<&str> {
 impl DrawingFormat {
     /// The parts found for a file of this format; `is_told`: its numbers are reported.
     pub fn wanted(self, is_told: bool) -> Wanted {
-        Wanted { all: self == Self::Json, hidden: is_told, areas: true }
+        Wanted { all: self == Self::Json, hidden: is_told }
     }
 
     /// Whether files of this format hold lines and no tones, unless a style with tones is asked for.
@@ -65,17 +63,16 @@ impl DrawingFormat {
     /// Where style and file's name do not go together.
     pub fn of(request: &Request, output: &str) -> Result<Option<Self>> {
         let style = request.style.name();
-        let has_vectors = request.style.vectors(request.scene.size).is_some();
+        let draws_lines = request.style.style_name().draws_lines();
         let refuse = |problem: String| Err(Error::output(output, problem));
-        match (request.style.lines().is_some(), Self::of_name(output)) {
-            (true, Some(format)) => Ok(Some(format)),
+        match (draws_lines, Self::of_name(output)) {
             (true, None) if output == "-" => Ok(Some(Self::Svg)),
             (true, None) if PictureFormat::of(Path::new(output)).is_some() => Ok(Some(Self::Picture)),
             (true, None) => refuse(format!(
                 "style {style} writes .svg, .pdf, .dxf, .json or a still picture such as .png; name the file so, or leave out --style {style}"
             )),
-            (false, Some(format)) if has_vectors => Ok(Some(format)),
-            (false, Some(_)) => refuse(format!(
+            (_, Some(format)) if request.style.vectors(request.scene.size).is_some() => Ok(Some(format)),
+            (_, Some(_)) => refuse(format!(
                 "{} draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture \
                  such as drawing.png",
                 request.style_said()

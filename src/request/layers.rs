@@ -126,7 +126,8 @@ fn is_off(value: &OptionValue) -> bool {
     *value == OptionValue::Switch(false)
 }
 
-fn is_of_camera(name: &str) -> bool {
+/// Whether an option is the camera's.
+pub(crate) fn is_of_camera(name: &str) -> bool {
     SceneSettings::table().settings.iter().any(|setting| setting.name == name && setting.heading == camera::HEADING)
 }
 
@@ -194,8 +195,9 @@ impl Request {
     /// # Errors
     ///
     /// [`Error::Setting`] with the option.
-    pub fn refuse_vectors_options(&self) -> Result<()> {
-        let is_drawn = |option: &str| self.has_lines_over() && is_of_exact_lines(option) && !is_of_files(option);
+    pub(crate) fn refuse_vectors_options(&self) -> Result<()> {
+        let has_lines_over = self.contents(false)?.lines.is_some();
+        let is_drawn = |option: &str| has_lines_over && is_of_exact_lines(option) && !is_of_files(option);
         self.refuse_of_lines(|option| !self.is_of_look(option) && !is_drawn(option))
     }
 

@@ -9,19 +9,21 @@ use glam::DVec3;
 /// The direction of a far light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FarLight {
-    /// Chosen for the scene's first view, from above, so that a fair share is dark and hangs together.
+    /// Chosen for the view, from above, so that a fair share is dark and hangs together.
     Auto,
     /// Towards it, eye space, of any length.
     Towards([f32; 3]),
 }
 
 impl FarLight {
-    /// Its direction for a scene, of any length. A scene and its copies keep the one that was chosen first.
+    /// Its direction for a scene, of any length.
     pub(crate) fn towards(self, scene: &Scene, thresholds: [f32; 2]) -> [f32; 3] {
-        match self {
-            Self::Auto => *scene.tone_light.get_or_init(|| chosen_light(scene, thresholds.map(f64::from))),
-            Self::Towards(direction) => direction,
-        }
+        self.known().unwrap_or_else(|| chosen_light(scene, thresholds.map(f64::from)))
+    }
+
+    /// Its direction, unless it is chosen for a view.
+    pub(crate) fn known(self) -> Option<[f32; 3]> {
+        if let Self::Towards(direction) = self { Some(direction) } else { None }
     }
 
     pub(super) fn check(self) -> Result<()> {

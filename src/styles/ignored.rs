@@ -29,7 +29,7 @@ pub(crate) fn is_of_exact_lines(option: &str) -> bool {
 }
 
 /// Whether this is an option of exact lines or of their drawing that the style, which OpenGL draws in passes, has as vectors too.
-pub fn is_of_vectors(option: &str, style: StyleName) -> bool {
+pub(crate) fn is_of_vectors(option: &str, style: StyleName) -> bool {
     let has_vectors = || Style::named(style).vectors(SceneSettings::default().size).is_some();
     is_of_exact_lines(option) && !style_has(style, option) && has_vectors()
 }

@@ -1,8 +1,7 @@
 //! Exact visible lines as a style: the lines to find and how to draw them.
 
 use super::headings::no_borders;
-use crate::error::{Error, Result};
-use crate::lines::{DrawingSettings, Hidden, Joined, LineSettings, ProjectionAngle};
+use crate::lines::{DrawingSettings, Joined, LineSettings, ProjectionAngle};
 use crate::settings::{Setting, under, within};
 
 /// The heading of edge settings.
@@ -14,7 +13,7 @@ const AREAS: &str = "Style lines: areas below the lines";
 /// Exact visible lines.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LineStyle {
-    /// The classes of lines. Further lines to find follow from `drawing`: see [`LineStyle::wanted`].
+    /// The classes of lines. Further lines to find follow from `drawing`: see [`super::Contents::wanted`].
     pub lines: LineSettings,
     /// How they are drawn.
     pub drawing: DrawingSettings,
@@ -58,51 +57,5 @@ impl LineStyle {
         .said("none, one view");
         let heading = drawing[0].heading;
         lines.chain(drawing).chain(under(heading, vec![sheet])).collect()
-    }
-
-    /// Refuses a drawing of nothing, and areas by a pen.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Setting`] for settings that contradict each other.
-    pub fn check(&self) -> Result<()> {
-        if self.is_of_areas_alone && self.areas.is_none() {
-            let problem = "style lines draws nothing but lines; leave it out, or add --areas object";
-            return Err(Error::setting("no-borders", problem));
-        }
-        if self.drawing.is_for_pen && self.areas.is_some() {
-            return Err(Error::setting("areas", "a pen draws lines alone; leave out one of --areas and --pen"));
-        }
-        if self.sheet.is_some() && self.areas.is_some() {
-            return Err(Error::setting("areas", "areas are drawn from one view; leave out one of --areas and --sheet"));
-        }
-        self.lines.parts.check(&self.drawing)?;
-        self.drawing.check()
-    }
-
-    /// Returns the lines to find for this drawing: outlines and hidden lines only if they show.
-    pub fn wanted(&self) -> LineSettings {
-        LineSettings {
-            finds_outline: self.drawing.tells_outline(),
-            finds_hidden: self.drawing.hidden != Hidden::None || self.lines.parts.draw_hidden(),
-            ..self.lines.clone()
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::edges::Class;
-    use crate::scene::Color;
-
-    #[test]
-    fn only_what_the_drawing_shows_is_looked_for() {
-        let mut style = LineStyle::default();
-        style.drawing.class_colors.0.set_class(Class::Crease, Color([1.0, 0.0, 0.0]));
-        assert!(!style.wanted().finds_outline && !style.wanted().finds_hidden);
-        style.drawing.class_colors.0.set_outline(Color([1.0, 0.0, 0.0]));
-        style.drawing.hidden = Hidden::Dashed;
-        assert!(style.wanted().finds_outline && style.wanted().finds_hidden);
     }
 }

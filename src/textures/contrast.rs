@@ -63,7 +63,8 @@ pub struct Grains {
 
 impl Grains {
     /// Returns the share of pixels with a grain, from 0 to 1.
-    pub fn black_share(&self) -> f64 {
+    #[cfg(test)]
+    pub(crate) fn black_share(&self) -> f64 {
         self.counts.iter().filter(|count| **count > 0).count() as f64 / self.counts.len() as f64
     }
 

@@ -92,6 +92,32 @@ fn modules_use_only_those_below_them() {
     check("crates/tinta-geometry/src", 15, 100);
 }
 
+/// The files that make a scene: the place where every drawing begins, and those that draw no request. The laboratory may make its own.
+const SCENE_MAKERS: [(&str, &str); 4] = [
+    ("src/request/resolve.rs", "every drawing begins here"),
+    ("src/cli/info.rs", "counts the edges of a model"),
+    ("src/drivers.rs", "draws a known model by every driver"),
+    ("src/renderer.rs", "draws a triangle, so that the driver compiles its shaders"),
+];
+
+#[test]
+fn scenes_are_made_where_drawings_begin_and_nowhere_else() {
+    let mut files = Vec::new();
+    ["src", "python/src", "web/src"].iter().for_each(|folder| sources(&root().join(folder), &mut files));
+    let makes_one = |file: &&PathBuf| {
+        let text = std::fs::read_to_string(file).unwrap();
+        let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
+        code.lines().any(|line| !line.trim_start().starts_with("//") && line.contains("Scene::new("))
+    };
+    let found: Vec<String> =
+        files.iter().filter(makes_one).map(|file| file.strip_prefix(root()).unwrap().display().to_string()).collect();
+    let mut expected = SCENE_MAKERS.map(|(file, _)| file.to_owned()).to_vec();
+    expected.sort();
+    let mut sorted = found;
+    sorted.sort();
+    assert_eq!(sorted, expected, "begin with Request::resolve, still, moving or placed");
+}
+
 /// The crates, and how many uses each has at least: fewer mean that its texts are read wrong.
 const CRATES: [(&str, usize); 5] = [
     ("crates/tinta-geometry/src", 1000),

@@ -24,7 +24,7 @@ fn look(name: &str, view: &str) -> Request {
     let look = LOOKS.into_iter().find(|look| look.name == name).unwrap();
     let given = [("size", "200x150"), ("view", view)].map(|(name, value)| (name.to_owned(), OptionValue::text(value)));
     let mut given = Options::from(given);
-    if name == "charcoal" {
+    if name == "sketch" {
         given.insert("texture-size".to_owned(), OptionValue::text("64"));
     }
     Request::from_layers(&[OptionLayer::Look(look), OptionLayer::Given(given)]).unwrap().0
@@ -38,7 +38,7 @@ fn mesh_of((positions, faces): &Shape, request: &Request) -> Mesh {
 fn picture_of(mesh: Mesh, request: &Request, renderer: &mut Renderer) -> Picture {
     let scene = Scene::new(vec![Arc::new(mesh)], &request.scene).unwrap();
     assert!(request.style.remarks(&scene).is_empty(), "what is drawn right needs no remark");
-    request.picture_of(&scene, renderer).unwrap()
+    request.moving(scene, None, false).and_then(|view| view.picture(renderer)).unwrap()
 }
 
 fn turned_over(face: &[u32]) -> Vec<u32> {
@@ -148,8 +148,8 @@ fn a_rectangle_written_twice_is_drawn_as_the_side_that_is_seen() {
         for (name, view, seen, unseen) in [
             ("print", "30,23", &front, &back),
             ("print", "200,10", &back, &front),
-            ("charcoal", "30,23", &front, &back),
-            ("charcoal", "200,10", &back, &front),
+            ("sketch", "30,23", &front, &back),
+            ("sketch", "200,10", &back, &front),
         ] {
             let request = look(name, view);
             let mut draw = |shape: &Shape| picture_of(mesh_of(shape, &request), &request, &mut renderer);
@@ -168,7 +168,7 @@ fn surfaces_written_twice_are_drawn_as_one_with_its_sides_turned_to_the_eye() {
     let mut shapes = vec![("a cube", cube()), ("half a ball", half_a_ball())];
     shapes.extend((0..10).map(|_| ("a sheet", sheet(&mut random))));
     let mut renderer = renderer(BACKENDS[0]);
-    for (name, view) in [("print", "30,23"), ("print", "130,-35"), ("charcoal", "30,50")] {
+    for (name, view) in [("print", "30,23"), ("print", "130,-35"), ("sketch", "30,50")] {
         let request = look(name, view);
         for (number, (what, shape)) in shapes.iter().enumerate() {
             let alone = mesh_of(shape, &request);

@@ -5,7 +5,7 @@ use crate::support::shapes::Random;
 use crate::support::{BACKENDS, PUBLIC_MODELS, full_sizes, public_model, renderer, scene_with, styles};
 use glam::DVec3;
 use std::sync::Arc;
-use tinta::plan::prune::prune;
+use tinta::plan::prune::{Pruning, prune};
 use tinta::{
     Backend, Background, CameraSettings, Color, LoadOptions, Mesh, Renderer, Scene, SceneSettings, Show, Size, Style,
     StyleName, View, load,
@@ -57,8 +57,7 @@ fn verify(renderer: &mut Renderer, mesh: &Arc<Mesh>, views: usize) {
         for style in &styles {
             let plan = style.plan(&view, Show::Final).unwrap();
             // A search for hidden faces that found few would rest.
-            let view = Scene { hidden_faces_rest: Arc::default(), ..view.clone() };
-            let short = prune(&plan, &view, &pruning);
+            let short = prune(&plan, &view, &Pruning { rest: Default::default(), ..pruning.clone() });
             let full = renderer.draw(&view, &plan).unwrap();
             // The second of two frames in a row must contain nothing of the first.
             if number == 0 {

@@ -29,7 +29,7 @@ fn drawn_or_refused(count: u64) {
         }
         for options in DRAWINGS.iter().filter(|options| !options.iter().any(|(name, _)| *name == "hatch")) {
             let Ok((request, scene)) = scene(&bytes, options) else { continue };
-            if let Err(error) = request.picture_of(&request.lit(scene), &mut renderer) {
+            if let Err(error) = request.still(scene, false).and_then(|view| view.picture(&mut renderer)) {
                 assert!(error.to_string().len() < 2000, "{error}");
             }
         }

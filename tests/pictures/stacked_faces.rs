@@ -70,7 +70,8 @@ fn of_faces_in_one_plane_pictures_and_areas_show_the_same() {
         }) {
             let request = request(view);
             let scene = scene(turn, names, &request);
-            let picture: Picture = request.picture_of(&scene, &mut renderer).unwrap();
+            let picture: Picture =
+                request.moving(scene.clone(), None, false).and_then(|view| view.picture(&mut renderer)).unwrap();
             let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
             let materials = &scene.objects[0].mesh.materials;
             for px in places(&scene, turn) {

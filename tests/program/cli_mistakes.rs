@@ -207,8 +207,8 @@ const MISTAKES: [(&str, &str); 105] = [
         "out.svg: style phong draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture such as drawing.png",
     ),
     (
-        "render triangle.obj -o out.json --look charcoal",
-        "out.json: look charcoal draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture such as drawing.png",
+        "render triangle.obj -o out.json --look sketch",
+        "out.json: look sketch draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture such as drawing.png",
     ),
     (
         "render triangle.obj -o out.svg --style lines --no-borders",
@@ -227,7 +227,7 @@ const MISTAKES: [(&str, &str); 105] = [
         "--turntable: areas are drawn from one view; leave it out, or draw lines alone",
     ),
     (
-        "render triangle.obj -o out.pdf --look charcoal --style sand",
+        "render triangle.obj -o out.pdf --look sketch --style sand",
         "out.pdf: style sand draws pixels; --look print in its place draws areas and lines, --look technical lines, or name a picture such as drawing.png",
     ),
     ("render triangle.obj -o .png", ".png: this is an ending without a name; write drawing.png"),
@@ -319,7 +319,7 @@ const MISTAKES: [(&str, &str); 105] = [
     ),
     (
         "compare triangle.obj -o out.png --left phong",
-        "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, ink, back-faces, print, technical",
+        "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, ink, back-faces, print, technical, sketch",
     ),
     ("measure triangle.obj", "--output is missing; name the folder to write into: -o results; see --help"),
     (

@@ -138,7 +138,7 @@ fn nonsense_for_strokes_is_refused_by_the_options_name() {
         &["--hatch", "lines alone have no tones", "--look print"],
     );
     refuse("a.png", &["--look", "print", "--hatch", "auto"], &["--hatch", "write a .svg"]);
-    refuse("a.svg", &["--look", "charcoal", "--hatch", "auto"], &["look charcoal draws pixels", "--look print"]);
+    refuse("a.svg", &["--look", "sketch", "--hatch", "auto"], &["look sketch draws pixels", "--look print"]);
     refuse("a.svg", &["--look", "print", "--hatch", "auto", "--tones", "1"], &["--hatch", "--tones", "2 or 3 tones"]);
 }
 
@@ -150,13 +150,12 @@ fn a_picture_of_pixels_names_options_that_only_vectors_have() {
     let (request, remarks) = Request::from_layers(&[OptionLayer::Given(given)]).unwrap();
     assert!(remarks.is_empty(), "an .svg has it: {remarks:?}");
     let request = request.with_models(vec!["builtin:gear".to_owned()]);
-    let drawn = request.draw(&mut Session::default(), Default::default(), &Default::default()).unwrap();
-    let tinta::request::Drawn::Picture(picture) = drawn else { panic!("a picture") };
+    let picture = request.picture(&mut Session::default(), &Default::default()).unwrap();
     assert!(picture.remarks.iter().any(|remark| remark.starts_with("--class-colors has no effect on style ink")));
     let hatched: Options = [("style", OptionValue::text("ink")), ("hatch", OptionValue::text("auto"))]
         .map(|(name, value)| (name.to_owned(), value))
         .into();
     let (request, _) = Request::from_layers(&[OptionLayer::Given(hatched)]).unwrap();
-    let refused = request.draw(&mut Session::default(), Default::default(), &Default::default()).unwrap_err();
+    let refused = request.picture(&mut Session::default(), &Default::default()).unwrap_err();
     assert!(matches!(refused, Error::Setting { .. }), "{refused}");
 }

@@ -9,6 +9,7 @@ mod cli_lines;
 mod cli_mistakes;
 mod cli_parts;
 mod cli_stdin;
+mod doors;
 #[cfg(unix)]
 mod external;
 mod faults;

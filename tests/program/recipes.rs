@@ -71,7 +71,7 @@ fn pictures_of_every_kind_are_made_again_byte_for_byte() {
 #[test]
 fn what_a_look_switches_on_can_be_switched_off_and_its_recipe_draws_the_same_again() {
     let folder = Folder::new();
-    for look in ["print", "technical", "charcoal"] {
+    for look in ["print", "technical", "sketch"] {
         let [whole, first, second] =
             ["whole", "first", "second"].map(|name| folder.path(&format!("{look}-{name}.png")));
         let render = |out: &str, more: &[&str]| {

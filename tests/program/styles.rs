@@ -201,7 +201,7 @@ fn averaged_normals_are_left_out_of_looks_and_named_in_published_styles() {
         assert_eq!(code, Some(0), "{remark}");
         (remark, std::fs::read(out).unwrap())
     };
-    for look in [&["--look", "print"][..], &["--look", "charcoal", "--grain", "texture-size=32"]] {
+    for look in [&["--look", "print"][..], &["--look", "sketch", "--grain", "texture-size=32"]] {
         let (remark, picture) = render(0, look);
         assert!(remark.contains("d.obj: 36 of the file's 36 normals") && remark.contains("--normals file"), "{remark}");
         let (silence, clean) = render(1, look);

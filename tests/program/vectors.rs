@@ -15,7 +15,7 @@ use tinta::{
 /// The areas of a style as SVG.
 fn areas(scene: &Scene, style: &Style) -> String {
     let lines = VisibleLines::none(scene.size);
-    let areas = style.vectors(scene.size).unwrap().areas(scene, &lines, &Progress::default()).unwrap();
+    let areas = style.vectors(scene.size).unwrap().areas(scene, &lines, &Progress::default()).unwrap().unwrap();
     svg_of(scene, areas.drawn)
 }
 
@@ -121,7 +121,7 @@ fn areas_and_pixels_are_the_same_where_normals_are_averaged_and_patches_flattene
     let settings = SceneSettings { camera, ..SceneSettings::default() };
     for model in ["builtin:bust", "builtin:soldier", "builtin:gear"] {
         let scene = Scene::new([load(model, &options).unwrap().mesh], &settings).unwrap();
-        check(model, &lit_scene(scene, None, [0.2, 0.56]), &tones_alone()[4..]);
+        check(model, &lit_scene(scene, None, [0.2, 0.56]).0, &tones_alone()[4..]);
     }
 }
 
@@ -154,7 +154,7 @@ fn outlines_of_objects_are_masks() {
     let style = LineStyle { areas: Some(Joined::Object), is_of_areas_alone: true, ..LineStyle::default() };
     let vectors = Style::Lines(style).vectors(scene.size).unwrap();
     let lines = VisibleLines::none(scene.size);
-    let fills = vectors.areas(&scene, &lines, &Progress::default()).unwrap().drawn.fills;
+    let fills = vectors.areas(&scene, &lines, &Progress::default()).unwrap().unwrap().drawn.fills;
     assert_eq!(fills.iter().map(|group| group.object).collect::<Vec<_>>(), [0, 1, 2, 3]);
     let bytes = |Color(color): Color| color.map(|channel| (channel * 255.0).round() as u8);
     let colors: Vec<[u8; 3]> = fills.iter().map(|group| bytes(group.fills[0].color)).collect();

@@ -7,9 +7,9 @@ use std::sync::Arc;
 use tinta::lines::Progress;
 use tinta::mesh::{Loaded, load, read_bytes};
 use tinta::recipe::{Driver, FileRecord};
-use tinta::request::{DrawingFile, DrawingFormat, OptionLayer, Request};
+use tinta::request::{DrawingFile, DrawingFormat, OptionLayer, Request, Resolved};
 use tinta::settings::Options;
-use tinta::{LineSettings, Mesh, Recipe, Scene, SceneSettings, StyleName};
+use tinta::{LineSettings, Mesh, Recipe, Scene, StyleName};
 use tinta_lab::measure::{Ink, Reference};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -90,9 +90,9 @@ impl Model {
     /// Those of the options and of the lines.
     pub fn svg(&self, options: &str, has_recipe: bool) -> Result<String, JsError> {
         let request = self.request(StyleName::Lines, options)?;
-        let scene = request.lit(self.scene(&request.scene)?);
-        let recipe = has_recipe.then(|| self.recipe(&request, &scene, None));
-        let drawn = request.drawn_lines(scene, DrawingFormat::Svg.wanted(false), &Progress::default()).map_err(said)?;
+        let resolved = request.resolve(vec![self.mesh.clone()], true).map_err(said)?;
+        let recipe = has_recipe.then(|| self.recipe(&resolved, None));
+        let drawn = resolved.drawn_lines(DrawingFormat::Svg.wanted(false), &Progress::default()).map_err(said)?;
         let bytes =
             drawn.written(DrawingFormat::Svg, None, recipe.as_ref()).and_then(DrawingFile::bytes).map_err(said)?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
@@ -105,7 +105,7 @@ impl Model {
     ///
     /// Those of the options and of the lines.
     pub fn error(&self, options: &str, ink: &[u8]) -> Result<f64, JsError> {
-        let scene = self.scene(&self.request(StyleName::Lines, options)?.scene)?;
+        let scene = self.placed(&self.request(StyleName::Lines, options)?)?;
         let reference = Reference::of(&scene, &LineSettings::as_published()).map_err(said)?;
         let ink = Ink { size: scene.size, darkness: ink.to_vec() };
         Ok(ink.error(&reference, TOLERANCE_PX).f1)
@@ -119,15 +119,15 @@ impl Model {
     }
 
     /// The recipe of a drawing of it.
-    pub(crate) fn recipe(&self, request: &Request, scene: &Scene, gl: Option<Driver>) -> Recipe {
+    pub(crate) fn recipe(&self, drawn: &Resolved, gl: Option<Driver>) -> Recipe {
         let beside: Vec<PathBuf> = self.files.iter().map(|file| PathBuf::from(&file.path)).collect();
         let record = |path: &Path| self.files.iter().find(|file| Path::new(&file.path) == path).cloned();
-        request.recipe(scene, &beside, gl, record)
+        drawn.request.recipe(&drawn.scene, &beside, gl, record)
     }
 
-    /// A scene of it.
-    pub(crate) fn scene(&self, settings: &SceneSettings) -> Result<Scene, JsError> {
-        Scene::new([self.mesh.clone()], settings).map_err(said)
+    /// It under a request's settings.
+    pub(crate) fn placed(&self, request: &Request) -> Result<Scene, JsError> {
+        request.placed(vec![self.mesh.clone()]).map_err(said)
     }
 }
 

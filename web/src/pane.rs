@@ -3,7 +3,6 @@
 use crate::errors::{said, unreadable};
 use crate::model::{Model, asked};
 use serde_json::json;
-use std::sync::Arc;
 use tinta::camera::CameraSettings;
 use tinta::glam::DVec2;
 use tinta::lines::Progress;
@@ -12,7 +11,7 @@ use tinta::pixel::Explanation;
 use tinta::plan::Step;
 use tinta::recipe::Driver;
 use tinta::renderer::Renderer;
-use tinta::request::{LINES_AT_ONCE_MS, Request};
+use tinta::request::{LINES_AT_ONCE_MS, Request, Resolved};
 use tinta::settings::{HasSettings, Options};
 use tinta::styles::{Show, coarse};
 use tinta::{Picture, Scene, SceneSettings, Style, StyleName, View};
@@ -31,6 +30,8 @@ pub struct Pane {
     drawn: Option<Picture>,
     /// How long the last search for exact lines took, milliseconds.
     lines_ms: f64,
+    /// The light of the tones in the last view.
+    light: Option<[f32; 3]>,
 }
 
 #[wasm_bindgen]
@@ -43,7 +44,7 @@ impl Pane {
     #[wasm_bindgen(constructor)]
     pub fn new(canvas: HtmlCanvasElement) -> Result<Pane, JsError> {
         let renderer = Renderer::on_canvas(canvas).map_err(said)?;
-        Ok(Self { renderer, scene: None, orbit: Orbit::default(), drawn: None, lines_ms: f64::INFINITY })
+        Ok(Self { renderer, scene: None, orbit: Orbit::default(), drawn: None, lines_ms: f64::INFINITY, light: None })
     }
 
     /// The browser's graphics context, as JSON.
@@ -57,7 +58,7 @@ impl Pane {
     ///
     /// If it is too large for a scene.
     pub fn show(&mut self, model: &Model) -> Result<(), JsError> {
-        self.scene = Some(model.scene(&SceneSettings::default())?);
+        (self.scene, self.light) = (Some(model.placed(&Request::default())?), None);
         Ok(())
     }
 
@@ -74,13 +75,17 @@ impl Pane {
         if is_coarse && self.renderer.context().draw_buffers > 1 {
             request.style = coarse(&request.style);
         }
-        let scene = if is_coarse { self.seen(&request)? } else { self.lit(&request)? };
-        let around = request.around(&scene, &Progress::default()).map_err(said)?;
-        if request.has_lines_over() {
+        let view = match is_coarse {
+            true => request.moving(self.seen(&request)?, self.light, false).map_err(said)?,
+            false => self.still(&request)?,
+        };
+        self.light = view.light().or(self.light);
+        let around = view.around(&Progress::default()).map_err(said)?;
+        if view.contents.lines.is_some() {
             self.lines_ms = around.found_ms;
         }
-        let (_, pruned) = request.plans(&scene, &mut self.renderer).map_err(said)?;
-        let picture = around.drawn(&scene, &pruned.plan, &mut self.renderer).map_err(said)?;
+        let (_, pruned) = view.plans(&mut self.renderer).map_err(said)?;
+        let picture = around.drawn(&view.scene, &pruned.plan, &mut self.renderer).map_err(said)?;
         let width = picture.size.width;
         self.drawn = Some(picture);
         Ok(width)
@@ -100,7 +105,7 @@ impl Pane {
         let picture = self.drawn.as_ref().ok_or_else(|| JsError::new("nothing was drawn yet"))?;
         let driver = Driver::new(self.renderer.context());
         let request = model.request(StyleName::ThreePass, options)?;
-        let recipe = model.recipe(&request, &self.lit(&request)?, Some(driver));
+        let recipe = model.recipe(&self.still(&request)?, Some(driver));
         picture.png_bytes(recipe.note().as_ref()).map_err(said)
     }
 
@@ -111,7 +116,7 @@ impl Pane {
     /// Those of [`Pane::draw`].
     pub fn passes(&self, options: &str, show: &str) -> Result<String, JsError> {
         let request = picture_asked(options, show)?;
-        let plan = request.plan(&self.lit(&request)?).map_err(said)?;
+        let plan = self.still(&request)?.plan().map_err(said)?;
         let passes: Vec<_> = plan
             .passes
             .iter()
@@ -139,7 +144,7 @@ impl Pane {
     /// Those of [`Pane::draw`].
     pub fn ink(&mut self, options: &str) -> Result<Option<Vec<u8>>, JsError> {
         let request = asked(StyleName::ThreePass, options)?;
-        let scene = self.lit(&request)?;
+        let Resolved { scene, request, .. } = self.still(&request)?;
         Ok(Ink::of_style(&mut self.renderer, &scene, &request.style).map_err(said)?.map(|ink| ink.darkness))
     }
 
@@ -151,7 +156,7 @@ impl Pane {
     /// Those of [`Pane::draw`], and for background.
     pub fn why(&mut self, options: &str, x: f64, y: f64) -> Result<String, JsError> {
         let request = asked(StyleName::ThreePass, options)?;
-        let scene = self.lit(&request)?;
+        let Resolved { scene, request, .. } = self.still(&request)?;
         let mut style = request.style;
         let is_supersampled = style.plan(&scene, Show::Final).map_err(said)?.supersample > 1;
         if is_supersampled && let Some(setting) = Style::table().find(&style, "supersample") {
@@ -269,9 +274,9 @@ impl Pane {
         scene.seen_with(&self.settings(request)?).map_err(said)
     }
 
-    /// The scene as a still picture shows it: its tones have the light of this view, whatever was drawn before.
-    fn lit(&self, request: &Request) -> Result<Scene, JsError> {
-        Ok(request.lit(Scene { tone_light: Arc::default(), ..self.seen(request)? }))
+    /// The scene in view as a still picture: its tones have the light of this view.
+    fn still(&self, request: &Request) -> Result<Resolved, JsError> {
+        request.still(self.seen(request)?, false).map_err(said)
     }
 }
 

@@ -236,9 +236,9 @@ export async function testPage(tables) {
 
   await test("a look sets the style of its side and the scene of both", async () => {
     await change(at("model"), "bust");
-    await change(at("left-Look"), "charcoal");
+    await change(at("left-Look"), "sketch");
     assert(at("left-Style").value === "charcoal", at("left-Style").value);
-    assert(at("left-Look").value === "charcoal", `in use: ${at("left-Look").value}`);
+    assert(at("left-Look").value === "sketch", `in use: ${at("left-Look").value}`);
     assert(at("problem").hidden, at("problem").textContent);
     const looked = picture(at("left"));
     await change(at("left-Look"), "published");

@@ -13,7 +13,7 @@
 //!
 //! let mesh = load("../../models/gear.obj", &LoadOptions::default())?.mesh;
 //! let scene = Scene::new([mesh], &SceneSettings::default())?;
-//! let lists = faces_not_hidden(&scene, scene.size, 8, [0.0; 2], 1).unwrap();
+//! let (lists, _) = faces_not_hidden(&scene, scene.size, 8, [0.0; 2], 1);
 //! assert!(lists[0].as_ref().is_some_and(|drawn| drawn.left_out > 0));
 //! # Ok::<(), tinta_geometry::Error>(())
 //! ```
@@ -24,7 +24,6 @@ use crate::threads::{each_piece, filled, listed, threads_for_items};
 use crate::values::Size;
 use glam::{Mat4, Vec2, Vec3, Vec3Swizzles, Vec4};
 use std::ops::Range;
-use std::sync::atomic::Ordering::Relaxed;
 
 /// How far behind a depth a face must lie: two steps of a depth buffer of 16 bits.
 const BEHIND: f32 = 1.0 / 32_768.0;
@@ -45,16 +44,13 @@ const STARTING_NS: usize = 300_000;
 /// The centres of a row that are computed together.
 const GROUP: usize = 4;
 
-/// For how many views the search rests if it cost more than it saved.
-const REST: u32 = 31;
-
 /// The threads for so many faces and pixels of their boxes: a face takes as long as several simple items, a pixel less than one.
 fn threads(faces: usize, pixels: usize) -> usize {
     threads_for_items(8 * faces + pixels / 8)
 }
 
 /// Returns for each object the faces that may own a pixel, `None` where all may. A face that reaches the near or the far plane stays,
-/// and all do where faces are long and thin. `None` for all if the search rests, because an earlier one saved less than it cost.
+/// and all do where faces are long and thin. And whether drawing them alone saves more time than the search cost.
 ///
 /// `surface` is the size drawn into, pixels (the picture's times its supersampling); GL places vertices to 2^-`subpixel_bits` of a
 /// pixel, pushes faces back by `polygon_offset` (glPolygonOffset's factor and units), and draws the objects `draws` times.
@@ -64,18 +60,15 @@ pub fn faces_not_hidden(
     subpixel_bits: u32,
     polygon_offset: [f32; 2],
     draws: usize,
-) -> Option<Vec<Option<DrawnFaces>>> {
-    let rest = &scene.hidden_faces_rest;
-    rest.fetch_update(Relaxed, Relaxed, |views| views.checked_sub(1)).err()?;
+) -> (Vec<Option<DrawnFaces>>, bool) {
     let view = View::of(scene, surface, subpixel_bits, polygon_offset);
     let found = view.and_then(|view| view.find(scene));
-    let Some(Found { lists, seen_ns, all_ns, search_ns }) = found else { return Some(vec![None; scene.objects.len()]) };
+    let Some(Found { lists, seen_ns, all_ns, search_ns }) = found else {
+        return (vec![None; scene.objects.len()], true);
+    };
     let threads = threads(scene.triangle_count(), 0);
     let starting_ns = if threads > 1 { STARTING_NS } else { 0 };
-    if (all_ns - seen_ns) * draws < search_ns / threads + starting_ns {
-        rest.store(REST, Relaxed);
-    }
-    Some(lists)
+    (lists, (all_ns - seen_ns) * draws >= search_ns / threads + starting_ns)
 }
 
 /// The faces to draw, and the times of drawing them, of drawing all, and of the search on one thread.

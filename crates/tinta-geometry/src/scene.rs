@@ -42,7 +42,6 @@ use crate::mesh::{Material, Mesh, VertexArrays, bounds};
 use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
 use crate::tolerances::SCENE_RADIUS;
 use glam::{DMat4, DVec3, Mat4, Vec3};
-use std::sync::atomic::AtomicU32;
 use std::sync::{Arc, LazyLock, OnceLock, Weak};
 
 /// A mesh in its place.
@@ -92,11 +91,6 @@ pub struct Scene {
     pub recolor: bool,
     /// The surfaces' colours.
     pub surface: Surface,
-    /// The direction towards the far light of tones that was chosen for this scene, in the eye's space, of any length. Copies in other
-    /// views share it, so a light that was chosen once does not move.
-    pub tone_light: Arc<OnceLock<[f32; 3]>>,
-    /// For how many views the search for hidden faces rests, because it found few. Copies in other views share it.
-    pub hidden_faces_rest: Arc<AtomicU32>,
 }
 
 crate::choices! {
@@ -279,9 +273,7 @@ impl Scene {
     /// Those of [`Scene::new`].
     pub fn seen_with(&self, settings: &SceneSettings) -> Result<Self> {
         check_size(settings.size)?;
-        let seen = Self::seen(self.objects.clone(), self.centre, self.radius, settings)?;
-        let (tone_light, hidden_faces_rest) = (self.tone_light.clone(), self.hidden_faces_rest.clone());
-        Ok(Self { tone_light, hidden_faces_rest, ..seen })
+        Self::seen(self.objects.clone(), self.centre, self.radius, settings)
     }
 
     /// Returns the scene with a camera that is fitted to the objects and to their shadow on the ground, by a light in this direction,
@@ -325,8 +317,6 @@ impl Scene {
             color: settings.color.unwrap_or(settings.bare_color),
             recolor: settings.color.is_some(),
             surface: settings.surface,
-            tone_light: Arc::default(),
-            hidden_faces_rest: Arc::default(),
         };
         scene.check_distance()?;
         Ok(scene.with_near_plane(&settings.camera))

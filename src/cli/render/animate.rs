@@ -15,8 +15,8 @@ use tinta::mesh::ModelFrame;
 use tinta::plan::prune::Pruned;
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
-use tinta::request::{AnimationSettings, ModelCache, ReadModels, Request, Session, empty_remark};
-use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene, SceneSettings};
+use tinta::request::{AnimationSettings, ModelCache, ReadModels, Request, Resolved, Session, empty_remark};
+use tinta::{AnimationTarget, AnimationWriter, Error, LoadOptions, Mesh, Result, Scene};
 
 /// Default time of a turn, milliseconds; each of a few views is shown for at most 200.
 const TURN_MS: u32 = 2500;
@@ -68,27 +68,27 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
     let start = Instant::now();
     let Rendering { request, run, output } = *rendering;
     run.refuse_for_animations()?;
-    let (scenes, load_ms) = scenes(request, &session.models)?;
-    pictures_of(&scenes[0]).keep(output)?;
-    let delay_ms = delay_ms(&request.animation, scenes.len());
-    let context = Instant::now();
-    let renderer = request.renderer(session)?;
+    let (views, load_ms) = views(request, &session.models)?;
+    pictures_of(&views[0].scene).keep(output)?;
+    let delay_ms = delay_ms(&request.animation, views.len());
+    let (context, renderer) = (Instant::now(), request.renderer(session)?);
     let context_ms = milliseconds_since(context);
 
-    let progress = Progress::new("drawing", scenes.len() as u64);
-    let mut writer = AnimationWriter::new(target.clone(), scenes.len() as u32, delay_ms)?;
+    let progress = Progress::new("drawing", views.len() as u64);
+    let mut writer = AnimationWriter::new(target.clone(), views.len() as u32, delay_ms)?;
     let mut frame_ms = Vec::new();
     let mut verdict = Verdict::Good;
     let (mut remarks, mut empty) = (Vec::new(), Vec::new());
-    for (number, scene) in scenes.iter().enumerate() {
+    for (number, view) in views.iter().enumerate() {
         let frame = Instant::now();
-        let (published, Pruned { mut plan, .. }) = request.plans(scene, renderer)?;
+        let scene = &view.scene;
+        let (published, Pruned { mut plan, .. }) = view.plans(renderer)?;
         plan.submission = run.submission;
         if number == 0 {
-            remarks = request.picture_remarks(scene, &plan, renderer);
+            remarks = view.picture_remarks(&plan, renderer);
             remarks.iter().for_each(|remark| super::super::say(&format!("tinta: {remark}")));
         }
-        let around = request.around(scene, &LineProgress::default())?;
+        let around = view.around(&LineProgress::default())?;
         let picture = around.drawn(scene, &plan, renderer)?;
         frame_ms.push(milliseconds_since(frame));
         empty.extend(empty_remark(scene, &published, Some(&around), &picture, renderer)?);
@@ -100,21 +100,21 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
     }
     let written = writer.finish()?;
     drop(progress);
-    say_left_over(output, scenes.len() as u32);
-    remarks.extend(of_empty(&empty, scenes.len()).inspect(|remark| super::super::say(&format!("tinta: {remark}"))));
+    say_left_over(output, views.len() as u32);
+    remarks.extend(of_empty(&empty, views.len()).inspect(|remark| super::super::say(&format!("tinta: {remark}"))));
     if !run.json {
         return Ok(verdict);
     }
     super::super::print_json(&json!({
         "version": env!("CARGO_PKG_VERSION"),
-        "models": rendering.model_records(&scenes[0]),
+        "models": rendering.model_records(&views[0].scene),
         "load": request.read,
         "style": request.style,
         "show": request.show,
-        "size": scenes[0].size,
+        "size": request.scene.size,
         "gl": renderer.context(),
         "remarks": remarks,
-        "frames": scenes.len(),
+        "frames": views.len(),
         "delay_ms": delay_ms,
         "bytes": written.bytes,
         "load_ms": load_ms,
@@ -132,20 +132,20 @@ fn of_empty(remarks: &[String], pictures: usize) -> Option<String> {
     Some(format!("{} of {pictures} pictures are empty; the first: {first}", remarks.len()))
 }
 
-/// A scene for each picture, and how long reading took, milliseconds.
-pub fn scenes(request: &Request, models: &ModelCache) -> Result<(Vec<Scene>, f64)> {
-    let settings = &request.scene;
+/// A view for each picture, and how long reading took, milliseconds.
+pub fn views(request: &Request, models: &ModelCache) -> Result<(Vec<Resolved>, f64)> {
     if let Some(movement) = &request.animation.animate {
         let start = Instant::now();
         let frames = model_frames(&request.models, &request.read, movement)?;
         let load_ms = milliseconds_since(start);
-        return Ok((one_scene_a_frame(frames, settings)?, load_ms));
+        return Ok((request.animation(one_scene_a_frame(frames, request)?, false)?, load_ms));
     }
     let ReadModels { meshes, ms: load_ms, .. } = request.models(models)?;
-    let Some(views) = request.animation.turntable else { return Ok((vec![request.scene(meshes)?], load_ms)) };
-    let scene = Scene::new(meshes, settings)?;
-    let cameras = scene.turntable(&settings.camera, views)?;
-    Ok((cameras.into_iter().map(|camera| Scene { camera, ..scene.clone() }).collect(), load_ms))
+    let views = match request.animation.turntable {
+        Some(views) => request.turn(request.placed(meshes)?, views, false)?,
+        None => vec![request.resolve(meshes, false)?],
+    };
+    Ok((views, load_ms))
 }
 
 /// All models in each frame. Models that stand still, or have fewer frames than another, begin again.
@@ -198,7 +198,7 @@ fn numbers_of(names: &[String], movement: &str, path: &str) -> Result<Vec<usize>
 }
 
 /// Scenes with one camera, which has the models of all of them in view, and a fixed place for each copy.
-fn one_scene_a_frame(frames: Vec<Vec<Arc<Mesh>>>, settings: &SceneSettings) -> Result<Vec<Scene>> {
+fn one_scene_a_frame(frames: Vec<Vec<Arc<Mesh>>>, request: &Request) -> Result<Vec<Scene>> {
     // A section may leave nothing of a model in some frames.
     let left = |frame: &(usize, &Arc<Mesh>)| !frame.1.is_empty();
     let numbered = frames.iter().enumerate().flat_map(|(frame, meshes)| meshes.iter().map(move |mesh| (frame, mesh)));
@@ -207,7 +207,7 @@ fn one_scene_a_frame(frames: Vec<Vec<Arc<Mesh>>>, settings: &SceneSettings) -> R
     if let Some(frame) = (0..frames.len()).find(|frame| !frame_of.contains(frame)) {
         return Err(Error::setting("section", format!("nothing is left of frame {frame}; move the plane")));
     }
-    let mut together = Scene::new(meshes, settings)?;
+    let mut together = request.placed(meshes)?;
     let objects = std::mem::take(&mut together.objects);
     let mut scenes: Vec<Scene> = frames.iter().map(|_| together.clone()).collect();
     for (index, object) in objects.into_iter().enumerate() {
@@ -240,8 +240,9 @@ mod tests {
         let mesh = |model: &str| Arc::new(read(model, &LoadOptions::default()).unwrap().mesh);
         let (ant, gear, still) = (mesh("builtin:ant"), mesh("builtin:gear"), mesh("builtin:open-box"));
         let frames = vec![vec![ant.clone(), still.clone()], vec![gear.clone(), still.clone()]];
-        let settings = SceneSettings { copies: 3, ..SceneSettings::default() };
-        let scenes = one_scene_a_frame(frames, &settings).unwrap();
+        let mut request = Request::default();
+        request.scene.copies = 3;
+        let scenes = one_scene_a_frame(frames, &request).unwrap();
         assert_eq!(scenes[0].camera, scenes[1].camera);
         for (scene, moving) in scenes.iter().zip([ant, gear]) {
             assert_eq!(scene.objects.len(), 6);

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use tinta::gl::ContextInfo;
 use tinta::preset::{Options, to_toml};
 use tinta::recipe::{Driver, FileRecord};
-use tinta::{Error, Recipe, Result, Scene, TextTarget};
+use tinta::request::Resolved;
+use tinta::{Error, Recipe, Result, TextTarget};
 
 /// Where the preset goes, checked before the work.
 pub(super) fn preset_target(path: Option<&str>, output: &str, inputs: &Inputs) -> Result<Option<TextTarget>> {
@@ -37,11 +38,11 @@ pub(super) fn save_preset(target: &TextTarget, options: &Options) -> Result<()> 
 /// The recipe of a picture, or of lines if no context is given; `None` if not requested.
 pub(super) fn recipe(
     rendering: &Rendering<'_>,
-    scene: &Scene,
+    resolved: &Resolved,
     beside: &[PathBuf],
     context: Option<&ContextInfo>,
 ) -> Option<Recipe> {
-    let recipe = || rendering.request.recipe(scene, beside, context.map(Driver::new), record);
+    let recipe = || resolved.request.recipe(&resolved.scene, beside, context.map(Driver::new), record);
     (!rendering.run.no_recipe).then(recipe)
 }
 

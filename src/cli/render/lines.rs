@@ -12,7 +12,7 @@ use std::time::Instant;
 use tinta::lines::{chain, strokes_of_paths};
 use tinta::record::{LineCounts, LinesMade, Made, Record};
 use tinta::renderer::milliseconds_since;
-use tinta::request::{DrawingFormat, Drawn, DrawnLines, OF_PAPER, OF_PATHS, Session, pixels_on_paper};
+use tinta::request::{DrawingFormat, DrawnLines, OF_PAPER, OF_PATHS, Session, pixels_on_paper};
 use tinta::settings::HasSettings;
 use tinta::styles::is_of_lines_alone;
 use tinta::{DrawingSettings, Error, Result, Show, Target, TextTarget};
@@ -42,23 +42,23 @@ fn one_view(
 ) -> Result<Verdict> {
     let Rendering { request, run, output } = *rendering;
     let (progress, wanted) = (progress(rendering), format.wanted(run.is_told()));
-    let drawn = match watched(&progress, stop, || request.draw(session, wanted, &progress)) {
+    let drawn = match watched(&progress, stop, || request.lines(session, wanted, &progress)) {
         Err(Error::Cancelled) => return Ok(stopped(stop)),
         drawn => drawn?,
     };
     let phases = progress.times();
-    let Drawn::Lines(drawn) = drawn else { return Ok(Verdict::Good) };
     drawn.remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
 
     let start = Instant::now();
-    let DrawnLines { scene, lines, areas, load_ms, .. } = &*drawn;
+    let DrawnLines { resolved, lines, areas, load_ms, .. } = &drawn;
+    let drawing = &resolved.contents.drawing;
     if format == DrawingFormat::Dxf && areas.as_ref().is_some_and(|areas| !areas.drawn.fills.is_empty()) {
         say(&format!(
             "tinta: {output}: a .dxf file has no fills, so only lines are written; --hatch draws tones as lines"
         ));
     }
     let has_recipe = matches!(format, DrawingFormat::Svg | DrawingFormat::Pdf | DrawingFormat::Picture);
-    let recipe = if has_recipe { keep::recipe(rendering, scene, &drawn.files, None) } else { None };
+    let recipe = if has_recipe { keep::recipe(rendering, resolved, &drawn.files, None) } else { None };
     let paths = match format {
         DrawingFormat::Json if run.is_told() => chain(&lines.segments),
         DrawingFormat::Json => Vec::new(),
@@ -68,10 +68,10 @@ fn one_view(
     if is_stopped(stop) {
         return Ok(stopped(stop));
     }
-    let pens = match run.explain && drawn.style.drawing.is_for_pen {
+    let pens = match run.explain && drawing.is_for_pen {
         true => {
             let areas = areas.as_ref().map(|areas| &areas.drawn);
-            explain::pens(&strokes_of_paths(lines, paths.clone(), areas, &drawn.style.drawing)?)
+            explain::pens(&strokes_of_paths(lines, paths.clone(), areas, drawing)?)
         }
         false => String::new(),
     };
@@ -79,17 +79,17 @@ fn one_view(
     let lines_ms = milliseconds_since(start);
     if run.explain {
         let text = explain::lines(lines, &counts, &explain::parts(*load_ms, &phases, lines_ms));
-        super::super::print(&(text + &explain::harmless(scene) + &pens))?;
+        super::super::print(&(text + &explain::harmless(&resolved.scene) + &pens))?;
     }
     if !run.json {
         return Ok(Verdict::Good);
     }
-    super::super::print_json(&record(rendering, *drawn, counts, lines_ms)).map(|()| Verdict::Good)
+    super::super::print_json(&record(rendering, drawn, counts, lines_ms)).map(|()| Verdict::Good)
 }
 
 /// The record of the drawing.
 fn record(rendering: &Rendering<'_>, drawn: DrawnLines, counts: LineCounts, lines_ms: f64) -> Record {
-    let DrawnLines { scene, lines, remarks, load_ms, .. } = drawn;
+    let DrawnLines { resolved, lines, remarks, load_ms, .. } = drawn;
     let made = Made::Lines(Box::new(LinesMade {
         edges: lines.edges,
         changes: lines.changes.clone(),
@@ -97,7 +97,7 @@ fn record(rendering: &Rendering<'_>, drawn: DrawnLines, counts: LineCounts, line
         times: lines.times,
         lines_ms,
     }));
-    let mut record = rendering.record(&scene, load_ms, remarks, made);
+    let mut record = rendering.record(&resolved, load_ms, remarks, made);
     record.model.defects.covered_triangles = lines.covered_triangles;
     record
 }
@@ -138,7 +138,7 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: DrawingFormat) 
     }
     if output == "-" && run.is_told() {
         let problem = "the drawing and --json or --explain cannot share standard output; name a file";
-        return Err(Error::setting("-o -", problem));
+        return Err(Error::value("o", "-", problem));
     }
     match format {
         DrawingFormat::Svg => Ok(()),

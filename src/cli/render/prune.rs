@@ -120,7 +120,8 @@ mod tests {
         let size = Size { width: 32, height: 32 };
         let scene = Scene::new([mesh], &SceneSettings { size, ..SceneSettings::default() }).unwrap();
         let mut renderer = Renderer::new(request.backend).unwrap();
-        let (plan, around) = (request.plan(&scene).unwrap(), request.around(&scene, &Progress::default()).unwrap());
+        let view = request.still(scene.clone(), false).unwrap();
+        let (plan, around) = (view.plan().unwrap(), view.around(&Progress::default()).unwrap());
         let mut picture = around.drawn(&scene, &plan, &mut renderer).unwrap();
         let mut verified = |picture| {
             capture();

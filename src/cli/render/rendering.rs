@@ -4,8 +4,8 @@ use super::super::inputs::Inputs;
 use super::super::run_settings::RunSettings;
 use tinta::Scene;
 use tinta::record::{CameraRecord, Made, ModelRecord, Record};
-use tinta::request::Request;
-use tinta::styles::Style;
+use tinta::request::{Request, Resolved};
+use tinta::styles::{Contents, LineStyle, Style};
 
 /// A rendering on its way.
 pub(super) struct Rendering<'a> {
@@ -22,8 +22,11 @@ impl Rendering<'_> {
     }
 
     /// The record of this drawing.
-    pub(super) fn record(&self, scene: &Scene, load_ms: f64, remarks: Vec<String>, made: Made) -> Record {
+    pub(super) fn record(&self, resolved: &Resolved, load_ms: f64, remarks: Vec<String>, made: Made) -> Record {
+        let Resolved { scene, contents: Contents { lines, drawing, .. }, .. } = resolved;
         let models = self.model_records(scene);
+        let is_over = self.request.exact_lines && !self.request.style.style_name().draws_lines();
+        let over = lines.as_ref().filter(|_| is_over);
         Record {
             version: env!("CARGO_PKG_VERSION"),
             model: ModelRecord::together(&models),
@@ -32,7 +35,9 @@ impl Rendering<'_> {
             copies: self.request.scene.copies,
             triangles: scene.triangle_count(),
             style: self.request.style.clone(),
-            exact_lines: self.request.lines_over().ok().flatten().map(Style::Lines),
+            exact_lines: over.map(|lines| {
+                Style::Lines(LineStyle { lines: lines.clone(), drawing: drawing.clone(), ..LineStyle::default() })
+            }),
             size: scene.size,
             background: scene.background,
             camera: CameraRecord::new(scene),

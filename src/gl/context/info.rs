@@ -88,7 +88,7 @@ impl ContextInfo {
     }
 
     /// Whether GL draws lines, and points to join them, at this width; it draws other widths at the nearest it can.
-    pub fn draws_edges(&self, width_px: f32, is_smooth: bool) -> bool {
+    pub(crate) fn draws_edges(&self, width_px: f32, is_smooth: bool) -> bool {
         let ranges = match is_smooth {
             false => [self.aliased_line_width, self.aliased_point_size],
             true => [self.smooth_line_width, self.smooth_point_size],

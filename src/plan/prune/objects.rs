@@ -7,7 +7,7 @@ use crate::hidden_faces::faces_not_hidden;
 use crate::limits::DRAWN_AT_ONCE_PIXELS;
 use crate::plan::{Blend, Depth, Draw, EdgeRun, Faces, Geometry, Plan, Step};
 use crate::scene::Scene;
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
 /// Leaves out objects outside the picture, with their edges.
 pub(super) fn outside(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
@@ -93,6 +93,9 @@ pub(super) fn culled_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
     })
 }
 
+/// For how many views the search for hidden faces rests.
+const REST: u32 = 31;
+
 /// Leaves out faces that cover no pixel's centre, and those behind others at every centre that they cover.
 pub(super) fn hidden_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result<Omission, String> {
     let Situation { scene, surface, pruning, .. } = *situation;
@@ -120,8 +123,19 @@ pub(super) fn hidden_faces(plan: &mut Plan, situation: &Situation<'_>) -> Result
     for offset in offsets {
         let is_meant = |draw: &Draw| hides(draw) && draw.polygon_offset == offset;
         let draws = plan.draws().filter(|draw| is_meant(draw)).count();
-        let found = faces_not_hidden(scene, surface, pruning.subpixel_bits, offset.unwrap_or_default(), draws);
-        let Some(mut lists) = found else { break };
+        let mut rest = pruning.rest.lock().unwrap_or_else(PoisonError::into_inner);
+        if let (Some((models, views)), Some(first)) = (rest.as_mut(), scene.objects.first())
+            && *views > 0
+            && models.is_of(first)
+        {
+            *views -= 1;
+            break;
+        }
+        let (mut lists, is_worth_it) =
+            faces_not_hidden(scene, surface, pruning.subpixel_bits, offset.unwrap_or_default(), draws);
+        if !is_worth_it {
+            *rest = scene.objects.first().map(|first| (first.identity(), REST));
+        }
         left_out = left_out.max(choose(plan, scene, is_meant, |number| lists[number].take()));
     }
     if left_out == 0 {

@@ -2,9 +2,10 @@
 
 use crate::choice::Choice;
 use crate::plan::Plan;
-use crate::scene::{Rectangle, Scene, Size};
+use crate::scene::{ObjectIdentity, Rectangle, Scene, Size};
 use serde::Serialize;
 use std::cell::OnceCell;
+use std::sync::{Arc, Mutex};
 
 tinta_geometry::choices! {
     /// A kind of part that can be left out. The rules apply in this order.
@@ -42,7 +43,7 @@ impl Rule {
 }
 
 /// Settings of pruning; [`crate::Renderer::pruning`] returns those for a renderer.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Pruning {
     /// Rules to skip. Default none.
     pub keep: Vec<Rule>,
@@ -52,11 +53,16 @@ pub struct Pruning {
     pub subpixel_bits: u32,
     /// Shaders, by path, whose texts have been replaced: facts of draws that use them are ignored. Default none.
     pub replaced_shaders: Vec<String>,
+    /// The models whose hidden faces are not searched, because a search cost more than it saved, and for how many more views. A
+    /// renderer remembers them. Default none.
+    #[serde(skip)]
+    pub rest: Arc<Mutex<Option<(ObjectIdentity, u32)>>>,
 }
 
 impl Default for Pruning {
     fn default() -> Self {
-        Self { keep: Vec::new(), is_software: true, subpixel_bits: 4, replaced_shaders: Vec::new() }
+        let rest = Arc::default();
+        Self { keep: Vec::new(), is_software: true, subpixel_bits: 4, replaced_shaders: Vec::new(), rest }
     }
 }
 

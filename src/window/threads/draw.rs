@@ -6,11 +6,10 @@
 use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
 use crate::lines::{Progress, lay_strokes};
-use crate::picture::Picture;
 use crate::pixel::{Explanation, around};
 use crate::plan::Plan;
 use crate::renderer::{Renderer, StepValues, median, milliseconds_since};
-use crate::request::{Request, Wanted};
+use crate::request::{Request, Resolved, Wanted};
 use crate::scene::{Rectangle, Scene};
 use crate::styles::{Show, Style, StyleName};
 use crate::window::threads::coarse;
@@ -48,7 +47,7 @@ const REACH_PX: u32 = 96;
 #[derive(Debug)]
 struct ReadBack {
     job: PixelJob,
-    scene: Scene,
+    view: Resolved,
     plan: Plan,
     values: Vec<StepValues>,
 }
@@ -56,7 +55,7 @@ struct ReadBack {
 impl ReadBack {
     /// Whether a pixel, counted from the lower left, can be explained from it.
     fn has(&self, at: [u32; 2]) -> bool {
-        let needed = around(at, self.scene.size, 0);
+        let needed = around(at, self.view.scene.size, 0);
         let holds = |part: Rectangle| {
             let is_within = |from: u32, count: u32, of: u32, held: u32| from >= of && from + count <= of + held;
             is_within(needed.x, needed.width, part.x, part.width)
@@ -77,9 +76,11 @@ pub struct Drawer {
     /// Those that it drew with last.
     good_shaders: HashMap<String, String>,
     warmed: Option<Warmed>,
+    /// The light of the tones in the last view of these models.
+    light: Option<(Arc<Scene>, [f32; 3])>,
 }
 
-/// What the driver has compiled and uploaded.
+/// The models and pictures that the driver has compiled and uploaded.
 #[derive(Debug)]
 struct Warmed {
     /// The models drawn last.
@@ -97,7 +98,7 @@ impl Drawer {
     pub fn new(backend: Backend) -> Result<Self> {
         let renderer = Renderer::new(backend)?;
         let (shaders, good_shaders) = (HashMap::new(), HashMap::new());
-        Ok(Self { read_back: None, renderer, shaders, are_tried: true, good_shaders, warmed: None })
+        Ok(Self { read_back: None, renderer, shaders, are_tried: true, good_shaders, warmed: None, light: None })
     }
 
     /// The context's own description.
@@ -152,17 +153,17 @@ impl Drawer {
         let scene = job.scene()?;
         let draw = |(side, style, show): &(Side, Style, Show)| {
             let drawn = if job.is_coarse { &crate::styles::coarse(style) } else { style };
-            let scene = job.lit(&scene, drawn);
+            let view = self.resolved(job, &scene, drawn, *show)?;
             // The time is that of a frame, not of the driver's compiling and uploading before the first one.
             if self.is_first(job, drawn.style_name(), *show) {
-                self.draw_scene(&scene, drawn, *show)?;
+                view.picture(&mut self.renderer)?;
             }
             let start = Instant::now();
-            let mut picture = self.draw_scene(&scene, drawn, *show)?;
+            let mut picture = view.picture(&mut self.renderer)?;
             let frame_ms = milliseconds_since(start);
             if let Some(style) = &job.lines_over[*side as usize] {
-                let drawn =
-                    exact::request(style).drawn_lines(scene.clone(), Wanted::default(), &Progress::default())?;
+                let lines = exact::request(style).still(scene.clone(), true)?;
+                let drawn = lines.drawn_lines(Wanted::default(), &Progress::default())?;
                 lay_strokes(&drawn.strokes()?, picture.size, &mut picture.pixels);
             }
             let picture = if job.is_coarse { coarse::enlarged(&picture, job.settings.size) } else { picture };
@@ -181,13 +182,16 @@ impl Drawer {
         is_first
     }
 
-    /// Draws a scene, pruned of everything that cannot change the picture.
-    ///
-    /// # Errors
-    ///
-    /// As [`Renderer::render`].
-    pub(in crate::window) fn draw_scene(&mut self, scene: &Scene, style: &Style, show: Show) -> Result<Picture> {
-        Request::of_picture(style, show).picture_of(scene, &mut self.renderer)
+    /// A job's picture of a scene. While the view moves, its light stays.
+    fn resolved(&mut self, job: &Job, scene: &Scene, style: &Style, show: Show) -> Result<Resolved> {
+        let request = Request::of_picture(style, show);
+        let before = self.light.as_ref().filter(|(models, _)| Arc::ptr_eq(models, &job.scene)).map(|(_, light)| *light);
+        let view = match job.keeps_patches {
+            true => request.moving(scene.clone(), before, false)?,
+            false => request.still(scene.clone(), false)?,
+        };
+        self.light = view.light().map(|light| (job.scene.clone(), light)).or(self.light.take());
+        Ok(view)
     }
 
     /// Explains a pixel.
@@ -200,21 +204,15 @@ impl Drawer {
         let at = [job.pixel[0], height - 1 - job.pixel[1]];
         if !self.read_back.as_ref().is_some_and(|known| known.job.is_of_same_picture(job) && known.has(at)) {
             self.read_back = None;
-            let scene = job.view.lit(&job.view.scene()?, &job.style);
-            let plan = job.style.plan(&scene, Show::Final)?;
-            let values = self.renderer.step_values(&scene, &plan, around(at, scene.size, REACH_PX))?;
-            self.read_back = Some(ReadBack { job: job.clone(), scene, plan, values });
+            let view = self.resolved(&job.view, &job.view.scene()?, &job.style, Show::Final)?;
+            let plan = view.plan()?;
+            let values = self.renderer.step_values(&view.scene, &plan, around(at, view.scene.size, REACH_PX))?;
+            self.read_back = Some(ReadBack { job: job.clone(), view, plan, values });
         }
-        let Some(ReadBack { scene, plan, values, .. }) = &self.read_back else {
+        let Some(ReadBack { view, plan, values, .. }) = &self.read_back else {
             return Err(Error::gl("explaining a pixel", "nothing was read back"));
         };
-        Explanation::of_values(&job.style, scene, (plan, values), &self.renderer, job.pixel)
-    }
-
-    fn frame_ms(&mut self, scene: &Scene, style: &Style, show: Show) -> Result<f64> {
-        let start = Instant::now();
-        self.draw_scene(scene, style, show)?;
-        Ok(milliseconds_since(start))
+        Explanation::of_values(&view.request.style, &view.scene, (plan, values), &self.renderer, job.pixel)
     }
 
     /// Times a job's pictures and their passes, and draws the lines of final pictures alone.
@@ -226,10 +224,14 @@ impl Drawer {
         let scene = job.scene()?;
         let mut costs = Vec::new();
         for (side, style, show) in &job.drawings {
-            let lit = job.lit(&scene, style);
-            let (_, pruned) = Request::of_picture(style, *show).plans(&lit, &mut self.renderer)?;
-            let passes = self.renderer.time_passes(&lit, &pruned.plan, TIMED_FRAMES)?;
-            let frames: Result<Vec<f64>> = (0..TIMED_FRAMES).map(|_| self.frame_ms(&lit, style, *show)).collect();
+            let view = self.resolved(job, &scene, style, *show)?;
+            let (_, pruned) = view.plans(&mut self.renderer)?;
+            let passes = self.renderer.time_passes(&view.scene, &pruned.plan, TIMED_FRAMES)?;
+            let frame = |_| {
+                let start = Instant::now();
+                view.picture(&mut self.renderer).map(|_| milliseconds_since(start))
+            };
+            let frames: Result<Vec<f64>> = (0..TIMED_FRAMES).map(frame).collect();
             let frame_ms = median(frames?).unwrap_or_default();
             let ink = match measure.filter(|_| *show == Show::Final) {
                 Some(measure) => (measure.ink)(&mut self.renderer, &scene, style)?,

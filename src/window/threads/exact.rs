@@ -81,10 +81,9 @@ impl ExactLines {
         let work = move || {
             let start = Instant::now();
             // As in the file: a path that ends where a stroke does would restart its dashes.
-            let strokes = job
-                .view
-                .scene()
-                .and_then(|scene| request(&job.style).drawn_lines(scene, Wanted::default(), &progress)?.strokes());
+            let strokes = job.view.scene().and_then(|scene| {
+                request(&job.style).still(scene, true)?.drawn_lines(Wanted::default(), &progress)?.strokes()
+            });
             let found = strokes.map(|strokes| Found { ms: milliseconds_since(start), strokes, job });
             reporter.say(Report::Lines(Box::new(found)));
         };

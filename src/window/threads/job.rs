@@ -5,7 +5,6 @@ use crate::error::Result;
 use crate::orbit::Orbit;
 use crate::picture::Picture;
 use crate::renderer::PassTime;
-use crate::request::Request;
 use crate::scene::{Scene, SceneSettings};
 use crate::styles::{LineStyle, Show, Style};
 use crate::window::threads::coarse;
@@ -59,14 +58,6 @@ impl Job {
     /// Whether they are seen from the same place, as another's are.
     pub(in crate::window) fn is_of_same_view(&self, other: &Self) -> bool {
         self.orbit == other.orbit && self.settings.camera == other.settings.camera
-    }
-
-    /// The scene as a style draws it.
-    pub(in crate::window) fn lit(&self, scene: &Scene, style: &Style) -> Scene {
-        match self.keeps_patches {
-            true => scene.clone(),
-            false => Request::of_picture(style, Show::Final).lit(scene.clone()),
-        }
     }
 
     /// The job of a view that has come to rest.

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::mesh::{LoadOptions, LoadStage, Mesh, load_watched};
-use crate::scene::{Scene, SceneSettings};
+use crate::request::Request;
 use crate::window::threads::report::{LoadedModels, Report, Reporter, Stage};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -74,7 +74,7 @@ fn scene_of(models: &[String], options: &LoadOptions, stage: &dyn Fn(Stage)) -> 
     let triangles: usize = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
     let text = format!("preparing {triangles} triangles for drawing");
     stage(Stage { text, share: (steps - 1.0) / steps });
-    let scene = Scene::new(meshes, &SceneSettings::default())?;
+    let scene = Request::default().placed(meshes)?;
     scene.make_arrays();
     Ok(LoadedModels { models: models.to_vec(), options: options.clone(), files, scene: Arc::new(scene), remarks })
 }

@@ -3,7 +3,7 @@
 use crate::animation::{AnimationTarget, AnimationWriter};
 use crate::error::Result;
 use crate::gl::{Backend, ContextInfo};
-use crate::lines::Progress;
+use crate::lines::{Progress, Raster, raster_of_strokes};
 use crate::mesh::LoadOptions;
 use crate::output::TextTarget;
 use crate::picture::{Picture, Target};
@@ -11,9 +11,10 @@ use crate::preset::{OptionValue, Options, to_toml};
 use crate::recipe::{Driver, FileRecord};
 use crate::renderer::Renderer;
 use crate::request::{DrawingFormat, OptionLayer, Request, Wanted};
-use crate::scene::{Scene, SceneSettings};
+use crate::scene::SceneSettings;
 use crate::settings::HasSettings;
 use crate::shell;
+use crate::styles::Below;
 use crate::window::threads::job::Job;
 use crate::window::values::controls;
 use crate::window::values::event::{Save, Side};
@@ -64,7 +65,7 @@ pub(in crate::window) fn command(
     Ok(recipe.command_line(output))
 }
 
-/// The request that draws what is shown of a side, into a file of this kind.
+/// The request that draws a side's picture into a file of this kind.
 fn request(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save, side: Side) -> Result<Request> {
     let mut scene = SceneSettings { camera: job.camera()?, ..job.settings.clone() }.to_options()?;
     scene.extend(surroundings.load.to_options()?);
@@ -136,7 +137,9 @@ fn save_of(
             let target = Target::check(&name, false)?;
             if state.sides().len() == 1 {
                 let recipe = request(state, job, surroundings, save, side);
-                let recipe = recipe.map(|request| request.recipe(&job.scene, files, context(surroundings), record));
+                let resolved = recipe.and_then(|request| request.resolve_again(&job.scene, false));
+                let recipe =
+                    resolved.map(|drawn| drawn.request.recipe(&drawn.scene, files, context(surroundings), record));
                 target.write_with(shown, recipe.ok().and_then(|recipe| recipe.note()).as_ref())?;
             } else {
                 // A cut or a difference is put together here: no command makes it.
@@ -148,8 +151,9 @@ fn save_of(
         Save::Lines => {
             TextTarget::check(&name)?;
             let request = request(state, job, surroundings, save, side)?;
-            let drawn = request.drawn_lines(job.scene()?, DrawingFormat::Svg.wanted(false), &Progress::default())?;
-            let recipe = request.recipe(&drawn.scene, files, None, record);
+            let resolved = request.resolve_again(&job.scene, true)?;
+            let recipe = resolved.request.recipe(&resolved.scene, files, None, record);
+            let drawn = resolved.drawn_lines(DrawingFormat::Svg.wanted(false), &Progress::default())?;
             drawn.written(DrawingFormat::Svg, None, Some(&recipe))?.write(&name, request.is_transparent())?;
         }
         Save::Turn => {
@@ -179,13 +183,15 @@ fn save_of(
 fn turn(request: &Request, job: &Job, backend: Backend, name: &str) -> Result<()> {
     let target = AnimationTarget::check(name, false)?;
     let mut renderer = Renderer::new(backend)?;
-    let scene = job.scene()?;
     let mut writer = AnimationWriter::new(target, TURN.0, TURN.1)?;
-    for camera in scene.turntable(&job.camera()?, TURN.0)? {
-        let scene = Scene { camera, ..scene.clone() };
-        writer.add(match request.style.lines() {
-            None => request.picture_of(&scene, &mut renderer)?,
-            Some(_) => request.drawn_lines(scene, Wanted::default(), &Progress::default())?.raster()?,
+    for view in request.turn(job.scene()?, TURN.0, false)? {
+        writer.add(match view.contents.below {
+            Below::Passes(_) => view.picture(&mut renderer)?,
+            _ => {
+                let strokes = view.drawn_lines(Wanted::default(), &Progress::default())?.strokes()?;
+                let Raster { size, pixels } = raster_of_strokes(&strokes, view.scene.size, view.scene.background);
+                Picture { size, pixels }
+            }
         })?;
     }
     writer.finish().map(drop)

@@ -5,8 +5,8 @@
 
 use crate::error::Result;
 use crate::mesh::LoadOptions;
-use crate::preset::{LOOKS, Look, Preset};
-use crate::request::EXACT_LINES;
+use crate::preset::{LOOKS, Look};
+use crate::request::{OptionLayer, Request};
 use crate::scene::SceneSettings;
 use crate::settings::{HasSettings, Kind, Options, Setting, Table};
 use crate::styles::{Style, StyleName};
@@ -53,12 +53,6 @@ pub(in crate::window) fn sibling(look: Look, name: StyleName) -> Style {
     options.and_then(|options| Style::with_options(name, &options)).unwrap_or_else(|_| Style::named(name))
 }
 
-/// The exact lines over the pictures of a look, if it has them.
-pub(in crate::window) fn lines_of_look(look: Look) -> Option<Style> {
-    let has_them = |preset: &Preset| preset.options.contains_key(EXACT_LINES);
-    look.preset().is_ok_and(|preset| has_them(&preset)).then(|| sibling(look, StyleName::Lines))
-}
-
 /// The look whose sibling a style is; the published one if it has only its own settings.
 pub(in crate::window) fn look_of_sibling(style: &Style) -> Option<Look> {
     let is_of = |look: &Look| sibling(*look, style.style_name()) == *style;
@@ -66,28 +60,33 @@ pub(in crate::window) fn look_of_sibling(style: &Style) -> Option<Look> {
     LOOKS.into_iter().rev().find(is_of)
 }
 
-/// Returns the style and scene settings after choosing a look. Settings of the scene from another look return to their defaults.
+/// Returns the style, the exact lines over its picture, and the scene that a look or a preset makes of these; a layer without a
+/// style keeps the drawn one.
 ///
 /// # Errors
 ///
-/// As [`Look::preset`].
-pub(in crate::window) fn of_look(look: Look, drawn: &Style, scene: &SceneSettings) -> Result<(Style, SceneSettings)> {
-    let mut scene = scene.clone();
+/// As [`Request::from_layers`].
+pub(in crate::window) fn of_layer(
+    layer: OptionLayer,
+    drawn: StyleName,
+    mut scene: SceneSettings,
+) -> Result<(Style, Option<Style>, SceneSettings)> {
     let table = SceneSettings::table();
-    for other in LOOKS {
-        for name in of_scene_in(&other.preset()?.options).keys() {
-            if let Some(setting) = table.find(&scene, name) {
-                setting.set(&mut scene, &table.default_of(setting))?;
+    if let OptionLayer::Look(_) = layer {
+        // Settings of another look return to their defaults.
+        for other in LOOKS {
+            for name in of_scene_in(&other.preset()?.options).keys() {
+                if let Some(setting) = table.find(&scene, name) {
+                    setting.set(&mut scene, &table.default_of(setting))?;
+                }
             }
         }
     }
-    let options = look.preset()?.options;
-    apply_to_scene(&mut scene, &options)?;
-    let drawn = match options.contains_key("style") {
-        true => Style::from_options(&options)?,
-        false => published(drawn),
-    };
-    Ok((drawn, scene))
+    let (request, _) = Request::from_layers(&[OptionLayer::Style(drawn), layer])?;
+    table.apply(&mut scene, &of_scene_in(&request.options)).map_err(|error| request.attributed(error))?;
+    let has_lines_over = request.contents(false)?.lines_over().is_some();
+    let lines = has_lines_over.then(|| request.in_style(StyleName::Lines)).transpose()?;
+    Ok((request.style, lines.map(|request| request.style), scene))
 }
 
 /// The same for settings of any table.
@@ -202,15 +201,6 @@ fn find_in<T: HasSettings>(group: &Group, option: &str) -> std::result::Result<&
     setting.filter(|setting| group.names.contains(&setting.name)).ok_or_else(|| {
         format!("{option}: the window has no such setting{}; it has {}", group.what, group.names.join(", "))
     })
-}
-
-/// Applies the options of the scene that a window can set.
-///
-/// # Errors
-///
-/// Those of [`Table::apply`].
-pub(in crate::window) fn apply_to_scene(scene: &mut SceneSettings, options: &Options) -> Result<()> {
-    SceneSettings::table().apply(scene, &of_scene_in(options))
 }
 
 /// Those of the options that say something of the scene that a window can set.

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::mesh::LoadOptions;
 use crate::orbit::Orbit;
 use crate::preset::{LOOKS, Look, Preset};
-use crate::request::{EXACT_LINES, OptionLayer, Request};
+use crate::request::{EXACT_LINES, OptionLayer};
 use crate::scene::{SceneSettings, Size};
 use crate::settings::{OptionValue, Options};
 use crate::styles::{LineStyle, Style, StyleName, is_of_exact_lines};
@@ -388,7 +388,9 @@ impl ViewerState {
             ViewerEvent::SaveTurn => return Ok(Some(Effect::Save(Save::Turn))),
             ViewerEvent::SavePreset => return Ok(Some(Effect::Save(Save::Preset))),
             ViewerEvent::Look(name) => self.choose_look(Look::of_name(&name)?)?,
-            ViewerEvent::OpenPreset(name) => self.open_preset(&name)?,
+            ViewerEvent::OpenPreset(name) => {
+                self.put_layer(OptionLayer::File(Preset::read(&name).map_err(|error| error.to_string())?))?;
+            }
         }
         Ok(None)
     }
@@ -419,12 +421,18 @@ impl ViewerState {
         known.get((index + 1) % known.len().max(1)).copied().unwrap_or_default()
     }
 
-    /// Puts a look on the active side, and its scene settings on both.
-    fn choose_look(&mut self, look: Look) -> Result<(), String> {
-        let (style, scene) = controls::of_look(look, self.style(self.active), &self.scene_settings())
-            .map_err(|error| error.to_string())?;
-        self.put_drawn(self.active, style, controls::lines_of_look(look));
+    /// Puts a look or a preset on the active side, and its scene settings on both.
+    fn put_layer(&mut self, layer: OptionLayer) -> Result<(), String> {
+        let drawn = self.chosen[self.active as usize];
+        let (style, lines, scene) =
+            controls::of_layer(layer, drawn, self.scene_settings()).map_err(|error| error.to_string())?;
+        self.put_drawn(self.active, style, lines);
         self.put_scene(scene);
+        Ok(())
+    }
+
+    fn choose_look(&mut self, look: Look) -> Result<(), String> {
+        self.put_layer(OptionLayer::Look(look))?;
         // A side still unseen and unchanged starts with settings that fit the look.
         let other = if self.active == Side::Left { Side::Right } else { Side::Left };
         if self.layout == Layout::Single && controls::look_of_sibling(self.style(other)).is_some() {
@@ -443,26 +451,13 @@ impl ViewerState {
         let (shown, seen) = (self.style(side), self.scene_settings());
         let lines = (self.lines_shown(side) == LinesShown::Over).then(|| self.style_of_lines().clone());
         let has = |look: &Look| {
-            controls::of_look(*look, shown, &seen).is_ok_and(|(style, mut scene)| {
+            let of_look = controls::of_layer(OptionLayer::Look(*look), shown.style_name(), seen.clone());
+            of_look.is_ok_and(|(style, over, mut scene)| {
                 scene.camera.view = seen.camera.view;
-                style == *shown && scene == seen && controls::lines_of_look(*look) == lines
+                style == *shown && scene == seen && over == lines
             })
         };
         LOOKS.into_iter().find(has)
-    }
-
-    /// Puts a preset's style and settings on the active side, and its scene settings on both.
-    fn open_preset(&mut self, name: &str) -> Result<(), String> {
-        let said = |error: crate::Error| error.to_string();
-        let preset = Preset::read(name).map_err(said)?;
-        let layers = [OptionLayer::Style(self.chosen[self.active as usize]), OptionLayer::File(preset)];
-        let (request, _) = Request::from_layers(&layers).map_err(said)?;
-        let mut scene = self.scene_settings();
-        controls::apply_to_scene(&mut scene, &request.options).map_err(|error| said(request.attributed(error)))?;
-        let lines = request.has_lines_over().then(|| request.in_style(StyleName::Lines)).transpose().map_err(said)?;
-        self.put_drawn(self.active, request.style, lines.map(|request| request.style));
-        self.put_scene(scene);
-        Ok(())
     }
 }
 

@@ -166,7 +166,7 @@ fn a_look_is_a_style_and_a_scene_and_the_next_takes_back_what_it_has_set() {
     assert_eq!(published.scene_settings(), SceneSettings::default());
     // The user's own background does not belong to a look.
     let tan = ViewerEvent::Background("tan".to_owned());
-    let kept = after([tan, look("charcoal"), look("print")]).scene_settings();
+    let kept = after([tan, look("sketch"), look("print")]).scene_settings();
     assert_ne!(kept.background, SceneSettings::default().background);
 }
 

@@ -99,7 +99,7 @@ fn a_dent_too_small_to_draw_has_the_tone_around_it_and_a_larger_one_keeps_its_ow
         let scene = seen(mesh, "0,0");
         let light = [-0.4f32, 1.0, 1.2];
         let before = toned(&scene, light.map(f64::from));
-        let lit = lit_scene(scene.clone(), Some(light), THRESHOLDS);
+        let lit = lit_scene(scene.clone(), Some(light), THRESHOLDS).0;
         let after = toned(&lit, light.map(f64::from));
         let count =
             |regions: &Regions<Option<TonedSurface>>| regions.regions.iter().filter(|it| it.seen.is_some()).count();
@@ -120,7 +120,7 @@ fn no_patch_of_a_tone_is_left_that_is_smaller_than_a_five_hundredth_of_a_rough_s
         let areas = regions.regions.iter().filter(|it| it.seen.is_some()).map(|it| it.area_px);
         (areas.clone().fold(f64::INFINITY, f64::min) / areas.clone().sum::<f64>(), areas.count())
     };
-    let (before, after) = (smallest(&scene), smallest(&lit_scene(scene.clone(), Some(light), THRESHOLDS)));
+    let (before, after) = (smallest(&scene), smallest(&lit_scene(scene.clone(), Some(light), THRESHOLDS).0));
     // A share is counted in the pixels of a small picture.
     assert!(before.0 < 0.0015 && after.0 > 0.0015 && after.1 > 3, "{before:?}, {after:?}");
 }
@@ -137,7 +137,7 @@ fn a_flat_face_keeps_its_tone_however_small_it_is() {
     mesh.normals = vec![glam::Vec3::Z, glam::Vec3::new(0.0, 1.0, 0.2).normalize()];
     mesh.triangle_normals = vec![[0; 3], [0; 3], [1; 3], [1; 3]];
     let light = [0.0f32, 1.0, 0.5];
-    let scene = lit_scene(seen(mesh.clone(), "0,0"), Some(light), THRESHOLDS);
+    let scene = lit_scene(seen(mesh.clone(), "0,0"), Some(light), THRESHOLDS).0;
     assert_eq!(scene.objects[0].mesh.normals, mesh.normals);
     assert_eq!(toned(&scene, light.map(f64::from)).regions.iter().filter(|it| it.seen.is_some()).count(), 2);
 }
@@ -148,7 +148,7 @@ fn a_small_round_part_keeps_the_tones_that_are_a_large_part_of_it() {
     let small = Mesh { positions: round.positions.iter().map(|p| 0.025 * *p + DVec3::Z * 0.5).collect(), ..round };
     let light = [-1.0f32, 0.3, 0.6];
     let scene = seen_all([sheet(1, |_, _| 0.0), small.clone()], "0,0");
-    let lit = lit_scene(scene, Some(light), THRESHOLDS);
+    let lit = lit_scene(scene, Some(light), THRESHOLDS).0;
     assert_eq!(lit.objects[1].mesh.normals, small.normals);
 }
 
@@ -188,8 +188,7 @@ fn the_side_that_is_seen_is_lit_from_the_front_from_behind_and_with_a_twin() {
 #[test]
 fn the_light_that_is_chosen_leaves_about_a_fifth_of_a_ball_dark_from_above() {
     for view in ["0,0", "30,23", "200,-20"] {
-        let scene = lit_scene(seen(ball(1.0), view), None, THRESHOLDS);
-        let light = *scene.tone_light.get().unwrap();
+        let (scene, light) = lit_scene(seen(ball(1.0), view), None, THRESHOLDS);
         assert!(light[1] > 0.0 && light[2] > 0.0, "{light:?}");
         let [dark, ..] = shares(&toned(&scene, light.map(f64::from)));
         assert!((0.12..=0.28).contains(&dark), "{dark} of {view}");

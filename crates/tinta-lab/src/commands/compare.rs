@@ -18,13 +18,13 @@ use tinta::cli::options::{Below, CameraFile, Chosen, OfSubject, PresetFile, Sele
 use tinta::cli::{Command, Verdict, given};
 use tinta::gl::ContextInfo;
 use tinta::pixel::LineTolerance;
-use tinta::preset::{LOOKS, Look};
+use tinta::preset::{LOOKS, Look, Named};
 use tinta::record::{CameraRecord, ModelRecord, Summary};
 use tinta::renderer::milliseconds_since;
-use tinta::request::{Request, Session, ignored_remark};
+use tinta::request::{Request, Resolved, Session, ignored_remark};
 use tinta::settings::{HasSettings, Kind, Setting, Table};
 use tinta::styles::is_of_lines_alone;
-use tinta::{Error, LineSettings, Picture, Renderer, Result, Scene, Show, StyleName, Target};
+use tinta::{Error, LineSettings, Picture, Renderer, Result, Show, StyleName, Target};
 use tinta::{SceneSettings, Size, Style};
 
 /// The command.
@@ -82,8 +82,8 @@ impl Arguments {
 /// How two styles are compared.
 #[derive(Debug, Clone)]
 pub(super) struct CompareSettings {
-    left: Side,
-    right: Side,
+    left: Named,
+    right: Named,
     tolerance: LineTolerance,
     frames: u32,
     json: bool,
@@ -91,54 +91,30 @@ pub(super) struct CompareSettings {
 
 impl Default for CompareSettings {
     fn default() -> Self {
-        let [left, right] = [StyleName::ThreePass, StyleName::Inking].map(Side::Style);
+        let [left, right] = [StyleName::ThreePass, StyleName::Inking].map(Named::Style);
         Self { left, right, tolerance: LineTolerance::default(), frames: 11, json: false }
     }
 }
 
-/// A side of a comparison: a style, or a look with its view and size, which the other side then has, too; a style also its colours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Style(StyleName),
-    Look(Look),
+/// The names that a side may have: of styles that draw lines, and of looks.
+fn list() -> String {
+    let looks = LOOKS.iter().filter(|look| look.has_settings()).map(|look| format!(", {}", look.name));
+    StyleName::list_with_lines() + &looks.collect::<String>()
 }
 
-impl Side {
-    /// The looks that draw lines and are no style's name.
-    fn looks() -> impl Iterator<Item = Look> {
-        let is_style = |look: &Look| StyleName::ALL.iter().any(|(name, _)| *name == look.name);
-        LOOKS.into_iter().filter(move |look| look.has_settings() && !is_style(look))
-    }
-
-    fn list() -> String {
-        let looks = Self::looks().map(|look| format!(", {}", look.name));
-        StyleName::list_with_lines() + &looks.collect::<String>()
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Style(style) => style.name(),
-            Self::Look(look) => look.name,
+/// The request that draws a side in the view of another one. A look has its view and size, which the other side then has, too; a
+/// style also its colours.
+fn request_of(side: Named, beside: &Request, of: impl Fn(Option<Look>) -> Result<Request>) -> Result<Request> {
+    let mut own = match side {
+        Named::Look(look) => of(Some(look))?,
+        Named::Style(style) => {
+            let mut own = of(None)?.in_style(style)?;
+            (own.scene, own.read) = (beside.scene.clone(), beside.read.clone());
+            own
         }
-    }
-
-    fn look(self) -> Option<Look> {
-        if let Self::Look(look) = self { Some(look) } else { None }
-    }
-
-    /// The request that draws this side in the view of another one.
-    fn request(self, beside: &Request, of: impl Fn(Option<Look>) -> Result<Request>) -> Result<Request> {
-        let mut own = match self {
-            Self::Look(look) => of(Some(look))?,
-            Self::Style(style) => {
-                let mut own = of(None)?.in_style(style)?;
-                (own.scene, own.read) = (beside.scene.clone(), beside.read.clone());
-                own
-            }
-        };
-        (own.scene.camera, own.scene.size) = (beside.scene.camera.clone(), beside.scene.size);
-        Ok(own)
-    }
+    };
+    (own.scene.camera, own.scene.size) = (beside.scene.camera.clone(), beside.scene.size);
+    Ok(own)
 }
 
 /// All of them.
@@ -173,20 +149,18 @@ impl Selection for OfComparison {
 fn style(
     name: &'static str,
     help: &'static str,
-    field: fn(&mut CompareSettings) -> &mut Side,
+    field: fn(&mut CompareSettings) -> &mut Named,
 ) -> Setting<CompareSettings> {
-    let names = StyleName::of_passes().map(|(name, _)| name).chain(Side::looks().map(|look| look.name)).collect();
     let get = move |how: &CompareSettings| field(&mut how.clone()).name().to_owned();
     let set = move |how: &mut CompareSettings, text: &str| {
-        let look = Side::looks().find(|look| look.name == text).map(Side::Look);
-        *field(how) = look.map_or_else(|| StyleName::named_of_passes(text).map(Side::Style), Ok)?;
+        *field(how) = text.parse()?;
         Ok(())
     };
-    Setting::of(name, "STYLE|LOOK", Kind::Choice(names), help, get, set).common()
+    Setting::of(name, "STYLE|LOOK", Kind::Choice(Named::names()), help, get, set).common()
 }
 
 fn settings() -> Vec<Setting<CompareSettings>> {
-    static LEFT: LazyLock<String> = LazyLock::new(|| format!("Style or look on the left: {}", Side::list()));
+    static LEFT: LazyLock<String> = LazyLock::new(|| format!("Style or look on the left: {}", list()));
     let frames = Setting::field(
         "frames",
         "N",
@@ -257,9 +231,11 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let mut compared = || {
         let (how, left) = how_compared(arguments, &request)?;
         let names = named(&request, [(left, how.left), ("right", how.right)])?;
-        let look = [how.left, how.right].into_iter().find_map(Side::look);
+        let look = [how.left, how.right]
+            .into_iter()
+            .find_map(|side| if let Named::Look(look) = side { Some(look) } else { None });
         let beside = if look.is_some() { of(look)? } else { request.clone() };
-        let sides = [how.left.request(&beside, of)?, how.right.request(&beside, of)?];
+        let sides = [request_of(how.left, &beside, of)?, request_of(how.right, &beside, of)?];
         compare(arguments, (&how, names), sides, &files, session)
     };
     compared().map_err(|error| request.attributed(error))
@@ -281,18 +257,14 @@ fn compare(
     if how.json && matches!(output, Output::File(Target::Stdout)) {
         return Err(Error::value("o", "-", "the sheet and --json cannot share standard output; name a file"));
     }
-    let [left, right] = &sides;
-    let of = |side: &Request| -> Result<Scene> {
-        Ok(side.lit(Scene::new(side.models(&session.models)?.meshes, &side.scene)?))
-    };
-    let scenes = [of(left)?, of(right)?];
-    let scene = &scenes[0];
+    let of = |side: &Request| side.still(side.placed(side.models(&session.models)?.meshes)?, false);
+    let [left, right] = [of(&sides[0])?, of(&sides[1])?];
+    let scene = &left.scene;
     let count = scene.objects.len() / request.scene.copies as usize;
     let renderer = request.renderer(session)?;
-    let left = Drawing::of(scene, left, renderer, how.frames)?;
-    let right = Drawing::of(&scenes[1], right, renderer, how.frames)?;
+    let (drawn, right) = (Drawing::of(&left, renderer, how.frames)?, Drawing::of(&right, renderer, how.frames)?);
     let tolerance_px = how.tolerance.px(scene.size);
-    let agreement = Agreement::of(&left.ink, &right.ink, tolerance_px.round() as u32)
+    let agreement = Agreement::of(&drawn.ink, &right.ink, tolerance_px.round() as u32)
         .ok_or_else(|| Error::setting("size", "the two pictures came out in different sizes; choose another"))?;
     let map = agreement.picture(scene.size);
     let models: Vec<ModelRecord> = scene.objects[..count].iter().map(|object| ModelRecord::new(&object.mesh)).collect();
@@ -302,7 +274,7 @@ fn compare(
         size: scene.size,
         camera: CameraRecord::new(scene),
         gl: renderer.context().clone(),
-        left: left.record,
+        left: drawn.record,
         right: right.record,
         agreement: agreement.numbers,
         alone_on_lines_px: alone_on_lines(
@@ -312,7 +284,7 @@ fn compare(
         ),
     };
     let panels = [
-        panel(names[0], &record.left, left.picture),
+        panel(names[0], &record.left, drawn.picture),
         panel(names[1], &record.right, right.picture),
         Panel { title: "their lines".to_owned(), subtitle: String::new(), picture: map },
     ];
@@ -329,19 +301,19 @@ fn how_compared(arguments: &Arguments, request: &Request) -> Result<(CompareSett
     // A preset's style is the one on the left.
     let is_of_preset = request.options.contains_key("style") && !arguments.how.options.contains_key("left");
     if is_of_preset {
-        how.left = Side::Style(request.style.style_name());
+        how.left = Named::Style(request.style.style_name());
     }
     Ok((how, if is_of_preset { "style" } else { "left" }))
 }
 
 /// The names of two styles with lines, each with the option that chose it.
-fn named(request: &Request, chosen: [(&str, Side); 2]) -> Result<[&'static str; 2]> {
+fn named(request: &Request, chosen: [(&str, Named); 2]) -> Result<[&'static str; 2]> {
     if request.options.contains_key("no-borders") {
         return Err(Error::setting("no-borders", "compare needs the lines; leave it out"));
     }
     for (option, side) in chosen {
-        if matches!(side, Side::Style(style) if !style.has_lines()) {
-            let problem = format!("this style has no lines to compare; choose one of {}", Side::list());
+        if matches!(side, Named::Style(style) if !style.has_lines()) {
+            let problem = format!("this style has no lines to compare; choose one of {}", list());
             return Err(Error::value(option, side.name(), problem));
         }
     }
@@ -350,11 +322,11 @@ fn named(request: &Request, chosen: [(&str, Side); 2]) -> Result<[&'static str; 
 
 impl Drawing {
     /// Draws the scene for one side, and times so many frames.
-    fn of(scene: &Scene, side: &Request, renderer: &mut Renderer, frames: u32) -> Result<Self> {
-        let style = &side.style;
-        if side.has_lines_over() || style.lines().is_some() {
-            return Self::of_exact_lines(scene, side, renderer, frames);
+    fn of(side: &Resolved, renderer: &mut Renderer, frames: u32) -> Result<Self> {
+        if side.contents.lines.is_some() {
+            return Self::of_exact_lines(side, renderer, frames);
         }
+        let (scene, style) = (&side.scene, &side.request.style);
         let start = Instant::now();
         let plan = style.plan(scene, Show::Final)?;
         let plan_ms = milliseconds_since(start);
@@ -373,17 +345,17 @@ impl Drawing {
     }
 
     /// The same where exact lines are drawn, alone or over the picture; a frame finds them anew.
-    fn of_exact_lines(scene: &Scene, side: &Request, renderer: &mut Renderer, frames: u32) -> Result<Self> {
+    fn of_exact_lines(side: &Resolved, renderer: &mut Renderer, frames: u32) -> Result<Self> {
         let start = Instant::now();
-        let lines = exact_lines(scene, side)?;
+        let lines = exact_lines(side)?;
         let plan_ms = milliseconds_since(start);
-        let mut picture = || match side.style.lines() {
-            Some(_) => exact_lines(scene, side),
-            None => side.picture_of(scene, renderer),
+        let mut picture = || match side.contents.below {
+            tinta::styles::Below::Passes(_) => side.picture(renderer),
+            _ => exact_lines(side),
         };
         let first = picture()?;
         let frame_ms = timed(frames, || picture().map(drop))?;
-        let record = DrawingRecord { style: side.style.clone(), plan_ms, frame_ms };
+        let record = DrawingRecord { style: side.request.style.clone(), plan_ms, frame_ms };
         Ok(Self { picture: first, ink: InkMask::of(&lines), record })
     }
 }

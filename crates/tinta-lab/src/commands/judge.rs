@@ -17,7 +17,7 @@ use tinta::pixel::LineTolerance;
 use tinta::recipe::{Recipe, option_words};
 use tinta::request::{Request, Session};
 use tinta::settings::{HasSettings as _, Options, Setting};
-use tinta::styles::Inking;
+use tinta::styles::{Contents, Inking};
 use tinta::{Camera, Error, LineSettings, Mesh, Picture, Result, Scene, SceneSettings, Size, Style, StyleName};
 
 /// The command.
@@ -240,17 +240,19 @@ fn lines_over(path: &Path, model: &str, picture: &Picture, session: &mut Session
     // The recipe of an earlier version may have options that are gone.
     let Ok(request) = Request::from_given(&recipe.options) else { return Ok(None) };
     let mut request = request.with_models(vec![model.to_owned()]);
-    if !request.has_lines_over() || !request.animation.is_still() || model == "-" {
+    let Contents { below: tinta::styles::Below::Passes(style), lines: Some(_), .. } = request.contents(false)? else {
+        return Ok(None);
+    };
+    if !request.animation.is_still() || model == "-" {
         return Ok(None);
     }
     if recipe.not_granted(&Options::new()).is_some() {
         let problem = "its recipe has shaders, or files outside its model's folder, which this command does not use; judge lines alone";
         return Err(Error::picture(path, problem));
     }
-    request.style = request.style_in_passes()?;
-    request.exact_lines = false;
-    let (scene, renderer) = request.scene_and_renderer(session)?;
-    let below = request.picture_of(&scene, renderer)?;
+    (request.style, request.exact_lines) = (*style, false);
+    let (resolved, renderer) = request.resolved_and_renderer(session)?;
+    let below = resolved.picture(renderer)?;
     Ok((below.size == picture.size).then(|| Ink::over(&below, picture)))
 }
 

@@ -124,8 +124,8 @@ fn drawn(renderer: &mut Renderer, words: &[String]) -> Picture {
 
 /// One picture, or those of an animation.
 fn pictures(request: &Request, renderer: &mut Renderer) -> tinta::Result<Vec<Picture>> {
-    let (scenes, _) = render::scenes(request, &ModelCache::for_one())?;
-    scenes.iter().map(|scene| request.picture_of(scene, renderer)).collect()
+    let (views, _) = render::views(request, &ModelCache::for_one())?;
+    views.iter().map(|view| view.picture(renderer)).collect()
 }
 
 fn rasterized(svg: &str, size: Size) -> Picture {

@@ -13,9 +13,9 @@ use tinta::glam::DVec2;
 use tinta::lines::{Progress, Why};
 use tinta::pixel::Explanation;
 use tinta::recipe::Recipe;
-use tinta::request::{OptionLayer, Request, Session};
+use tinta::request::{OptionLayer, Request, Resolved, Session};
 use tinta::settings::{HasSettings, Options, Setting};
-use tinta::styles::is_of_lines_alone;
+use tinta::styles::{Contents, is_of_lines_alone};
 use tinta::{Error, LineSettings, Renderer, Result, Scene, Style, StyleName, Target, VisibleLines};
 
 /// The command.
@@ -97,8 +97,8 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let inputs = Inputs::new(&request.models, &request.options, &files);
     let output = arguments.output.as_deref().map(|path| checked(path, arguments, &inputs)).transpose()?;
     if request.style.lines().is_some() {
-        let scene = Scene::new(load_meshes(&request.models, &request.read)?, &request.scene)?;
-        return line_out(&scene, &request, arguments.place, arguments.json);
+        let resolved = request.resolve(load_meshes(&request.models, &request.read)?, true)?;
+        return line_out(&resolved, arguments.place, arguments.json);
     }
     // Every step is explained.
     request.pruning.is_full = true;
@@ -121,24 +121,24 @@ fn subject(model: &str, given: &Options) -> Result<(Vec<String>, Vec<OptionLayer
 
 /// Explains a pixel of the request's style.
 fn explain(arguments: &Arguments, request: &Request, output: Option<Target>, session: &mut Session) -> Result<()> {
-    let (scene, renderer) = request.scene_and_renderer(session)?;
+    let (resolved, renderer) = request.resolved_and_renderer(session)?;
+    let (scene, Contents { below, lines, .. }) = (&resolved.scene, &resolved.contents);
+    let tinta::styles::Below::Passes(style) = below else { return Ok(()) };
     if request.glsl.is_some() {
-        let remarks = renderer.remarks(&request.plan(&scene)?);
+        let remarks = renderer.remarks(&resolved.plan()?);
         remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
     }
-    let style = &request.style_in_passes()?;
-    let lines = request.line_style()?.filter(|_| request.has_lines_over());
-    let near = lines.map(|lines| nearest_line(&scene, &lines.lines, arguments.place)).transpose()?;
+    let near = lines.as_ref().map(|lines| nearest_line(scene, lines, arguments.place)).transpose()?;
     let line =
-        near.map(|near| with_lines(request, &scene, renderer, arguments.place).map(|with| (near, with))).transpose()?;
-    let why = Explanation::of(style, &scene, renderer, arguments.place);
+        near.map(|near| with_lines(&resolved, renderer, arguments.place).map(|with| (near, with))).transpose()?;
+    let why = Explanation::of(style, scene, renderer, arguments.place);
     let why = match (why, &line) {
         // Beside the model there is only a line to explain.
         (Err(Error::Text(_)), Some(_)) if output.is_none() => None,
         (why, _) => Some(why?),
     };
     if let Some((target, why)) = output.as_ref().zip(why.as_ref()) {
-        target.write(&sheet::sheet(why, style, &scene, renderer)?)?;
+        target.write(&sheet::sheet(why, style, scene, renderer)?)?;
     }
     if arguments.json {
         let mut record = why.map_or_else(|| json!({}), |why| json!(why));
@@ -162,10 +162,11 @@ fn explain(arguments: &Arguments, request: &Request, output: Option<Target>, ses
 }
 
 /// What exact lines make of a pixel: its red, green and blue, and the share of it that they cover, 0 to 1.
-fn with_lines(request: &Request, scene: &Scene, renderer: &mut Renderer, place: DVec2) -> Result<([u8; 3], f64)> {
+fn with_lines(resolved: &Resolved, renderer: &mut Renderer, place: DVec2) -> Result<([u8; 3], f64)> {
+    let scene = &resolved.scene;
     let [x, y] = [place.x, place.y].map(|at| at.floor() as i64);
-    let (plan, _) = request.plans(scene, renderer)?;
-    let around = request.around(scene, &Progress::default())?;
+    let (plan, _) = resolved.plans(renderer)?;
+    let around = resolved.around(&Progress::default())?;
     let [red, green, blue, _] = around.drawn(scene, &plan, renderer)?.pixel(x, y);
     Ok(([red, green, blue], f64::from(around.lines_alone(&plan, scene.size).pixel(x, y)[3]) / 255.0))
 }
@@ -181,9 +182,9 @@ fn checked(path: &str, arguments: &Arguments, inputs: &Inputs) -> Result<Target>
 }
 
 /// Explains the line nearest to a place.
-fn line_out(scene: &Scene, request: &Request, place: DVec2, is_json: bool) -> Result<()> {
-    let lines = request.style.lines().map_or_else(LineSettings::default, |style| style.lines);
-    let why = nearest_line(scene, &lines, place)?;
+fn line_out(resolved: &Resolved, place: DVec2, is_json: bool) -> Result<()> {
+    let lines = resolved.contents.lines.clone().unwrap_or_default();
+    let why = nearest_line(&resolved.scene, &lines, place)?;
     if is_json { print_json(&why) } else { print(&line::in_words(&why)) }
 }
 

@@ -51,7 +51,7 @@ impl ReferenceLight {
 
     /// The exact borders of a style's tones; `None` for a style without.
     fn borders(&self, style: &Style, scene: &Scene) -> Result<Option<Arc<ToneBorders>>> {
-        let Some(rule) = style.vectors(scene.size).and_then(|vectors| vectors.rule(scene)) else { return Ok(None) };
+        let Some(rule) = style.vectors(scene.size).and_then(|contents| contents.rule(scene)) else { return Ok(None) };
         let mut known = self.borders.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, borders)) = known.iter().find(|(of, _)| *of == rule) {
             return Ok(Some(Arc::clone(borders)));

@@ -12,7 +12,7 @@ use tinta::animation::NumberedName;
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
 use tinta::request::{DrawingFormat, ReadModels, Request, Session};
-use tinta::{Error, Result, Scene};
+use tinta::{Error, Result};
 
 /// The names of the drawings.
 ///
@@ -37,14 +37,13 @@ pub(super) fn run(
     let Rendering { request, run, output } = *rendering;
     refuse_what_turns_have_not(request)?;
     let ReadModels { meshes, ms: load_ms, .. } = request.models(&session.models)?;
-    let scene = Scene::new(meshes, &request.scene)?;
     let (mut bytes, mut is_empty, mut frame_ms) = (0, true, Vec::new());
-    for (number, camera) in (1..).zip(scene.turntable(&request.scene.camera, views)?) {
+    let turn = request.turn(request.placed(meshes)?, views, true)?;
+    for (number, view) in (1..).zip(&turn) {
         let frame = Instant::now();
-        let scene = Scene { camera, ..scene.clone() };
         let name = names.with(number);
         let progress = progress(rendering);
-        let drawn = watched(&progress, stop, || request.drawn_lines(scene, format.wanted(false), &progress));
+        let drawn = watched(&progress, stop, || view.drawn_lines(format.wanted(false), &progress));
         if is_stopped(stop) || matches!(drawn, Err(Error::Cancelled)) {
             return Ok(stopped(stop, number - 1, views));
         }
@@ -63,10 +62,10 @@ pub(super) fn run(
     }
     print_json(&json!({
         "version": env!("CARGO_PKG_VERSION"),
-        "models": rendering.model_records(&scene),
+        "models": rendering.model_records(&turn[0].scene),
         "load": request.read,
         "style": request.style,
-        "size": scene.size,
+        "size": request.scene.size,
         "frames": views,
         "bytes": bytes,
         "load_ms": load_ms,

@@ -12,7 +12,7 @@ use crate::scene::{Object, Scene};
 use crate::threads::{cores, filled};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// The lights to choose from, the preferred first: directions in the eye's space, from above, from the left or the right.
 const LIGHTS: [[f32; 3]; 8] = [
@@ -55,9 +55,9 @@ pub fn chosen_light(scene: &Scene, thresholds: [f64; 2]) -> [f32; 3] {
     best_light(&SeenNormals::of(scene), thresholds)
 }
 
-/// Returns the scene under a light, or under the one that suits it, without patches of a tone too small to draw; the light is
-/// [`Scene::tone_light`]. Objects that share a mesh keep it.
-pub fn lit_scene(scene: Scene, light: Option<[f32; 3]>, thresholds: [f64; 2]) -> Scene {
+/// Returns the scene under a light, or under the one that suits it, without patches of a tone too small to draw; and that light.
+/// Objects that share a mesh keep it.
+pub fn lit_scene(scene: Scene, light: Option<[f32; 3]>, thresholds: [f64; 2]) -> (Scene, [f32; 3]) {
     let seen = SeenNormals::of(&scene);
     let towards = light.unwrap_or_else(|| best_light(&seen, thresholds));
     let light = unit(towards);
@@ -78,7 +78,7 @@ pub fn lit_scene(scene: Scene, light: Option<[f32; 3]>, thresholds: [f64; 2]) ->
         corners.applied(object, space.world_direction(light))
     };
     let objects = scene.objects.iter().zip(samples).map(lit).collect();
-    Scene { objects, tone_light: Arc::new(OnceLock::from(towards)), ..scene }
+    (Scene { objects, ..scene }, towards)
 }
 
 fn best_light(seen: &SeenNormals, thresholds: [f64; 2]) -> [f32; 3] {

@@ -2,8 +2,8 @@
 
 use crate::measure::{FrameTimes, Ink, MeasureSettings, Measured, Row, RunTime, Subject, error_picture};
 use tinta::lines::Progress;
-use tinta::request::{DrawingFile, DrawingFormat, Request, Wanted};
-use tinta::{Error, Picture, Renderer, Result, Scene};
+use tinta::request::{DrawingFile, DrawingFormat, Request, Resolved, Wanted};
+use tinta::{Error, Picture, Renderer, Result};
 
 /// Measures a look that draws exact lines over a picture, as `tinta render` draws it: a frame finds the lines and prunes the plan.
 /// Its row bears the look's name instead of a style's; `options` are the row's.
@@ -18,17 +18,17 @@ pub(super) fn measure_look(
     options: String,
     how: &MeasureSettings,
 ) -> Result<Measured> {
-    let scene = request.lit(subject.scene.clone());
-    let ink = Ink::on_white(&exact_lines(&scene, request)?);
-    let drawing = request.picture_of(&scene, renderer)?;
+    let resolved = request.still(subject.scene.clone(), false)?;
+    let ink = Ink::on_white(&exact_lines(&resolved)?);
+    let drawing = resolved.picture(renderer)?;
     let mut times = FrameTimes::default();
     for _ in 0..how.frames {
-        times.add_work(|| request.picture_of(&scene, renderer).map(drop))?;
+        times.add_work(|| resolved.picture(renderer).map(drop))?;
     }
     if !renderer.context().is_software() {
         times.processor_ms.clear();
     }
-    let tolerance_px = how.tolerance.px(scene.size);
+    let tolerance_px = how.tolerance.px(resolved.scene.size);
     let row = Row {
         renderer: renderer.context().renderer.clone(),
         gl_version: renderer.context().version.clone(),
@@ -43,13 +43,13 @@ pub(super) fn measure_look(
     Ok(Measured { row, drawing, error_picture: Some(error_picture(&ink, &subject.reference, tolerance_px)) })
 }
 
-/// The exact lines that a request draws of a scene, alone.
+/// The exact lines of a drawing, alone.
 ///
 /// # Errors
 ///
-/// As [`Request::drawn_lines`].
-pub(in crate::commands) fn exact_lines(scene: &Scene, request: &Request) -> Result<Picture> {
-    let lines = request.drawn_lines(scene.clone(), Wanted::default(), &Progress::default())?;
+/// As [`Resolved::drawn_lines`].
+pub(in crate::commands) fn exact_lines(resolved: &Resolved) -> Result<Picture> {
+    let lines = resolved.drawn_lines(Wanted::default(), &Progress::default())?;
     match lines.written(DrawingFormat::Picture, None, None)? {
         DrawingFile::Picture(picture, _) => Ok(picture),
         DrawingFile::Bytes(_) => Err(Error::setting("o", "lines are compared as pixels")),

@@ -2,6 +2,7 @@
 
 use crate::measure::{Against, MeasuredStyle};
 use std::sync::LazyLock;
+use tinta::choice::meant_or;
 use tinta::cli::options::Selection;
 use tinta::pixel::LineTolerance;
 use tinta::plan::Submission;
@@ -127,8 +128,13 @@ fn styles() -> settings::Setting<HowMeasured> {
         "Styles, separated by commas",
         |how: &HowMeasured| listed(&how.styles, "all"),
         |how, text| {
-            let named = || text.split(',').map(|name| StyleName::named_of_passes(name.trim()));
-            how.styles = if text == "all" { Vec::new() } else { named().collect::<std::result::Result<_, _>>()? };
+            let names: Vec<&str> = StyleName::of_passes().map(|(name, _)| name).collect();
+            let named = |name: &str| {
+                let found = StyleName::of_passes().find(|(known, _)| *known == name.trim()).map(|(_, style)| style);
+                found.ok_or_else(|| meant_or(name.trim(), &names, &format!("choose one of {}", names.join(", "))))
+            };
+            let named = || text.split(',').map(named).collect::<std::result::Result<_, String>>();
+            how.styles = if text == "all" { Vec::new() } else { named()? };
             Ok(())
         },
     )

@@ -1,0 +1,281 @@
+//! From a request and its models to a drawing's scene and contents: the one place that makes a scene and decides all that depends on
+//! both.
+//!
+//! Every door begins here. A still picture has its light, the view of a flat sheet, the projection of a drawing to scale and a camera
+//! that has the shadow in view; a moving view keeps its camera and the light chosen before.
+
+use super::{Ground, Request};
+use crate::camera::View;
+use crate::error::Result;
+use crate::lines::{DrawingSettings, LineSettings, ground_light, lit_scene};
+use crate::mesh::{LoadOptions, Mesh};
+use crate::scene::{Scene, SceneSettings};
+use crate::settings::{HasSettings, OptionValue, Options, Value as _};
+use crate::styles::{Below, Contents, FarLight, Show};
+use glam::DVec3;
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// Distance of the strokes on a cut of a drawing to scale, millimetres on paper.
+const HATCHING_MM: f64 = 2.5;
+
+/// The thickness of a sheet, as a share of its length.
+const FLAT: f64 = 1e-3;
+
+/// The light that shadows follow where a style's tones have none: from the left, eye space.
+const LIGHT: [f32; 3] = [-0.4, 1.0, 0.6];
+
+/// A request with nothing left to choose, and its scene.
+#[derive(Debug, Clone)]
+pub struct Resolved {
+    /// The request, with the light and the view that were chosen.
+    pub request: Request,
+    /// The scene.
+    pub scene: Scene,
+    /// The contents of the drawing.
+    pub contents: Contents,
+}
+
+impl Request {
+    /// The contents of the drawing, in a file of pixels or of vectors. A style without vectors is pixels in both.
+    ///
+    /// # Errors
+    ///
+    /// Those of the options of lines and of drawings.
+    pub fn contents(&self, as_vectors: bool) -> Result<Contents> {
+        let draws_lines = self.style.style_name().draws_lines();
+        let vectors = self.style.vectors(self.scene.size).filter(|_| as_vectors || draws_lines);
+        let mut contents = vectors.unwrap_or_else(|| Contents {
+            below: Below::Passes(Box::new(self.style.clone())),
+            lines: None,
+            drawing: DrawingSettings::default(),
+            sheet: None,
+        });
+        // `--no-borders` leaves exact lines out, too.
+        let leaves_lines_out = self.style.style_name().has_lines() && !self.style.has_lines();
+        let has_lines_over = self.exact_lines && self.show == Show::Final && !draws_lines && !leaves_lines_out;
+        if has_lines_over {
+            // The same over every style, which leaves out its own borders where it can.
+            (contents.lines, contents.drawing) = (Some(LineSettings::default()), DrawingSettings::default());
+            if let Below::Passes(style) = &mut contents.below {
+                **style = style.without_borders()?;
+            }
+        }
+        if !draws_lines && (has_lines_over || !matches!(contents.below, Below::Passes(_))) {
+            DrawingSettings::table().apply(&mut contents.drawing, &self.options)?;
+            if let Some(lines) = &mut contents.lines {
+                LineSettings::table().apply(lines, &self.options)?;
+            }
+        }
+        (contents.drawing.title, contents.drawing.background) = (self.title(), self.scene.background);
+        contents.check().map(|()| contents)
+    }
+
+    /// How the models are read: with a cut's strokes as far apart on paper as they should be, if the drawing is to scale.
+    pub(super) fn read_to_scale(&self) -> Result<Cow<'_, LoadOptions>> {
+        let spacing = match (self.read.section, self.read.section_hatch) {
+            (Some(_), None) => {
+                let drawing = self.contents(true)?.drawing;
+                drawing.scale.map(|scale| scale.of_model(HATCHING_MM, drawing.units))
+            }
+            _ => None,
+        };
+        Ok(match spacing {
+            Some(_) => Cow::Owned(LoadOptions { section_hatch: spacing, ..self.read.clone() }),
+            None => Cow::Borrowed(&self.read),
+        })
+    }
+
+    /// Resolves a still picture of these models.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Scene::new`] and [`Request::contents`].
+    pub fn resolve(&self, meshes: Vec<Arc<Mesh>>, as_vectors: bool) -> Result<Resolved> {
+        self.framed(|settings| Scene::new(meshes, settings), as_vectors)
+    }
+
+    /// Resolves a still picture of a scene's models, with the data that it has of them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Request::resolve`].
+    pub fn resolve_again(&self, known: &Scene, as_vectors: bool) -> Result<Resolved> {
+        self.framed(|settings| known.seen_with(settings), as_vectors)
+    }
+
+    /// Chooses the camera of a still picture.
+    fn framed(&self, scene: impl FnOnce(&SceneSettings) -> Result<Scene>, as_vectors: bool) -> Result<Resolved> {
+        let Contents { drawing, sheet, .. } = self.contents(as_vectors)?;
+        let mut framed = self.clone();
+        // One view is drawn to scale in a parallel projection.
+        framed.scene.camera.parallel |= drawing.scale.is_some() && sheet.is_none();
+        let mut scene = scene(&framed.scene)?;
+        if let Some(view) = self.view_of_sheet(&scene) {
+            framed.scene.camera.view = view;
+            framed.options.insert("view".to_owned(), OptionValue::text(view.text()));
+            scene = scene.seen_with(&framed.scene)?;
+        }
+        if framed.ground == Ground::Shadow {
+            framed.put_light(|light, thresholds| light.towards(&scene, thresholds));
+            let light = framed.shadow_light(&scene);
+            scene = scene.with_shadow_in_view(&framed.scene, light)?;
+        }
+        framed.still(scene, as_vectors)
+    }
+
+    /// Resolves a still picture of a scene whose camera is chosen: with a far light, patches of a tone too small to draw are left out.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Request::contents`].
+    pub fn still(&self, mut scene: Scene, as_vectors: bool) -> Result<Resolved> {
+        let mut request = self.clone();
+        if let Some((light, thresholds)) = self.style.far_tones() {
+            let chosen;
+            (scene, chosen) = lit_scene(scene, light.known(), thresholds.map(f64::from));
+            request.put_light(|_, _| chosen);
+        }
+        Ok(Resolved { contents: request.contents(as_vectors)?, request, scene })
+    }
+
+    /// Resolves a view of a turning scene, with this light of its tones or one chosen for it: all patches stay.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Request::contents`].
+    pub fn moving(&self, scene: Scene, light: Option<[f32; 3]>, as_vectors: bool) -> Result<Resolved> {
+        let mut request = self.clone();
+        request.put_light(|chosen, thresholds| light.unwrap_or_else(|| chosen.towards(&scene, thresholds)));
+        Ok(Resolved { contents: request.contents(as_vectors)?, request, scene })
+    }
+
+    /// Resolves pictures of an animation, which share the first one's light.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Request::contents`].
+    pub(crate) fn animation(&self, scenes: Vec<Scene>, as_vectors: bool) -> Result<Vec<Resolved>> {
+        let mut light = None;
+        let views = scenes.into_iter().map(|scene| {
+            let view = self.moving(scene, light, as_vectors)?;
+            light = view.light();
+            Ok(view)
+        });
+        views.collect()
+    }
+
+    /// Resolves the views of a turn around a scene.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Scene::turntable`] and [`Request::contents`].
+    pub fn turn(&self, scene: Scene, views: u32, as_vectors: bool) -> Result<Vec<Resolved>> {
+        let cameras = scene.turntable(&self.scene.camera, views)?;
+        self.animation(cameras.into_iter().map(|camera| Scene { camera, ..scene.clone() }).collect(), as_vectors)
+    }
+
+    /// The models under the request's settings, for views that the caller chooses.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Scene::new`].
+    pub fn placed(&self, meshes: Vec<Arc<Mesh>>) -> Result<Scene> {
+        Scene::new(meshes, &self.scene)
+    }
+
+    /// The view along the normal of models that are a flat sheet, in place of a look's. It shows the sheet's true shape.
+    fn view_of_sheet(&self, scene: &Scene) -> Option<View> {
+        let is_free = self.is_of_look("view") && !["eye", "target"].iter().any(|name| self.options.contains_key(*name));
+        let extent = scene.extent();
+        let thin = (0..3).find(|axis| extent[*axis] <= FLAT * extent.max_element()).filter(|_| is_free)?;
+        ["right", "top", "front"][thin].parse().ok()
+    }
+
+    /// Gives the tones a light if they name none; a recipe names it.
+    fn put_light(&mut self, choose: impl FnOnce(FarLight, [f32; 2]) -> [f32; 3]) {
+        if let Some((light, thresholds)) = self.style.far_tones().filter(|(light, _)| light.known().is_none()) {
+            let chosen = choose(light, thresholds);
+            self.options.insert("tone-light".to_owned(), OptionValue::text(chosen.text()));
+            self.style.put_far_light(chosen);
+        }
+    }
+
+    /// The direction towards the light of the shadow on the ground, world space.
+    pub(super) fn shadow_light(&self, scene: &Scene) -> DVec3 {
+        ground_light(
+            scene,
+            self.style.far_tones().map_or(LIGHT, |(light, thresholds)| light.towards(scene, thresholds)),
+        )
+    }
+}
+
+impl Resolved {
+    /// The same scene drawn with more options, which change how lines and areas look, and with another title if one is given.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Request::from_given`] and [`Request::contents`].
+    pub fn with_options(&self, more: Options, title: Option<String>) -> Result<Self> {
+        let mut options = self.request.options.clone();
+        options.extend(more);
+        let style = OptionValue::text(self.request.style.name());
+        let (models, title) = (self.request.models.clone(), title.or(self.request.title.clone()));
+        // Without a style among them they are of lines all the same.
+        let named = options.clone().into_iter().chain([("style".to_owned(), style)]).collect();
+        let request = Request { models, title, options, ..Request::from_given(&named)? };
+        Ok(Self { contents: request.contents(true)?, request, scene: self.scene.clone() })
+    }
+
+    /// The light of the tones that was chosen or given, eye space.
+    pub fn light(&self) -> Option<[f32; 3]> {
+        self.request.style.far_tones()?.0.known()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::request::{ModelCache, OptionLayer};
+    use crate::styles::StyleName;
+
+    fn request(light: &str) -> Request {
+        let options =
+            [("tone-light", light), ("tone-thresholds", "0.2,0.56"), ("normals", "lasting"), ("view", "30,23")];
+        let options = options.map(|(name, value)| (name.to_owned(), OptionValue::text(value)));
+        let layers = [OptionLayer::Style(StyleName::Ink), OptionLayer::Given(options.into_iter().collect())];
+        Request::from_layers(&layers).unwrap().0.with_models(vec!["builtin:bust".to_owned()])
+    }
+
+    fn meshes(request: &Request) -> Vec<Arc<Mesh>> {
+        request.models(&ModelCache::for_one()).unwrap().meshes
+    }
+
+    #[test]
+    fn the_options_name_the_light_that_was_chosen_and_drawing_again_gives_the_same_scene() {
+        let automatic = request("auto");
+        let first = automatic.resolve(meshes(&automatic), false).unwrap();
+        let Some(OptionValue::Text(light)) = first.request.options.get("tone-light") else { panic!("{first:?}") };
+        assert_eq!(light.split(',').count(), 3, "{light}");
+        let again = request(light);
+        let second = again.resolve(meshes(&again), false).unwrap();
+        assert_eq!(second.request.options, again.options);
+        assert_eq!(first.scene.objects[0].mesh.normals, second.scene.objects[0].mesh.normals);
+        assert_eq!(first.plan().unwrap().passes, second.plan().unwrap().passes);
+    }
+
+    #[test]
+    fn a_turn_keeps_the_light_of_its_first_view_and_a_still_picture_has_its_own() {
+        let automatic = request("auto");
+        let scene = automatic.placed(meshes(&automatic)).unwrap();
+        let views = automatic.turn(scene.clone(), 6, false).unwrap();
+        let lights: Vec<_> = views.iter().map(|view| view.light().unwrap()).collect();
+        assert!(lights.iter().all(|light| *light == lights[0]), "{lights:?}");
+        let own = |view: &Resolved| automatic.still(view.scene.clone(), false).unwrap().light().unwrap();
+        assert_eq!(own(&views[0]), lights[0]);
+        let others: Vec<_> = views.iter().map(own).collect();
+        assert!(others.iter().any(|light| *light != lights[0]), "{others:?}");
+        // Whatever was drawn before: nothing remembers it.
+        assert_eq!(views.iter().rev().map(own).rev().collect::<Vec<_>>(), others);
+    }
+}
