@@ -9,6 +9,7 @@ use super::classes::CREASES;
 use super::usual_angles::UsualAngles;
 use super::{Class, ClassSet, Classes, CreaseAngle, EdgeList};
 use crate::mesh::{Mesh, triangle_normal};
+use crate::threads::{filled, threads_for};
 use glam::DVec3;
 
 /// Least length of a lasting crease, as a share of the diagonal of the model's box.
@@ -87,26 +88,26 @@ impl LastingCreases {
         }
         let less = CreaseAngle { cosine: (CONTINUES * angle.degrees()).to_radians().cos() };
         let at_less = Classes::new(mesh, edges, less, wanted);
-        let usual = UsualAngles::new(mesh, edges, &normals);
         let has = |classes: &Classes, edge: u32| !classes.of_edges[edge as usize].and(CREASES).is_empty();
-        let sharpness = all().map(|edge| {
+        let asked: Vec<u32> = all().filter(|edge| has(&at_less, *edge)).collect();
+        let usual = UsualAngles::new(mesh, edges, &normals, &asked);
+        let mut sharpness = vec![Sharpness::Blunt; edges.len()];
+        let found_at = |edge: u32| {
             let is_crease = has(&at_angle, edge);
-            if !has(&at_less, edge) {
-                return Sharpness::Blunt;
-            }
             if is_crease && ends_flat(edge) {
                 return Sharpness::OfFlatFace;
             }
             let around = usual.around(edge, |other| has(&at_angle, other));
-            let angle = usual.angles[edge as usize];
-            let stands_out = |share: f64| angle >= (share * STANDS_OUT * around).min(SHARP_ANYWHERE);
+            let stands_out = |share: f64| {
+                usual.angle(edge).is_some_and(|angle| angle >= (share * STANDS_OUT * around).min(SHARP_ANYWHERE))
+            };
             match () {
                 () if is_crease && stands_out(1.0) => Sharpness::Crease,
                 () if stands_out(CONTINUES) => Sharpness::Continuing,
                 () => Sharpness::Blunt,
             }
-        });
-        let sharpness = sharpness.collect();
+        };
+        asked.iter().for_each(|edge| sharpness[*edge as usize] = found_at(*edge));
         found(at_less, sharpness)
     }
 }
@@ -171,7 +172,7 @@ fn lasting(mesh: &Mesh, edges: &EdgeList, sharpness: &[Sharpness]) -> Vec<bool> 
 /// The unit normals of all faces; 0 for a face without area.
 fn face_normals(mesh: &Mesh) -> Vec<DVec3> {
     let normal = |face: &[u32; 3]| mesh.corners(face).and_then(triangle_normal).unwrap_or(DVec3::ZERO);
-    mesh.triangles.iter().map(normal).collect()
+    filled(mesh.triangles.len(), threads_for(mesh.triangles.len()), DVec3::ZERO, |face| normal(&mesh.triangles[face]))
 }
 
 /// Returns for each face whether a neighbour lies in its plane.

@@ -1,6 +1,6 @@
 //! The angle that edges have around an edge. On a coarse model of a round shape all edges are sharp; a crease there is sharper still.
 //!
-//! In: a [`Mesh`], its [`EdgeList`] and the faces' normals. Out: the angle at each edge, and the usual one beside it.
+//! In: a [`Mesh`], its [`EdgeList`] and the faces' normals. Out: the angle at an edge, and the usual one beside it.
 
 use super::{EdgeList, Incidence};
 use crate::mesh::Mesh;
@@ -12,33 +12,39 @@ const ALONG: f64 = 0.8;
 pub(super) struct UsualAngles<'a> {
     mesh: &'a Mesh,
     edges: &'a EdgeList,
-    /// For each edge the angle between its two faces, degrees; NaN without two.
-    pub angles: Vec<f64>,
-    /// The edges at each position, one position after the other, and where each position's begin.
+    normals: &'a [DVec3],
+    /// The edges at each position that is asked for, one position after the other, and where each position's begin.
     at_positions: Vec<u32>,
     starts: Vec<u32>,
 }
 
 impl<'a> UsualAngles<'a> {
-    pub(super) fn new(mesh: &'a Mesh, edges: &'a EdgeList, normals: &[DVec3]) -> Self {
-        let mut starts = vec![0u32; mesh.positions.len() + 1];
-        edges.positions().as_flattened().iter().for_each(|position| starts[*position as usize + 1] += 1);
-        (0..mesh.positions.len()).for_each(|position| starts[position + 1] += starts[position]);
-        let (mut next, mut at_positions) = (starts.clone(), vec![0; 2 * edges.len()]);
-        for (edge, ends) in (0..).zip(edges.positions()) {
-            for end in ends {
-                at_positions[next[*end as usize] as usize] = edge;
-                next[*end as usize] += 1;
-            }
+    /// Prepares the angles around some edges.
+    pub(super) fn new(mesh: &'a Mesh, edges: &'a EdgeList, normals: &'a [DVec3], asked: &[u32]) -> Self {
+        let mut is_asked = vec![false; mesh.positions.len()];
+        for edge in asked {
+            let corners = edges.faces(*edge).iter().flat_map(|face| mesh.triangles[*face as usize]);
+            corners.for_each(|corner| is_asked[corner as usize] = true);
         }
-        let angle = |edge: u32| {
-            let &[first, second] = edges.faces(edge) else { return f64::NAN };
-            let [first, second] = [first, second].map(|face| normals[face as usize]);
-            let second = if edges.incidence()[edge as usize] == Incidence::InnerReversed { -second } else { second };
-            first.cross(second).length().atan2(first.dot(second)).to_degrees()
-        };
-        let angles = (0..edges.len() as u32).map(angle).collect();
-        Self { mesh, edges, angles, at_positions, starts }
+        let all = || (0u32..).zip(edges.positions()).flat_map(|(edge, ends)| ends.map(|end| (edge, end as usize)));
+        let ends = || all().filter(|(_, end)| is_asked[*end]);
+        let mut starts = vec![0u32; mesh.positions.len() + 1];
+        ends().for_each(|(_, end)| starts[end + 1] += 1);
+        (0..mesh.positions.len()).for_each(|position| starts[position + 1] += starts[position]);
+        let (mut next, mut at_positions) = (starts.clone(), vec![0; starts[mesh.positions.len()] as usize]);
+        for (edge, end) in ends() {
+            at_positions[next[end] as usize] = edge;
+            next[end] += 1;
+        }
+        Self { mesh, edges, normals, at_positions, starts }
+    }
+
+    /// The angle between the two faces of an edge, degrees; `None` without two.
+    pub(super) fn angle(&self, edge: u32) -> Option<f64> {
+        let &[first, second] = self.edges.faces(edge) else { return None };
+        let [first, second] = [first, second].map(|face| self.normals[face as usize]);
+        let second = if self.edges.incidence()[edge as usize] == Incidence::InnerReversed { -second } else { second };
+        Some(first.cross(second).length().atan2(first.dot(second)).to_degrees())
     }
 
     /// The usual angle around an edge, degrees; 0 where all edges that meet it are creases, as at polyhedra.
@@ -51,7 +57,7 @@ impl<'a> UsualAngles<'a> {
         if meeting().all(is_crease) {
             return 0.0;
         }
-        let mut angles: Vec<f64> = meeting().map(|other| self.angles[other as usize]).collect();
+        let mut angles: Vec<f64> = meeting().filter_map(|other| self.angle(other)).collect();
         let middle = angles.len() / 2;
         let median = *angles.select_nth_unstable_by(middle, f64::total_cmp).1;
         let beside = self.edges.faces(edge).iter().filter_map(|face| self.beside(edge, *face)).reduce(f64::min);
@@ -69,14 +75,15 @@ impl<'a> UsualAngles<'a> {
         let (count, sum) = self
             .inner_at(third)
             .filter(along)
-            .fold((0, 0.0), |(count, sum), other| (count + 1, sum + self.angles[other as usize]));
+            .filter_map(|other| self.angle(other))
+            .fold((0, 0.0), |(count, sum), angle| (count + 1, sum + angle));
         (count > 0).then(|| sum / f64::from(count))
     }
 
     /// The edges of two faces at a position.
     fn inner_at(&self, position: u32) -> impl Iterator<Item = u32> + '_ {
         let [begin, end] = [position, position + 1].map(|position| self.starts[position as usize] as usize);
-        self.at_positions[begin..end].iter().copied().filter(|edge| !self.angles[*edge as usize].is_nan())
+        self.at_positions[begin..end].iter().copied().filter(|edge| self.edges.faces(*edge).len() == 2)
     }
 
     fn direction(&self, edge: u32) -> DVec3 {

@@ -5,7 +5,7 @@
 
 use crate::lines::eye::space::Space;
 use crate::scene::{Object, Scene};
-use crate::threads::{filled, threads_for_items};
+use crate::threads::{filled, in_parallel, threads_for, threads_for_items};
 use glam::{DVec2, Vec3};
 
 /// The longest side of the picture, pixels.
@@ -26,6 +26,8 @@ pub(super) struct Sample {
 /// The picture.
 pub(super) struct SeenNormals {
     pub width: usize,
+    /// Each pixel's distance from the eye, as its key; row by row.
+    keys: Vec<f64>,
     /// Row by row.
     pub samples: Vec<Option<Sample>>,
 }
@@ -43,24 +45,36 @@ impl SeenNormals {
         let space = Space::of(scene);
         let size = (space.size * scale(&space)).ceil().max(DVec2::ONE);
         let [width, height] = size.to_array().map(|side| side as usize);
-        let mut seen = Self { width, samples: vec![None; width * height] };
-        let mut keys = vec![f64::INFINITY; width * height];
+        let mut seen = Self { width, keys: vec![f64::INFINITY; width * height], samples: vec![None; width * height] };
         for (number, object) in (0..).zip(&scene.objects) {
             let mesh = &object.mesh;
             let places = places(object, &space);
-            for (face, (triangle, normals)) in (0..).zip(mesh.triangles.iter().zip(&mesh.triangle_normals)) {
-                let corners = [0, 1, 2].map(|corner| {
-                    let (px, key) = places[triangle[corner] as usize];
-                    Corner { px, key, normal: mesh.normals[normals[corner] as usize] }
-                });
-                seen.draw(&mut keys, [number, face], corners, &space);
+            let drawn = |faces: std::ops::Range<usize>| {
+                let mut drawn = Self { width, keys: seen.keys.clone(), samples: vec![None; width * height] };
+                for face in faces {
+                    let (triangle, normals) = (mesh.triangles[face], mesh.triangle_normals[face]);
+                    let corners = [0, 1, 2].map(|corner| {
+                        let (px, key) = places[triangle[corner] as usize];
+                        Corner { px, key, normal: mesh.normals[normals[corner] as usize] }
+                    });
+                    drawn.draw([number, face as u32], corners, &space);
+                }
+                drawn
+            };
+            let threads = threads_for(mesh.triangles.len());
+            for drawn in in_parallel(mesh.triangles.len(), threads, drawn) {
+                for (pixel, (key, sample)) in drawn.keys.into_iter().zip(drawn.samples).enumerate() {
+                    if key < seen.keys[pixel] {
+                        (seen.keys[pixel], seen.samples[pixel]) = (key, sample);
+                    }
+                }
             }
         }
         seen
     }
 
     /// Draws a face wherever no nearer one is.
-    fn draw(&mut self, keys: &mut [f64], [object, face]: [u32; 2], [a, b, c]: [Corner; 3], space: &Space) {
+    fn draw(&mut self, [object, face]: [u32; 2], [a, b, c]: [Corner; 3], space: &Space) {
         let double_area = (b.px - a.px).perp_dot(c.px - a.px);
         let size = DVec2::new(self.width as f64, (self.samples.len() / self.width) as f64);
         let low = (a.px.min(b.px).min(c.px) - 0.5).ceil().max(DVec2::ZERO);
@@ -76,10 +90,10 @@ impl SeenNormals {
                 let weights = [share(b, c), share(c, a), share(a, b)];
                 let key = a.key * weights[0] + b.key * weights[1] + c.key * weights[2];
                 let pixel = y * self.width + x;
-                if weights.iter().any(|weight| *weight < 0.0) || key >= keys[pixel] {
+                if weights.iter().any(|weight| *weight < 0.0) || key >= self.keys[pixel] {
                     continue;
                 }
-                keys[pixel] = key;
+                self.keys[pixel] = key;
                 let weights = weights.map(|weight| weight as f32);
                 let normal = a.normal * weights[0] + b.normal * weights[1] + c.normal * weights[2];
                 let normal =

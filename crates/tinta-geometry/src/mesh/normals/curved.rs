@@ -8,9 +8,10 @@
 
 use super::incidence::{Incidence, angle_at};
 use crate::disjoint_sets::DisjointSets;
-use crate::threads::{filled, threads_for};
+use crate::threads::{filled, in_parallel, threads_for};
 use glam::DVec3;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Least double curvature, as a share of the square of all turns of the edges around a vertex: on a sphere the share is about
 /// 0.1, on a cylinder only the rounding of a file's digits.
@@ -30,23 +31,21 @@ pub(super) struct Edge {
     pub faces: [u32; 2],
 }
 
-/// Returns for each triangle whether it lies in a curved patch; `edges` are those of two triangles, each once.
-pub(super) fn curved<'a, I: Iterator<Item = &'a Edge>>(
-    faces: &Faces<'_>,
-    edges: impl Fn() -> I,
-    incidence: &Incidence,
-    cos_smooth: f64,
-) -> Vec<bool> {
+/// Returns for each triangle whether it lies in a curved patch; `edges` are those of two triangles, each once, in several lists.
+pub(super) fn curved(faces: &Faces<'_>, edges: &[Vec<Edge>], incidence: &Incidence, cos_smooth: f64) -> Vec<bool> {
     let (count, vertices) = (faces.triangles.len(), faces.positions.len());
+    let turn = |edge: &Edge| {
+        let [normal, other] = edge.faces.map(|face| faces.normals[face as usize]);
+        let cosine = normal.dot(other);
+        (cosine >= cos_smooth).then(|| normal.cross(other).length().atan2(cosine))
+    };
+    let turns_of = |lists: Range<usize>| edges[lists].iter().flatten().map(turn).collect::<Vec<Option<f64>>>();
+    let found = in_parallel(edges.len(), edges.len(), turns_of);
     let mut patches = DisjointSets::new(count);
     let (mut turns, mut at_vertex) = (vec![0.0; vertices], vec![0; vertices]);
-    for Edge { ends, faces: of } in edges() {
-        let [normal, other] = of.map(|face| faces.normals[face as usize]);
-        if normal.dot(other) < cos_smooth {
-            continue;
-        }
+    for (Edge { ends, faces: of }, turn) in edges.iter().flatten().zip(found.into_iter().flatten()) {
+        let Some(turn) = turn else { continue };
         patches.join(*of);
-        let turn = normal.cross(other).length().atan2(normal.dot(other));
         for end in ends {
             turns[*end as usize] += turn;
             at_vertex[*end as usize] += 1;

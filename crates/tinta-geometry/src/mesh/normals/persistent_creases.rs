@@ -151,7 +151,7 @@ impl PersistentCreases {
             }
         }
         let is_curved =
-            if is_figure { vec![true; triangles.len()] } else { curved(&faces, edges, incidence, cos_smooth) };
+            if is_figure { vec![true; triangles.len()] } else { curved(&faces, &found, incidence, cos_smooth) };
         Self { vertices, borders, areas, own_areas, is_curved, diagonal: whole.diagonal(), cos_smooth }
     }
 }
