@@ -100,7 +100,8 @@ fn below(faces: &[Face]) -> Vec<bool> {
     tree.pairs(|one, other| {
         let [one, other] = [one, other].map(|place| shared[order[place as usize] as usize]);
         compared += 1;
-        if faces[one].surface != faces[other].surface && faces[one].is_on(&faces[other]) {
+        let is_candidate = slot_of[one] == slot_of[other] && faces[one].surface != faces[other].surface;
+        if is_candidate && faces[one].is_on(&faces[other]) {
             is_below[one.max(other)] = true;
         }
         compared > faces.len().saturating_mul(PAIRS_OF_A_FACE)
