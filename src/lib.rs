@@ -118,7 +118,7 @@ use tinta_geometry::{bytes, clock, files, markup, values};
 #[doc(no_inline)]
 pub use tinta_geometry::{camera, edges, error, lines, scene, settings};
 #[doc(hidden)]
-pub use tinta_geometry::{choice, culling, doubled, hidden_faces, limits, tolerances};
+pub use tinta_geometry::{choice, culling, hidden_faces, limits, tolerances};
 
 #[doc(hidden)]
 pub mod random;

@@ -286,7 +286,6 @@ impl Style {
         let mut remarks = match self {
             // This style needs the edges in any case.
             Self::Inking(_) => scene.crack_remarks(),
-            Self::Charcoal(charcoal) | Self::Sand(charcoal) => charcoal.remarks(scene),
             _ => Vec::new(),
         };
         remarks.extend(surfaces::of_doubled_faces(self, scene));

@@ -19,14 +19,13 @@ use self::pictures::{Made, TextureSettings};
 use super::surfaces::has_doubled_faces;
 use super::textured::textured;
 use super::{Show, Supersample};
-use crate::doubled::doubled_faces;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::plan::{
     Depth, Draw, Facts, Geometry, Paint, Pass, Plan, PlanPicture, Program, Sampling, Step, Texture, Uniform, Value,
 };
-use crate::scene::{Background, Object, Scene, Size};
+use crate::scene::{Background, Scene, Size};
 use crate::textures::{ContrastTexture, Generator, NoiseTexture};
 use std::sync::Arc;
 
@@ -170,23 +169,6 @@ impl Charcoal {
             CharcoalRecipe::Darker => Self { density_percent: 85.0, contrast_exponent: 1.2, smudge: true, ..base },
             CharcoalRecipe::Closure => Self { density_percent: 35.0, contrast_exponent: 2.0, saturation: 1.4, ..base },
         }
-    }
-
-    /// Returns a remark for each model with coincident faces whose order changes the picture, and a remedy.
-    pub(super) fn remarks(&self, scene: &Scene) -> Vec<String> {
-        if self.improve.two_sided || self.cull_back_faces {
-            return Vec::new();
-        }
-        let remark = |object: &Object| {
-            let (name, doubled) = (&object.mesh.name, doubled_faces(&object.mesh));
-            let pairs = if doubled == 1 { "pair of faces lies" } else { "pairs of faces lie" };
-            let remark = format!(
-                "{name}: {doubled} {pairs} on each other, one each way, and the one that faces away may be seen; --improve \
-                 two-sided lights both alike, --cull back leaves it out"
-            );
-            (doubled > 0).then_some(remark)
-        };
-        scene.originals().filter_map(remark).collect()
     }
 
     /// Paper and drawing.

@@ -44,7 +44,8 @@ pub(super) fn of_doubled_faces(style: &Style, scene: &Scene) -> Vec<String> {
         Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => cartoon.cull_back_faces,
         Style::Mrt(mrt) => mrt.cull_back_faces,
         Style::Inking(inking) => inking.cull_back_faces,
-        // The others draw both sides alike or the one that faces the eye, or find such faces by their own rule.
+        Style::Charcoal(charcoal) | Style::Sand(charcoal) => charcoal.cull_back_faces || charcoal.improve.two_sided,
+        // The others draw both sides alike or the one that faces the eye.
         _ => true,
     };
     if chooses {

@@ -352,7 +352,6 @@ fn the_limits_are_documented_as_they_are() {
         ("NODE_LEVELS", NODE_LEVELS as u64),
         ("SKINS", SKINS as u64),
         ("REMARKS", REMARKS as u64),
-        ("DOUBLED_FACES", DOUBLED_FACES as u64),
         ("SHOWN_CHARACTERS", SHOWN_CHARACTERS as u64),
         ("DRAWN_PIXELS", DRAWN_PIXELS as u64),
         ("DRAWN_AT_ONCE_PIXELS", DRAWN_AT_ONCE_PIXELS as u64),

@@ -133,25 +133,6 @@ fn textures_of_ones_own_are_drawn_with_and_those_that_tinta_writes_draw_what_it_
     }
 }
 
-#[test]
-fn faces_on_each_other_are_said_with_what_helps_and_no_longer_once_it_does() {
-    let folder = Folder::new();
-    let leaf = folder.file("leaf.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 .2\nf 1 2 3\nf 3 2 1\n");
-    let out = folder.path("leaf.png");
-    let said = |options: &[&str]| {
-        let line = ["render", &leaf, "-o", &out, "--size", "16", "--grain", "texture-size=16"];
-        let output = done(&[&line[..], options].concat());
-        String::from_utf8(output.stderr).unwrap()
-    };
-    let remark = said(&["--style", "charcoal"]);
-    for words in ["leaf.obj: 1 pair of faces lies on each other", "--improve two-sided", "--cull back"] {
-        assert!(remark.contains(words), "{remark}");
-    }
-    for options in [["--cull", "back"], ["--improve", "two-sided"], ["--improve", "everything"]] {
-        assert_eq!(said(&[&["--style", "charcoal"][..], &options].concat()), "");
-    }
-}
-
 /// The program's remarks on a drawing, its exit code and its answer as JSON.
 fn said(line: &[&str]) -> (String, Option<i32>, Value) {
     let output = tinta(line);
@@ -165,7 +146,7 @@ fn published_styles_name_the_faces_written_twice_and_what_helps() {
     let model = folder.file("a.obj", b"v -1 0 0\nv 1 0 .3\nv 1 1 .3\nv -1 1 0\nf 1 2 3 4\nf 4 3 2 1\n");
     let out = folder.path("a.png");
     let render = |options: &[&str]| said(&[&["render", &model, "-o", &out, "--size", "40x30"][..], options].concat());
-    for style in ["three-pass", "two-pass", "mrt", "phong", "inking"] {
+    for style in ["three-pass", "two-pass", "mrt", "phong", "inking", "charcoal"] {
         let (remark, code, _) = render(&["--style", style]);
         assert!(remark.contains("a.obj: 2 triangles are written twice") && remark.contains("--cull back"), "{remark}");
         assert_eq!(code, Some(0));

@@ -60,8 +60,6 @@ pub mod edges;
 pub mod curvature;
 #[doc(hidden)]
 pub mod culling;
-#[doc(hidden)]
-pub mod doubled;
 pub mod scene;
 #[doc(hidden)]
 pub mod hidden_faces;

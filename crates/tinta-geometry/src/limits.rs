@@ -94,10 +94,6 @@ pub const SKINS: usize = 256;
 /// Most remarks of one kind about a file; the others are counted.
 pub const REMARKS: usize = 8;
 
-/// Most faces of a model that is searched for faces that lie on each other: game models have such faces, and scans would take
-/// long.
-pub const DOUBLED_FACES: usize = 50_000;
-
 /// Most characters that a message shows of a name from a file.
 pub const SHOWN_CHARACTERS: usize = 120;
 

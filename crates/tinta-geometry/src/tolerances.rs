@@ -201,14 +201,6 @@ pub(crate) const BASE_SHARE: f64 = 0.1;
 /// geometric mean. The doll's is 0.03.
 pub(crate) const BASE_MARGIN: f64 = 0.02;
 
-/// Largest distance between corners of two faces that are the two sides of one thin part, as a share of the shortest side: a
-/// step or two of a Quake 2 model's byte coordinates, on a wing a quarter of the model's size. Bars and slats are thin, too, and
-/// lie farther apart than that.
-pub(crate) const DOUBLED: f64 = 1.0 / 12.0;
-
-/// Least area of such a face, as a share of its model's: in a picture of 512 pixels a dozen or so.
-pub(crate) const DOUBLED_AREA: f64 = 5e-4;
-
 /// Distance between an end of a line and another line below which they touch in a drawing, pixels: some steps of an SVG's
 /// numbers.
 pub const JOINED_PX: f64 = 5e-3;

@@ -7,7 +7,7 @@ use crate::bvh::{Box3, BoxTree};
 use glam::{DMat3, DVec3};
 
 /// Returns the pairs that are not inside the solids of the faces in no pair.
-pub(crate) fn pairs(triangles: &[[u32; 3]], positions: &[DVec3], all: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
+pub(super) fn pairs(triangles: &[[u32; 3]], positions: &[DVec3], all: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
     if all.is_empty() {
         return all;
     }

@@ -4,7 +4,6 @@ use crate::compare::InkMask;
 use crate::measure::{Reference, ReferenceLight};
 use glam::Vec3;
 use std::collections::BTreeMap;
-use tinta::doubled::doubled_faces;
 use tinta::edges::Class;
 use tinta::error::Result;
 use tinta::lines::{LineSettings, VisibleLines};
@@ -140,7 +139,7 @@ pub(super) fn darkness(picture: &Picture) -> f64 {
 
 /// The pairs of faces that lie on each other, in all meshes.
 pub(super) fn doubled_pairs(scene: &Scene) -> usize {
-    scene.objects.iter().map(|object| doubled_faces(&object.mesh)).sum()
+    scene.objects.iter().map(|object| object.mesh.defects.doubled_triangles).sum()
 }
 
 #[cfg(test)]
