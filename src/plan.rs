@@ -121,7 +121,7 @@ pub struct Draw {
     pub blend: Blend,
     /// Whether to skip faces turned away from the eye (clockwise in the picture).
     pub cull_back_faces: bool,
-    /// Whether of doubled faces, two that lie on each other, the one turned away is skipped ([`Part::is_doubled`]).
+    /// Whether of doubled faces, two that lie on each other, the one turned away is skipped ([`crate::mesh::Part::is_doubled`]).
     pub culls_doubled_faces: bool,
     /// Draw nothing but the edges of faces turned away from the eye, as lines of this width in pixels (glPolygonMode).
     pub back_faces_as_lines: Option<f32>,

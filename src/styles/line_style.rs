@@ -13,7 +13,7 @@ const AREAS: &str = "Style lines: areas below the lines";
 /// Exact visible lines.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LineStyle {
-    /// The classes of lines. Further lines to find follow from `drawing`: see [`super::Contents::wanted`].
+    /// The classes of lines. Further lines to find follow from `drawing`.
     pub lines: LineSettings,
     /// How they are drawn.
     pub drawing: DrawingSettings,
