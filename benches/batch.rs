@@ -130,7 +130,7 @@ fn write_list(folder: &Path, models: usize, times: usize) -> PathBuf {
     let mut text = String::new();
     for number in 0..models * times {
         let model = folder.join(format!("{}.obj", number % models));
-        let job = json!({ "id": number, "command": "render", "model": model, "output": format!("{number}.png"), "size": 256 });
+        let job = json!({ "model": model, "output": format!("{number}.png"), "size": 256 });
         let _ = writeln!(text, "{job}");
     }
     let list = folder.join(format!("list-{times}.jsonl"));
@@ -200,20 +200,17 @@ fn memory(settings: &Settings, folder: &Path) -> Value {
         .stderr(Stdio::null())
         .spawn()
         .expect("the batch can be started");
-    let journal = out.join("batch-1-of-1.jsonl");
-    let (mut lines, mut read, mut seen) = (0, 0, Vec::new());
-    while lines < settings.jobs * 10 && run.try_wait().is_ok_and(|status| status.is_none()) {
-        std::thread::sleep(std::time::Duration::from_millis(5));
-        let bytes = std::fs::read(&journal).unwrap_or_default();
-        lines += bytes[read..].iter().filter(|byte| **byte == b'\n').count();
-        read = bytes.len();
-        while seen.len() * settings.jobs < lines * 2 && seen.len() <= 20 {
-            seen.push((lines, resident_mib(run.id())));
+    let (mut drawn, mut seen) = (0, Vec::new());
+    while drawn < settings.jobs * 10 && run.try_wait().is_ok_and(|status| status.is_none()) {
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        drawn = std::fs::read_dir(&out).map_or(0, Iterator::count);
+        while seen.len() * settings.jobs < drawn * 2 && seen.len() <= 20 {
+            seen.push((drawn, resident_mib(run.id())));
         }
     }
     assert!(run.wait().is_ok_and(|status| status.success()), "the batch has been done");
-    for (lines, mib) in &seen {
-        println!("after {lines:>6} renders: {mib:>8.1} MiB");
+    for (drawn, mib) in &seen {
+        println!("after {drawn:>6} renders: {mib:>8.1} MiB");
     }
     json!(seen)
 }

@@ -1,20 +1,17 @@
-//! Batches: the jobs of a list, the journal of their results, and the summary of all journals.
+//! Batches: the jobs of a list, and a journal of their results.
 //!
-//! The input is a list of jobs, one line of JSON each ([`List`]). A run, or one of N [`Slice`]s of it, appends an [`Entry`] to
-//! its own file for every finished job ([`Journal`]), on any machine. All those files together give a [`Summary`], with the same
-//! bytes however the list was sliced. Times and drivers differ between runs and have a separate file. This module draws nothing;
-//! `src/cli/batch.rs` carries the jobs out. For use, see docs/guide/batches.md.
+//! The input is a list of jobs, one line of JSON each ([`List`]). A run, or one of N [`Slice`]s of it, does the unfinished jobs,
+//! on any machine. A finished picture has a recipe with its models and options. An [`Entry`] of the run's own [`Journal`] records
+//! everything else: failures, remarks, printed text, files without a recipe. This module draws nothing; `src/cli/batch.rs` carries
+//! the jobs out. For use, see docs/guide/batches.md.
 //!
 //! ```
 //! use tinta::batch::{List, Slice};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! # let file = tempfile::NamedTempFile::new()?;
-//! # let path = file.path();
-//! let job = r#"{"id": "ant", "command": "render", "model": "builtin:ant", "output": "ant.png"}"#;
-//! std::fs::write(path, job)?;
-//! let ids: Vec<String> = List::read(path)?.jobs(Slice::WHOLE).map(|job| job.id).collect();
-//! assert_eq!(ids, ["ant"]);
+//! let list = List::of_bytes(br#"{"model": "builtin:ant", "output": "ant.png"}"#.to_vec(), "jobs.jsonl")?;
+//! let names: Vec<String> = list.jobs(Slice::WHOLE).map(|job| job.id).collect();
+//! assert_eq!(names, ["ant.png"]);
 //! # Ok(())
 //! # }
 //! ```
@@ -26,12 +23,12 @@ mod list;
 mod named_outputs;
 mod output_path;
 mod slice;
-mod summary;
 
-pub use entry::{Entry, Failure, Outcome, Run, Status, Written, written};
+pub use entry::{Entry, Failure, Outcome};
 pub use job::{Job, JobCommand, OUTPUTS};
-pub use journal::{Entries, Journal, begun, done};
+pub(crate) use journal::entries;
+pub use journal::{Journal, add_entries};
 pub use list::{List, read_list};
+pub(crate) use named_outputs::are_there;
 pub use output_path::place_in;
 pub use slice::Slice;
-pub use summary::Summary;

@@ -140,7 +140,7 @@ impl FileRecord {
 }
 
 /// Bytes as hexadecimal digits.
-pub(crate) fn in_hexadecimal(bytes: &[u8]) -> String {
+fn in_hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

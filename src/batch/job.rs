@@ -1,49 +1,34 @@
 //! A job: one line of a list, read without knowledge of the options.
 
+use crate::error::ParseError;
 use crate::files::shown;
-use crate::limits::{JOB_BYTES, JOB_ID_BYTES};
-use crate::recipe::in_hexadecimal;
+use crate::limits::JOB_BYTES;
 use crate::settings::{OptionValue, Options};
+use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
-use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fmt::Formatter;
 
 /// The options that name a file or folder to write.
 pub const OUTPUTS: [&str; 3] = ["output", "dump", "save-preset"];
 
-/// The commands that jobs may be.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum JobCommand {
-    /// `tinta render`
-    Render,
-    /// `tinta compare`
-    Compare,
-    /// `tinta measure`
-    Measure,
-}
-
-impl JobCommand {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Render, Self::Compare, Self::Measure];
-
-    /// Its name in lists.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Render => "render",
-            Self::Compare => "compare",
-            Self::Measure => "measure",
-        }
+tinta_geometry::choices! {
+    /// The commands that jobs may be.
+    pub enum JobCommand {
+        /// `tinta render`
+        Render = "render",
+        /// `tinta compare`
+        Compare = "compare",
+        /// `tinta measure`
+        Measure = "measure",
     }
 }
 
 /// The contents of one line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Job {
-    /// Its name, the same from run to run.
+    /// What messages call it. Default its output.
     pub id: String,
     /// Its line number, 1-based; 0 outside of a list.
     pub line: u64,
@@ -53,9 +38,7 @@ pub struct Job {
     pub models: Vec<String>,
     /// Every other key.
     pub options: Options,
-    /// SHA-256 of its content, hexadecimal: blanks and the order of its keys do not count.
-    pub sha256: String,
-    /// The content as JSON on one line, its keys sorted.
+    /// The content as JSON on one line, its keys sorted: blanks and the order of its keys do not count.
     pub json: String,
 }
 
@@ -68,20 +51,11 @@ impl Job {
     pub fn parse(line: &[u8]) -> Result<Self, String> {
         let mut keys = keys(line)?;
         let json = serde_json::to_string(&keys).map_err(|error| error.to_string())?;
-        let id = match keys.remove("id") {
-            Some(Value::String(id)) => id,
-            Some(Value::Number(id)) if id.is_u64() || id.is_i64() => id.to_string(),
-            Some(_) => return Err("id: write a text or a whole number".to_owned()),
-            None => return Err("it has no id; give each job its own".to_owned()),
-        };
-        check_id(&id)?;
+        let id = keys.remove("id").map(|id| if let Value::String(id) = id { id } else { id.to_string() });
         let command = match keys.remove("command") {
-            Some(Value::String(name)) => JobCommand::ALL
-                .into_iter()
-                .find(|command| command.name() == name)
-                .ok_or_else(|| format!("command: {} is not render, compare or measure", shown(&name)))?,
+            Some(Value::String(name)) => name.parse().map_err(|problem: ParseError| format!("command: {problem}"))?,
             Some(_) => return Err("command: write render, compare or measure".to_owned()),
-            None => return Err("it has no command; write render, compare or measure".to_owned()),
+            None => JobCommand::Render,
         };
         let models: Vec<String> = match keys.remove("model") {
             None => Vec::new(),
@@ -94,12 +68,16 @@ impl Job {
             let value = job_value(value).map_err(|problem| format!("{}: {problem}", shown(&key)))?;
             Ok((key, value))
         });
-        let options = options.collect::<Result<_, String>>()?;
+        let options: Options = options.collect::<Result<_, String>>()?;
         if models.iter().any(|model| model == "-") {
             return Err("model: - is standard input, which jobs lack; name a file".to_owned());
         }
-        let sha256 = in_hexadecimal(&Sha256::digest(json.as_bytes()));
-        Ok(Self { id, line: 0, command, models, options, sha256, json })
+        let output = match options.get("output") {
+            Some(OptionValue::Text(output)) => output.clone(),
+            Some(_) => return Err("output: write the name of a file, as a text".to_owned()),
+            None => return Err("it has no output; name the file to write".to_owned()),
+        };
+        Ok(Self { id: id.unwrap_or(output), line: 0, command, models, options, json })
     }
 
     /// The options that name output files, with those names.
@@ -123,17 +101,6 @@ fn keys(line: &[u8]) -> Result<BTreeMap<String, Value>, String> {
         format!("this is not a job ({}); write one JSON object per line", shown(said))
     })?;
     Ok(keys.0)
-}
-
-/// A name that a message, a terminal and a table can show.
-fn check_id(id: &str) -> Result<(), String> {
-    if id.is_empty() || id.len() > JOB_ID_BYTES {
-        return Err(format!("id: it has {} bytes; give it 1 to {JOB_ID_BYTES}", id.len()));
-    }
-    match id.chars().any(char::is_control) {
-        true => Err(format!("id: {} contains a control character; remove it", shown(id))),
-        false => Ok(()),
-    }
 }
 
 fn job_value(value: Value) -> Result<OptionValue, String> {
@@ -211,17 +178,19 @@ mod tests {
 
     #[test]
     fn a_jobs_content_is_known_whatever_its_order_and_blanks() {
-        let hash = |line: &str| Job::parse(line.as_bytes()).unwrap().sha256;
-        let one = hash(r#"{"id":"a","command":"render","model":"m","size":64}"#);
-        assert_eq!(one, hash(r#" { "size" : 64, "model":"m" ,"command":"render", "id":"a" } "#));
-        assert_ne!(one, hash(r#"{"id":"a","command":"render","model":"m","size":65}"#));
-        assert_eq!(one.len(), 64);
-        let again = Job::parse(one_json().as_bytes()).unwrap();
-        assert_eq!(again.json, one_json());
+        let json = |line: &str| Job::parse(line.as_bytes()).unwrap().json;
+        let one = r#"{"command":"render","id":"a","model":"m","output":"a.png","size":64}"#;
+        assert_eq!(json(one), one);
+        assert_eq!(json(r#" { "size" : 64, "output":"a.png", "model":"m" ,"command":"render", "id":"a" } "#), one);
+        assert_ne!(json(&one.replace("64", "65")), one);
     }
 
-    fn one_json() -> &'static str {
-        r#"{"command":"render","id":"a","model":"m","size":64}"#
+    #[test]
+    fn a_model_and_an_output_are_enough() {
+        let job = Job::parse(br#"{"model": "a.obj", "output": "a.svg"}"#).unwrap();
+        assert_eq!((job.id.as_str(), job.command), ("a.svg", JobCommand::Render));
+        let named = |id: &str| Job::parse(format!(r#"{{"id": {id}, "output": "a.svg"}}"#).as_bytes()).unwrap().id;
+        assert_eq!([named("7"), named("\"front\"")], ["7", "front"]);
     }
 
     #[test]
@@ -230,13 +199,10 @@ mod tests {
             ("", "this is not a job (EOF"),
             ("[1, 2]", "this is not a job (invalid type: sequence, expected an object)"),
             ("{} {}", "this is not a job (trailing characters"),
-            (r#"{"id": "a"}"#, "it has no command"),
-            (r#"{"command": "render"}"#, "it has no id"),
-            (r#"{"id": "a", "command": "view"}"#, "command: view is not render, compare or measure"),
+            (r#"{"id": "a"}"#, "it has no output; name the file to write"),
+            (r#"{"output": true}"#, "output: write the name of a file"),
+            (r#"{"id": "a", "command": "view"}"#, "command: choose one of render, compare, measure"),
             (r#"{"id": "a", "command": 3}"#, "command: write render, compare or measure"),
-            (r#"{"id": 1.5, "command": "render"}"#, "id: write a text or a whole number"),
-            (r#"{"id": "", "command": "render"}"#, "id: it has 0 bytes"),
-            (r#"{"id": "a\u0000b", "command": "render"}"#, "id: a\\u{0}b contains a control character"),
             (r#"{"id": "a", "id": "b", "command": "render"}"#, "the key id is given twice"),
             (r#"{"id": "a", "command": "render", "size": {"x": 1}}"#, "size: write a text"),
             (r#"{"id": "a", "command": "render", "size": null}"#, "size: write a text"),
@@ -247,9 +213,6 @@ mod tests {
             let said = refused(line);
             assert!(said.contains(words) && said.len() < 300, "{line}: {said}");
         }
-        assert!(
-            refused(&format!(r#"{{"id": "{}", "command": "render"}}"#, "x".repeat(300))).contains("it has 300 bytes")
-        );
         assert!(refused(&"[".repeat(10_000)).contains("this is not a job"));
         assert!(refused(&" ".repeat(JOB_BYTES + 1)).contains("longer than"));
         assert!(Job::parse(b"{\"id\": \"\xff\"}").unwrap_err().contains("UTF-8"));
@@ -259,10 +222,10 @@ mod tests {
 
     proptest::proptest! {
         #[test]
-        fn no_line_makes_the_reader_panic(line in "\\{(\"(id|command|model|[a-z]{1,4})\": ?(\"\\PC{0,6}\"|[0-9.e-]{1,5}|true|null|\\[1,2\\]),?){0,5}\\}?|\\PC*") {
+        fn no_line_makes_the_reader_panic(line in "\\{(\"(id|command|model|output|[a-z]{1,4})\": ?(\"\\PC{0,6}\"|[0-9.e-]{1,5}|true|null|\\[1,2\\]),?){0,5}\\}?|\\PC*") {
             if let Ok(job) = Job::parse(line.as_bytes()) {
                 let again = Job::parse(job.json.as_bytes()).unwrap();
-                assert_eq!((again.sha256, again.json), (job.sha256, job.json));
+                assert_eq!(again, job);
             }
         }
     }

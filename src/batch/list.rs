@@ -4,16 +4,11 @@ use super::job::Job;
 use super::named_outputs::{NamedOutput, first_conflict};
 use super::slice::Slice;
 use crate::error::{Error, FileKind, Result};
-use crate::files::{self, shown};
+use crate::files;
 use crate::limits::BATCH_BYTES;
-use crate::output::write_whole;
-use std::collections::HashMap;
 use std::path::Path;
 
-/// The list as a batch keeps it in its folder.
-pub(super) const LIST_FILE: &str = "batch-list.jsonl";
-
-/// Jobs in the order of their list, without repeated names or output files. All lines are checked, but each becomes a job only
+/// Jobs in the order of their list, without repeated output files. All lines are checked, but each becomes a job only
 /// when needed: a run may do a thousand of a million.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct List {
@@ -24,55 +19,23 @@ pub struct List {
 }
 
 impl List {
-    /// Reads a list.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::File`] with the line that is invalid, or that has the name or an output of another.
-    pub fn read(path: &Path) -> Result<Self> {
-        Self::of_bytes(read_list(path)?, &path.display().to_string())
-    }
-
-    /// Reads a list's bytes for a batch's folder, and says whether the list kept there has the same jobs in the same lines; `None`
-    /// if the folder keeps none.
-    ///
-    /// # Errors
-    ///
-    /// As [`List::read`].
-    pub fn for_folder(bytes: Vec<u8>, name: &str, folder: &Path) -> Result<(Self, Option<bool>)> {
-        let path = folder.join(LIST_FILE);
-        let kept = path.symlink_metadata().ok().map(|_| read_list(&path)).transpose()?;
-        // Nearly always the very same file, which was checked when it was kept: the slices of a long list begin at once.
-        if kept.as_ref() == Some(&bytes) {
-            return Ok((Self { count: lines(&bytes).count(), bytes }, Some(true)));
-        }
-        let list = Self::of_bytes(bytes, name)?;
-        let kept = kept.map(|kept| Self::of_bytes(kept, &path.display().to_string())).transpose()?;
-        let content = |list: &Self| list.jobs(Slice::WHOLE).map(|job| (job.line, job.sha256)).collect::<Vec<_>>();
-        let is_kept = kept.map(|kept| content(&kept) == content(&list));
-        Ok((list, is_kept))
-    }
-
     /// Reads a list's bytes; `name` is its name in errors.
     ///
     /// # Errors
     ///
-    /// As [`List::read`].
+    /// [`Error::File`] with the line that is invalid, or that has an output of another.
     pub fn of_bytes(bytes: Vec<u8>, name: &str) -> Result<Self> {
         let refused = |line: Option<u64>, problem: String| Error::file(FileKind::Batch, name, problem).at(line);
-        let (mut ids, mut outputs, mut twice) = (HashMap::new(), Vec::new(), None);
+        let (mut count, mut outputs) = (0, Vec::new());
         for (line, text) in lines(&bytes) {
             let job = Job { line, ..Job::parse(text).map_err(|problem| refused(Some(line), problem))? };
             outputs.extend(NamedOutput::all(&job));
-            if let (Some(before), None) = (ids.insert(job.id.clone(), line), &twice) {
-                let id = shown(&job.id);
-                twice = Some((line, format!("the id {id} is already used by line {before}; choose another")));
-            }
+            count += 1;
         }
-        match twice.into_iter().chain(first_conflict(outputs)).min_by_key(|(line, _)| *line) {
+        match first_conflict(outputs) {
             Some((line, problem)) => Err(refused(Some(line), problem)),
-            None if ids.is_empty() => Err(refused(None, "it holds no job; write one per line".to_owned())),
-            None => Ok(Self { count: ids.len(), bytes }),
+            None if count == 0 => Err(refused(None, "it holds no job; write one per line".to_owned())),
+            None => Ok(Self { count, bytes }),
         }
     }
 
@@ -81,15 +44,6 @@ impl List {
         let lines = lines(&self.bytes).enumerate().filter(move |(place, _)| slice.has(*place));
         // Every line has been checked.
         lines.filter_map(|(_, (line, text))| Job::parse(text).ok().map(|job| Job { line, ..job }))
-    }
-
-    /// Keeps the list in the batch's folder as the record of its jobs.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::File`] when it cannot be written.
-    pub fn keep(&self, folder: &Path) -> Result<()> {
-        write_whole(&folder.join(LIST_FILE), &self.bytes)
     }
 }
 
@@ -130,20 +84,23 @@ mod tests {
     }
 
     #[test]
-    fn names_and_outputs_that_are_there_twice_are_refused_with_both_lines() {
+    fn outputs_that_are_there_twice_are_refused_with_both_lines() {
         let said = |text: &str| list(text).unwrap_err().to_string();
-        let twice = said(&format!("{}\n\n{}\n", job("a", "a.png"), job("a", "b.png")));
-        assert_eq!(twice, "jobs.jsonl: line 3: the id a is already used by line 1; choose another");
-        let twice = said(&format!("{}\n{}\n", job("a", "x/a.png"), job("b", "./x//a.png")));
-        assert_eq!(twice, "jobs.jsonl: line 2: output: ./x//a.png is also written by line 1; name another");
-        // The first such line of the list, whichever name it repeats.
-        let lines = [job("a", "a.png"), job("b", "b.png"), job("c", "./a.png"), job("b", "d.png"), job("a", "e.png")];
+        let twice = said(&format!("{}\n\n{}\n", job("a", "x/a.png"), job("b", "./x//a.png")));
+        assert_eq!(
+            twice,
+            "jobs.jsonl: line 3: output: ./x//a.png would also be written by line 1, as x/a.png; name another"
+        );
+        // The first such line of the list, whichever name it repeats. An id may be repeated.
+        let lines = [job("a", "a.png"), job("b", "b.png"), job("a", "./b.png"), job("b", "d.png"), job("a", "a.png")];
         let twice = said(&lines.join("\n"));
-        assert_eq!(twice, "jobs.jsonl: line 3: output: ./a.png is also written by line 1; name another");
-        let twice = said(&[&lines[..2], &lines[3..]].concat().join("\n"));
-        assert_eq!(twice, "jobs.jsonl: line 3: the id b is already used by line 2; choose another");
-        let twice = said(r#"{"id": "a", "command": "render", "output": "a", "dump": "./a"}"#);
-        assert_eq!(twice, "jobs.jsonl: line 1: dump: ./a is also written by line 1; name another");
+        assert_eq!(
+            twice,
+            "jobs.jsonl: line 3: output: ./b.png would also be written by line 2, as b.png; name another"
+        );
+        assert_eq!(list(&[&lines[..2], &lines[3..4]].concat().join("\n")).unwrap().count, 3);
+        let twice = said(r#"{"output": "a", "dump": "./a"}"#);
+        assert_eq!(twice, "jobs.jsonl: line 1: dump: ./a would also be written by line 1, as a; name another");
         assert_eq!(said("\n \r\n"), "jobs.jsonl: it holds no job; write one per line");
         let bad = said(&format!("{}\nnonsense\n", job("a", "a.png")));
         assert!(bad.starts_with("jobs.jsonl: line 2: this is not a job ("), "{bad}");
@@ -211,7 +168,7 @@ mod tests {
         assert_eq!(
             list(&lines.join("\n")).unwrap_err().to_string(),
             format!(
-                "jobs.jsonl: line {}: output: shared/{other}036.png is also written by line {}, as one of \
+                "jobs.jsonl: line {}: output: shared/{other}036.png would also be written by line {}, as \
                  shared/{other}%03d.png; name another",
                 count + 1,
                 other + 1
@@ -228,24 +185,6 @@ mod tests {
     #[ignore = "exhaustive: a list of 100,000 jobs"]
     fn a_long_list_of_turntables_pictures_and_folders_is_checked_without_comparing_all_of_them() {
         check_long_list(100_000);
-    }
-
-    #[test]
-    fn a_kept_list_is_the_list() {
-        let folder = tempfile::tempdir().unwrap();
-        let read =
-            |text: &str, folder: &Path| List::for_folder(text.as_bytes().to_vec(), "jobs.jsonl", folder).unwrap();
-        let text = format!("{}\n", job("a", "a.png"));
-        let (one, is_kept) = read(&text, folder.path());
-        assert_eq!((one.count, is_kept), (1, None));
-        one.keep(folder.path()).unwrap();
-        assert_eq!(List::read(&folder.path().join(LIST_FILE)).unwrap(), one);
-        assert_eq!(read(&text, folder.path()), (one, Some(true)));
-        // Blanks do not count; other outputs and a different length do.
-        assert_eq!(read(&job("a", "a.png"), folder.path()).1, Some(true));
-        assert_eq!(read(&format!("{}\n", job("a", "b.png")), folder.path()).1, Some(false));
-        assert_eq!(read(&format!("{text}{}", job("b", "b.png")), folder.path()).1, Some(false));
-        assert_eq!(read(&text, &folder.path().join("other")).1, None);
     }
 
     #[test]

@@ -21,7 +21,7 @@ pub(super) struct NamedOutput {
     /// The option.
     option: &'static str,
     /// As written in the line.
-    pub output: String,
+    output: String,
     /// Its place in the batch's folder.
     place: String,
     kind: Kind,
@@ -69,39 +69,39 @@ impl NamedOutput {
     }
 
     /// Whether this file, named in the batch's folder, is one of its numbered files.
-    pub(super) fn has_numbered(&self, name: &str) -> bool {
+    fn has_numbered(&self, name: &str) -> bool {
         let Kind::Numbered(numbered, count) = &self.kind else { return false };
         numbered.number_in(name).is_some_and(|number| (1..=*count).contains(&number))
     }
 
-    /// A file that both write, at least one of them as a numbered one.
-    fn shared(&self, other: &Self) -> Option<String> {
+    /// Whether both write a file, at least one of them as a numbered one.
+    fn shares(&self, other: &Self) -> bool {
         match (&self.kind, &other.kind) {
             (Kind::Numbered(name, count), Kind::Numbered(other_name, _)) => {
                 let [after, other_after] = [name, other_name].map(|name| name.parts().2);
-                if !after.ends_with(other_after) && !other_after.ends_with(after) {
-                    return None;
-                }
-                (1..=*count).map(|number| name.with(number)).find(|name| other.has_numbered(name))
+                let are_alike = after.ends_with(other_after) || other_after.ends_with(after);
+                are_alike && (1..=*count).any(|number| other.has_numbered(&name.with(number)))
             }
-            (Kind::Numbered(..), _) => self.has_numbered(&other.place).then(|| other.place.clone()),
-            (_, Kind::Numbered(..)) => other.shared(self),
-            _ => None,
+            (Kind::Numbered(..), _) => self.has_numbered(&other.place),
+            (_, Kind::Numbered(..)) => other.shares(self),
+            _ => false,
         }
     }
 
     /// Why it and one of an earlier line exclude each other.
     fn problem(&self, before: &Self) -> String {
-        let (option, output, other, line) = (self.option, shown(&self.output), shown(&before.output), before.line);
-        let conflict = match self.shared(before) {
-            _ if self.place == before.place => format!("is also written by line {line}"),
-            _ if self.is_in(before) => format!("lies in {other}, the folder that line {line} writes"),
-            _ if before.is_in(self) => format!("is a folder in which line {line} writes {other}"),
-            Some(file) if file != self.place => format!("writes {}, as does line {line} by {other}", shown(&file)),
-            _ => format!("is also written by line {line}, as one of {other}"),
-        };
-        format!("{option}: {output} {conflict}; name another")
+        let [output, other] = [self, before].map(|named| shown(&named.output));
+        format!("{}: {output} would also be written by line {}, as {other}; name another", self.option, before.line)
     }
+}
+
+/// Whether all outputs that a job names are there; of numbered pictures the first.
+pub(crate) fn are_there(job: &Job, folder: &Path) -> bool {
+    NamedOutput::all(job).all(|named| match &named.kind {
+        Kind::File => folder.join(&named.place).is_file(),
+        Kind::Numbered(name, _) => folder.join(name.with(1)).is_file(),
+        Kind::Folder => folder.join(&named.place).is_dir(),
+    })
 }
 
 /// A line that writes what an earlier one writes, with the reason; of those found, the first in the list.
@@ -121,11 +121,31 @@ pub(super) fn first_conflict(mut outputs: Vec<NamedOutput>) -> Option<(u64, Stri
             let begins = name.parts().0;
             let first = outputs.partition_point(|other| other.path() <= Path::new(begins));
             let mut alike = outputs[first..].iter().take_while(|other| other.place.starts_with(begins));
-            let found = alike.find(|other| other.line != output.line && output.shared(other).is_some());
+            let found = alike.find(|other| other.line != output.line && output.shares(other));
             pairs.extend(found.map(|other| [output, other]));
         }
     }
     let pairs = pairs.into_iter().map(|[one, other]| if one.line > other.line { [one, other] } else { [other, one] });
     let [later, before] = pairs.min_by_key(|[later, _]| later.line)?;
     Some((later.line, later.problem(before)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_folders_and_numbered_pictures_are_found() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let job = r#"{"output": "f-%02d.png", "turntable": 3, "dump": "./steps", "save-preset": "a.toml"}"#;
+        let job = Job::parse(job.as_bytes()).unwrap();
+        std::fs::create_dir(at("steps")).unwrap();
+        std::fs::write(at("f-01.png"), "").unwrap();
+        assert!(!are_there(&job, folder.path()));
+        std::fs::write(at("a.toml"), "").unwrap();
+        assert!(are_there(&job, folder.path()));
+        std::fs::rename(at("f-01.png"), at("f-1.png")).unwrap();
+        assert!(!are_there(&job, folder.path()));
+    }
 }

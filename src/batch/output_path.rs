@@ -26,9 +26,9 @@ pub fn place_in(folder: &Path, output: &str) -> Result<PathBuf, String> {
     Ok(place)
 }
 
-/// Whether a batch keeps its own files under such a name: `batch-list.jsonl`, `batch-3-of-8.jsonl` and so on.
+/// Whether a batch keeps its own files under such a name: `batch-3-of-8.jsonl` and so on.
 fn is_own_file(name: &str) -> bool {
-    name.starts_with("batch-") && (name.ends_with(".jsonl") || name.ends_with(".json"))
+    name.starts_with("batch-") && name.ends_with(".jsonl")
 }
 
 /// The output's normalised name, equal for equal places; `None` where [`place_in`] refuses it.

@@ -1,8 +1,10 @@
-//! `tinta batch`: runs a list of jobs, or a slice of it, on all cores, and summarises the results.
+//! `tinta batch`: draws each model of a folder, or runs a list of jobs, or a slice of it, on all cores.
 //!
 //! Workers do the jobs: processes of this program that take one job after another and keep their context, programs and models. A
-//! job that crashes the driver ends one worker and no other job. Each result is recorded at once.
+//! job that crashes the driver ends one worker and no other job. A finished job is not done again: a picture has its models and
+//! options in its recipe, and the journal records every other result at once.
 
+mod folder;
 pub(super) mod job_options;
 #[cfg(test)]
 mod tests;
@@ -10,34 +12,49 @@ mod names;
 mod worker;
 mod worker_process;
 
+use super::bare::is_model;
+use super::options::{Chosen, OfRequest};
 use super::progress::Progress;
 use super::signals::Stop;
 use super::standard_input;
 use super::{Command, given};
-use super::{Program, Verdict, plain, print, print_json, say};
+use super::{Program, Verdict, plain, print, say};
+use folder::Drawing;
 pub use job_options::JobOptions;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use tinta::batch::{Entry, Failure, Job, Journal, List, Outcome, Slice, Status, Summary, begun, done, read_list};
+use tinta::batch::{Entry, Failure, Job, Journal, List, Outcome, Slice, are_there, entries, read_list};
+use tinta::choice::Choice;
 use tinta::limits::REMARKS;
 use tinta::{Error, Result};
 use worker_process::{CRASH, WorkerProcess};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
-    examples: &["tinta batch jobs.jsonl -o pictures              run many jobs from a list"],
-    ..Command::new("batch", <Arguments as clap::Args>::augment_args, |matches, call| {
-        run(&given::<Arguments>(matches)?, call.program)
-    })
+    examples: &[
+        "tinta batch *.stl -o pics --look technical      draw each into its own file",
+        "tinta batch jobs.jsonl -o pics                  run many jobs from a list",
+    ],
+    ..Command::new("batch", arguments, |matches, call| run(&given::<Arguments>(matches)?, call.program))
 };
 
-/// Run a list of jobs, one line of JSON each, on all cores
+/// The options. The short help lists those of a batch and the most usual ones of drawings.
+fn arguments(command: clap::Command) -> clap::Command {
+    let is_rare = |name: &str| Chosen::<OfRequest>::has(name) && !["style", "size", "view"].contains(&name);
+    <Arguments as clap::Args>::augment_args(command).mut_args(|arg| match is_rare(arg.get_id().as_str()) {
+        true => arg.hide_short_help(true),
+        false => arg,
+    })
+}
+
+/// Draw each model into its own file, or run a list of jobs, on all cores; given again, do the unfinished ones
 #[derive(clap::Args)]
 #[command(after_help = "\
-A job: {\"id\": \"cow-1\", \"command\": \"render\", \"model\": \"cow.obj\", \"output\": \"cow-1.png\", \"view\": \"90,15\"}
-Its command is render, compare or measure. Its model is a text, or several in brackets. Every other key is the long name of an \
-option of that command. Outputs are written into DIR; files to read are named as on the command line. See docs/guide/batches.md.
+A job of a list: {\"model\": \"cow.obj\", \"output\": \"cow.png\", \"view\": \"90,15\"}
+Its model is a text, or several in brackets. Its command is render, compare or measure [default: render]. Every other key is the \
+long name of an option of that command. See docs/guide/batches.md.
 
 Exit codes:
   0    all jobs done
@@ -47,109 +64,108 @@ Exit codes:
   130  stopped by Ctrl-C with jobs left
   143  stopped by SIGTERM with jobs left")]
 pub(super) struct Arguments {
-    /// List of jobs, one line of JSON each; - for standard input
-    #[arg(value_name = "LIST", required_unless_present_any = ["summary", "worker"])]
-    list: Option<PathBuf>,
+    /// Models, folders of models, or one list of jobs, a line of JSON each; - for a list on standard input
+    #[arg(value_name = "MODEL|LIST", required_unless_present = "worker")]
+    models: Vec<String>,
 
-    /// Folder for the files that the jobs write, and for the record of their results
-    #[arg(short, long, value_name = "DIR", required_unless_present = "summary")]
-    output: Option<PathBuf>,
+    /// Folder to write into; models also take the names of their files: 'pics/{name}.svg' [default for models: DIR/{name}.png]
+    #[arg(short, long, value_name = "DIR")]
+    output: String,
 
     /// Run only every N-th job, starting with the K-th, to share a list among N machines [default: 1/1]
     #[arg(long, value_name = "K/N", default_value = "1/1", hide_default_value = true)]
     slice: Slice,
 
-    /// Continue in the same folder: skip finished jobs whose files exist, retry failed ones [default: off]
-    #[arg(long)]
-    resume: bool,
-
     /// Jobs to run at once, each in its own process [default: one per processor]
     #[arg(long, value_name = "J", value_parser = clap::value_parser!(u32).range(1..=1024))]
     jobs: Option<u32>,
 
-    /// Summarise what all slices did in DIR: print it, and write batch-summary.jsonl and batch-times.jsonl there
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["list", "output", "slice", "resume", "jobs"])]
-    summary: Option<PathBuf>,
+    /// Run nothing: count the jobs of all slices that are done, failed and missing [default: off]
+    #[arg(long)]
+    summary: bool,
 
-    /// With --summary: print one JSON record [default: off]
-    #[arg(long, requires = "summary")]
-    json: bool,
+    /// A batch always resumes.
+    #[arg(long, hide = true)]
+    resume: bool,
 
     /// Read jobs from standard input; tinta batch starts such workers
-    #[arg(long, hide = true, conflicts_with_all = ["list", "summary"])]
+    #[arg(long, hide = true, conflicts_with = "models")]
     worker: bool,
+
+    #[command(flatten)]
+    drawing: Drawing,
 }
 
-/// Runs the list, or summarises its results; exit code 1 if a job failed or is missing, 128 plus the signal's number if a signal
-/// ended it early.
+/// Runs the jobs that are not done, or counts them; exit code 1 if a job failed or is missing, 128 plus the signal's number if a
+/// signal ended it early.
 pub(super) fn run(arguments: &Arguments, program: &Program) -> Result<Verdict> {
-    if let Some(folder) = &arguments.summary {
-        return sum_up(folder, arguments.json);
-    }
-    let none = || Error::CommandLine { problem: "LIST and --output DIR are needed".to_owned() };
-    let folder = arguments.output.as_deref().ok_or_else(none)?;
     if arguments.worker {
-        return worker::serve(folder, program).map(|()| Verdict::Good);
+        return worker::serve(Path::new(&arguments.output), program).map(|()| Verdict::Good);
     }
-    let (bytes, name) = match arguments.list.as_deref().ok_or_else(none)? {
-        path if path == Path::new(standard_input::DASH) => (standard_input::list()?, standard_input::NAME.to_owned()),
-        path => (read_list(path)?, path.display().to_string()),
-    };
-    let (list, is_kept) = List::for_folder(bytes, &name, folder)?;
-    names::check(&list, &name, program)?;
-    super::make_folder(folder)?;
-    let (journal, jobs, left) = begin(arguments, folder, list, is_kept)?;
+    let (list, folder) = list(arguments, program)?;
+    if arguments.summary {
+        return sum_up(&list, &folder, program);
+    }
+    super::make_folder(&folder)?;
+    let journal = Journal::open(&folder, arguments.slice)?;
+    let (mut jobs, known) = (0, entries(&folder, arguments.slice)?);
+    let left = list.jobs(arguments.slice).inspect(|_| jobs += 1).filter(|job| !is_done(job, &folder, &known, program));
+    let left: Vec<Job> = left.collect();
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let workers = arguments.jobs.map_or(cores, |jobs| jobs as usize).min(left.len());
     let stop = Stop::on_signals();
-    let Running { done, failed, .. } = carry_out(&left, folder, journal, workers, cores, &stop)?;
+    let Running { done, failed, remarked, .. } = carry_out(&left, &folder, journal, workers, cores, (&stop, program))?;
     let before = jobs - left.len();
     let before = if before > 0 { format!(", {before} were done before") } else { String::new() };
     say(&format!("tinta: {done} of {jobs} jobs done{before}, {failed} failed"));
+    if remarked > 0 {
+        let journal = folder.join(arguments.slice.file_name());
+        say(&format!("tinta: {}: remarks on {remarked} jobs", journal.display()));
+    }
     let to_do = left.len() - done - failed;
     if to_do > 0 {
+        let folder = folder.display();
         say(&format!(
-            "tinta: {}: stopped by a signal with {to_do} of {jobs} jobs left; continue with --resume",
-            folder.display()
+            "tinta: {folder}: stopped by a signal with {to_do} of {jobs} jobs left; the same command does them"
         ));
         return Ok(Verdict::Stopped { signal: stop.signal() });
     }
     Ok(if failed == 0 { Verdict::Good } else { Verdict::Different })
 }
 
-/// Opens the slice's file, after checking that the list belongs to this folder. Returns also how many jobs the slice has, and the
-/// unfinished ones, which alone stay in memory.
-fn begin(
-    arguments: &Arguments,
-    folder: &Path,
-    list: List,
-    is_kept: Option<bool>,
-) -> Result<(Journal, usize, Vec<Job>)> {
-    let refuse = |problem: String| Err(Error::output(folder, problem));
-    let slice = arguments.slice;
-    let has_begun = begun(folder).iter().any(|other| *other == slice || other.count != slice.count);
-    if has_begun && !arguments.resume {
-        return refuse("this folder holds a batch; continue it with --resume, or name another folder".to_owned());
-    }
-    match is_kept {
-        Some(true) => {}
-        Some(false) if !(arguments.resume && slice == Slice::WHOLE) => {
-            return refuse(
-                "this folder holds a batch of another list; name another folder, or give the changed list with \
-                 --resume and without --slice"
-                    .to_owned(),
-            );
+/// The jobs, and the folder that they write into.
+fn list(arguments: &Arguments, program: &Program) -> Result<(List, PathBuf)> {
+    let Arguments { models, output, drawing, .. } = arguments;
+    let is_one = |model: &String| is_model(model.as_ref()) || Path::new(model).is_dir();
+    let list = match (&models[..], models.iter().find(|model| !is_one(model))) {
+        (_, None) => return drawing.list(models, output, program),
+        ([list], _) => list,
+        (_, Some(other)) => {
+            let problem = "this is no model; name models and folders of models, or one list of jobs";
+            return Err(Error::model(other, problem));
         }
-        _ => list.keep(folder)?,
-    }
-    let journal = Journal::open(folder, slice)?;
-    let jobs: Vec<Job> = list.jobs(slice).collect();
-    drop(list);
-    // Now that this run alone writes to the slice's file.
-    let done = done(folder, slice, &jobs)?;
-    let count = jobs.len();
-    let left = jobs.into_iter().zip(done).filter(|(_, done)| !done).map(|(job, _)| job).collect();
-    Ok((journal, count, left))
+    };
+    drawing.refuse_for_lists(output)?;
+    let (bytes, name) = match list.as_str() {
+        standard_input::DASH => (standard_input::list()?, standard_input::NAME),
+        path => (read_list(Path::new(path))?, path),
+    };
+    let list = List::of_bytes(bytes, name)?;
+    names::check(&list, name, program)?;
+    Ok((list, output.into()))
+}
+
+/// Whether a job is done: as its picture tells, or its entry.
+fn is_done(job: &Job, folder: &Path, known: &HashMap<String, Entry>, program: &Program) -> bool {
+    let is_recorded =
+        || known.get(&job.json).is_some_and(|entry| entry.outcome.error.is_none()) && are_there(job, folder);
+    told(job, folder, program).unwrap_or_else(is_recorded)
+}
+
+/// Whether a job's picture tells that it is done; `None` if it does not tell.
+fn told(job: &Job, folder: &Path, program: &Program) -> Option<bool> {
+    let options = JobOptions::of(job, folder).ok()?;
+    (program.named(job.command.choice_name())?.told)(&options)
 }
 
 /// A run: what its threads share, and what came of it.
@@ -157,6 +173,8 @@ struct Running {
     journal: Journal,
     done: usize,
     failed: usize,
+    /// Jobs with remarks.
+    remarked: usize,
     /// Why it ends before its end.
     stop: Option<Error>,
     /// The jobs whose worker died, which are tried again alone.
@@ -164,16 +182,17 @@ struct Running {
 }
 
 impl Running {
-    /// Counts and records a job, and reports the reason for the first few failures.
-    fn note(&mut self, job: &Job, outcome: Outcome) -> Result<()> {
-        match outcome.status {
-            Status::Done => self.done += 1,
-            Status::Failed => self.failed += 1,
+    /// Counts a job, records it unless its picture tells all, and reports the reason for the first few failures.
+    fn note(&mut self, job: &Job, outcome: Outcome, is_told: bool) -> Result<()> {
+        match &outcome.error {
+            None => self.done += 1,
+            Some(_) => self.failed += 1,
         }
         if let Some(Failure { problem, .. }) = outcome.error.as_ref().filter(|_| self.failed <= REMARKS) {
-            say(&format!("tinta: line {}, {}: {problem}", job.line, job.id));
+            say(&format!("tinta: {}: {problem}", job.id));
         }
-        self.journal.append(&Entry::new(job, outcome))
+        self.remarked += usize::from(!outcome.remarks.is_empty());
+        if is_told { Ok(()) } else { self.journal.append(&Entry::new(job, outcome)) }
     }
 }
 
@@ -184,10 +203,10 @@ fn carry_out(
     journal: Journal,
     workers: usize,
     cores: usize,
-    stop: &Stop,
+    (stop, program): (&Stop, &Program),
 ) -> Result<Running> {
     let progress = Progress::new("working", jobs.len() as u64);
-    let run = Mutex::new(Running { journal, done: 0, failed: 0, stop: None, crashed: Vec::new() });
+    let run = Mutex::new(Running { journal, done: 0, failed: 0, remarked: 0, stop: None, crashed: Vec::new() });
     let next = AtomicUsize::new(0);
     let lock = || run.lock().unwrap_or_else(PoisonError::into_inner);
     let work = || {
@@ -198,33 +217,26 @@ fn carry_out(
             let ended = ready.map(|ready| {
                 let outcome;
                 (worker, outcome) = ready.carry_out(job);
-                outcome
+                let is_told = tells_all(job, folder, &outcome, program);
+                (outcome, is_told)
             });
             let mut run = lock();
-            let noted = ended.and_then(|outcome| stop_on_full_disk(job, folder, outcome));
-            let noted =
-                noted.and_then(|outcome| match outcome.error.as_ref().is_some_and(|error| error.kind == CRASH) {
-                    // Perhaps it was another program's fault, as where memory ran out.
-                    true => {
-                        run.crashed.push(job.clone());
-                        Ok(())
-                    }
-                    false => run.note(job, outcome),
-                });
+            let noted = ended.and_then(|(outcome, is_told)| match outcome.error.as_ref() {
+                Some(error) if error.kind == DISK_FULL => Err(full_disk(job, folder, &error.problem)),
+                // Perhaps it was another program's fault, as where memory ran out.
+                Some(error) if error.kind == CRASH => {
+                    run.crashed.push(job.clone());
+                    Ok(())
+                }
+                _ => run.note(job, outcome, is_told),
+            });
             progress.step();
             if let Err(error) = noted {
                 run.stop.get_or_insert(error);
             }
         }
     };
-    std::thread::scope(|scope| {
-        let others: Vec<_> =
-            (1..workers).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, work).ok()).collect();
-        work();
-        for other in others {
-            other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        }
-    });
+    on_threads(workers, work);
     drop(progress);
     let mut run = run.into_inner().unwrap_or_else(PoisonError::into_inner);
     for job in std::mem::take(&mut run.crashed) {
@@ -232,71 +244,63 @@ fn carry_out(
             break;
         }
         let (_, mut outcome) = WorkerProcess::start(folder, 1, cores)?.carry_out(&job);
-        outcome.run.tries += 1;
-        run.note(&job, outcome)?;
+        outcome.tries += 1;
+        if let Some(error) = outcome.error.as_ref().filter(|error| error.kind == DISK_FULL) {
+            return Err(full_disk(&job, folder, &error.problem));
+        }
+        let is_told = tells_all(&job, folder, &outcome, program);
+        run.note(&job, outcome, is_told)?;
     }
     run.stop.take().map_or(Ok(run), Err)
 }
 
+/// Does the same work on so many threads, this one among them.
+fn on_threads(count: usize, work: impl Fn() + Copy + Send) {
+    std::thread::scope(|scope| {
+        let others: Vec<_> =
+            (1..count).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, work).ok()).collect();
+        work();
+        for other in others {
+            other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        }
+    });
+}
+
+/// Whether a job's picture tells all that came of it.
+fn tells_all(job: &Job, folder: &Path, outcome: &Outcome, program: &Program) -> bool {
+    let is_silent = outcome.error.is_none() && outcome.remarks.is_empty() && outcome.printed.is_none();
+    is_silent && told(job, folder, program) == Some(true)
+}
+
 /// A full disk is the run's error, not the job's: every later job would fail too. The job is not recorded; the next run does it.
-fn stop_on_full_disk(job: &Job, folder: &Path, outcome: Outcome) -> Result<Outcome> {
-    match outcome.error {
-        Some(Failure { ref kind, ref problem }) if *kind == DISK_FULL => Err(Error::output(
-            format!("{}: line {}, {}", folder.display(), job.line, job.id),
-            format!("{}; continue with --resume", problem.trim_end_matches(" and continue with --resume")),
-        )
-        .because(&std::io::ErrorKind::StorageFull.into())),
-        _ => Ok(outcome),
-    }
+fn full_disk(job: &Job, folder: &Path, problem: &str) -> Error {
+    let problem = problem.trim_end_matches(" and continue with --resume");
+    Error::output(format!("{}: {}", folder.display(), job.id), format!("{problem}; then give the same command again"))
+        .because(&std::io::ErrorKind::StorageFull.into())
 }
 
 /// [`Error::kind`] of [`Error::File`].
 const DISK_FULL: &str = "disk-full";
 
-/// Combines the journals of all slices.
-fn sum_up(folder: &Path, json: bool) -> Result<Verdict> {
-    let summary = Summary::put_together(folder)?;
-    if json {
-        print_json(&summary)?
-    } else {
-        print(&table(&summary))?
-    }
-    Ok(if summary.is_all_done() { Verdict::Good } else { Verdict::Different })
-}
-
-fn table(summary: &Summary) -> String {
-    let Summary { jobs, done, failed, missing, outdated, damaged, .. } = summary;
-    let mut text = format!("{jobs} jobs: {done} done, {failed} failed, {missing} missing\n");
-    text += &format!(
-        "{:<10}{:>8}{:>8}{:>8}{:>12}{:>12}{:>12}\n",
-        "", "done", "failed", "missing", "seconds", "median ms", "longest ms"
-    );
-    for command in &summary.commands {
-        let [sum, median, longest] = command.milliseconds;
-        text += &format!(
-            "{:<10}{:>8}{:>8}{:>8}{:>12.1}{median:>12.1}{longest:>12.1}\n",
-            command.command.name(),
-            command.done,
-            command.failed,
-            command.missing,
-            sum * 1e-3
-        );
-    }
-    for (what, named) in [("failed", &summary.failures), ("missing", &summary.missing_jobs)] {
-        for job in named.iter().take(REMARKS) {
-            let colon = if job.problem.is_empty() { "" } else { ": " };
-            text += &plain(&format!("{what}: line {}, {}{colon}{}", job.line, job.id, job.problem));
-            text.push('\n');
-        }
-        if named.len() > REMARKS {
-            text += &format!("{what}: {} more, in batch-summary.jsonl\n", named.len() - REMARKS);
+/// Counts the jobs of all slices.
+fn sum_up(list: &List, folder: &Path, program: &Program) -> Result<Verdict> {
+    let known = entries(folder, Slice::WHOLE)?;
+    let mut named: [(&str, Vec<String>); 2] = [("failed", Vec::new()), ("missing", Vec::new())];
+    for job in list.jobs(Slice::WHOLE).filter(|job| !is_done(job, folder, &known, program)) {
+        match known.get(&job.json).and_then(|entry| entry.outcome.error.as_ref()) {
+            Some(Failure { problem, .. }) => named[0].1.push(format!("{}: {problem}", job.id)),
+            None => named[1].1.push(job.id),
         }
     }
-    for (count, what) in [(outdated, "of jobs that are no longer in the list"), (damaged, "that cannot be understood")]
-    {
-        if *count > 0 {
-            text += &format!("{count} entries {what}\n");
+    let [failed, missing] = [0, 1].map(|place| named[place].1.len());
+    let (count, done) = (list.count, list.count - failed - missing);
+    let mut text = format!("{count} jobs: {done} done, {failed} failed, {missing} missing\n");
+    for (what, jobs) in named {
+        jobs.iter().take(REMARKS).for_each(|job| text += &(plain(&format!("{what}: {job}")) + "\n"));
+        if jobs.len() > REMARKS {
+            text += &format!("{what}: {} more\n", jobs.len() - REMARKS);
         }
     }
-    text
+    print(&text)?;
+    Ok(if done == count { Verdict::Good } else { Verdict::Different })
 }

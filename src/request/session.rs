@@ -15,8 +15,6 @@ use crate::renderer::Renderer;
 pub struct Session {
     open: fn(Backend) -> Result<Renderer>,
     renderers: Vec<(Backend, Renderer)>,
-    /// The backend of the current job.
-    used: Option<Backend>,
     /// Other threads use it too: models are read while the first context opens.
     pub models: ModelCache,
     /// How vertices are handed to GL. Default in buffers.
@@ -41,7 +39,7 @@ impl Session {
     }
 
     fn new(open: fn(Backend) -> Result<Renderer>, models: ModelCache) -> Self {
-        Self { open, renderers: Vec::new(), used: None, models, submission: Submission::default() }
+        Self { open, renderers: Vec::new(), models, submission: Submission::default() }
     }
 
     /// With another reader of models, and a function that receives remarks.
@@ -69,7 +67,6 @@ impl Session {
     pub fn keep(&mut self, backend: Backend, renderer: Renderer) -> &mut Renderer {
         self.renderers.retain(|(known, _)| *known != backend);
         self.renderers.push((backend, renderer));
-        self.used = Some(backend);
         let last = self.renderers.len() - 1;
         &mut self.renderers[last].1
     }
@@ -81,21 +78,12 @@ impl Session {
     /// As [`Renderer::new`].
     pub fn renderer(&mut self, backend: Backend) -> Result<&mut Renderer> {
         match self.renderers.iter().position(|(known, _)| *known == backend) {
-            Some(place) => {
-                self.used = Some(backend);
-                Ok(&mut self.renderers[place].1)
-            }
+            Some(place) => Ok(&mut self.renderers[place].1),
             None => {
                 let renderer = self.open(backend)?;
                 Ok(self.keep(backend, renderer))
             }
         }
-    }
-
-    /// Returns the context requested since the last call.
-    pub fn take_used(&mut self) -> Option<&Renderer> {
-        let used = self.used.take()?;
-        self.renderers.iter().find(|(known, _)| *known == used).map(|(_, renderer)| renderer)
     }
 
     /// How many GL objects all contexts hold.

@@ -1,4 +1,4 @@
-//! Batches end to end: the same pictures as the command line's, failures written down, slices that merge.
+//! Batches end to end: the same pictures as the command line's, failures written down, slices that make one folder.
 
 use crate::program::{done, refused_in_one_line, said, tinta};
 use crate::support::{Folder, backend_names, names};
@@ -60,14 +60,12 @@ fn a_jobs_options_are_those_of_the_command_line_and_its_pictures_too() {
         let (alone, job) = (std::fs::read(&alone).unwrap(), std::fs::read(format!("{out}/{id}.png")).unwrap());
         assert!(alone == job, "{id}: {} and {} bytes", alone.len(), job.len());
     }
-    let entries = rows(&format!("{out}/batch-1-of-1.jsonl"));
-    assert_eq!(entries.len(), pairs.len());
-    let backends: Vec<&str> = entries
-        .iter()
-        .filter(|entry| entry["id"] == "second")
-        .map(|entry| entry["run"]["gl"]["backend"].as_str().unwrap())
-        .collect();
-    assert_eq!(backends, [second]);
+    // Each picture has its recipe, so the folder has no journal.
+    assert_eq!(names(&out).len(), pairs.len());
+    let recipe = tinta::Recipe::read(Path::new(&format!("{out}/second.png"))).unwrap();
+    assert_eq!(recipe.gl.unwrap().backend, second);
+    let again = done(&["batch", &folder.path("jobs.jsonl"), "-o", &out]);
+    assert!(said(&again).contains("tinta: 0 of 7 jobs done, 7 were done before, 0 failed"), "{}", said(&again));
 }
 
 #[test]
@@ -84,8 +82,8 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
         r#"{"id":"none","command":"render","output":"none.png"}"#.to_owned(),
         r#"{"id":"out","command":"render","model":"builtin:ant","output":"../out.png"}"#.to_owned(),
         r#"{"id":"root","command":"render","model":"builtin:ant","output":"/tmp/tinta-root.png"}"#.to_owned(),
-        r#"{"id":"own","command":"render","model":"builtin:ant","output":"batch-list.jsonl"}"#.to_owned(),
-        r#"{"id":"lines","command":"render","model":"builtin:ant","output":"deep/er/lines.svg","size":64}"#.to_owned(),
+        r#"{"id":"own","command":"render","model":"builtin:ant","output":"batch-1-of-1.jsonl"}"#.to_owned(),
+        r#"{"model":"builtin:ant","output":"deep/er/lines.svg","size":64}"#.to_owned(),
         r#"{"id":"turn","command":"render","model":"builtin:open-box","output":"turn/%02d.png","size":24,"turntable":3}"#.to_owned(),
         r#"{"id":"both","command":"compare","model":["builtin:open-box"],"output":"both/","size":32,"frames":1}"#.to_owned(),
         r#"{"id":"row","command":"measure","model":"builtin:open-box","output":"row","size":["24x24"],"styles":["phong"],"frames":1}"#.to_owned(),
@@ -95,7 +93,8 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
     assert_eq!(output.status.code(), Some(1), "{}", said(&output));
     assert!(said(&output).contains("tinta: 5 of 15 jobs done, 10 failed"), "{}", said(&output));
     let entries = rows(&format!("{out}/batch-1-of-1.jsonl"));
-    let of = |id: &str| entries.iter().find(|entry| entry["id"] == id).unwrap_or_else(|| panic!("{id}"));
+    let find = |id: &str| entries.iter().find(|entry| entry["job"]["id"] == id);
+    let of = |id: &str| find(id).unwrap_or_else(|| panic!("{id}"));
     for (id, kind, words) in [
         ("bad-value", "setting", "tones 9: there are 1, 2 or 3 tones"),
         ("two-ways", "setting", "eye and view: they exclude each other"),
@@ -106,33 +105,34 @@ fn every_command_is_done_and_every_failure_is_written_down_and_stops_nothing() {
         ("none", "setting", "model: it is missing"),
         ("out", "setting", "output: ../out.png: a job writes in the batch's folder"),
         ("root", "setting", "output: /tmp/tinta-root.png: a job writes"),
-        ("own", "setting", "output: batch-list.jsonl: the batch's own files"),
+        ("own", "setting", "output: batch-1-of-1.jsonl: the batch's own files"),
     ] {
         let error = &of(id)["error"];
-        assert_eq!((of(id)["status"].as_str(), error["kind"].as_str()), (Some("failed"), Some(kind)), "{id}: {error}");
+        assert_eq!(error["kind"].as_str(), Some(kind), "{id}: {error}");
         assert!(error["problem"].as_str().unwrap().contains(words), "{id}: {error}");
     }
-    let paths = |id: &str| -> Vec<String> {
-        assert_eq!(of(id)["status"], "done", "{id}: {}", of(id)["error"]);
-        of(id)["outputs"].as_array().unwrap().iter().map(|file| file["path"].as_str().unwrap().to_owned()).collect()
-    };
-    let first = paths("first");
-    assert!(
-        first.contains(&"kept/a.toml".to_owned()) && first.iter().any(|path| path.starts_with("steps/01-")),
-        "{first:?}"
-    );
-    assert!(of("first")["run"]["printed"].as_str().unwrap().contains("\"first_frame_ms\""));
-    assert_eq!(paths("lines"), ["deep/er/lines.svg"]);
-    assert!(of("lines")["run"]["gl"].is_null());
-    assert_eq!(paths("turn"), ["turn/01.png", "turn/02.png", "turn/03.png"]);
-    assert_eq!(paths("both"), ["both/left.png", "both/lines.png", "both/right.png", "both/sheet.png"]);
-    let row = paths("row");
-    assert!(
-        ["row/report.html", "row/results.csv", "row/results.jsonl"]
-            .iter()
-            .all(|file| row.contains(&(*file).to_owned())),
-        "{row:?}"
-    );
+    // The drawing has a recipe.
+    assert_eq!(entries.len(), 14);
+    for id in ["first", "turn", "both", "row"] {
+        assert!(of(id)["error"].is_null(), "{id}: {}", of(id)["error"]);
+    }
+    assert!(of("first")["printed"].as_str().unwrap().contains("\"first_frame_ms\""));
+    for file in [
+        "first.png",
+        "kept/a.toml",
+        "steps",
+        "deep/er/lines.svg",
+        "turn/03.png",
+        "both/sheet.png",
+        "both/lines.png",
+        "row/report.html",
+        "row/results.csv",
+        "row/results.jsonl",
+    ] {
+        assert!(Path::new(&format!("{out}/{file}")).exists(), "{file}");
+    }
+    let again = tinta(&["batch", &folder.path("jobs.jsonl"), "-o", &out, "--jobs", "1"]);
+    assert!(said(&again).contains("tinta: 0 of 15 jobs done, 5 were done before, 10 failed"), "{}", said(&again));
     let page = std::fs::read_to_string(format!("{out}/row/report.html")).unwrap();
     assert!(
         page.contains("measure --frames=1 --output=") && !page.contains(".tinta-"),
@@ -158,44 +158,47 @@ fn names_of_options_are_checked_before_the_first_job_and_several_faults_named_at
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));
     let text = said(&output);
     assert!(text.contains("line 2: sice: there is no such option; did you mean size?"), "{text}");
-    assert!(text.contains("; line 4, help: there is no such option") && text.contains("; line 5, kolor: "), "{text}");
+    assert!(text.contains("; line 4: help: there is no such option") && text.contains("; line 5: kolor: "), "{text}");
     assert!(!text.contains("line 3") && text.lines().count() == 1, "{text}");
     assert!(!Path::new(&out).exists(), "nothing was begun");
 }
 
 #[test]
-fn slices_of_eight_merge_into_what_one_run_gives_byte_for_byte() {
+fn slices_of_eight_make_the_folder_that_one_run_makes() {
     let folder = Folder::new();
     let mut jobs: Vec<String> =
         (0..11).map(|view| render(&format!("v{view}"), &format!(r#","view":"{view},10""#))).collect();
     jobs.push(render("wrong", r#","tones":9"#));
-    jobs.push(
-        r#"{"id":"both","command":"compare","model":"builtin:open-box","output":"both/","size":32,"frames":1}"#
-            .to_owned(),
-    );
+    jobs.push(render("turn", r#","turntable":3"#).replace("turn.png", "turn.gif"));
     let list = list(&folder, &jobs);
     let (one, eight) = (folder.path("one"), folder.path("eight"));
+    let summary = |folder: &str| tinta(&["batch", &list, "-o", folder, "--summary"]);
     assert_eq!(tinta(&["batch", &list, "-o", &one]).status.code(), Some(1));
     for number in 1..=8 {
         let output = tinta(&["batch", &list, "-o", &eight, "--slice", &format!("{number}/8"), "--jobs", "1"]);
         assert_eq!(output.status.code(), Some(if number == 4 { 1 } else { 0 }), "{number}: {}", said(&output));
-        let summary = tinta(&["batch", "--summary", &eight]);
+        let summary = summary(&eight);
         assert_eq!(summary.status.code(), Some(1), "something is missing or failed");
         let text = String::from_utf8(summary.stdout).unwrap();
         let ended = (0..13).filter(|place| place % 8 < number).count();
-        assert!(text.starts_with(&format!("13 jobs: {} done", ended - usize::from(number >= 4))), "{number}: {text}");
+        let done = ended - usize::from(number >= 4);
+        let counts = format!("13 jobs: {done} done, {} failed, {} missing\n", ended - done, 13 - ended);
+        assert!(text.starts_with(&counts), "{number}: {text}");
     }
-    assert_eq!(tinta(&["batch", "--summary", &one]).status.code(), Some(1));
-    let summary = |folder: &str| std::fs::read_to_string(format!("{folder}/batch-summary.jsonl")).unwrap();
-    assert_eq!(summary(&one), summary(&eight));
-    let rows = rows(&format!("{one}/batch-summary.jsonl"));
-    let ids: Vec<&str> = rows.iter().map(|row| row["id"].as_str().unwrap()).collect();
-    assert_eq!((ids.len(), ids[0], ids[12]), (13, "v0", "both"));
-    assert!(rows[0]["outputs"][0]["sha256"].as_str().is_some_and(|hash| hash.len() == 64));
-    assert_eq!(rows.iter().filter(|row| row["status"] == "done").count(), 12);
-    let times = self::rows(&format!("{eight}/batch-times.jsonl"));
-    assert!(times.iter().all(|row| row["milliseconds"].as_f64().unwrap() >= 0.0) && times.len() == 13);
-    assert_eq!(times[12]["outputs"][0]["path"], "both/sheet.png", "its caption tells times");
+    let said = String::from_utf8(summary(&one).stdout).unwrap();
+    assert_eq!(said, "13 jobs: 12 done, 1 failed, 0 missing\nfailed: wrong: tones 9: there are 1, 2 or 3 tones\n");
+    assert_eq!(said.as_bytes(), summary(&eight).stdout);
+    let pictures = |folder: &str| -> Vec<String> {
+        names(folder).into_iter().filter(|name| !name.starts_with("batch-")).collect()
+    };
+    assert_eq!(pictures(&one), pictures(&eight));
+    for name in pictures(&one) {
+        let read = |folder: &str| std::fs::read(format!("{folder}/{name}")).unwrap();
+        assert!(read(&one) == read(&eight), "{name}");
+    }
+    // A slice of another number finds what these have done.
+    let output = done(&["batch", &list, "-o", &eight, "--slice", "1/3"]);
+    assert!(crate::program::said(&output).contains("0 of 5 jobs done, 5 were done before"));
 }
 
 #[test]
@@ -210,34 +213,25 @@ fn lists_and_folders_that_are_wrong_are_refused_before_any_work() {
     let (a, b) = (render("a", ""), render("b", ""));
     refuse(b"", &["wrong.jsonl: it holds no job"]);
     refuse(format!("{a}\n{b}\nnonsense").as_bytes(), &["wrong.jsonl: line 3: this is not a job"]);
-    refuse(format!("{a}\n\n{a}").as_bytes(), &["line 3: the id a is already used by line 1"]);
     refuse(
-        format!("{a}\n{}", a.replace("\"id\":\"a\"", "\"id\":\"c\"")).as_bytes(),
-        &["line 2: output: a.png is also written by line 1"],
+        format!("{a}\n\n{a}").as_bytes(),
+        &["wrong.jsonl: line 3: output: a.png would also be written by line 1, as a.png; name another"],
     );
-    refuse(br#"{"id":"a","command":"view"}"#, &["line 1: command: view is not render, compare or measure"]);
-    refuse(
-        format!("{{\"id\":\"{}\",\"command\":\"render\"}}", "x".repeat(10_000)).as_bytes(),
-        &["id: it has 10000 bytes"],
-    );
-    refuse(b"{\"id\":\"\\u001b[2J\",\"command\":\"render\"}", &["contains a control character"]);
+    refuse(br#"{"output":"a.png","command":"view"}"#, &["line 1: command: choose one of render, compare, measure"]);
+    refuse(br#"{"model":"a.obj"}"#, &["line 1: it has no output; name the file to write"]);
     refuse(&[b"{\"id\":\"a\",\"x\":".as_slice(), &[b'['; 60_000]].concat(), &["line 1: this is not a job"]);
     refuse(&[0, 255, 10, 7], &["line 1: "]);
     refused_in_one_line(&["batch", "no-such.jsonl", "-o", &out], &["no-such.jsonl: there is no such file"]);
-    refused_in_one_line(&["batch", "--summary", &folder.path("nothing")], &["batch-list.jsonl: there is no such file"]);
     for slice in ["0/8", "9/8", "x"] {
         refused_in_one_line(&["batch", "jobs.jsonl", "-o", &out, "--slice", slice], &["--slice"]);
     }
-    let list = list(&folder, &[a, b.clone()]);
-    done(&["batch", &list, "-o", &out, "--slice", "1/2"]);
-    refused_in_one_line(&["batch", &list, "-o", &out], &["this folder holds a batch;", "--resume"]);
-    refused_in_one_line(&["batch", &list, "-o", &out, "--slice", "1/2"], &["this folder holds a batch;"]);
-    refused_in_one_line(&["batch", &list, "-o", &out, "--slice", "2/3"], &["this folder holds a batch;"]);
-    let other = folder.file("other.jsonl", b.as_bytes());
+    // Where one run is at work, or a file lies.
+    let list = list(&folder, &[a, b]);
+    refused_in_one_line(&["batch", &list, "-o", &folder.path("wrong.jsonl")], &["this is a file; name a folder"]);
+    refused_in_one_line(&["batch", &list, "-o", "pics/{name}.png"], &["a list names its files", "-o DIR"]);
     refused_in_one_line(
-        &["batch", &other, "-o", &out, "--slice", "2/2"],
-        &["this folder holds a batch of another list"],
+        &["batch", &list, "-o", &out, "--look", "sketch"],
+        &["a list names its files and the options of its drawings"],
     );
-    refused_in_one_line(&["batch", &other, "-o", &out, "--slice", "2/2", "--resume"], &["a batch of another list"]);
-    done(&["batch", &list, "-o", &out, "--slice", "2/2"]);
+    refused_in_one_line(&["batch", &list, "a.obj", "-o", &out], &["jobs.jsonl: this is no model;", "one list of jobs"]);
 }

@@ -33,13 +33,17 @@ fn has_ended(child: &Child) -> bool {
         .starts_with('Z')
 }
 
-/// Waits until so many lines are in a file, or the child has ended.
-fn wait_for_lines(child: &Child, path: &str, count: usize) {
-    let lines = || std::fs::read(path).map_or(0, |bytes| bytes.iter().filter(|byte| **byte == b'\n').count());
-    while lines() < count && !has_ended(child) {
+/// Waits until so many are there, or the child has ended.
+fn wait_for(child: &Child, count: usize, there: impl Fn() -> usize) {
+    while there() < count && !has_ended(child) {
         std::thread::yield_now();
     }
-    assert!(lines() >= count, "{path} has {} lines", lines());
+    assert!(there() >= count, "{} of {count} are there", there());
+}
+
+/// The lines of a file.
+fn lines(path: &str) -> usize {
+    std::fs::read(path).map_or(0, |bytes| bytes.iter().filter(|byte| **byte == b'\n').count())
 }
 
 pub fn signal(name: &str, process: u32) {
@@ -55,7 +59,7 @@ fn children(process: u32) -> Vec<u32> {
 
 /// When each of the pictures there was written.
 fn written(folder: &str) -> HashMap<String, SystemTime> {
-    let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap());
+    let files = std::fs::read_dir(folder).into_iter().flatten().map(|file| file.unwrap());
     let pictures = files.filter(|file| file.path().extension().is_some_and(|extension| extension == "png"));
     pictures
         .map(|file| (file.file_name().into_string().unwrap(), file.metadata().unwrap().modified().unwrap()))
@@ -65,75 +69,82 @@ fn written(folder: &str) -> HashMap<String, SystemTime> {
 #[test]
 fn a_killed_run_goes_on_and_does_nothing_twice() {
     let folder = Folder::new();
-    let jobs: Vec<String> =
-        (0..JOBS).map(|view| render(&format!("v{view}"), &format!(r#","view":"{view},10""#))).collect();
+    let mut jobs: Vec<String> =
+        (0..JOBS - 2).map(|view| render(&format!("v{view}"), &format!(r#","view":"{view},10""#))).collect();
+    jobs.splice(..0, [render("told", r#","json":true"#), render("wrong", r#","tones":9"#)]);
     let list = list(&folder, &jobs);
     let (out, journal) = (folder.path("out"), folder.path("out/batch-1-of-1.jsonl"));
     let mut before = HashMap::new();
     let mut interrupted = 0;
-    for (turn, name) in ["KILL", "TERM", "KILL"].into_iter().enumerate() {
-        let resume: &[&str] = if turn == 0 { &[] } else { &["--resume"] };
-        let known = std::fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
-        let mut child = start(&[&["batch", &list, "-o", &out, "--jobs", "2"], resume].concat());
+    for name in ["KILL", "TERM", "KILL"] {
+        let mut child = start(&["batch", &list, "-o", &out, "--jobs", "2"]);
         // It takes signals by then.
-        wait_for_lines(&child, &journal, known + 4);
+        wait_for(&child, (before.len() + 4).min(JOBS - 1), || written(&out).len());
         signal(name, child.id());
         let status = child.wait().unwrap();
-        // Earlier entries are not written again.
         let now = written(&out);
-        let ids: Vec<String> = rows(&journal).iter().map(|row| row["id"].as_str().unwrap().to_owned()).collect();
-        if name == "TERM" && ids.len() < JOBS {
-            // It finishes the current jobs, records them and reports that the list is incomplete.
+        let is_interrupted = now.len() < JOBS - 1;
+        if name == "TERM" && is_interrupted {
+            // It finishes the current jobs, and says that some are left.
             assert_eq!(status.code(), Some(128 + 15), "{status}");
         }
-        interrupted += usize::from(ids.len() < JOBS);
-        assert!(before.iter().all(|(name, time)| now[name] == *time));
-        before = now.into_iter().filter(|(name, _)| ids.contains(&name.replace(".png", ""))).collect();
+        interrupted += usize::from(is_interrupted);
+        assert!(before.iter().all(|(name, time)| now[name] == *time), "a picture was drawn twice");
+        before = now;
+        before.remove("told.png");
     }
     assert!(interrupted >= 1, "every signal came after the last job");
     // A torn line, as a kill may leave it.
     let text = std::fs::read_to_string(&journal).unwrap();
     std::fs::write(&journal, format!("{text}{}", &text[..40])).unwrap();
-    let finished = text.lines().count();
-    let output = done(&["batch", &list, "-o", &out, "--resume", "--jobs", "2"]);
-    assert!(
-        said(&output).contains(&format!(
-            "tinta: {} of {JOBS} jobs done, {} were done before, 0 failed",
-            JOBS - finished,
-            finished
-        )),
-        "{}",
+    let run = |list: &str| {
+        let output = tinta(&["batch", list, "-o", &out, "--jobs", "2"]);
+        assert_eq!(output.status.code(), Some(1), "{}", said(&output));
         said(&output)
-    );
-    let mut ids: Vec<String> = rows(&journal).iter().map(|row| row["id"].as_str().unwrap().to_owned()).collect();
-    ids.sort();
-    ids.dedup();
-    assert_eq!((ids.len(), rows(&journal).len()), (JOBS, JOBS), "each job is written down once");
+    };
+    assert!(run(&list).contains("were done before, 1 failed"));
     let after = written(&out);
-    assert!(
-        before.len() >= 12 && before.iter().all(|(name, time)| after[name] == *time),
-        "{} pictures stayed",
-        before.len()
-    );
-    // A picture that is gone, one that is cut, a line that is changed: these three and no others.
+    assert!(after.len() == JOBS - 1 && before.iter().all(|(name, time)| after[name] == *time));
+    let entries = rows(&journal);
+    assert!(entries.iter().all(|row| row["job"]["id"] == "told" || row["job"]["id"] == "wrong"), "{entries:?}");
+    // A picture that is gone, one that is cut, one without an end, a line that is changed: these four and no others.
     std::fs::remove_file(folder.path("out/v3.png")).unwrap();
     std::fs::write(folder.path("out/v4.png"), b"cut").unwrap();
-    let changed: Vec<String> = jobs.iter().map(|job| job.replace(r#""5,10""#, r#""5,11""#)).collect();
+    let whole = std::fs::read(folder.path("out/v5.png")).unwrap();
+    std::fs::write(folder.path("out/v5.png"), &whole[..whole.len() - 1]).unwrap();
+    let changed: Vec<String> = jobs.iter().map(|job| job.replace(r#""6,10""#, r#""6,11""#)).collect();
     let changed = folder.file("changed.jsonl", changed.join("\n").as_bytes());
-    let output = tinta(&["batch", &changed, "-o", &out, "--resume"]);
-    assert!(
-        said(&output).contains(&format!("tinta: 3 of {JOBS} jobs done, {} were done before, 0 failed", JOBS - 3)),
-        "{}",
-        said(&output)
-    );
-    assert_eq!(rows(&journal).len(), JOBS + 3);
-    let summary = done(&["batch", "--summary", &out]);
-    let text = String::from_utf8(summary.stdout).unwrap();
-    assert!(
-        text.starts_with(&format!("{JOBS} jobs: {JOBS} done, 0 failed, 0 missing\n"))
-            && text.ends_with("1 entries of jobs that are no longer in the list\n"),
-        "{text}"
-    );
+    let text = run(&changed);
+    assert!(text.contains(&format!("tinta: 4 of {JOBS} jobs done, {} were done before, 1 failed", JOBS - 5)), "{text}");
+    assert!(std::fs::read(folder.path("out/v5.png")).unwrap() == whole);
+}
+
+#[test]
+fn models_and_presets_that_have_changed_are_drawn_again() {
+    let folder = Folder::new();
+    let model = |name: &str, x: f32| folder.file(name, format!("v 0 0 0\nv {x} 0 0\nv 0 1 0\nf 1 2 3\n").as_bytes());
+    let models = ["a.obj", "b.obj"].map(|name| model(name, 1.0));
+    let preset = folder.file("mine.toml", b"tones = 2\n");
+    let out = folder.path("out");
+    let run = |more: &[&str]| {
+        let [a, b] = &models;
+        said(&done(&[&["batch", a, b, "-o", &out, "--size", "32", "--preset", &preset], more].concat()))
+    };
+    assert!(run(&[]).contains("2 of 2 jobs done, 0 failed"));
+    assert!(run(&[]).contains("0 of 2 jobs done, 2 were done before"));
+    // Written again with the same bytes, though newer.
+    model("a.obj", 1.0);
+    assert!(run(&[]).contains("0 of 2 jobs done, 2 were done before"));
+    model("a.obj", 2.0);
+    assert!(run(&[]).contains("1 of 2 jobs done, 1 were done before"));
+    folder.file("mine.toml", b"tones = 3\n");
+    assert!(run(&[]).contains("2 of 2 jobs done, 0 failed"));
+    // An option that is taken out again, though drawing may choose it, too.
+    for more in [["--view", "top"], ["--light", "tone-light=0,1,0.3"]] {
+        assert!(run(&more).contains("2 of 2 jobs done, 0 failed"), "{more:?}");
+        assert!(run(&[]).contains("2 of 2 jobs done, 0 failed"), "{more:?}");
+        assert!(run(&[]).contains("0 of 2 jobs done, 2 were done before"), "{more:?}");
+    }
 }
 
 /// Runs three jobs, kills the worker of the second after the first, and calls `then` with the run; the journal's rows: names, states, tries.
@@ -145,18 +156,20 @@ fn killed(
     let long = format!(
         r#"{{"id":"long","command":"render","model":"builtin:bust","output":"long.gif","size":256,"turntable":{turntable}}}"#
     );
-    let jobs = [render("before", ""), long, render("after", "")];
+    // The journal records printed text.
+    let jobs = [render("before", r#","json":true"#), long, render("after", r#","json":true"#)];
     let (out, journal) = (folder.path("out"), folder.path("out/batch-1-of-1.jsonl"));
     let child = start(&["batch", &list(&folder, &jobs), "-o", &out, "--jobs", "1"]);
-    wait_for_lines(&child, &journal, 1);
+    wait_for(&child, 1, || lines(&journal));
     let workers = children(child.id());
     assert_eq!(workers.len(), 1);
     signal("KILL", workers[0]);
     then(&child, &journal);
     let output = child.wait_with_output().unwrap();
-    let text = |row: &serde_json::Value, key: &str| row[key].as_str().unwrap().to_owned();
     let rows = rows(&journal);
-    let states = rows.iter().map(|row| (text(row, "id"), text(row, "status"), row["run"]["tries"].as_u64().unwrap()));
+    let state = |row: &serde_json::Value| if row["error"].is_null() { "done" } else { "failed" }.to_owned();
+    let id = |row: &serde_json::Value| row["job"]["id"].as_str().unwrap().to_owned();
+    let states = rows.iter().map(|row| (id(row), state(row), row["tries"].as_u64().unwrap()));
     (output, states.collect(), folder)
 }
 
@@ -176,7 +189,7 @@ fn a_worker_that_is_killed_once_has_its_job_done_again_at_the_end() {
 fn a_job_whose_worker_is_killed_again_fails_alone() {
     // It outlasts this test.
     let (output, states, folder) = killed(10_000, |child, journal| {
-        wait_for_lines(child, journal, 2);
+        wait_for(child, 2, || lines(journal));
         // The worker of the job that was last may still be there.
         while !has_ended(child) {
             for worker in children(child.id()) {
@@ -185,7 +198,7 @@ fn a_job_whose_worker_is_killed_again_fails_alone() {
         }
     });
     assert_eq!(output.status.code(), Some(1), "{}", said(&output));
-    assert!(said(&output).contains("tinta: line 2, long: its worker process ended (signal 9)"), "{}", said(&output));
+    assert!(said(&output).contains("tinta: long: its worker process ended (signal 9)"), "{}", said(&output));
     assert_eq!(as_named(&states), [("before", "done", 1), ("after", "done", 1), ("long", "failed", 1)]);
     assert!(!Path::new(&folder.path("out/long.gif")).exists());
 }
@@ -195,9 +208,8 @@ fn workers_end_with_the_run_that_is_killed() {
     let folder = Folder::new();
     let endless = r#"{"id":"endless","command":"render","model":"builtin:bust","output":"endless.gif","size":1024,"turntable":10000}"#;
     let jobs = [render("before", ""), endless.to_owned()];
-    let journal = folder.path("out/batch-1-of-1.jsonl");
     let mut child = start(&["batch", &list(&folder, &jobs), "-o", &folder.path("out"), "--jobs", "1"]);
-    wait_for_lines(&child, &journal, 1);
+    wait_for(&child, 1, || written(&folder.path("out")).len());
     let worker = children(child.id())[0];
     signal("KILL", child.id());
     child.wait().unwrap();
@@ -217,12 +229,12 @@ fn a_measurement_that_is_killed_goes_on_where_it_was() {
     let list = list(&folder, &[job.to_owned()]);
     let (out, rows_file) = (folder.path("out"), folder.path("out/m/results.jsonl"));
     let child = start(&["batch", &list, "-o", &out]);
-    wait_for_lines(&child, &rows_file, 1);
+    wait_for(&child, 1, || lines(&rows_file));
     signal("KILL", child.id());
     drop(child.wait_with_output());
     assert!(!Path::new(&folder.path("out/m/report.html")).exists(), "half a measurement has no report");
     let kept = std::fs::read_to_string(&rows_file).unwrap();
-    done(&["batch", &list, "-o", &out, "--resume"]);
+    done(&["batch", &list, "-o", &out]);
     let whole = std::fs::read_to_string(&rows_file).unwrap();
     let sound = &kept[..kept.rfind('\n').unwrap() + 1];
     assert!(whole.starts_with(sound) && whole.len() > sound.len(), "its first rows were not measured again");
@@ -239,8 +251,9 @@ fn a_merge_that_is_done_again_begins_anew() {
     let merge = format!(r#"{{"id":"both","command":"measure","merge":"{rows}","output":"both"}}"#);
     let (list, out) = (list(&folder, &[merge]), folder.path("merged"));
     done(&["batch", &list, "-o", &out]);
-    std::fs::remove_file(folder.path("merged/both/report.html")).unwrap();
-    done(&["batch", &list, "-o", &out, "--resume"]);
+    // As if it had been killed before it was recorded.
+    std::fs::remove_file(folder.path("merged/batch-1-of-1.jsonl")).unwrap();
+    done(&["batch", &list, "-o", &out]);
     let [first, again] = [rows, folder.path("merged/both/results.jsonl")].map(|rows| std::fs::read(rows).unwrap());
     assert!(first == again && Path::new(&folder.path("merged/both/report.html")).exists());
 }

@@ -36,9 +36,8 @@ impl JobOptions {
             }
         }
         let command = command(job, &options);
-        let output = match options.remove("output") {
-            Some(OptionValue::Text(output)) => output,
-            _ => return Err(Error::setting("output", "it is missing; name the file to write")),
+        let Some(OptionValue::Text(output)) = options.remove("output") else {
+            return Err(Error::setting("output", "it is missing; name the file to write"));
         };
         let is_text = |name: &&str| matches!(options.get(*name), None | Some(OptionValue::Text(_)));
         if let Some(name) = ["look", "preset", "camera"].iter().find(|name| !is_text(name)) {
@@ -102,7 +101,7 @@ fn placed(key: &str, value: &OptionValue, folder: &Path) -> Result<OptionValue> 
 
 /// The command line that would do the same.
 fn command(job: &Job, options: &Options) -> String {
-    let name = job.command.name().to_owned();
+    let name = job.command.to_string();
     let words = options.iter().filter_map(|(name, value)| option_word(name, value));
     tinta::shell::command_line([name].into_iter().chain(words).chain(["--".to_owned()]).chain(job.models.clone()))
 }

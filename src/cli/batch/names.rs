@@ -4,6 +4,7 @@ use super::JobOptions;
 use crate::cli::Program;
 use std::collections::HashSet;
 use tinta::batch::{List, Slice};
+use tinta::choice::Choice;
 use tinta::error::FileKind;
 use tinta::{Error, Result};
 
@@ -14,21 +15,18 @@ const MOST: usize = 8;
 pub(super) fn check(list: &List, name: &str, program: &Program) -> Result<()> {
     let (mut checked, mut faults) = (HashSet::new(), Vec::new());
     for job in list.jobs(Slice::WHOLE) {
-        let names: Vec<String> = job.options.keys().cloned().collect();
         // Most jobs of a list have the same options.
-        if !checked.insert((job.command.name(), names)) {
-            continue;
-        }
-        let Some(command) = program.named(job.command.name()) else { continue };
-        if let Err(error) = JobOptions::refuse_unknown(&job.options, command.name, command.has_in_jobs) {
-            faults.push((job.line, error.to_string()));
-        }
-        if faults.len() == MOST {
-            break;
+        let names: Vec<String> = job.options.keys().cloned().collect();
+        let command = program.named(job.command.choice_name()).filter(|command| checked.insert((command.name, names)));
+        if let Some(Err(error)) =
+            command.map(|command| JobOptions::refuse_unknown(&job.options, command.name, command.has_in_jobs))
+        {
+            faults.push(format!("line {}: {error}", job.line));
         }
     }
-    let Some((first, problem)) = faults.first() else { return Ok(()) };
-    let others = faults[1..].iter().map(|(line, problem)| format!("; line {line}, {problem}"));
-    let problem = others.fold(problem.clone(), |text, other| text + &other);
-    Err(Error::file(FileKind::Batch, name, problem).at(Some(*first)))
+    faults.truncate(MOST);
+    match faults.is_empty() {
+        true => Ok(()),
+        false => Err(Error::file(FileKind::Batch, name, faults.join("; "))),
+    }
 }

@@ -1,17 +1,15 @@
 //! Child side of a worker process: jobs from standard input, one after another, in one session.
 
 use super::super::signals;
-use super::super::{Program, Task, Verdict, messages, models};
+use super::super::{Program, Task, Verdict, make_folder, messages, models};
 use super::JobOptions;
 use std::io::{BufRead, Write};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Receiver;
-use std::time::Instant;
-use tinta::batch::{Job, JobCommand, Outcome, Run, Status, place_in, written};
-use tinta::recipe::Driver;
-use tinta::renderer::milliseconds_since;
+use tinta::batch::{Job, JobCommand, Outcome, place_in};
+use tinta::choice::Choice;
 use tinta::request::Session;
 use tinta::{Error, Renderer, Result};
 
@@ -57,7 +55,6 @@ fn lines(is_busy: &Arc<AtomicBool>) -> std::io::Result<Receiver<Vec<u8>>> {
 
 /// Does a job; a second time in new contexts where the first one's was lost.
 pub(super) fn carry_out(job: &Job, folder: &Path, program: &Program, session: &mut Session) -> Outcome {
-    let start = Instant::now();
     let mut tries = 0;
     let (result, captured) = loop {
         tries += 1;
@@ -72,63 +69,44 @@ pub(super) fn carry_out(job: &Job, folder: &Path, program: &Program, session: &m
     // Named from the batch's folder, which is another one on another machine.
     let prefix = format!("{}{}", folder.display().to_string().trim_end_matches('/'), std::path::MAIN_SEPARATOR);
     let short = |sentence: String| messages::plain(&sentence).replace(&prefix, "");
-    let mut outcome = match result {
-        Ok((Verdict::Good, _)) => Outcome { status: Status::Done, error: None, ..Outcome::failed("", "") },
-        Ok((Verdict::Different | Verdict::Stopped { .. }, _)) => {
+    let mut outcome = match &result {
+        Ok(Verdict::Good) => Outcome::default(),
+        Ok(Verdict::Different | Verdict::Stopped { .. }) => {
             Outcome::failed("check", "a check found a difference; its remarks say which")
         }
-        Err(ref error) => Outcome::failed(error.kind(), short(error.to_string())),
+        Err(error) => Outcome::failed(error.kind(), short(error.to_string())),
     };
     if matches!(result, Err(Error::ContextLost { .. })) {
         session.close();
     }
     outcome.remarks = captured.said.into_iter().map(short).collect();
-    if let Ok((_, gl)) = result {
-        outcome.outputs = written(job, folder);
-        outcome.run.gl = gl;
-    }
-    let printed = Some(captured.printed).filter(|printed| !printed.is_empty());
-    outcome.run = Run { milliseconds: milliseconds_since(start), tries, printed, gl: outcome.run.gl };
+    outcome.printed = Some(captured.printed).filter(|printed| !printed.is_empty());
+    outcome.tries = tries;
     outcome
 }
 
 /// Does a job by its command.
-fn once(job: &Job, folder: &Path, program: &Program, session: &mut Session) -> Result<(Verdict, Option<Driver>)> {
+fn once(job: &Job, folder: &Path, program: &Program, session: &mut Session) -> Result<Verdict> {
     let options = JobOptions::of(job, folder)?;
     let task = task(job.command, &options, program)?;
     make_folders(job, folder)?;
-    session.take_used();
-    let verdict = task(session)?;
-    let driver = session.take_used().map(|renderer| Driver::new(renderer.context()));
-    Ok((verdict, driver))
+    task(session)
 }
 
 /// The job as a task of its command.
 fn task(command: JobCommand, options: &JobOptions, program: &Program) -> Result<Task> {
-    let known = program.named(command.name()).and_then(|command| Some((command.job?, command.has_in_jobs)));
-    match known {
-        Some((job, has)) => {
-            JobOptions::refuse_unknown(&options.options, command.name(), has)?;
-            job(options)
-        }
-        None => {
-            let names = program.commands().iter().filter(|command| command.job.is_some()).map(|command| command.name);
-            let names: Vec<&str> = names.collect();
-            let problem = format!("this program was built without it; a job is {}", names.join(" or "));
-            Err(Error::value("command", command.name(), problem))
-        }
+    match program.named(command.choice_name()).and_then(|command| command.job) {
+        Some(job) => job(options),
+        None => Err(Error::value("command", command.choice_name(), "this program was built without it; leave it out")),
     }
 }
 
 /// Makes the folders that outputs lie in.
 fn make_folders(job: &Job, folder: &Path) -> Result<()> {
     for (_, output) in job.outputs() {
-        let Ok(place) = place_in(folder, output) else { continue };
-        let parent = place.parent().unwrap_or(folder);
-        std::fs::create_dir_all(parent).map_err(|error| {
-            let problem = format!("the folder cannot be created ({error}); choose another");
-            Error::output(parent, problem).because(&error)
-        })?;
+        if let Ok(place) = place_in(folder, output) {
+            make_folder(place.parent().unwrap_or(folder))?;
+        }
     }
     Ok(())
 }
