@@ -79,6 +79,15 @@ pub fn of_gltf(bytes: &[u8]) -> Option<usize> {
     }
 }
 
+/// Most memory for a possible 3MF file, which may unpack to 64 MiB. `None` if it puts objects so often that only the free memory
+/// bounds it: tests do that.
+pub fn of_three_mf(bytes: &[u8]) -> Option<usize> {
+    const MOST_PLACES: usize = 8;
+    let places = bytes.windows(8).filter(|word| *word == b"objectid").count();
+    let most = of_model(bytes) + 2 * tinta::limits::MEMORY_SLACK_BYTES;
+    (places <= MOST_PLACES).then_some(most)
+}
+
 /// Most memory for a list of jobs: a line of 27 bytes may be a job, with separate strings for its name, content and hash.
 pub fn of_list(bytes: &[u8]) -> usize {
     64 * bytes.len() + SLACK_BYTES

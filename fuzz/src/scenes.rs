@@ -6,8 +6,9 @@
 
 use std::fmt::Write as _;
 use std::sync::Arc;
+use tinta::lines::DrawingFormat;
 use tinta::mesh::read_bytes;
-use tinta::request::{DrawingFile, DrawingFormat, Request, layers};
+use tinta::request::{DrawingFile, Request, Wanted, layers};
 use tinta::settings::{OptionValue, Options};
 use tinta::{Result, Scene};
 
@@ -43,8 +44,8 @@ pub fn drawing(bytes: &[u8]) {
 
 fn svg(bytes: &[u8], options: &[(&str, &str)]) -> Result<String> {
     let (request, scene) = scene(bytes, options)?;
-    let drawn = request.still(scene, true)?.drawn_lines(DrawingFormat::Svg.wanted(false), &Default::default())?;
-    let svg = drawn.written(DrawingFormat::Svg, None, None).and_then(DrawingFile::bytes)?;
+    let drawn = request.still(scene, true)?.drawn_lines(Wanted::default(), &Default::default())?;
+    let svg = drawn.written(DrawingFormat::SVG, None, None).and_then(DrawingFile::bytes)?;
     Ok(String::from_utf8_lossy(&svg).into_owned())
 }
 

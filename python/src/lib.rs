@@ -38,7 +38,7 @@ mod _native {
     #[pymodule_export]
     use super::lines::{Lines, lines};
     #[pymodule_export]
-    use super::mesh::{Mesh, is_read, triangles_of_rings};
+    use super::mesh::{Mesh, triangles_of_rings};
     #[pymodule_export]
     use super::picture::{Picture, png, render, save, write};
     #[pymodule_export]

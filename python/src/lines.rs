@@ -12,8 +12,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::sync::{Arc, OnceLock};
 use tinta::glam::DVec3;
-use tinta::lines::{GHOST_OPACITY, LineSegment, Progress, drawn_layers};
-use tinta::request::{DrawingFormat, DrawnLines, Resolved, Wanted};
+use tinta::lines::{DrawingContent, DrawingFormat, GHOST_OPACITY, LineSegment, Progress, drawn_layers};
+use tinta::request::{DrawnLines, Resolved, Wanted};
 use tinta::styles::Below;
 use tinta::{Error, Result, VisibleLines};
 
@@ -71,7 +71,7 @@ impl Lines {
         if let Some(all) = self.all.get() {
             return Ok(all.clone());
         }
-        let wanted = DrawingFormat::Json.wanted(false);
+        let wanted = Wanted::of(format_named("json"), false);
         let all = self.with_lines(py, (*self.drawn).clone(), wanted, move |drawn, lines, progress| {
             drawn.drawing(lines, wanted, progress).map(Arc::new)
         })?;
@@ -110,7 +110,7 @@ impl Lines {
         format: DrawingFormat,
         put: impl FnOnce(&mut DrawnLines) -> Result<()> + Send + 'static,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let (asked, wanted) = (self.asked.clone(), format.wanted(false));
+        let (asked, wanted) = (self.asked.clone(), Wanted::of(format, false));
         let bytes = self.with_lines(py, self.drawn_with(given, title)?, wanted, move |drawn, lines, progress| {
             let mut drawn = drawn.drawing(lines, wanted, progress)?;
             put(&mut drawn)?;
@@ -122,7 +122,7 @@ impl Lines {
 
 /// The format of this name.
 pub(crate) fn format_named(name: &str) -> DrawingFormat {
-    DrawingFormat::of_name(&format!("drawing.{name}")).unwrap_or(DrawingFormat::Picture)
+    DrawingFormat::of_name(&format!("drawing.{name}")).unwrap_or(DrawingFormat::PIXELS)
 }
 
 #[pymethods]
@@ -171,8 +171,8 @@ impl Lines {
         title: Option<String>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let format = format_named(format);
-        self.written(py, (given, title), format, move |drawn| match format {
-            DrawingFormat::Picture if drawn.areas.is_some() => {
+        self.written(py, (given, title), format, move |drawn| match format.content {
+            DrawingContent::Pixels if drawn.areas.is_some() => {
                 Err(Error::setting("areas", "pixels and layers are of lines alone; leave it out, or write a .svg"))
             }
             _ => Ok(()),
@@ -183,7 +183,7 @@ impl Lines {
     fn json(&self, py: Python<'_>) -> PyResult<String> {
         self.one_view()?;
         let all = self.everything(py)?;
-        let bytes = done(py, || (), move || all.written(DrawingFormat::Json, None, None)?.bytes())?;
+        let bytes = done(py, || (), move || all.written(format_named("json"), None, None)?.bytes())?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 

@@ -429,12 +429,6 @@ impl Mesh {
     }
 }
 
-/// Whether a file of this name is read by tinta itself.
-#[pyfunction]
-pub(crate) fn is_read(name: &str) -> bool {
-    tinta::mesh::is_read(name)
-}
-
 /// The corners, by number, of the triangles between a flat outline and its holes: (N, 3). `holes` are the numbers of their first points.
 #[pyfunction]
 pub(crate) fn triangles_of_rings<'py>(

@@ -9,6 +9,7 @@ use pyo3::types::{PyDict, PyMapping, PySequence, PyString};
 use tinta::camera;
 use tinta::choice::{nearest, no_option};
 use tinta::lines::PartRules;
+use tinta::mesh::Format;
 use tinta::preset::{LOOKS, Look};
 use tinta::settings::{HasSettings, Kind, OptionValue, Options, Setting, names_of, refuse_exclusive, rule_text};
 use tinta::styles::{StyleName, is_of_lines_alone};
@@ -359,7 +360,7 @@ fn looks(is_wanted: impl Fn(&Look) -> bool) -> Vec<&'static str> {
     LOOKS.iter().filter(|look| is_wanted(look) || !look.has_settings()).map(|look| look.name).collect()
 }
 
-/// The names that there are of something: styles, looks, shows, backends, classes.
+/// The names that there are of something: styles, looks, shows, backends, classes, formats of models and their endings.
 #[pyfunction]
 pub(crate) fn names(of: &str) -> Vec<&'static str> {
     match of {
@@ -370,6 +371,8 @@ pub(crate) fn names(of: &str) -> Vec<&'static str> {
         "look" => LOOKS.map(|look| look.name).to_vec(),
         "look of lines" => looks(|look| look.draws_lines()),
         "look of pictures" => looks(|look| !look.draws_lines()),
+        "format" => Format::names(),
+        "ending" => Format::ALL.iter().flat_map(|format| format.endings).copied().collect(),
         "function" => FUNCTIONS.map(|(name, _)| name).to_vec(),
         _ => Vec::new(),
     }

@@ -6,7 +6,7 @@ import { address, lesson, program } from "./files.js";
 import { hand } from "./hand.js";
 import { lectures } from "./lecture.js";
 import * as lines from "./lines.js";
-import { ofFiles, ofLesson, read as readModel } from "./model.js";
+import { BESIDE, ofFiles, ofLesson, read as readModel } from "./model.js";
 import { element } from "./panel.js";
 import { saving } from "./save.js";
 import { shaderEditor } from "./shaders.js";
@@ -208,7 +208,7 @@ async function openFiles(files) {
   // The same file may be chosen again.
   at("file").value = "";
   if (model) openNew(model);
-  else say("None of these files is a model: choose an OBJ, PLY, STL, glTF, MD2 or 3DS file with those that it names.");
+  else say(`None of these files is a model: choose one of ${tables.formats.map(({ name }) => name).join(", ")}, with the files that it names.`);
 }
 
 /** The model of the state: a built-in one, the lesson's, or the one that is shown. */
@@ -337,6 +337,7 @@ at("model").addEventListener("change", () => {
   state.model = at("model").value;
   openNew(modelOf());
 });
+at("file").accept = [...tables.formats.flatMap(({ endings }) => endings), ...BESIDE].map((ending) => `.${ending}`).join(",");
 at("file").addEventListener("change", () => openFiles([...at("file").files]));
 at("divider").addEventListener("input", () => changed(() => (state.divider = Number(at("divider").value))));
 at("whole").addEventListener("click", () => changed(() => pane?.reset()));

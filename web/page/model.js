@@ -3,13 +3,13 @@
 import { Files, Model } from "./tinta.js";
 
 /** Endings of files that a model may name and that are no models. */
-const BESIDE = /\.(mtl|bin|png|jpe?g|bmp|tga|pcx|ppm)$/i;
+export const BESIDE = ["mtl", "bin", "png", "jpg", "jpeg", "bmp", "tga", "pcx", "ppm"];
 
 /** The model among files, with those beside it; undefined where all are of the other kind. */
 export async function ofFiles(files) {
   const bytesOf = async (file) => ({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
   const all = await Promise.all([...files].map(bytesOf));
-  const model = all.find(({ name }) => !BESIDE.test(name));
+  const model = all.find(({ name }) => !BESIDE.includes(name.replace(/.*\./, "").toLowerCase()));
   return model && { ...model, beside: all.filter((file) => file !== model) };
 }
 

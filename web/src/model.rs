@@ -4,10 +4,10 @@ use crate::errors::{said, unreadable};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tinta::lines::Progress;
+use tinta::lines::{DrawingFormat, Progress};
 use tinta::mesh::{Loaded, load, read_bytes};
 use tinta::recipe::{Driver, FileRecord};
-use tinta::request::{DrawingFile, DrawingFormat, OptionLayer, Request, Resolved};
+use tinta::request::{DrawingFile, OptionLayer, Request, Resolved, Wanted};
 use tinta::settings::Options;
 use tinta::{LineSettings, Mesh, Recipe, Scene, StyleName};
 use tinta_lab::measure::{Ink, Reference};
@@ -92,9 +92,9 @@ impl Model {
         let request = self.request(StyleName::Lines, options)?;
         let resolved = request.resolve(vec![self.mesh.clone()], true).map_err(said)?;
         let recipe = has_recipe.then(|| self.recipe(&resolved, None));
-        let drawn = resolved.drawn_lines(DrawingFormat::Svg.wanted(false), &Progress::default()).map_err(said)?;
+        let drawn = resolved.drawn_lines(Wanted::default(), &Progress::default()).map_err(said)?;
         let bytes =
-            drawn.written(DrawingFormat::Svg, None, recipe.as_ref()).and_then(DrawingFile::bytes).map_err(said)?;
+            drawn.written(DrawingFormat::SVG, None, recipe.as_ref()).and_then(DrawingFile::bytes).map_err(said)?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 

@@ -4,7 +4,7 @@ use crate::errors::{said, unreadable};
 use serde_json::{Value, json};
 use tinta::glsl::es::{Stage, transcribed};
 use tinta::keys::{action, sheet};
-use tinta::mesh::BUILTINS;
+use tinta::mesh::{BUILTINS, Format};
 use tinta::page::NOT_OF_BROWSERS;
 use tinta::preset::{LOOKS, Look, PREFIX, Preset, SHIPPED};
 use tinta::request::{OptionLayer, Request};
@@ -22,7 +22,7 @@ fn is_of_page(name: &str) -> bool {
 }
 
 /// Every style with its settings, the looks and presets, the settings of the scene and of reading models, the built-in models, the
-/// sheet of keys: JSON.
+/// formats of models, the sheet of keys: JSON.
 #[wasm_bindgen]
 pub fn tables() -> String {
     let request = Request::default();
@@ -42,6 +42,7 @@ pub fn tables() -> String {
     // Meshes of surfaces are for measuring.
     let offered = BUILTINS.iter().filter(|model| model.closed_form().is_none());
     let models: Vec<Value> = offered.map(|model| json!({ "name": model.name, "what": model.what })).collect();
+    let formats = Format::ALL.iter().map(|format| json!({ "name": format.name, "endings": format.endings }));
     let keys: Vec<Value> = sheet(true).map(|(keys, what)| json!({ "keys": keys, "what": what })).collect();
     let looks = LOOKS.iter().map(|look| json!({ "name": look.name, "about": look.about }));
     let presets = SHIPPED.iter().map(|(name, _)| json!({ "name": name, "about": "as the text prints it" }));
@@ -52,6 +53,7 @@ pub fn tables() -> String {
         "scene": controls(&SceneSettings::default()),
         "read": controls(&LoadOptions::default()),
         "models": models,
+        "formats": formats.collect::<Vec<_>>(),
         "keys": keys,
     })
     .to_string()

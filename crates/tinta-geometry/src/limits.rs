@@ -47,9 +47,6 @@ pub const LABEL_CHARACTERS: usize = 1000;
 /// Most strokes of a hatched drawing: some hundred times what a sheet of paper holds.
 pub const HATCH_STROKES: usize = 1_000_000;
 
-/// Longest name of a job, bytes: a table can still show it.
-pub const JOB_ID_BYTES: usize = 200;
-
 /// Longest side of a picture, pixels: the largest texture that OpenGL drivers take.
 pub const PICTURE_SIDE_PX: u32 = 16_384;
 
@@ -87,6 +84,12 @@ pub const MATERIAL_FILES: usize = 1024;
 
 /// Most levels of the tree of nodes of glTF or 3DS: skeletons have a few dozen.
 pub const NODE_LEVELS: usize = 4096;
+
+/// Most objects that a 3MF file puts anywhere, each time counted.
+pub const PLACES: usize = 1 << 20;
+
+/// Most bytes that the parts of a 3MF file unpack to, in multiples of its own, beyond [`MEMORY_SLACK_BYTES`]. XML shrinks to a tenth.
+pub const UNPACKED_FACTOR: usize = 100;
 
 /// Most skins searched for an MD2 model; the game's own limit is 32.
 pub const SKINS: usize = 256;

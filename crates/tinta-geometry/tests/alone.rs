@@ -8,8 +8,8 @@ mod exact_svg;
 use std::collections::BTreeSet;
 use std::process::Command;
 
-/// Largest number of resolved crates, without this one.
-const MOST_CRATES: usize = 42;
+/// Largest number of resolved crates, without this one; two of them read 3MF.
+const MOST_CRATES: usize = 44;
 
 #[test]
 fn it_draws_an_svg() {

@@ -1,11 +1,9 @@
 //! Loads a [`Mesh`] from a path, built-in or file; the content determines the format first, the name second.
 
 use super::folder::Folder;
-use super::format::{self, Format};
-#[cfg(feature = "gltf")]
-use super::gltf;
+use super::format::{self, Format, ModelFile};
 use super::options::check;
-use super::{Mesh, md2, obj, ply, skin, soup::Soup, stl, text, three_ds, up_axis_guess};
+use super::{Mesh, skin, soup::Soup, stl, text, up_axis_guess};
 use crate::clock::Instant;
 use crate::error::{Error, FileKind, Result};
 use crate::files::{self, Failure};
@@ -33,7 +31,7 @@ pub struct Loaded {
     pub stages: Vec<(LoadStage, f64)>,
 }
 
-/// Reads a model: an OBJ, PLY, STL, MD2, 3DS or glTF file.
+/// Reads a model: a file in one of the formats [`Format::ALL`].
 ///
 /// # Errors
 ///
@@ -58,7 +56,7 @@ pub fn load_watched(path: &str, options: &LoadOptions, watch: &dyn Fn(LoadStage)
         let bytes =
             files::read(Path::new(path), MODEL_BYTES).map_err(|failure| match (&failure, format::unread(path)) {
                 (Failure::System(error), Some(format)) if error.kind() == ErrorKind::NotFound => {
-                    Error::model(path, format!("there is no such file, and {}", not_read(format)))
+                    Error::model(path, format!("there is no such file, and {}", not_read(&format)))
                 }
                 _ => failure.into_error(FileKind::Model, path, "a model file"),
             })?;
@@ -137,7 +135,7 @@ pub fn refuse_address(path: &str) -> Result<()> {
     }
 }
 
-/// Reads a model from memory: an OBJ, PLY, STL, MD2, 3DS or glTF file's bytes. `beside` holds the files that it names,
+/// Reads a model from memory: a file's bytes in one of the formats [`Format::ALL`]. `beside` holds the files that it names,
 /// materials, data and pictures, as names with bytes. A name matches in any case and without its folders, and a single `.mtl`
 /// file matches any name. If `beside` is empty, pictures are left out without a remark, and no other file is read.
 ///
@@ -189,34 +187,13 @@ fn made(
     Ok(Loaded { mesh, frames, files, remarks, stages: Vec::new() })
 }
 
-/// Turns the model from z up, this format's custom, unless an axis is given.
-fn from_z_up(mut soup: Soup, options: &LoadOptions) -> Soup {
-    if options.up_axis == UpAxis::Auto {
-        soup.turn_by(|position| UpAxis::Z.to_y_up(position));
-    }
-    soup
-}
-
 /// Advises on a file of an unsupported format.
 fn not_read(format: &str) -> String {
     format!("{format} is not read; export it as STL, OBJ or glTF from the program that made it")
 }
 
-/// Adds the pictures that its materials name, unless one picture is given for all.
-fn with_pictures(
-    mut soup: Soup,
-    options: &LoadOptions,
-    folder: &Folder<'_>,
-    path: &str,
-    remarks: &mut Vec<String>,
-) -> Soup {
-    if options.skin.is_none() {
-        skin::find_all(&mut soup, folder, path, remarks);
-    }
-    soup
-}
-
-fn soup(
+/// Reads a file's bytes by the row of their format.
+pub(super) fn soup(
     bytes: &[u8],
     path: &str,
     options: &LoadOptions,
@@ -227,46 +204,26 @@ fn soup(
         return Err(Error::model(path, "the file is empty; export the model again"));
     }
     let bytes = &*if stl::is_binary(bytes) { Cow::Borrowed(bytes) } else { text::decoded(bytes) };
-    let named = Format::by_name(path);
-    let found = Format::by_content(bytes).filter(|found| format::unread(path).is_none() || found.is_unmistakable());
+    let named = Format::of_name(path);
+    let found = Format::of_content(bytes).filter(|found| format::unread(path).is_none() || found.is_unmistakable);
     let format = found.or(named).ok_or_else(|| {
         let problem = match format::unread(path) {
-            Some(format) => not_read(format),
-            None => format!("this is not a model in a supported format; use an {} file", Format::NAMES),
+            Some(format) => not_read(&format),
+            None => format!("this is not a model in a supported format; use one of {}", Format::names().join(", ")),
         };
         Error::model(path, problem)
     })?;
-    if let (Some(named), Some(found)) = (named, found)
-        && named != found
-    {
-        remarks.push(format!(
-            "{path}: the name says {} but the content is {}, and is read as that",
-            named.name(),
-            found.name()
-        ));
+    if let Some(named) = named.filter(|named| named.name != format.name) {
+        let found = format.name;
+        remarks.push(format!("{path}: the name says {} but the content is {found}, and is read as that", named.name));
     }
-    let soup = match format {
-        Format::Obj => {
-            let soup = obj::read(bytes, path, folder, remarks)?;
-            Soup { other_up: Some(UpAxis::Z), ..with_pictures(soup, options, folder, path, remarks) }
-        }
-        Format::Ply => {
-            let soup = ply::read(bytes, path, remarks)?;
-            Soup { other_up: Some(UpAxis::Z), ..with_pictures(soup, options, folder, path, remarks) }
-        }
-        Format::Stl => Soup { other_up: Some(UpAxis::Y), ..from_z_up(stl::read(bytes, path, remarks)?, options) },
-        Format::Md2 => md2::read(bytes, path, options, folder, remarks)?,
-        Format::ThreeDs => three_ds::read(bytes, path, options, folder, remarks)?,
-        #[cfg(feature = "gltf")]
-        Format::Gltf => gltf::read(bytes, path, options, folder, remarks)?,
-        #[cfg(not(feature = "gltf"))]
-        Format::Gltf => {
-            return Err(Error::model(
-                path,
-                "this build does not read glTF; build with the feature gltf, or save it as OBJ",
-            ));
-        }
-    };
+    let mut soup = (format.read)(&ModelFile { bytes, path, folder, options }, remarks)?;
+    let (turn, other_up) = format.up;
+    turn.filter(|_| options.up_axis == UpAxis::Auto).into_iter().for_each(|turn| soup.turn_by(turn));
+    soup.other_up = other_up;
+    if options.skin.is_none() && !soup.has_pictures {
+        skin::find_all(&mut soup, folder, path, remarks);
+    }
     soup.check_memory(bytes.len(), path)?;
     Ok(soup)
 }
@@ -323,7 +280,7 @@ mod tests {
     }
 
     /// Small valid files of every format, each with all that its reader knows.
-    fn valid_files() -> [(&'static str, Vec<u8>); 9] {
+    fn valid_files() -> [(&'static str, Vec<u8>); 10] {
         let obj =
             "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -4//-1 -2 -1\n";
         let header = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
@@ -346,10 +303,11 @@ mod tests {
             ("b.ply", binary_ply),
             ("t.stl", text_stl.into()),
             ("b.stl", binary_stl),
-            ("b.md2", md2::tests::pyramid()),
-            ("b.3ds", three_ds::tests::square()),
-            ("t.gltf", gltf::tests::json()),
-            ("b.glb", gltf::tests::binary()),
+            ("b.md2", crate::mesh::md2::tests::pyramid()),
+            ("b.3ds", crate::mesh::three_ds::tests::square()),
+            ("b.3mf", crate::mesh::three_mf::tests::triangle()),
+            ("t.gltf", crate::mesh::gltf::tests::json()),
+            ("b.glb", crate::mesh::gltf::tests::binary()),
         ]
     }
 
@@ -397,7 +355,7 @@ mod tests {
         /// Changed bytes, inserted numbers, cut ends: a mesh of finite numbers or an error that names the file.
         #[test]
         fn damaged_files_give_a_sound_mesh_or_an_error_and_never_a_panic(
-            file in 0usize..9,
+            file in 0usize..10,
             changes in proptest::collection::vec((0usize..600, proptest::num::u8::ANY), 0..6),
             insertion in (0usize..600, proptest::sample::select(vec!["", "nan", "-1", "1e999", "4294967296", "\\\n", "\n", "/", "#"])),
             keep in 0usize..600,

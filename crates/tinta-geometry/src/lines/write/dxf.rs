@@ -57,7 +57,7 @@ pub fn dxf(lines: &VisibleLines, settings: &DrawingSettings) -> Result<String> {
 /// # Errors
 ///
 /// Those of [`dxf`].
-pub fn dxf_of_paths(
+pub(crate) fn dxf_of_paths(
     lines: &VisibleLines,
     paths: Vec<LinePath>,
     areas: Option<&Areas>,

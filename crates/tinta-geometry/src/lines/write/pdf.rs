@@ -38,7 +38,7 @@ pub fn pdf(lines: &VisibleLines, settings: &DrawingSettings) -> Result<Vec<u8>> 
 /// # Errors
 ///
 /// Those of [`pdf`].
-pub fn pdf_of_paths(
+pub(crate) fn pdf_of_paths(
     lines: &VisibleLines,
     paths: Vec<LinePath>,
     areas: Option<&Areas>,

@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::lines::VisibleLines;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::drawn_layers::Drawing;
+use crate::lines::drawing::fills::FillGroup;
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::drawing::taper;
 use crate::lines::write::strokes::{Polyline, Strokes, strokes_of};
@@ -79,17 +80,38 @@ pub fn lay_strokes_by(strokes: &[Strokes], size: Size, pixels: &mut [u8], share:
     }
 }
 
+/// Lays painted areas over a picture of this size, each with its colour below those that meet it later.
+pub fn lay_fills(groups: &[FillGroup], size: Size, pixels: &mut [u8]) {
+    /// The width of that colour along their border, pixels: all pixels that the border crosses.
+    const TRAP_PX: f64 = 1.5;
+    let mut cover = Cover::new(size);
+    for fill in groups.iter().flat_map(|group| &group.fills) {
+        lay_area(&fill.loops, fill.color, size, pixels);
+        let sides = fill.trap.iter().flat_map(|stretch| stretch.windows(2));
+        sides.for_each(|side| cover.line([side[0], side[1]], [TRAP_PX; 2]));
+        cover.blend_into(pixels, fill.color, |_| 1.0);
+    }
+}
+
 /// Lays an area over a picture of this size: closed polygons, and their holes, which run the other way.
-pub fn lay_area(loops: &[Vec<DVec2>], color: Color, size: Size, pixels: &mut [u8]) {
+fn lay_area(loops: &[Vec<DVec2>], color: Color, size: Size, pixels: &mut [u8]) {
     let width = size.width as usize;
+    let rows = loops.iter().flatten().map(|corner| corner.y.clamp(0.0, f64::from(size.height)));
+    let (low, high) = rows.fold((f64::INFINITY, 0.0f64), |(low, high), y| (low.min(y), high.max(y)));
+    let (first, last) = (low.floor(), high.ceil());
+    if last <= first {
+        return;
+    }
     // What each pixel covers more than the one to its left.
-    let mut steps = vec![0.0f32; (width + 2) * size.height as usize];
+    let mut steps = vec![0.0f32; (width + 2) * (last - first) as usize];
+    let (above, part) = (DVec2::new(0.0, first), Size { height: (last - first) as u32, ..size });
     for corners in loops {
         for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-            add_side([*from, *to], size, &mut steps);
+            add_side([*from - above, *to - above], part, &mut steps);
         }
     }
-    for (row, steps) in pixels.chunks_exact_mut(width * 4).zip(steps.chunks_exact(width + 2)) {
+    let rows = pixels.chunks_exact_mut(width * 4).skip(first as usize);
+    for (row, steps) in rows.zip(steps.chunks_exact(width + 2)) {
         let mut covered = 0.0;
         for (pixel, step) in row.chunks_exact_mut(4).zip(steps) {
             covered += step;
