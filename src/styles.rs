@@ -29,6 +29,7 @@ mod coarse;
 mod contents;
 mod dietrich;
 mod far_light;
+mod flat_colors;
 mod gradients;
 mod headings;
 mod ignored;

@@ -4,11 +4,11 @@ use super::{Ground, Request, Resolved};
 use crate::clock::{Instant, milliseconds_since};
 use crate::error::Result;
 use crate::lines::{
-    Progress, Region, Regions, Strokes, ground_shadow, lay_area, lay_over, lay_strokes, lay_strokes_by,
+    Areas, FillGroup, Progress, Strokes, ground_shadow, lay_fills, lay_over, lay_strokes, lay_strokes_by,
     raster_of_strokes,
 };
 use crate::picture::Picture;
-use crate::plan::{Plan, TOOTH};
+use crate::plan::{Pass, Plan, Step, TOOTH};
 use crate::renderer::Renderer;
 use crate::scene::{Background, Color, Scene, Size};
 use crate::styles::Below;
@@ -17,9 +17,9 @@ use crate::styles::Below;
 #[derive(Debug, Clone)]
 pub struct Around {
     background: Background,
-    /// The shadow on the ground, and its colour.
-    shadow: Option<(Regions<()>, Color)>,
-    /// The strokes of exact lines.
+    /// The shadow on the ground; all areas of a drawing whose tones are strokes.
+    pub(super) below: Option<Areas>,
+    /// The strokes of exact lines and of tones.
     strokes: Vec<Strokes>,
     /// How long finding all of it took, milliseconds.
     pub found_ms: f64,
@@ -32,42 +32,53 @@ pub const LINES_AT_ONCE_MS: f64 = 30.0;
 const SHADE: [f32; 3] = [0.85, 0.835, 0.81];
 
 impl Resolved {
-    /// Finds the shadow and the lines around the picture of passes.
+    /// Finds the shadow and the lines around the picture of passes; all of a drawing whose tones are strokes.
     ///
     /// # Errors
     ///
     /// As [`Resolved::drawing`].
     pub fn around(&self, progress: &Progress) -> Result<Around> {
         let start = Instant::now();
-        let strokes = match self.contents.lines {
-            Some(_) => self.drawn_lines(Default::default(), progress)?.strokes()?,
-            None => Vec::new(),
-        };
-        let shadow = self.shadow(progress)?;
-        Ok(Around { background: self.scene.background, shadow, strokes, found_ms: milliseconds_since(start) })
+        let (mut strokes, mut below) = (Vec::new(), None);
+        if self.contents.has_strokes() {
+            let drawn = self.drawn_lines(Default::default(), progress)?;
+            (strokes, below) = (drawn.strokes()?, drawn.areas.map(|areas| areas.drawn));
+        }
+        // Areas have a shadow of their own.
+        if below.is_none() && self.request.ground == Ground::Shadow {
+            self.add_shadow(below.insert(Areas::default()), progress)?;
+        }
+        Ok(Around { background: self.scene.background, below, strokes, found_ms: milliseconds_since(start) })
     }
 
-    /// The shadow on the ground, and its colour.
-    pub(super) fn shadow(&self, progress: &Progress) -> Result<Option<(Regions<()>, Color)>> {
+    /// Adds the shadow on the ground, if the request has one.
+    pub(super) fn add_shadow(&self, below: &mut Areas, progress: &Progress) -> Result<()> {
         if self.request.ground == Ground::None {
-            return Ok(None);
+            return Ok(());
         }
         let ground = match self.scene.background {
             Background::Color(Color(channels)) => channels,
             Background::Transparent => [1.0; 3],
         };
         let shadow = ground_shadow(&self.scene, self.request.shadow_light(&self.scene), progress)?;
-        Ok(Some((shadow, Color([0, 1, 2].map(|channel| ground[channel] * SHADE[channel])))))
+        below.add_ground(&shadow, Color([0, 1, 2].map(|channel| ground[channel] * SHADE[channel])));
+        Ok(())
     }
 
-    /// The plan of the picture of passes. On a ground it has no background.
+    /// The plan of the picture of passes. On a ground it has no background; it is empty where strokes stand for tones.
     ///
     /// # Errors
     ///
     /// Those of [`crate::Style::plan`].
     pub fn plan(&self) -> Result<Plan> {
         let Request { style, show, ground, .. } = &self.request;
-        let style = if let Below::Passes(style) = &self.contents.below { style } else { style };
+        let style = match &self.contents.below {
+            Below::Passes(style) => style,
+            _ if self.contents.is_hatched() => {
+                return Ok(Plan::new(vec![Pass::new("nothing", vec![Step::clear([0.0; 4])])]));
+            }
+            _ => style,
+        };
         match ground {
             Ground::None => style.plan(&self.scene, *show),
             Ground::Shadow => style.plan(&Scene { background: Background::Transparent, ..self.scene.clone() }, *show),
@@ -96,21 +107,19 @@ impl Around {
 
     /// Puts the picture of a plan between ground and lines.
     pub(super) fn put(&self, plan: &Plan, picture: &mut Picture) {
-        if let Some((shadow, color)) = &self.shadow {
-            self.put_on(&shadow.regions, *color, picture);
-        }
+        self.below.iter().for_each(|below| self.put_on(&below.fills, picture));
         lay(&self.strokes, plan, picture);
     }
 
     /// Puts the picture of an empty scene on the ground.
     pub(super) fn put_bare(&self, picture: &mut Picture) {
-        self.shadow.iter().for_each(|(_, color)| self.put_on(&[], *color, picture));
+        self.below.iter().for_each(|_| self.put_on(&[], picture));
     }
 
-    /// Puts a picture without a background on the ground with this shadow.
-    fn put_on(&self, shadow: &[Region<()>], color: Color, picture: &mut Picture) {
+    /// Puts a picture without a background on the ground with these areas.
+    fn put_on(&self, areas: &[FillGroup], picture: &mut Picture) {
         let mut ground = raster_of_strokes(&[], picture.size, self.background).pixels;
-        shadow.iter().for_each(|region| lay_area(&region.loops, color, picture.size, &mut ground));
+        lay_fills(areas, picture.size, &mut ground);
         for (below, pixel) in ground.chunks_exact_mut(4).zip(picture.pixels.chunks_exact(4)) {
             let [red, green, blue, opacity] = [0, 1, 2, 3].map(|channel| f32::from(pixel[channel]) / 255.0);
             lay_over(below, Color([red, green, blue]), opacity);

@@ -106,7 +106,7 @@ impl Request {
     pub fn models(&self, cache: &ModelCache) -> Result<ReadModels> {
         let start = Instant::now();
         let mut models = ReadModels { meshes: Vec::new(), files: Vec::new(), stages: Vec::new(), ms: 0.0 };
-        let read = self.read_to_scale()?;
+        let read = self.load_options()?;
         for path in &self.models {
             let model = cache.read(path, &read)?;
             models.meshes.push(model.mesh.clone());
@@ -303,14 +303,15 @@ impl Resolved {
     /// Returns remarks on the picture that a plan draws, a sentence each.
     pub(crate) fn picture_remarks(&self, plan: &Plan, renderer: &Renderer) -> Vec<String> {
         let (Request { style, options, .. }, scene) = (&self.request, &self.scene);
-        let has_lines_over = self.contents.lines.is_some();
+        let has_strokes = self.contents.has_strokes();
         let has_no_effect = |option: &&String| {
-            let is_drawn = has_lines_over || self.request.is_of_look(option);
+            let is_drawn = has_strokes || self.request.is_of_look(option);
             !is_drawn && is_of_vectors(option, style.style_name())
         };
         let of_vectors = options.keys().filter(has_no_effect);
-        let mut remarks = [style.remarks(scene), renderer.remarks(plan)].concat();
-        remarks.extend(if has_lines_over { scene.far_remark() } else { style.curves_remark(scene) });
+        let mut remarks = if self.contents.is_hatched() { self.contents.remarks(scene) } else { style.remarks(scene) };
+        remarks.extend(renderer.remarks(plan));
+        remarks.extend(if has_strokes { scene.far_remark() } else { style.curves_remark(scene) });
         remarks.extend(scene.cut_remark().filter(|_| self.request.scene.camera.near.is_none()));
         remarks.extend(ignored_remark(of_vectors.map(String::as_str), &[style.name()]));
         remarks

@@ -3,12 +3,12 @@
 //! Every door ends here: it chooses a [`DrawingFormat`] and a target, and may give a recipe or paths whose strokes keep their numbers.
 
 use super::emptiness::reason;
-use super::{DrawingFormat, Resolved, Wanted};
+use super::{Resolved, Wanted};
 use crate::edges::SilhouetteRule;
 use crate::error::{Error, Result};
 use crate::lines::{
-    DrawingSettings, Hidden, LinePath, LineSettings, PageSize, Progress, Raster, Strokes, VisibleLines, chain,
-    dxf_of_paths, raster_of_paths, strokes_of_paths, svg_of_paths,
+    DrawingContent, DrawingFormat, DrawingSettings, Hidden, LinePath, LineSettings, PageSize, Progress, Raster,
+    Strokes, VisibleLines, chain, raster_of_paths, strokes_of_paths,
 };
 use crate::output::TextTarget;
 use crate::picture::{Note, Picture, Target};
@@ -80,13 +80,14 @@ impl DrawnLines {
         paths
     }
 
-    /// The strokes that lie over a picture of the same view.
+    /// The strokes that lie over a picture of the same view, those of tones included.
     ///
     /// # Errors
     ///
     /// Those of [`strokes_of_paths`].
     pub(crate) fn strokes(&self) -> Result<Vec<Strokes>> {
-        strokes_of_paths(&self.lines, self.paths(), None, &self.resolved.contents.drawing)
+        let areas = self.areas.as_ref().map(|areas| &areas.drawn);
+        strokes_of_paths(&self.lines, self.paths(), areas, &self.resolved.contents.drawing)
     }
 
     /// Writes these paths of the drawing, or its own, into a file of this format. The recipe's command has a fixed name for the
@@ -101,27 +102,22 @@ impl DrawnLines {
         paths: Option<Vec<LinePath>>,
         recipe: Option<&Recipe>,
     ) -> Result<DrawingFile> {
-        let output = if format == DrawingFormat::Pdf { "drawing.pdf" } else { "drawing.svg" };
+        let output = format!("drawing.{}", format.ending);
         let settings = DrawingSettings {
-            command: recipe.map(|recipe| recipe.command_line(output)).unwrap_or_default(),
+            command: recipe.map(|recipe| recipe.command_line(&output)).unwrap_or_default(),
             recipe: recipe.and_then(Recipe::json).unwrap_or_default(),
             ..self.resolved.contents.drawing.clone()
         };
         let (lines, areas) = (&*self.lines, self.areas.as_ref());
         let below = areas.map(|areas| &areas.drawn);
         let paths = || paths.unwrap_or_else(|| self.paths());
-        Ok(match format {
-            DrawingFormat::Svg => DrawingFile::Bytes(svg_of_paths(lines, paths(), below, &settings)?.into_bytes()),
-            #[cfg(feature = "pdf")]
-            DrawingFormat::Pdf => DrawingFile::Bytes(crate::lines::pdf_of_paths(lines, paths(), below, &settings)?),
-            #[cfg(not(feature = "pdf"))]
-            DrawingFormat::Pdf => return Err(Error::setting("o", "this build writes no .pdf file; write a .svg")),
-            DrawingFormat::Dxf => DrawingFile::Bytes(dxf_of_paths(lines, paths(), below, &settings)?.into_bytes()),
-            DrawingFormat::Json => {
+        Ok(match format.content {
+            DrawingContent::Vectors(write) => DrawingFile::Bytes(write(lines, paths(), below, &settings)?),
+            DrawingContent::Data => {
                 let regions = areas.map(|areas| &areas.regions);
                 DrawingFile::Bytes(drawing_json(lines, regions, &self.resolved.scene)?.into_bytes())
             }
-            DrawingFormat::Picture => {
+            DrawingContent::Pixels => {
                 let Raster { size, pixels } = raster_of_paths(lines, paths(), &settings)?;
                 DrawingFile::Picture(Picture { size, pixels }, recipe.and_then(Recipe::note))
             }
@@ -205,10 +201,8 @@ impl Resolved {
         }
         let mut areas = contents.areas(scene, &lines, progress)?;
         remarks.extend(contents.remarks(scene));
-        if let Some(areas) = areas.as_mut().filter(|_| !drawing.is_for_pen)
-            && let Some((shadow, color)) = self.shadow(progress)?
-        {
-            areas.drawn.add_ground(&shadow, color);
+        if let Some(areas) = areas.as_mut().filter(|_| !drawing.is_for_pen) {
+            self.add_shadow(&mut areas.drawn, progress)?;
         }
         let has_areas = areas.as_ref().is_some_and(|areas| areas.drawn.corners_px.is_some());
         if !has_areas && !lines.segments.iter().any(|segment| segment.is_visible) {

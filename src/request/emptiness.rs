@@ -24,7 +24,8 @@ pub fn empty_remark(
     picture: &Picture,
     renderer: &mut Renderer,
 ) -> Result<Option<String>> {
-    let Some(ground) = without_scene(published) else { return Ok(None) };
+    let drawn_around = || around.filter(|around| around.below.is_some()).map(|_| published.clone());
+    let Some(ground) = without_scene(published).or_else(drawn_around) else { return Ok(None) };
     let culls = published.steps().any(|(_, step)| matches!(step, Step::Draw(draw) if draw.cull_back_faces));
     let unseen = scene.unseen(scene.size.times(published.supersample), culls);
     if unseen.is_none() && !picture.is_of_one_color() {

@@ -2,6 +2,7 @@
 //! lines above. No GL here.
 
 use super::far_light::{FarLight, unit};
+use super::flat_colors::in_flat_colors;
 use super::surfaces::of_averaged_normals;
 use super::{Cartoon, Ink, LineWidth, Mrt, Style, Tones};
 use crate::error::{Error, Result};
@@ -12,6 +13,7 @@ use crate::lines::{
 use crate::mesh::NONE;
 use crate::scene::{Color, Scene, Size};
 use glam::DVec3;
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 use tinta_geometry::lines::Length;
 
@@ -139,16 +141,13 @@ impl Contents {
         match &self.below {
             Below::Passes(_) | Below::Nothing => Ok(None),
             Below::Tones(tones, light) => self.areas_of_tone((tones, *light), scene, lines, progress).map(Some),
-            Below::Joined(_) if self.drawing.hatching.spacing.is_some() => Err(Error::setting(
-                "hatch",
-                "strokes stand for tones; leave it out, or choose --look print instead of --areas",
-            )),
             Below::Joined(joined) => {
-                let regions = whole(Regions::joined_by(scene, *joined, progress)?)?;
+                let flat = if *joined == Joined::Material { in_flat_colors(scene)? } else { Cow::Borrowed(scene) };
+                let regions = whole(Regions::joined_by(&flat, *joined, progress)?)?;
                 let fills =
-                    painted(&regions, self.lines.is_some(), |number| joined_color(scene, &regions, number, *joined));
-                let drawn = Areas { fills: named(scene, fills), ..Areas::around(&regions) };
-                Ok(Some(ViewAreas { drawn, regions }))
+                    painted(&regions, self.lines.is_some(), |number| joined_color(&flat, &regions, number, *joined));
+                let drawn = Areas { fills: named(&flat, fills), ..Areas::around(&regions) };
+                Ok(Some(ViewAreas { drawn, regions: of_file(regions, scene, &flat) }))
             }
         }
     }
@@ -168,23 +167,24 @@ impl Contents {
         }
         tones.check()?;
         let rule = tone_rule(scene, tones, light);
-        let regions = whole(Regions::toned(scene, &rule, progress)?)?;
+        let flat = if self.drawing.is_for_pen { Cow::Borrowed(scene) } else { in_flat_colors(scene)? };
+        let regions = whole(Regions::toned(&flat, &rule, progress)?)?;
         let color = |TonedSurface { object, material, tone }| {
-            let Color(color) = own_color(scene, object, material);
+            let Color(color) = own_color(&flat, object, material);
             Color(color.map(|channel| channel * tones.levels[usize::from(tone)]))
         };
         let brightest = tones.count - 1;
-        let is_colored = |it: &TonedSurface| !scene.is_bare(&scene.objects[it.object as usize].mesh, it.material);
-        let flat =
+        let is_colored = |it: &TonedSurface| !flat.is_bare(&flat.objects[it.object as usize].mesh, it.material);
+        let without_tones =
             |seen: Option<TonedSurface>| seen.filter(is_colored).map(|it| Some(TonedSurface { tone: brightest, ..it }));
         let fills = match spacing {
             _ if self.drawing.is_for_pen => Vec::new(),
-            Some(_) => fills(&regions.joined(flat), |surface| below_strokes(color(surface))),
+            Some(_) => fills(&regions.joined(without_tones), |surface| below_strokes(color(surface))),
             None => fills(&regions, color),
         };
         let hatches = hatches(scene, (&rule, &regions), lines, &self.drawing, progress)?;
-        let drawn = Areas { fills: named(scene, fills), hatches, ..Areas::around(&regions) };
-        Ok(ViewAreas { regions: regions.labelled(|seen| seen.map(Surface::from)), drawn })
+        let drawn = Areas { fills: named(&flat, fills), hatches, ..Areas::around(&regions) };
+        Ok(ViewAreas { regions: of_file(regions.labelled(|seen| seen.map(Surface::from)), scene, &flat), drawn })
     }
 
     /// How light becomes tones in a scene; `None` without areas of tone.
@@ -205,8 +205,8 @@ impl Contents {
         if scene.objects.iter().any(|object| scene.shows_vertex_colors(&object.mesh)) {
             remarks.push("vectors draw each object in the mean of its colours at vertices".to_owned());
         }
-        if scene.shows_textures() {
-            remarks.push("vectors leave out textures; a picture such as .png has them".to_owned());
+        if scene.shows_textures() && !self.drawing.is_for_pen {
+            remarks.push("vectors draw each face of a texture in the mean of its texels".to_owned());
         }
         remarks
     }
@@ -228,13 +228,27 @@ impl Contents {
         if self.sheet.is_some() && has_areas {
             return Err(Error::setting("areas", "areas are drawn from one view; leave out one of --areas and --sheet"));
         }
+        if self.is_hatched() && !matches!(self.below, Below::Tones(..)) {
+            let problem = "lines, faces and objects have no tones; leave it out, or choose --look print";
+            return Err(Error::setting("hatch", problem));
+        }
         self.lines.as_ref().map_or(Ok(()), |lines| lines.parts.check(&self.drawing))?;
         self.drawing.check()
     }
 
+    /// Whether strokes stand for tones.
+    pub(crate) fn is_hatched(&self) -> bool {
+        self.drawing.hatching.spacing.is_some()
+    }
+
+    /// Whether a picture of pixels has strokes: exact lines, or those of tones.
+    pub(crate) fn has_strokes(&self) -> bool {
+        self.lines.is_some() || self.is_hatched()
+    }
+
     /// The exact lines over a picture of passes.
     pub fn lines_over(&self) -> Option<&LineSettings> {
-        self.lines.as_ref().filter(|_| matches!(self.below, Below::Passes(_)))
+        self.lines.as_ref().filter(|_| matches!(self.below, Below::Passes(_)) || self.is_hatched())
     }
 
     /// The lines to find for this drawing: outlines and hidden lines only if they show; `None` without lines.
@@ -245,6 +259,16 @@ impl Contents {
             ..lines.clone()
         })
     }
+}
+
+/// Regions with the materials of the file, of which the flat scene has one for each colour.
+fn of_file(regions: Regions<Option<Surface>>, scene: &Scene, flat: &Scene) -> Regions<Option<Surface>> {
+    if std::ptr::eq(scene, flat) {
+        return regions;
+    }
+    let count = |surface: Surface| scene.objects[surface.object as usize].mesh.materials.len().max(1) as u32;
+    let of_file = |seen: Surface| Surface { material: seen.material.map(|number| number % count(seen)), ..seen };
+    regions.joined(|seen| Some(seen.map(of_file)))
 }
 
 /// Areas with the names that the models' files give their materials.

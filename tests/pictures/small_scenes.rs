@@ -27,7 +27,7 @@ fn drawn_or_refused(count: u64) {
         if seed % 10 != 0 {
             continue;
         }
-        for options in DRAWINGS.iter().filter(|options| !options.iter().any(|(name, _)| *name == "hatch")) {
+        for options in DRAWINGS {
             let Ok((request, scene)) = scene(&bytes, options) else { continue };
             if let Err(error) = request.still(scene, false).and_then(|view| view.picture(&mut renderer)) {
                 assert!(error.to_string().len() < 2000, "{error}");

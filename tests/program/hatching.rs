@@ -2,7 +2,6 @@
 
 use crate::program::{refused_in_one_line, silent, tinta};
 use crate::support::Folder;
-use tinta::Error;
 use tinta::request::{OptionLayer, Request, Session};
 use tinta::settings::{OptionValue, Options};
 
@@ -101,6 +100,20 @@ fn a_sheet_has_strokes_in_millimetres_for_a_pen_of_its_own() {
 }
 
 #[test]
+fn a_turn_is_hatched_in_every_view() {
+    let folder = Folder::new();
+    let turn = |name: &str, options: &[&str]| {
+        let out = folder.path(name);
+        let words = ["render", "builtin:gear", "-o", &out, "--look", "print", "--turntable", "3", "--size", "200"];
+        silent(&[&words, options].concat());
+        [1, 2, 3].map(|view| std::fs::read(out.replace("%d", &view.to_string())).unwrap())
+    };
+    let [hatched, painted] = [turn("a-%d.png", &["--hatch", "auto"]), turn("b-%d.png", &[])];
+    assert!(hatched.iter().zip(&painted).all(|(one, other)| one != other) && hatched[0] != hatched[1]);
+    turn("a.gif", &["--hatch", "auto"]);
+}
+
+#[test]
 fn a_recipe_keeps_hatching() {
     let folder = Folder::new();
     let text = drawn(&folder, &["--look", "print", "--page", "A4", "--hatch", "1.5mm", "--hatch", "hatch-angle=30"]);
@@ -132,12 +145,11 @@ fn nonsense_for_strokes_is_refused_by_the_options_name() {
         &["--look", "print", "--hatch", "auto", "--hatch", "hatch-angle=nan"],
         &["--hatch hatch-angle=NaN", "-360 to 360"],
     );
-    refuse(
-        "a.svg",
-        &["--style", "lines", "--hatch", "auto"],
-        &["--hatch", "lines alone have no tones", "--look print"],
-    );
-    refuse("a.png", &["--look", "print", "--hatch", "auto"], &["--hatch", "write a .svg"]);
+    refuse("a.svg", &["--style", "lines", "--hatch", "auto"], &["--hatch", "have no tones", "--look print"]);
+    refuse("a.png", &["--look", "technical", "--hatch", "auto"], &["--hatch", "have no tones"]);
+    refuse("a.png", &["--look", "sketch", "--hatch", "auto"], &["--hatch", "no tones", "--look print"]);
+    refuse("a.png", &["--style", "phong", "--hatch", "auto"], &["--hatch", "tones", "--look print"]);
+    refuse("a.png", &["--look", "print", "--hatch", "auto", "--show", "tones"], &["--hatch", "a finished picture"]);
     refuse("a.svg", &["--look", "sketch", "--hatch", "auto"], &["look sketch draws pixels", "--look print"]);
     refuse("a.svg", &["--look", "print", "--hatch", "auto", "--tones", "1"], &["--hatch", "--tones", "2 or 3 tones"]);
 }
@@ -156,6 +168,7 @@ fn a_picture_of_pixels_names_options_that_only_vectors_have() {
         .map(|(name, value)| (name.to_owned(), value))
         .into();
     let (request, _) = Request::from_layers(&[OptionLayer::Given(hatched)]).unwrap();
-    let refused = request.picture(&mut Session::default(), &Default::default()).unwrap_err();
-    assert!(matches!(refused, Error::Setting { .. }), "{refused}");
+    let request = request.with_models(vec!["builtin:gear".to_owned()]);
+    let hatched = request.picture(&mut Session::default(), &Default::default()).unwrap();
+    assert!(hatched.remarks.is_empty() && hatched.picture != picture.picture, "{:?}", hatched.remarks);
 }

@@ -114,7 +114,7 @@ pub struct Hidden {
 }
 
 /// The benchmark's distance, as a share of the picture's diagonal.
-pub const BENCHMARK_DISTANCE: f64 = 0.0075;
+const BENCHMARK_DISTANCE: f64 = 0.0075;
 
 /// Least darknesses of ink, of 255, that one-to-one matching tries beside [`INK_FROM`].
 const THRESHOLDS: [u8; 7] = [1, 16, 32, 96, 128, 176, 224];

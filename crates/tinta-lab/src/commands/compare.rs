@@ -44,7 +44,7 @@ pub(super) const COMMAND: Command = Command {
 /// Draw one scene in two styles or looks side by side, and show which lines both drew
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input; several make one scene
+    /// Model files (FORMATS), built-in models, or - for standard input; several make one scene
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<String>,
 

@@ -53,7 +53,7 @@ pub(super) struct Arguments {
     #[arg(long)]
     quick: bool,
 
-    /// Textured model for the figures of a game's character (MD2, OBJ, 3DS, glTF) [default: builtin:soldier]
+    /// Textured model for the figures of a game's character [default: builtin:soldier]
     #[arg(long, value_name = "FILE")]
     model: Option<String>,
 

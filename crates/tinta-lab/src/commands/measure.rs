@@ -46,7 +46,7 @@ pub(super) const COMMAND: Command = Command {
 /// Measure every style's error and run time, as a table, plots and a page
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input, each measured separately
+    /// Model files (FORMATS), built-in models, or - for standard input, each measured separately
     #[arg(value_name = "MODEL", required_unless_present_any = ["suite", "merge", "against"])]
     models: Vec<String>,
 

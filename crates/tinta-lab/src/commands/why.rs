@@ -37,7 +37,7 @@ pub(super) const COMMAND: Command = Command {
 /// drawn: its recipe gives model, view, style and size, and of exact lines over it the nearest is explained, too.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Model file (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in model, - for standard input, or a picture by tinta
+    /// Model file (FORMATS), built-in model, - for standard input, or a picture by tinta
     #[arg(value_name = "MODEL")]
     model: String,
 
@@ -89,14 +89,14 @@ pub(super) fn run(arguments: &Arguments, session: &mut Session) -> Result<()> {
     let below = Below { camera, ..Below::default() };
     let (models, layers) = subject(&arguments.model, &arguments.drawing.options)?;
     let (mut request, _) = arguments.drawing.request_over(layers, &models, &below)?;
-    if request.style.lines().is_some() && arguments.output.is_some() {
-        let problem = "it explains the shaders of a style; add one, such as --style three-pass";
-        return Err(Error::setting("output", problem));
+    let has_passes = matches!(request.contents(false)?.below, tinta::styles::Below::Passes(_));
+    if !has_passes && arguments.output.is_some() {
+        return Err(Error::setting("output", "it explains shaders; add a style, such as --style three-pass"));
     }
     let files: Vec<&str> = camera.and_then(Path::to_str).into_iter().collect();
     let inputs = Inputs::new(&request.models, &request.options, &files);
     let output = arguments.output.as_deref().map(|path| checked(path, arguments, &inputs)).transpose()?;
-    if request.style.lines().is_some() {
+    if !has_passes {
         let resolved = request.resolve(load_meshes(&request.models, &request.read)?, true)?;
         return line_out(&resolved, arguments.place, arguments.json);
     }

@@ -23,12 +23,7 @@ impl Artist {
         Self { textured, ..Self::default() }
     }
 
-    /// Whether this panel can be drawn: false only for a textured model without a texture.
-    pub fn can_draw(&self, panel: &Panel) -> bool {
-        !panel.needs_texture() || self.textured.is_some()
-    }
-
-    /// Draws a panel; `None` if [`Artist::can_draw`] is false.
+    /// Draws a panel; `None` for one that needs a texture where there is no textured model.
     ///
     /// # Errors
     ///

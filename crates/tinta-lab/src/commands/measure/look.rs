@@ -1,8 +1,8 @@
 //! A look that draws exact lines, measured as `tinta render` draws it.
 
 use crate::measure::{FrameTimes, Ink, MeasureSettings, Measured, Row, RunTime, Subject, error_picture};
-use tinta::lines::Progress;
-use tinta::request::{DrawingFile, DrawingFormat, Request, Resolved, Wanted};
+use tinta::lines::{DrawingFormat, Progress};
+use tinta::request::{DrawingFile, Request, Resolved, Wanted};
 use tinta::{Error, Picture, Renderer, Result};
 
 /// Measures a look that draws exact lines over a picture, as `tinta render` draws it: a frame finds the lines and prunes the plan.
@@ -50,7 +50,7 @@ pub(super) fn measure_look(
 /// As [`Resolved::drawn_lines`].
 pub(in crate::commands) fn exact_lines(resolved: &Resolved) -> Result<Picture> {
     let lines = resolved.drawn_lines(Wanted::default(), &Progress::default())?;
-    match lines.written(DrawingFormat::Picture, None, None)? {
+    match lines.written(DrawingFormat::PIXELS, None, None)? {
         DrawingFile::Picture(picture, _) => Ok(picture),
         DrawingFile::Bytes(_) => Err(Error::setting("o", "lines are compared as pixels")),
     }
