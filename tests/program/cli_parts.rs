@@ -126,6 +126,18 @@ fn an_assembly_has_parts_by_its_nodes() {
 }
 
 #[test]
+fn two_planes_cut_a_quarter_away_and_the_recipe_holds_both() {
+    let folder = Folder::new();
+    let [svg, again] = ["half.svg", "again.svg"].map(|name| folder.path(name));
+    let given = ["render", "builtin:plates", "--section", "x=0", "--section", "z=0", "--look", "technical", "-o", &svg];
+    done(&given);
+    let text = std::fs::read_to_string(&svg).unwrap();
+    assert!(text.contains("file:x=0; file:z=0"), "its recipe");
+    done(&["again", &svg, "-o", &again]);
+    assert_eq!(std::fs::read_to_string(&again).unwrap(), text);
+}
+
+#[test]
 fn of_several_models_one_beyond_a_sections_plane_is_left_out() {
     let folder = Folder::new();
     let (boxes, out) = (boxes(&folder), folder.path("cut.svg"));

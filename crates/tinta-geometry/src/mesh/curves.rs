@@ -39,6 +39,16 @@ impl Curves {
         self.hatching += strokes.len();
     }
 
+    /// Adds other curves without strokes on cuts.
+    pub(super) fn add(&mut self, other: Self) {
+        let (positions, points) = (self.positions.len() as u32, self.points.len() as u32);
+        self.positions.extend(other.positions);
+        self.file_vertices.extend(other.file_vertices);
+        self.segments.extend(other.segments.iter().map(|ends| ends.map(|end| end + positions)));
+        self.points.extend(other.points.iter().map(|point| point + positions));
+        self.labels.extend(other.labels.into_iter().map(|(point, text)| (point + points, text)));
+    }
+
     /// Whether there is nothing to draw.
     pub fn is_empty(&self) -> bool {
         self.segments.is_empty() && self.points.is_empty()

@@ -1,13 +1,14 @@
-//! Cuts a mesh by a plane and closes the cut.
+//! Cuts a mesh by planes and closes the cut.
 //!
-//! In: a [`Mesh`] and a [`SectionPlane`]. Out: the faces behind the plane, and caps over the rings where they end at it. Faces that
+//! In: a [`Mesh`] and [`SectionPlane`]s. Out: the faces behind the plane, and caps over the rings where they end at it. Faces that
 //! the plane crosses are clipped; neighbours share the new vertices, so a closed mesh stays closed. Each closed shell is capped for
-//! itself, with its hollows, whichever way the file winds it.
+//! itself, with its hollows, whichever way the file winds it. Several planes cut away the part in front of all of them (`wedge.rs`).
 
 mod caps;
 mod cutter;
 mod hatching;
 mod rings;
+mod wedge;
 
 use super::{Curves, Mesh, NONE};
 use crate::error::{Error, Result};
@@ -40,6 +41,41 @@ pub struct SectionPlane {
     pub is_of_file: bool,
 }
 
+/// How far points computed on a plane lie off it, as a share of the largest coordinate: some fifty roundings.
+const ROUNDED: f64 = 1e-14;
+
+/// Planes that cut away the part in front of all of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SectionPlanes(pub Vec<SectionPlane>);
+
+impl SectionPlanes {
+    /// The separator of two planes in a text.
+    pub(super) const BETWEEN: &str = "; ";
+
+    /// The text with the planes' axes those of the model's file.
+    pub fn of_file(text: &str) -> String {
+        let of_file = |plane: &str| match plane.contains('=') && !plane.starts_with(SectionPlane::OF_FILE) {
+            true => SectionPlane::OF_FILE.to_owned() + plane,
+            false => plane.to_owned(),
+        };
+        text.split(';').map(|plane| of_file(plane.trim())).collect::<Vec<_>>().join(Self::BETWEEN)
+    }
+}
+
+impl Value for SectionPlanes {
+    fn kind() -> Kind {
+        SectionPlane::kind()
+    }
+
+    fn text(&self) -> String {
+        self.0.iter().map(SectionPlane::text).collect::<Vec<_>>().join(Self::BETWEEN)
+    }
+
+    fn parse(text: &str) -> std::result::Result<Self, Problem> {
+        text.split(';').map(|plane| SectionPlane::parse(plane.trim())).collect::<std::result::Result<_, _>>().map(Self)
+    }
+}
+
 /// Spacing of a cut's hatching where none is given, as a share of the cut model's diagonal.
 const SPACING: f64 = 1.0 / 60.0;
 
@@ -56,21 +92,37 @@ impl Value for SectionPlane {
     }
 
     fn parse(text: &str) -> std::result::Result<Self, Problem> {
-        let problem = || "write an axis and where it is cut, such as x=12, or a normal and a number, such as 1,1,0=5";
+        let problem = || match meant(text) {
+            Some(meant) => format!("did you mean {meant}?"),
+            None => {
+                "write an axis, x, y or z, and where it is cut, such as x=12, or a normal and a number, such as 1,1,0=5"
+                    .to_owned()
+            }
+        };
         let (is_of_file, text) = text.strip_prefix(Self::OF_FILE).map_or((false, text), |text| (true, text));
-        let (normal, offset) = text.split_once('=').ok_or_else(|| problem().to_owned())?;
+        let (normal, offset) = text.split_once('=').ok_or_else(problem)?;
         let axis = AXES.iter().find(|(name, _)| *name == normal.trim());
         let normal = match axis {
             Some((_, axis)) => *axis,
-            None => DVec3::parse(normal.trim()).map_err(|_| problem().to_owned())?,
+            None => DVec3::parse(normal.trim()).map_err(|_| problem())?,
         };
-        let offset: f64 = offset.trim().parse().map_err(|_| problem().to_owned())?;
+        let offset: f64 = offset.trim().parse().map_err(|_| problem())?;
         let plane = Self { normal, offset, is_of_file };
         if plane.unit().is_none() {
             return Err(NO_PLANE.to_owned().into());
         }
         Ok(plane)
     }
+}
+
+/// The plane that a mistyped one means, such as `X: 3`.
+fn meant(text: &str) -> Option<String> {
+    let text = text.strip_prefix(SectionPlane::OF_FILE).unwrap_or(text).to_lowercase();
+    let (sign, text) = text.strip_prefix('-').map_or(("", &*text), |text| ("-", text));
+    let axis = text.chars().next().filter(|axis| ('x'..='z').contains(axis))?;
+    let number = text[1..].trim_start_matches([' ', '=', ':', '+']);
+    let offset: f64 = if number.is_empty() { 0.0 } else { number.parse().ok()? };
+    offset.is_finite().then(|| format!("{sign}{axis}={offset}"))
 }
 
 impl SectionPlane {
@@ -90,54 +142,79 @@ impl SectionPlane {
     }
 }
 
-/// How a plane cut a mesh.
+/// How planes cut a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cut {
-    /// The whole mesh lies behind the plane.
+    /// No part of the mesh lies in front of all planes.
     Missed,
     /// Caps close all of the cut.
     Closed,
     /// The surface is open or winds both ways, and part of the cut has no cap.
     Open,
-    /// The whole mesh lies in front of the plane: no face, curve or point is left.
+    /// The whole mesh lies in front of the planes: no face, curve or point is left.
     Gone,
 }
 
 impl Mesh {
-    /// Cuts away the mesh in front of a plane in world space, and closes the cut with faces of the part [`SECTION`]. `hatching` is the
-    /// spacing of the strokes on the cut, file units; 0 draws none, `None` chooses one.
+    /// Cuts away the mesh in front of all of some planes in world space, and closes the cut with faces of the part [`SECTION`].
+    /// `hatching` is the spacing of the strokes on the cut, file units; 0 draws none, `None` chooses one.
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] if the plane is none.
-    pub fn section(self, plane: &SectionPlane, hatching: Option<f64>) -> Result<(Self, Cut)> {
-        let Some(unit) = plane.unit() else {
-            return Err(Error::setting("section", NO_PLANE));
-        };
+    /// [`Error::Setting`] if a plane is none.
+    pub fn section(self, planes: &[SectionPlane], hatching: Option<f64>) -> Result<(Self, Cut)> {
+        let unit = |plane: &SectionPlane| plane.unit().ok_or_else(|| Error::setting("section", NO_PLANE));
+        let given = planes.iter().map(unit).collect::<Result<Vec<_>>>()?;
         let (low, high) = self.extent();
-        let tolerance = (high - low).length() * ON_PLANE;
-        let side = |point: &DVec3| {
-            let distance = unit.normal.dot(*point) - unit.offset;
-            if distance.abs() <= tolerance { 0.0 } else { distance }
-        };
-        let sides: Vec<f64> = self.positions.iter().map(side).collect();
-        let of_curves: Vec<f64> = self.curves.positions.iter().map(side).collect();
-        if sides.iter().chain(&of_curves).all(|side| *side <= 0.0) {
-            return Ok((self, Cut::Missed));
+        let size = (high - low).length();
+        let (spacing, tolerance) = (hatching.unwrap_or(size * SPACING), size * ON_PLANE);
+        let mut planes: Vec<SectionPlane> = Vec::new();
+        for plane in given {
+            let is_it = |other: &SectionPlane| {
+                plane.normal.distance(other.normal) <= ON_PLANE && (plane.offset - other.offset).abs() <= tolerance
+            };
+            if !planes.iter().any(is_it) {
+                planes.push(plane);
+            }
         }
-        let mut cutter = Cutter::new(&self, sides);
-        cutter.clip_faces(unit.normal);
-        let spacing = hatching.unwrap_or((high - low).length() * SPACING);
-        let (is_closed, strokes) = cutter.close(unit.normal, spacing);
+        match planes.as_slice() {
+            [] => Ok((self, Cut::Missed)),
+            [plane] => Ok(self.cut(plane, spacing, tolerance)),
+            several => {
+                // Far from the origin, points computed on a plane are rounded to either side of it.
+                let farthest = low.abs().max(high.abs()).max_element();
+                Ok(self.cut_by_all(several, spacing, tolerance.max(farthest * ROUNDED)))
+            }
+        }
+    }
+
+    /// The mesh with the faces that a plane crosses in two parts.
+    fn split(&self, plane: &SectionPlane, tolerance: f64) -> Self {
+        let sides = self.positions.iter().map(|point| plane.side(*point, tolerance)).collect();
+        let mut cutter = Cutter::new(self, sides, true);
+        cutter.clip_faces(plane.normal);
+        cutter.finished(self, self.curves.clone())
+    }
+
+    /// Cuts away the mesh in front of a plane. Positions within the tolerance lie in the plane.
+    fn cut(&self, plane: &SectionPlane, spacing: f64, tolerance: f64) -> (Self, Cut) {
+        let sides = |points: &[DVec3]| points.iter().map(|point| plane.side(*point, tolerance)).collect::<Vec<f64>>();
+        let (sides, of_curves) = (sides(&self.positions), sides(&self.curves.positions));
+        if sides.iter().chain(&of_curves).all(|side| *side <= 0.0) {
+            return (self.clone(), Cut::Missed);
+        }
+        let mut cutter = Cutter::new(self, sides, false);
+        cutter.clip_faces(plane.normal);
+        let (is_closed, strokes) = cutter.close(cutter.open_sides(), plane.normal, spacing);
         let mut curves = clipped(&self.curves, &of_curves, cutter.next_vertex);
         curves.add_hatching(&strokes, &mut cutter.next_vertex);
-        let mesh = cutter.finished(&self, curves);
+        let mesh = cutter.finished(self, curves);
         let cut = match mesh.is_empty() {
             true => Cut::Gone,
             false if is_closed => Cut::Closed,
             false => Cut::Open,
         };
-        Ok((mesh, cut))
+        (mesh, cut)
     }
 }
 

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use tinta::edges::{EdgeList, Incidence};
-use tinta::mesh::{Curves, Cut, SECTION, SectionPlane};
+use tinta::mesh::{Curves, Cut, SECTION, SectionPlane, SectionPlanes};
 use tinta::settings::Value;
 use tinta::{CameraSettings, LineSettings, LoadOptions, Mesh, Scene, SceneSettings, VisibleLines};
 
@@ -102,7 +102,7 @@ fn assert_near(found: f64, expected: f64, what: &str) {
 
 #[track_caller]
 fn closed_cut(mesh: &Mesh, plane: &SectionPlane) -> Mesh {
-    let (cut, how) = mesh.clone().section(plane, Some(0.0)).unwrap();
+    let (cut, how) = mesh.clone().section(&[*plane], Some(0.0)).unwrap();
     assert_eq!(how, Cut::Closed, "{}", plane.text());
     assert_closed(&cut, &plane.text());
     let lengths = [&cut.triangle_normals, &cut.triangles].map(Vec::len);
@@ -151,6 +151,135 @@ fn a_cylinders_and_a_tubes_section_have_the_areas_of_their_polygons() {
         let cut = closed_cut(&both(&hollow, &core), &plane("y=1.25"));
         assert_near(cap_area(&cut), area(count, 1.0) - area(count, 0.5) + area(count, 0.25), "core");
     }
+}
+
+/// Cuts by several planes, with strokes that must lie on the caps.
+#[track_caller]
+fn wedge_cut(mesh: &Mesh, planes: &[SectionPlane]) -> Mesh {
+    let (cut, how) = mesh.clone().section(planes, Some(0.05)).unwrap();
+    assert_eq!(how, Cut::Closed);
+    let hatching = &cut.curves.segments[cut.curves.segments.len() - cut.curves.hatching..];
+    assert!(!hatching.is_empty());
+    for end in hatching.as_flattened() {
+        let sides = planes.iter().map(|plane| {
+            (plane.normal.dot(cut.curves.positions[*end as usize]) - plane.offset) / plane.normal.length()
+        });
+        let nearest = sides.fold(f64::INFINITY, f64::min);
+        assert!(nearest.abs() < 1e-9, "a stroke ends {nearest} in front of all planes");
+    }
+    cut
+}
+
+#[test]
+fn several_planes_cut_away_the_part_in_front_of_all_of_them() {
+    let cube = prism(&square(1.0), 2.0);
+    for (x, z) in [(0.0, 0.0), (0.3, -0.4), (-0.7, 0.9)] {
+        let planes = [plane(&format!("x={x}")), plane(&format!("z={z}"))];
+        for planes in [planes, [planes[1], planes[0]]] {
+            let cut = wedge_cut(&cube, &planes);
+            assert_near(volume(&cut), 8.0 - 2.0 * (1.0 - x) * (1.0 - z), "volume");
+            assert_near(cap_area(&cut), 2.0 * (1.0 - x) + 2.0 * (1.0 - z), "area");
+            // No line where the surface goes on beside a plane.
+            let inside = |point: DVec3| point.x < x - 1e-9 || point.z < z - 1e-9;
+            let is_new = |point: DVec3| [point.x - x, point.z - z].iter().any(|side| side.abs() < 1e-9);
+            for ends in &cut.marked {
+                let ends = ends.map(|end| cut.positions[end as usize]);
+                assert!(!(ends.iter().all(|end| is_new(*end) && inside(*end))), "{ends:?}");
+            }
+        }
+        let corner = wedge_cut(&cube, &[planes[0], planes[1], plane("y=1.5")]);
+        assert_near(volume(&corner), 8.0 - 0.5 * (1.0 - x) * (1.0 - z), "a corner");
+        assert_near(cap_area(&corner), (1.0 - x) * (1.0 - z) + 0.5 * (2.0 - x - z), "its area");
+    }
+    for missing in [[plane("x=0"), plane("y=3")], [plane("y=3"), plane("x=0")], [plane("x=0.5"), plane("-x=0")]] {
+        assert_eq!(cube.clone().section(&missing, None).unwrap(), (cube.clone(), Cut::Missed));
+    }
+    let (nothing, how) = cube.section(&[plane("x=-2"), plane("y=-1")], None).unwrap();
+    assert_eq!((nothing.triangles.len(), how), (0, Cut::Gone));
+}
+
+#[test]
+fn a_plane_given_twice_is_one_and_none_cuts_nothing() {
+    let cube = prism(&square(1.0), 2.0);
+    let once = cube.clone().section(&[plane("x=0.25")], Some(0.1)).unwrap();
+    let twice = [plane("x=0.25"), plane("2,0,0=0.5")];
+    assert_eq!(cube.clone().section(&twice, Some(0.1)).unwrap(), once);
+    assert_eq!(cube.clone().section(&[], None).unwrap(), (cube, Cut::Missed));
+}
+
+#[test]
+fn several_planes_cut_a_building_far_from_the_origin() {
+    let mut cube = prism(&square(10.0), 20.0);
+    let place = DVec3::new(351_234.5, 12.25, 5_500_000.75);
+    cube.positions.iter_mut().for_each(|position| *position += place);
+    for (x, z) in [(0.3, 0.7), (-3.1, 5.9)] {
+        let plane = |normal: DVec3, at: f64| SectionPlane { normal, offset: normal.dot(place) + at, is_of_file: false };
+        let tilted = DVec3::new(1.0, 0.2, 0.1).normalize();
+        let (cut, how) = cube.clone().section(&[plane(tilted, x), plane(DVec3::Z, z)], Some(1.0)).unwrap();
+        assert_eq!(how, Cut::Closed);
+        assert_closed(&cut, "far");
+    }
+}
+
+#[test]
+fn a_curve_that_begins_on_a_plane_and_lies_behind_another_stays_whole() {
+    let curves = Curves {
+        positions: vec![DVec3::new(0.0, 1.0, -0.5), DVec3::new(0.5, 1.0, -0.5)],
+        file_vertices: vec![100, 101],
+        segments: vec![[0, 1]],
+        ..Curves::default()
+    };
+    let mesh = Mesh { curves, ..prism(&square(1.0), 2.0) };
+    let (cut, _) = mesh.section(&[plane("x=0"), plane("z=0")], Some(0.0)).unwrap();
+    let ends: Vec<[DVec3; 2]> =
+        cut.curves.segments.iter().map(|ends| ends.map(|end| cut.curves.positions[end as usize])).collect();
+    let length: f64 = ends.iter().map(|[a, b]| a.distance(*b)).sum();
+    assert_near(length, 0.5, "length");
+}
+
+#[test]
+fn of_a_sphere_and_a_hollow_several_planes_cut_away_the_part_in_front_of_all() {
+    let mut numbers = Random::seeded(7);
+    let mut random = || numbers.signed();
+    let shell = both(&sphere(12, 17), &{
+        let mut inside = sphere(9, 11);
+        inside.positions.iter_mut().for_each(|it| *it *= 0.5);
+        inside.triangles.iter_mut().for_each(|it| it.swap(0, 1));
+        inside
+    });
+    let whole = volume(&shell);
+    let mut compared = 0;
+    for round in 0..100 {
+        let planes: Vec<SectionPlane> = (0..2 + round % 2)
+            .map(|_| SectionPlane {
+                normal: DVec3::new(random(), random(), random()),
+                offset: 0.2 * random(),
+                is_of_file: false,
+            })
+            .collect();
+        let (cut, how) = shell.clone().section(&planes, Some(0.0)).unwrap();
+        // One plane after the other: such a cut through an older cut's cap may stay open, and its volume is none.
+        let mut front = shell.clone();
+        let hows: Vec<Cut> = planes
+            .iter()
+            .map(|plane| {
+                let back = SectionPlane { normal: -plane.normal, offset: -plane.offset, ..*plane };
+                let how;
+                (front, how) = std::mem::replace(&mut front, sphere(2, 3)).section(&[back], Some(0.0)).unwrap();
+                how
+            })
+            .collect();
+        let is_missed = front.triangles.is_empty();
+        assert_eq!(how, if is_missed { Cut::Missed } else { Cut::Closed }, "{planes:?}");
+        if !hows.contains(&Cut::Open) {
+            compared += 1;
+            assert_near(volume(&cut), whole - volume(&front), "volume");
+        }
+        if planes.len() == 2 {
+            assert_closed(&cut, &format!("{planes:?}"));
+        }
+    }
+    assert!(compared > 70, "{compared}");
 }
 
 #[test]
@@ -206,10 +335,10 @@ fn planes_through_vertices_edges_and_faces_cut_too() {
 fn a_plane_that_meets_nothing_changes_nothing_and_one_that_leaves_nothing_is_refused() {
     let cube = prism(&square(1.0), 2.0);
     for text in ["y=2", "y=3", "-x=1", "1,1,1=9"] {
-        assert_eq!(cube.clone().section(&plane(text), Some(0.0)).unwrap(), (cube.clone(), Cut::Missed), "{text}");
+        assert_eq!(cube.clone().section(&[plane(text)], Some(0.0)).unwrap(), (cube.clone(), Cut::Missed), "{text}");
     }
     for text in ["y=-1", "-y=-2.5"] {
-        let (nothing, cut) = cube.clone().section(&plane(text), Some(0.0)).unwrap();
+        let (nothing, cut) = cube.clone().section(&[plane(text)], Some(0.0)).unwrap();
         assert_eq!((nothing.triangles.len(), cut), (0, Cut::Gone), "{text}");
         let settings = SceneSettings::default();
         let error = Scene::new([nothing.clone()], &settings).unwrap_err().to_string();
@@ -226,7 +355,7 @@ fn an_open_surface_is_cut_and_has_no_cap() {
     cube.triangles.remove(8);
     cube.triangle_normals.remove(8);
     cube.file_faces.remove(8);
-    let (cut, how) = cube.section(&plane("y=1"), Some(0.0)).unwrap();
+    let (cut, how) = cube.section(&[plane("y=1")], Some(0.0)).unwrap();
     assert_eq!((how, cap_area(&cut)), (Cut::Open, 0.0));
     assert!(cut.positions.iter().all(|position| position.y <= 1.0));
 }
@@ -236,7 +365,7 @@ fn curves_end_at_the_plane_and_points_beyond_it_go_with_their_labels() {
     let curves = [vec![-DVec3::X, DVec3::X * 3.0, DVec3::Y]];
     let points = [DVec3::X * 2.0, DVec3::ZERO];
     let mesh = Mesh::of_curves("c", &curves, &points, &["far", "near"], &LoadOptions::default()).unwrap();
-    let (cut, _) = mesh.section(&plane("x=1"), Some(0.0)).unwrap();
+    let (cut, _) = mesh.section(&[plane("x=1")], Some(0.0)).unwrap();
     let Curves { positions, segments, points, labels, .. } = &cut.curves;
     assert_eq!(segments.len(), 2);
     let highest = positions.iter().map(|it| it.x).fold(f64::MIN, f64::max);
@@ -254,7 +383,7 @@ fn planes_are_written_as_they_are_read_and_others_are_refused() {
         assert!(SectionPlane::parse(text).is_err(), "{text}");
     }
     let nan = SectionPlane { normal: DVec3::NAN, offset: 0.0, is_of_file: false };
-    assert!(prism(&square(1.0), 2.0).section(&nan, Some(0.0)).unwrap_err().to_string().starts_with("section"));
+    assert!(prism(&square(1.0), 2.0).section(&[nan], Some(0.0)).unwrap_err().to_string().starts_with("section"));
 }
 
 #[test]
@@ -262,7 +391,7 @@ fn the_lines_of_the_cut_are_the_sections() {
     let mut parts_seen = 0;
     for text in ["y=0.5", "x=0.25", "1,1,0=0.75", "z=-0.5"] {
         let plane = plane(text);
-        let (mesh, cut) = prism(&square(1.0), 1.0).section(&plane, Some(0.0)).unwrap();
+        let (mesh, cut) = prism(&square(1.0), 1.0).section(&[plane], Some(0.0)).unwrap();
         assert_eq!(cut, Cut::Closed, "{text}");
         for view in ["30,20", "-60,-15", "200,40"] {
             let camera = CameraSettings { view: view.parse().unwrap(), ..CameraSettings::default() };
@@ -297,7 +426,8 @@ fn a_cut_in_the_axes_of_the_file_is_turned_with_it_and_hatched() {
     };
     let text = format!("solid t\n{}endsolid t\n", facets.iter().map(facet).collect::<String>());
     let read = |section: &str, section_hatch: Option<f64>| {
-        let options = LoadOptions { section: Some(plane(section)), section_hatch, ..LoadOptions::default() };
+        let options =
+            LoadOptions { section: Some(SectionPlanes(vec![plane(section)])), section_hatch, ..LoadOptions::default() };
         read_bytes(text.as_bytes(), "t.stl", &[], &options).unwrap().mesh
     };
     let top = |mesh: &Mesh| mesh.positions.iter().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max);

@@ -27,6 +27,8 @@ pub(super) struct Cutter {
     is_outside: Vec<bool>,
     /// The faces kept, each with the face of the mesh that it is or is cut from.
     faces: Vec<Face>,
+    /// Whether the parts in front are kept, too.
+    keeps_front: bool,
 }
 
 /// A kept face.
@@ -42,16 +44,17 @@ struct Face {
 }
 
 /// A side in the plane at which a solid is open, and the face of the mesh that ends there.
-struct OpenSide {
-    ends: [u32; 2],
-    from: u32,
+#[derive(Clone, Copy)]
+pub(super) struct OpenSide {
+    pub(super) ends: [u32; 2],
+    pub(super) from: u32,
 }
 
 /// A corner of a face: position, normal, texture coordinate.
 type Corner = [u32; 3];
 
 impl Cutter {
-    pub(super) fn new(mesh: &Mesh, sides: Vec<f64>) -> Self {
+    pub(super) fn new(mesh: &Mesh, sides: Vec<f64>, keeps_front: bool) -> Self {
         let highest = |numbers: &[u32]| numbers.iter().max().map_or(0, |highest| highest + 1);
         let count = mesh.triangles.len();
         let shells = Shells::of(mesh);
@@ -66,10 +69,11 @@ impl Cutter {
             normals_on_edges: HashMap::new(),
             coordinates_on_edges: HashMap::new(),
             faces: Vec::new(),
+            keeps_front,
         }
     }
 
-    /// Keeps the faces behind the plane, and the parts behind it of those that it crosses. Of the faces in it those stay that look
+    /// Keeps the faces behind the plane, and the parts behind it of those that it crosses; all parts if those in front are kept. Of the faces in it those stay that look
     /// to its front: they close the solid behind it.
     pub(super) fn clip_faces(&mut self, normal: DVec3) {
         for face in 0..self.mesh.triangles.len() {
@@ -79,16 +83,18 @@ impl Cutter {
             let corners: [Corner; 3] = [0, 1, 2].map(|at| [positions[at], normals[at], coordinates[at]]);
             let sides = positions.map(|position| self.sides[position as usize]);
             let is_in_plane = sides.iter().all(|side| *side == 0.0);
-            let looks_to_front = || {
-                let [a, b, c] = positions.map(|position| self.mesh.positions[position as usize]);
-                ((b - a).cross(c - a).dot(normal) > 0.0) == self.is_outside[face]
-            };
-            let mut kept: Vec<Corner> = Vec::with_capacity(4);
             if is_in_plane {
-                if looks_to_front() {
-                    kept.extend(corners);
+                if self.keeps_front || self.looks_to(face, normal) {
+                    self.keep(face, &corners);
                 }
-            } else if sides.iter().any(|side| *side < 0.0) {
+                continue;
+            }
+            let ways: &[f64] = if self.keeps_front { &[1.0, -1.0] } else { &[1.0] };
+            for sides in ways.iter().map(|way| sides.map(|side| side * way)) {
+                if sides.iter().all(|side| *side >= 0.0) {
+                    continue;
+                }
+                let mut kept: Vec<Corner> = Vec::with_capacity(4);
                 for at in 0..3 {
                     let next = (at + 1) % 3;
                     if sides[at] <= 0.0 {
@@ -98,13 +104,57 @@ impl Cutter {
                         kept.push(self.between(corners[at], corners[next]));
                     }
                 }
+                self.keep(face, &kept);
             }
-            for last in 2..kept.len() {
-                let [a, b, c] = [kept[0], kept[last - 1], kept[last]];
-                let of = |kind: usize| [a[kind], b[kind], c[kind]];
-                let (positions, normals, coordinates) = (of(0), of(1), of(2));
-                self.faces.push(Face { positions, normals, coordinates, from: face as u32, cap: None });
-            }
+        }
+    }
+
+    /// Whether a face's outside looks the way of a normal.
+    pub(super) fn looks_to(&self, face: usize, normal: DVec3) -> bool {
+        let [a, b, c] = self.corners(face).map(|corner| self.position(corner));
+        ((b - a).cross(c - a).dot(normal) > 0.0) == self.is_outside[face]
+    }
+
+    pub(super) fn face_count(&self) -> usize {
+        self.mesh.triangles.len()
+    }
+
+    pub(super) fn corners(&self, face: usize) -> [u32; 3] {
+        self.mesh.triangles[face]
+    }
+
+    pub(super) fn position(&self, number: u32) -> DVec3 {
+        self.mesh.positions[number as usize]
+    }
+
+    /// Adds a position in a plane.
+    pub(super) fn add_position(&mut self, position: DVec3) -> u32 {
+        self.mesh.positions.push(position);
+        self.mesh.file_vertices.push(self.next_vertex);
+        self.next_vertex += 1;
+        self.sides.push(0.0);
+        if !self.mesh.position_colors.is_empty() {
+            self.mesh.position_colors.push([1.0; 3]);
+        }
+        self.mesh.positions.len() as u32 - 1
+    }
+
+    /// Keeps a face as it is.
+    pub(super) fn keep_whole(&mut self, face: usize) {
+        let mesh = &self.mesh;
+        let positions = mesh.triangles[face];
+        let normals = mesh.triangle_normals.get(face).copied().unwrap_or([NONE; 3]);
+        let coordinates = mesh.triangle_texture_coordinates.get(face).copied().unwrap_or([NONE; 3]);
+        self.faces.push(Face { positions, normals, coordinates, from: face as u32, cap: None });
+    }
+
+    /// Keeps a convex polygon of a face.
+    fn keep(&mut self, face: usize, corners: &[Corner]) {
+        for last in 2..corners.len() {
+            let [a, b, c] = [corners[0], corners[last - 1], corners[last]];
+            let of = |kind: usize| [a[kind], b[kind], c[kind]];
+            let (positions, normals, coordinates) = (of(0), of(1), of(2));
+            self.faces.push(Face { positions, normals, coordinates, from: face as u32, cap: None });
         }
     }
 
@@ -150,12 +200,17 @@ impl Cutter {
     }
 
     /// Adds the caps; returns whether they close the whole cut, and the strokes that hatch it at this spacing, 0 for none.
-    pub(super) fn close(&mut self, normal: DVec3, spacing: f64) -> (bool, Vec<[DVec3; 2]>) {
+    pub(super) fn close(
+        &mut self,
+        open: BTreeMap<u32, Vec<OpenSide>>,
+        normal: DVec3,
+        spacing: f64,
+    ) -> (bool, Vec<[DVec3; 2]>) {
         // Strokes rise to the right where the cut stands upright.
         let [up, across] = upright(normal);
         let mut is_closed = true;
         let mut strokes = Vec::new();
-        for (number, (_, sides)) in self.open_sides().into_iter().enumerate() {
+        for (number, (_, sides)) in open.into_iter().enumerate() {
             let origin = self.mesh.positions[sides[0].ends[0] as usize];
             let in_plane = |position: u32| {
                 let point = self.mesh.positions[position as usize] - origin;
@@ -182,7 +237,7 @@ impl Cutter {
 
     /// The sides in the plane at which each solid is open, the way its caps run along them: with the solid at their left, seen from
     /// the plane's front. Faces of no solid come last.
-    fn open_sides(&self) -> BTreeMap<u32, Vec<OpenSide>> {
+    pub(super) fn open_sides(&self) -> BTreeMap<u32, Vec<OpenSide>> {
         let mut open: HashMap<(u32, [u32; 2]), Vec<u32>> = HashMap::new();
         let mut order = Vec::new();
         for face in &self.faces {
@@ -225,15 +280,18 @@ impl Cutter {
 
     /// The mesh of the faces kept.
     pub(super) fn finished(self, old: &Mesh, curves: Curves) -> Mesh {
-        let Self { mut mesh, faces, on_edges, sides, .. } = self;
+        let Self { mut mesh, faces, on_edges, sides, keeps_front, .. } = self;
         let mut number = vec![NONE; mesh.positions.len()];
         faces.iter().flat_map(|face| face.positions).for_each(|position| number[position as usize] = 0);
         let kept: Vec<u32> = (0..number.len() as u32).filter(|position| number[*position as usize] == 0).collect();
         kept.iter().enumerate().for_each(|(at, position)| number[*position as usize] = at as u32);
-        let behind = |position: u32| sides[position as usize] <= 0.0;
-        let marked = mesh.marked.iter().filter_map(|[a, b]| match on_edges.get(&[*a, *b]) {
-            Some(middle) => Some([if behind(*a) { *a } else { *b }, *middle]),
-            None => (behind(*a) && behind(*b)).then_some([*a, *b]),
+        let is_kept = |position: u32| keeps_front || sides[position as usize] <= 0.0;
+        let marked = mesh.marked.iter().flat_map(|[a, b]| {
+            let parts = match on_edges.get(&[*a, *b]) {
+                Some(middle) => vec![[*a, *middle], [*middle, *b]],
+                None => vec![[*a, *b]],
+            };
+            parts.into_iter().filter(|[a, b]| is_kept(*a) && is_kept(*b))
         });
         let marked = marked.map(|ends| ends.map(|end| number[end as usize])).filter(|ends| !ends.contains(&NONE));
         let mut marked: Vec<[u32; 2]> = marked.map(|[a, b]| [a.min(b), a.max(b)]).collect();

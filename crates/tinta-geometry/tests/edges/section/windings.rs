@@ -195,7 +195,7 @@ fn areas_of_cuts_are_those_of_slices_whichever_way_500_solids_are_wound() {
         let (low, high) = mesh.bounds();
         let tolerance = (high - low).length() * 1e-11;
         let right: f64 = shells.iter().map(|shell| shell.slice(&plane, tolerance)).sum();
-        let (cut, how) = mesh.section(&plane, Some(0.0)).unwrap();
+        let (cut, how) = mesh.section(&[plane], Some(0.0)).unwrap();
         if how == Cut::Missed || how == Cut::Gone {
             assert!(how == Cut::Missed || right.abs() < 1e-6, "{number}: {right}");
             continue;
@@ -236,7 +236,7 @@ fn a_box_and_a_hollow_one_are_closed_alike_inwards_and_outwards() {
     ];
     for (what, shells, right) in cases {
         let mesh = shells.iter().map(Shell::mesh).reduce(|all, next| both(&all, &next)).unwrap();
-        let (mut cut, how) = mesh.section(&plane, Some(0.0)).unwrap();
+        let (mut cut, how) = mesh.section(&[plane], Some(0.0)).unwrap();
         assert_eq!((in_plane(&cut, &plane, 1e-10), how), ((right, false), Cut::Closed), "{what}");
         // A cap is wound as its shell is: a shell of one winding stays one.
         if shells.len() == 1 {
@@ -247,7 +247,7 @@ fn a_box_and_a_hollow_one_are_closed_alike_inwards_and_outwards() {
             cut = shells.iter().map(Shell::mesh).reduce(|all, next| both(&all, &next)).unwrap();
             cut.parts = ["block", "insert"].map(|name| NamedPart { name: name.to_owned(), within: u32::MAX }).to_vec();
             cut.triangle_parts = [vec![0; shells[0].1.len()], vec![1; shells[1].1.len()]].concat();
-            let (cut, _) = cut.section(&plane, Some(0.0)).unwrap();
+            let (cut, _) = cut.section(&[plane], Some(0.0)).unwrap();
             assert_eq!(in_plane(&cut, &plane, 1e-10), (20.0, false), "two parts");
         }
     }
@@ -265,7 +265,7 @@ fn boxes_that_touch_in_an_edge_or_a_face_are_closed_each() {
                 .zip(turns)
                 .map(|(shell, turned)| if turned != is_turned { shell.reversed() } else { shell });
             let mesh = wound.map(|shell| shell.mesh()).reduce(|all, next| both(&all, &next)).unwrap();
-            let (cut, how) = mesh.section(&plane, Some(0.0)).unwrap();
+            let (cut, how) = mesh.section(&[plane], Some(0.0)).unwrap();
             assert_eq!((in_plane(&cut, &plane, 1e-10), how), ((8.0, false), Cut::Closed), "{by} {is_turned}");
         }
     }
@@ -284,7 +284,7 @@ fn a_cut_through_the_corner_of_a_hole_and_one_of_an_open_box_wound_inwards_close
     for offset in [0.999, 1.0, 1.001] {
         let plane = SectionPlane { normal: DVec3::new(1.0, 1.0, 0.0), offset, is_of_file: false };
         for mesh in [shell.mesh(), shell.clone().reversed().mesh()] {
-            let (cut, how) = mesh.section(&plane, Some(0.0)).unwrap();
+            let (cut, how) = mesh.section(&[plane], Some(0.0)).unwrap();
             let (area, is_open) = in_plane(&cut, &plane, 1e-10);
             assert_eq!((how, is_open), (Cut::Closed, false), "{offset}");
             super::assert_near(area, shell.slice(&plane, 1e-10).abs(), "area");
@@ -293,6 +293,6 @@ fn a_cut_through_the_corner_of_a_hole_and_one_of_an_open_box_wound_inwards_close
     let mut open = block(-1.0, 1.0).reversed();
     open.1.retain(|triangle| !triangle.iter().all(|corner| open.0[*corner as usize].y < 0.0));
     let (cut, how) =
-        open.mesh().section(&SectionPlane { normal: DVec3::Y, offset: 0.5, is_of_file: false }, Some(0.0)).unwrap();
+        open.mesh().section(&[SectionPlane { normal: DVec3::Y, offset: 0.5, is_of_file: false }], Some(0.0)).unwrap();
     assert_eq!((super::cap_area(&cut), how), (4.0, Cut::Closed), "open elsewhere");
 }
