@@ -6,9 +6,10 @@
 
 use super::{Ground, Request};
 use crate::camera::View;
+use crate::edges::Class;
 use crate::error::Result;
-use crate::lines::{DrawingSettings, LineSettings, ground_light, lit_scene};
-use crate::mesh::{LoadOptions, Mesh};
+use crate::lines::{DrawingSettings, LineSettings, PartRules, ground_light, lit_scene};
+use crate::mesh::{LoadOptions, Mesh, Normals};
 use crate::scene::{Scene, SceneSettings};
 use crate::settings::{HasSettings, OptionValue, Options, Value as _};
 use crate::styles::{Below, Contents, FarLight, Show};
@@ -37,14 +38,17 @@ pub struct Resolved {
 }
 
 impl Request {
-    /// The contents of the drawing, in a file of pixels or of vectors. A style without vectors is pixels in both.
+    /// The contents of the drawing, in a file of pixels or of vectors. A style without vectors is pixels in both; strokes that stand
+    /// for tones are those of the vectors in both.
     ///
     /// # Errors
     ///
     /// Those of the options of lines and of drawings.
     pub fn contents(&self, as_vectors: bool) -> Result<Contents> {
         let draws_lines = self.style.style_name().draws_lines();
-        let vectors = self.style.vectors(self.scene.size).filter(|_| as_vectors || draws_lines);
+        let has_strokes = |spacing: &OptionValue| self.show == Show::Final && *spacing != OptionValue::text("none");
+        let is_exact = as_vectors || draws_lines || self.options.get("hatch").is_some_and(has_strokes);
+        let vectors = self.style.vectors(self.scene.size).filter(|_| is_exact);
         let mut contents = vectors.unwrap_or_else(|| Contents {
             below: Below::Passes(Box::new(self.style.clone())),
             lines: None,
@@ -71,19 +75,23 @@ impl Request {
         contents.check().map(|()| contents)
     }
 
-    /// How the models are read: with a cut's strokes as far apart on paper as they should be, if the drawing is to scale.
-    pub(super) fn read_to_scale(&self) -> Result<Cow<'_, LoadOptions>> {
-        let spacing = match (self.read.section, self.read.section_hatch) {
-            (Some(_), None) => {
-                let drawing = self.contents(true)?.drawing;
-                drawing.scale.map(|scale| scale.of_model(HATCHING_MM, drawing.units))
+    /// How the models are read: with a cut's strokes as far apart on paper as they should be, if the drawing is to scale; and with
+    /// the normals that take no time where no step reads them.
+    pub(super) fn load_options(&self) -> Result<Cow<'_, LoadOptions>> {
+        let mut read = Cow::Borrowed(&self.read);
+        if self.read.section.is_some() && self.read.section_hatch.is_none() {
+            let drawing = self.contents(true)?.drawing;
+            if let Some(scale) = drawing.scale {
+                read.to_mut().section_hatch = Some(scale.of_model(HATCHING_MM, drawing.units));
             }
-            _ => None,
+        }
+        let reads_none = |lines: &LineSettings| {
+            !lines.creases_by_normals && !lines.classes.contains(Class::Normal) && lines.parts == PartRules::default()
         };
-        Ok(match spacing {
-            Some(_) => Cow::Owned(LoadOptions { section_hatch: spacing, ..self.read.clone() }),
-            None => Cow::Borrowed(&self.read),
-        })
+        if self.style.lines().is_some_and(|style| reads_none(&style.lines)) {
+            read.to_mut().normals = Normals::Flat;
+        }
+        Ok(read)
     }
 
     /// Resolves a still picture of these models.
@@ -262,6 +270,18 @@ mod tests {
         assert_eq!(second.request.options, again.options);
         assert_eq!(first.scene.objects[0].mesh.normals, second.scene.objects[0].mesh.normals);
         assert_eq!(first.plan().unwrap().passes, second.plan().unwrap().passes);
+    }
+
+    #[test]
+    fn lines_read_no_normals_but_where_a_class_is_of_them() {
+        let normals = |classes: &str, parts: &str| {
+            let options = [("style", "lines"), ("classes", classes), ("part", parts), ("normals", "lasting")];
+            let options = options.map(|(name, value)| (name.to_owned(), OptionValue::text(value)));
+            Request::from_given(&options.into_iter().collect()).unwrap().load_options().unwrap().normals
+        };
+        assert_eq!(normals("crease", "none"), Normals::Flat);
+        assert_eq!(normals("crease,normal", "none"), Normals::Lasting);
+        assert_eq!(normals("crease", "*: classes=normal"), Normals::Lasting);
     }
 
     #[test]

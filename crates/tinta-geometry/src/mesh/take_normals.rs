@@ -36,7 +36,11 @@ impl Mesh {
             Normals::File | Normals::Checked => (file_normals, all),
             Normals::Smooth => (&[], all),
             Normals::Lasting => (file_normals, lasting),
-            Normals::Flat => (&[], Splitting { cos_smooth: 2.0, ..all }),
+            Normals::Flat => {
+                self.normals = face_normals.iter().map(|normal| normal.as_vec3()).collect();
+                self.triangle_normals = (0..self.triangles.len() as u32).map(|face| [face; 3]).collect();
+                return;
+            }
             Normals::Dachsbacher => {
                 self.normals = normals::one_a_position(self.positions.len(), &self.triangles, face_normals);
                 self.triangle_normals.clone_from(&self.triangles);

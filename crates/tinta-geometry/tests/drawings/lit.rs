@@ -148,8 +148,35 @@ fn a_small_round_part_keeps_the_tones_that_are_a_large_part_of_it() {
     let small = Mesh { positions: round.positions.iter().map(|p| 0.025 * *p + DVec3::Z * 0.5).collect(), ..round };
     let light = [-1.0f32, 0.3, 0.6];
     let scene = seen_all([sheet(1, |_, _| 0.0), small.clone()], "0,0");
-    let lit = lit_scene(scene, Some(light), THRESHOLDS).0;
-    assert_eq!(lit.objects[1].mesh.normals, small.normals);
+    let lit = lit_scene(scene.clone(), Some(light), THRESHOLDS).0;
+    let light = light.map(f64::from);
+    assert_eq!(shares(&toned(&lit, light)), shares(&toned(&scene, light)));
+}
+
+/// A pixel is mixed by how far its light is from a threshold and how fast light changes there.
+#[test]
+fn light_keeps_away_from_thresholds_at_corners_where_no_border_of_tones_is() {
+    let mesh = sheet(120, |x, y| 0.08 * (9.0 * x).sin() * (7.0 * y).cos());
+    let light = [-0.5f32, 0.65, 0.6];
+    let lit = lit_scene(seen(mesh, "0,0"), Some(light), THRESHOLDS).0;
+    let mesh = &lit.objects[0].mesh;
+    let light = glam::Vec3::from_array(light).normalize();
+    let lights: Vec<f64> = mesh.normals.iter().map(|normal| f64::from(normal.dot(light))).collect();
+    let mut borders = 0;
+    for threshold in THRESHOLDS {
+        let mut at_border = vec![false; lights.len()];
+        for corners in &mesh.triangle_normals {
+            let is_above = corners.map(|corner| lights[corner as usize] >= threshold);
+            if is_above != [is_above[0]; 3] {
+                corners.iter().for_each(|corner| at_border[*corner as usize] = true);
+            }
+        }
+        let used = || mesh.triangle_normals.as_flattened().iter().map(|corner| *corner as usize);
+        let near = used().filter(|corner| !at_border[*corner] && (lights[*corner] - threshold).abs() < 0.0199).count();
+        assert_eq!(near, 0, "{threshold}");
+        borders += used().filter(|corner| at_border[*corner]).count();
+    }
+    assert!(borders > 100, "{borders}");
 }
 
 #[test]

@@ -15,7 +15,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// The lights to choose from, the preferred first: directions in the eye's space, from above, from the left or the right.
-const LIGHTS: [[f32; 3]; 8] = [
+pub const LIGHTS: [[f32; 3]; 8] = [
     [-0.4, 1.0, 0.6],
     [-0.45, 0.8, 0.8],
     [-0.5, 0.65, 1.0],
@@ -75,6 +75,7 @@ pub fn lit_scene(scene: Scene, light: Option<[f32; 3]>, thresholds: [f64; 2]) ->
         for threshold in thresholds.into_iter().filter(|threshold| *threshold <= 1.0) {
             corners.flatten(&samples, threshold);
         }
+        thresholds.into_iter().for_each(|threshold| corners.clear_borderless(threshold, thresholds));
         corners.applied(object, space.world_direction(light))
     };
     let objects = scene.objects.iter().zip(samples).map(lit).collect();
@@ -295,6 +296,27 @@ impl LitCorners {
             return is_small;
         }
         (0..is_small.len() as u32).map(|corner| is_in(corner) && is_small[patches.sets.root(corner) as usize]).collect()
+    }
+
+    /// Moves the light away from a threshold in faces without a border of tones around corners: a pixel beside the threshold is
+    /// mixed, and would show a border where none is. No tone changes.
+    fn clear_borderless(&mut self, threshold: f64, [dark, middle]: [f64; 2]) {
+        let clearance = CLEARANCE.min((middle - dark) * 0.5);
+        let mut has_border = vec![false; self.light.len()];
+        for corners in &self.of_corners {
+            let is_above = corners.map(|corner| self.light[corner as usize] >= threshold);
+            if is_above != [is_above[0]; 3] {
+                corners.iter().for_each(|corner| has_border[*corner as usize] = true);
+            }
+        }
+        for (is_above, light) in [(true, threshold + clearance), (false, threshold - clearance)] {
+            let is_near = |corner: usize| {
+                let own = self.light[corner];
+                !has_border[corner] && (own >= threshold) == is_above && (own - threshold).abs() < clearance
+            };
+            let near: Vec<bool> = (0..has_border.len()).map(is_near).collect();
+            self.moved(&near, light);
+        }
     }
 
     /// Gives corners this light.
