@@ -137,6 +137,17 @@ class EmptyPart:
         return []
 
 
+def test_a_data_set_of_vtk_with_the_same_methods_is_no_part():
+    """As PyVista's, which can tessellate and have a bounding box."""
+
+    class DataSet(EmptyPart):
+        def IsA(self, name):
+            return False
+
+    with pytest.raises(TypeError, match="mesh: give vertices and faces, .*, not DataSet"):
+        tn.lines(DataSet())
+
+
 def test_an_empty_part_is_refused_in_a_sentence():
     with pytest.raises(ValueError, match="mesh: this object has no face; make a solid"):
         tn.lines(EmptyPart())

@@ -205,7 +205,7 @@ class TestPyVista:
         assert (~lines.visible[lines.cls == "point"]).sum() == 1
         ends = lines.segments[lines.cls == "curve"].reshape(-1, 2)
         assert np.abs(ends - lines.project((0.1, 0.1, 2))).sum(axis=1).min() < 1e-3, "the wireframe has its actor's place"
-        assert set(lines.object[lines.cls == "curve"].tolist()) == {1}
+        assert set(lines.object[lines.cls == "curve"].tolist()) == {1, 2}, "an object for each colour"
         plotter.close()
 
     def test_without_a_surface_curves_and_points_are_a_scene(self):
@@ -228,6 +228,79 @@ class TestPyVista:
         with open("edges.svg") as file:
             text = file.read()
         assert "visible-marked" in text and ("#d2b48c" in text) == is_filled
+        plotter.close()
+
+    def layers(self, plotter, **settings):
+        """The colour and width of each visible layer of curves and points."""
+        layers = tn.pv.lines(plotter, **settings).layers()
+        return {(layer["name"], tuple(round(255 * part) for part in layer["color"]), layer["width"]) for layer in layers if layer["name"] in ("curve", "point")}
+
+    def test_curves_and_points_have_their_actors_colours_and_sizes(self):
+        plotter = self.scene()
+        plotter.add_mesh(self.pv.Line((-1, 0, 1), (1, 0, 1)), color="red", line_width=3)
+        plotter.add_mesh(self.pv.PolyData(np.array([(-1, 1, 1), (1, 1, 1.0)]), lines=[2, 0, 1]))
+        plotter.add_points(np.array([(0, 0, 1.5)]), color="navy", point_size=10)
+        plotter.add_mesh(self.pv.Plane(center=(0, 0, 2)), style="wireframe", color="green")
+        red, navy, green, black = (255, 0, 0), (0, 0, 128), (0, 128, 0), (0, 0, 0)
+        assert self.layers(plotter) == {("curve", red, 3), ("curve", black, 2), ("curve", green, 2), ("point", navy, 10)}
+        # Settings for all curves replace the actors'.
+        green_curves = {"class_colors": {"curve": "green"}, "line_width": 4}
+        assert self.layers(plotter, **green_curves) == {("curve", green, 4), ("point", black, 8)}
+        for part in ({"curves 1": {"color": "green"}}, "curves 1: color=green", ["curves 1: color=green"]):
+            found = self.layers(plotter, part=part)
+            assert ("curve", green, 3) in found and ("point", navy, 10) in found, "a given rule is the stronger one"
+        tn.pv.export_svg(plotter, "styles.svg", fill=True)
+        with open("styles.svg") as file:
+            text = file.read()
+        assert 'stroke="#ff0000" stroke-width="3"' in text and 'stroke="#000080" stroke-width="10"' in text
+        plotter.close()
+
+    def test_curves_and_points_have_the_colours_of_their_scalars(self):
+        plotter = self.scene()
+        line = self.pv.Line((-1, 0, 2), (1, 0, 2), resolution=4)
+        line["x"] = line.points[:, 0]
+        plotter.add_mesh(line, cmap=["blue", "red"], n_colors=2)
+        dots = self.pv.PolyData(np.array([(0, 0, 1.0), (0, 0, 1.5)]))
+        dots["colour"] = np.array([(255, 0, 0), (0, 255, 0)], dtype=np.uint8)
+        plotter.add_mesh(dots, scalars="colour", rgb=True)
+        red, green, blue = (255, 0, 0), (0, 255, 0), (0, 0, 255)
+        found = self.layers(plotter)
+        assert {color for name, color, _ in found if name == "curve"} >= {red, blue}
+        assert {color for name, color, _ in found if name == "point"} == {red, green}
+        # Cells have theirs, too, also behind vertices.
+        cells = self.pv.PolyData(np.eye(3), lines=[2, 0, 1, 2, 1, 2], verts=[1, 0])
+        cells.cell_data["value"] = [1.0, 0.0, 1.0]
+        other = self.pv.Plotter(off_screen=True)
+        other.add_mesh(cells, cmap=["blue", "red"])
+        assert self.layers(other) == {("curve", blue, 2), ("curve", red, 2), ("point", red, 4)}
+        other.close()
+        plotter.close()
+
+    def test_actors_of_one_colour_are_filled_as_a_whole(self):
+        plotter = self.scene()
+        plotter.add_mesh(self.pv.Cube(center=(0.4, 0, 1)), color="red")
+        tn.pv.export_svg(plotter, "plain.svg", fill=True)
+        with open("plain.svg") as file:
+            text = file.read()
+        assert text.count('<path fill="#') == 2, "one for each cube, not for each face"
+        assert 'fill="#d2b48c"' in text and 'fill="#ff0000"' in text
+        plotter.close()
+
+    def test_a_dot_with_a_label_has_the_colour_of_its_points(self):
+        plotter = self.scene()
+        plotter.add_point_labels(np.array([(0, 0, 1.0), (1, 0, 1)]), ["above", "aside"], point_color="red", point_size=12)
+        lines = tn.pv.lines(plotter)
+        assert lines.counts["point"] == 2 and [label["text"] for label in lines.labels] == ["above", "aside"]
+        assert self.layers(plotter) == {("point", (255, 0, 0), 12)}
+        plotter.close()
+
+    def test_several_views_have_one_style_with_a_warning(self):
+        plotter = self.pv.Plotter(off_screen=True, window_size=(400, 300), shape=(1, 2))
+        plotter.add_mesh(self.pv.Line(), color="red")
+        plotter.subplot(0, 1)
+        plotter.add_mesh(self.pv.Cube())
+        with pytest.warns(UserWarning, match="curves and points lose their colours and sizes"):
+            tn.pv.export_svg(plotter, "two.svg")
         plotter.close()
 
     def test_texts_labels_and_legends_are_written(self):

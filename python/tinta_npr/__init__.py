@@ -47,8 +47,8 @@ def mesh(mesh, faces=None, *, name=None, tolerance=None, **settings):
     Parameters
     ----------
     mesh : array_like (N, 3), (vertices, faces), path or object
-        Vertices in units of your choice; or a model file (OBJ, PLY, STL, MD2, 3DS, glTF, and those that an installed meshio,
-        PyVista or trimesh reads) or ``"builtin:bust"``; or an object with ``vertices`` and ``faces`` (trimesh) or ``triangles`` (Open3D),
+        Vertices in units of your choice; or a model file (FORMATS,
+        and those that an installed meshio, PyVista or trimesh reads) or ``"builtin:bust"``; or an object with ``vertices`` and ``faces`` (trimesh) or ``triangles`` (Open3D),
         or with ``points`` and cells (PyVista, meshio), or a data set of VTK; or a part or an assembly of build123d or CadQuery, which is
         read z-up and whose edges are of class ``"marked"``.
     faces : array_like (M, k) of int, or a list of lists, optional
@@ -314,6 +314,7 @@ def _with_settings(function, name):
     function.__signature__ = signature.replace(parameters=own + settings)
     # Newer Pythons store a docstring without its indentation.
     if "\nSettings\n" in (document := _inspect.cleandoc(function.__doc__)):
+        document = document.replace("FORMATS", ", ".join(_native.names("format")))
         function.__doc__ = document.rstrip() + "\n" + _documentation_of(name)
 
 

@@ -32,8 +32,9 @@ def is_among(things):
 
 
 def _is_shape(thing):
-    # An empty part of build123d refuses to say what it wraps.
-    return hasattr(thing, "tessellate") and (hasattr(thing, "bounding_box") or hasattr(thing, "BoundingBox"))
+    # An empty part of build123d refuses to say what it wraps. PyVista's data sets have both methods, too, and are VTK's objects.
+    has_box = hasattr(thing, "bounding_box") or hasattr(thing, "BoundingBox")
+    return has_box and hasattr(thing, "tessellate") and not hasattr(thing, "IsA")
 
 
 def meshes_of(thing, name, reading):

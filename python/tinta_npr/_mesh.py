@@ -16,6 +16,9 @@ _FACES_OF_CELLS = {
     "pyramid": ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
 }
 
+#: The endings of files that tinta reads itself.
+_ENDINGS = frozenset(_native.names("ending"))
+
 
 def meshes_of(mesh, faces, name, reading, asked=()):
     """A list of `Mesh`; `reading` are the settings they are read with, `asked` those of them that a mesh must have been read with."""
@@ -94,9 +97,9 @@ def _is_pair(one):
 
 def _read_by_others(path):
     """The mesh of a file that tinta does not read, by meshio, PyVista or trimesh if one of them does and is installed; else `None`."""
-    if path.startswith("builtin:") or _native.is_read(path) or not os.path.isfile(path):
-        return None
     ending = os.path.splitext(path)[1].lower()
+    if path.startswith("builtin:") or ending[1:] in _ENDINGS or not os.path.isfile(path):
+        return None
     is_refused = False
     quiet = io.StringIO()
     try:

@@ -8,6 +8,7 @@ from . import _native, _with_settings
 from . import lines as _lines
 from ._arrays import counted, padded, rows, same_places, sides
 from ._camera import size_of
+from ._free import Free
 from ._mesh import _surface, meshes_of
 from ._results import _place, _written
 
@@ -21,7 +22,8 @@ def lines(plotter, *, look=None, preset=None, **settings):
     """Find the lines of all surfaces, curves and points that a plotter shows, as its camera sees them.
 
     Edges that an actor shows are of class ``"marked"``, wireframes of class ``"curve"``, which hide nothing; labels stand beside their
-    points. Warns of transparency, and of what it leaves out: volumes, axes.
+    points. Curves and points have their actors' colours and sizes, and the colours of their scalars, where these are not the theme's;
+    ``class_colors``, ``class_widths`` and ``line_width`` replace them. Warns of transparency, and of what it leaves out: volumes, axes.
 
     Parameters
     ----------
@@ -34,7 +36,7 @@ def lines(plotter, *, look=None, preset=None, **settings):
     Returns
     -------
     tinta_npr.Lines
-        ``object`` numbers the actors with surfaces in their order; curves and points follow them.
+        ``object`` numbers the actors with surfaces in their order; curves and points follow them, a number for each colour and size.
 
     Settings
     --------
@@ -45,7 +47,7 @@ def lines(plotter, *, look=None, preset=None, **settings):
     left, top, right, bottom = _box(plotter.renderer, plotter.window_size)
     if settings.get("size") is None:
         settings["size"] = right - left, bottom - top
-    return _found(plotter.renderer, shown.surfaces, shown.free(), {"look": look, "preset": preset, **settings})
+    return _found(plotter.renderer, shown.surfaces, shown.free.meshes(), {"look": look, "preset": preset, **settings})
 
 
 def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None, preset=None, **settings):
@@ -81,43 +83,34 @@ def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None,
     views, keys, count = [], [], 0
     for renderer, shown in zip(renderers, _shown(renderers)):
         box = _box(renderer, whole)
-        views += _views(renderer, shown, box, settings, fill, count)
+        free, rules = shown.free.meshes()
+        is_see_through = fill and any(_opacity(actor) < 1 for actor, _ in shown.surfaces)
+        if rules and (len(renderers) > 1 or is_see_through):
+            _native.warn("plotter: beside subplots or transparent actors, curves and points lose their colours and sizes")
+            rules = {}
+        views += _views(renderer, shown.surfaces, (free, rules), box, settings, fill, count)
         own = _box(renderer, plotter.window_size)
         of_window = own[2] - own[0], own[3] - own[1]
         if ending != "png":
             keys += [_key(bar, box, letter) for bar in _bars(plotter, renderer)] if fill else []
             keys += [_key_of_text(actor, box, of_window, letter) for actor in _texts(renderer)]
-        count += len(shown.surfaces) + bool(shown.free())
+        count += len(shown.surfaces) + len(free)
     _written(file, path, _native.sheet(ending, tuple(whole), views, keys, title))
 
 
 @dataclasses.dataclass
 class _Scene:
-    """What a renderer shows: surfaces with their actors, of which one with several blocks has several; curves; points with labels."""
+    """What a renderer shows: surfaces with their actors, of which one with several blocks has several; curves and points."""
 
     surfaces: list = dataclasses.field(default_factory=list)
-    curves: list = dataclasses.field(default_factory=list)
-    points: list = dataclasses.field(default_factory=list)
-    labels: list = dataclasses.field(default_factory=list)
-
-    def free(self):
-        """The arguments of `lines` for curves, points and labels."""
-        if not self.points:
-            return {"curves": self.curves} if self.curves else {}
-        points, labels = np.concatenate(self.points), np.array(sum(self.labels, []), dtype=object)
-        # A point is drawn once, with its label if it has one.
-        order = np.argsort([label is None for label in labels], kind="stable")
-        first, _ = same_places(points[order])
-        kept = order[np.sort(first)]
-        named = {"labels": labels[kept].tolist()} if any(labels) else {}
-        return {"curves": self.curves or None, "points": points[kept], **named}
+    free: Free = dataclasses.field(default_factory=Free)
 
 
 def _shown(renderers):
     """The scene of each renderer; warns of what is left out of them."""
     left_out = {}
     scenes = [_scene(renderer, left_out) for renderer in renderers]
-    if not any(scene.surfaces or scene.curves or scene.points for scene in scenes):
+    if not any(scene.surfaces or scene.free for scene in scenes):
         raise ValueError("plotter: it shows no surface, curve or point; add_mesh() first")
     for kind in left_out:
         _native.warn(f"plotter: {kind} are left out")
@@ -138,10 +131,9 @@ def _scene(renderer, left_out):
         kind = next((kind for name, kind in _LEFT_OUT.items() if actor.IsA(name)), None)
         if kind is None and (labels := _labels(actor)) is not None:
             points, texts = labels
-            scene.points.append(points)
-            scene.labels.append(texts)
+            scene.free.add_points(points, labels=texts)
         elif kind is None and _is_of_data(actor):
-            _take(scene, actor)
+            _take(scene, actor, renderer.parent.theme)
         elif kind is not None or not hasattr(actor, "prop"):
             left_out[kind or f"items of {actor.GetClassName()}"] = True
     if getattr(renderer, "axes_enabled", False):
@@ -149,27 +141,72 @@ def _scene(renderer, left_out):
     return scene
 
 
-def _take(scene, actor):
+def _take(scene, actor, theme):
     """Adds an actor's blocks to a scene, in the actor's style."""
     prop = getattr(actor, "prop", None)
     style = prop.GetRepresentation() if prop is not None else 2
     for block in _blocks(actor):
         points = _placed(actor, block.points)
+        colors_of = _colors_of_free(actor, block, theme)
+        width, size = _own(prop, "line_width", theme), _own(prop, "point_size", theme)
+        # A dot is twice as wide as the lines of its style.
+        dot = None if size is None else size / 2
         if style == 0:
-            scene.points.append(points)
-            scene.labels.append([None] * len(points))
+            scene.free.add_points(points, [(color, dot) for color in colors_of(np.arange(len(points))[:, None])])
             continue
         if len(block.faces) and style == 1:
-            scene.curves += list(points[sides(*padded(block.faces))])
+            ends = sides(*padded(block.faces))
+            for two, color in zip(ends, colors_of(ends)):
+                scene.free.add_curve(points[two], (color, width))
         elif len(block.faces):
             scene.surfaces.append((actor, block))
         if len(block.lines):
             corners, sizes = counted(block.lines)
-            scene.curves += [points[part] for part in np.split(corners, np.cumsum(sizes)[:-1]) if len(part) > 1]
+            cells = np.repeat(np.arange(len(sizes)), sizes)
+            first = np.flatnonzero(cells[:-1] == cells[1:])
+            colors = colors_of(np.column_stack([corners[first], corners[first + 1]]), cells[first] + block.n_verts)
+            for color, start, end in _runs(colors, first):
+                scene.free.add_curve(points[corners[start : end + 1]], (color, width))
         if len(block.verts):
-            corners, _ = counted(block.verts)
-            scene.points.append(points[corners])
-            scene.labels.append([None] * len(corners))
+            corners, sizes = counted(block.verts)
+            colors = colors_of(corners[:, None], np.repeat(np.arange(len(sizes)), sizes))
+            scene.free.add_points(points[corners], [(color, dot) for color in colors])
+
+
+def _own(prop, name, theme):
+    """A property of an actor; `None` if it is the theme's."""
+    value = getattr(prop, name, None)
+    return None if value is None or value == getattr(theme, name) else value
+
+
+def _colors_of_free(actor, block, theme):
+    """The colours of curves and points of a block, by the numbers of each one's corners (K, m) and of its cell: that of the mean of their
+    scalars, or the actor's; `None` for the theme's, and where cells have scalars but are not given."""
+    prop, mapper = getattr(actor, "prop", None), actor.mapper
+    values, is_of_cells = _scalars(mapper, block) if getattr(mapper, "scalar_visibility", False) else (None, False)
+    color = _own(prop, "color", theme)
+    own = None if color is None else tuple(color.float_rgb)
+
+    def colors_of(corners, cells=None):
+        if values is None or is_of_cells and cells is None or not len(corners):
+            return [own if values is None else None] * len(corners)
+        colors = _shades(mapper, values[cells] if is_of_cells else values[corners].mean(axis=1))
+        # Few colours, for each is a layer of the drawing.
+        return [tuple(color) for color in (np.round(colors * 15) / 15).tolist()]
+
+    return colors_of
+
+
+def _runs(colors, first):
+    """The pieces of curves of one colour each: the colour, the place of the first corner and that of the last. `colors` are those of the
+    lines between two corners, `first` the places of their first corners."""
+    runs = []
+    for color, place in zip(colors, first.tolist()):
+        if runs and runs[-1][0] == color and runs[-1][2] == place:
+            runs[-1][2] = place + 1
+        else:
+            runs.append([color, place, place + 1])
+    return runs
 
 
 def _labels(actor):
@@ -197,21 +234,42 @@ def _box(renderer, whole):
 
 
 def _found(renderer, surfaces, free, settings):
-    """The lines of surfaces, curves and points together."""
+    """The lines of surfaces, curves and points together; `free` are the meshes of the latter, and their rules."""
     # PyVista sets its camera when it first shows the scene.
     if not renderer.camera.is_set:
         renderer.camera_position = renderer.get_default_cam_pos()
         renderer.reset_camera()
         renderer.camera.is_set = True
-    meshes = [_mesh_of(actor, surface) for actor, surface in surfaces]
-    return _lines(meshes or None, camera=renderer.camera, **{**free, **settings})
+    meshes, rules = free
+    meshes = [_mesh_of(actor, surface) for actor, surface in surfaces] + meshes
+    return _lines(meshes or None, camera=renderer.camera, **{**settings, "part": _part(rules, settings)})
 
 
-def _views(renderer, scene, box, settings, fill, first):
+def _part(rules, settings):
+    """The setting ``part`` with rules of curves and points below the given ones. Settings for lines of all kinds replace theirs."""
+    given = {key.replace("-", "_") for key, value in settings.items() if value is not None}
+    replaced = {"color"} if "class_colors" in given else set()
+    replaced |= {"line_width"} if given & {"line_width", "class_widths"} else set()
+    rules = {part: {name: value for name, value in rule.items() if name not in replaced} for part, rule in rules.items()}
+    rules = {part: rule for part, rule in rules.items() if rule}
+    asked = settings.get("part")
+    if not rules or asked is None:
+        return rules or asked
+    if hasattr(asked, "items"):
+        return {**rules, **{part: {**rules.get(part, {}), **rule} for part, rule in asked.items()}}
+    own = [f"{part}:" + ",".join(f"{name.replace('_', '-')}={_word(value)}" for name, value in rule.items()) for part, rule in rules.items()]
+    return ";".join([*own, asked] if isinstance(asked, str) else [*own, *asked])
+
+
+def _word(value):
+    """A colour or a width as a word of a rule."""
+    return "#" + "".join(f"{round(part * 255):02x}" for part in value) if isinstance(value, tuple) else value
+
+
+def _views(renderer, shown, free, box, settings, fill, first):
     """A subplot's views on a sheet: curves, points and what is opaque, and above it what is transparent, for each opacity. `first` is the
     number of its first object on the sheet."""
     left, top, right, bottom = box
-    shown, free = scene.surfaces, scene.free()
     settings = {**settings, "size": (right - left, bottom - top)}
     opacity = np.array([_opacity(actor) if fill else 1.0 for actor, _ in shown])
     see_through = len({id(actor) for (actor, _), share in zip(shown, opacity) if share < 1})
@@ -222,17 +280,16 @@ def _views(renderer, scene, box, settings, fill, first):
         found = _found(renderer, drawn, free, settings)
         areas = None
         if fill and drawn:
-            regions = found.regions()
-            colors = regions.of_faces([_colors(actor, surface) for actor, surface in drawn])
+            regions, colors = _filled(found, drawn)
             areas = regions._found, regions._colors(colors), float(opacity[kept][0])
         numbers = np.where(kept, np.arange(len(shown)) + first, -1)
         # Curves and points come last.
-        objects = [*numbers[among].tolist(), len(shown) + first]
+        objects = [*numbers[among].tolist(), *range(len(shown) + first, len(shown) + first + len(free[0]))]
         return {"lines": found._found, "areas": areas, "at": (left, top), "objects": objects}
 
     opaque, everything = opacity == 1, np.full(len(shown), True)
-    views = [view(opaque, opaque, free)] if opaque.any() or free else []
-    return views + [view(opacity == share, everything, {}) for share in np.unique(opacity[~opaque])[::-1]]
+    views = [view(opaque, opaque, free)] if opaque.any() or free[0] else []
+    return views + [view(opacity == share, everything, ([], {})) for share in np.unique(opacity[~opaque])[::-1]]
 
 
 def _warn_of(count, one, several):
@@ -286,18 +343,43 @@ def _mesh_of(actor, surface):
     return mesh.with_marks(np.arange(count, dtype=np.uint32), np.ascontiguousarray(edges))
 
 
+def _filled(found, drawn):
+    """The areas of surfaces, and a colour for each: whole actors where each has one colour, which takes less time than faces."""
+    plain = [_plain_color(actor, surface) for actor, surface in drawn]
+    if any(color is None for color in plain):
+        regions = found.regions()
+        return regions, regions.of_faces([_colors(actor, surface) for actor, surface in drawn])
+    regions = found.regions("object")
+    return regions, np.array([*plain, (0.0, 0.0, 0.0)])[regions.object]
+
+
+def _plain_color(actor, surface):
+    """The one colour of an actor's faces; `None` if they show scalars."""
+    mapper = actor.mapper
+    has_scalars = getattr(mapper, "scalar_visibility", False) and _scalars(mapper, surface)[0] is not None
+    return None if has_scalars else actor.prop.color.float_rgb
+
+
 def _colors(actor, surface):
     """A colour for each face of a surface, as its actor's mapper gives it: (M, 3), from 0 to 1."""
     mapper = actor.mapper
-    values = _scalars(mapper, surface) if getattr(mapper, "scalar_visibility", False) else None
+    values, is_of_cells = _scalars(mapper, surface) if getattr(mapper, "scalar_visibility", False) else (None, False)
     corners, sizes = padded(surface.faces)
     count = len(corners) // 3 if sizes is None else len(sizes)
     if values is None:
         return np.tile(actor.prop.color.float_rgb, (count, 1))
-    if len(values) == surface.n_points:
+    if is_of_cells:
+        # Cells are numbered with points and lines before faces.
+        values = values[surface.n_verts + surface.n_lines :]
+    else:
         sizes = np.full(count, 3) if sizes is None else sizes
         starts = np.cumsum(sizes) - sizes
         values = (np.add.reduceat(np.asarray(values, dtype=float)[corners], starts, axis=0).T / sizes).T
+    return _shades(mapper, values)
+
+
+def _shades(mapper, values):
+    """The colours that a mapper gives to scalars, vectors or colours: (M, 3), from 0 to 1."""
     if values.ndim == 2 and mapper.color_mode == "direct":
         return _opaque(np.clip(values, 0, 1))
     if values.ndim == 2:
@@ -325,18 +407,17 @@ def _mapped(table, values):
 
 
 def _scalars(mapper, surface):
-    """The scalars that a mapper shows, of cells or of points; colours from 0 to 1. `None` if the surface has none."""
+    """The scalars that a mapper shows, colours from 0 to 1, and whether they are of cells, not of points. `None` if the surface has none."""
     of_points, of_cells = surface.point_data, surface.cell_data
     name = mapper.array_name or surface.active_scalars_name
     places = [of_cells, of_points] if "cell" in mapper.scalar_map_mode else [of_points, of_cells]
     place = next((place for place in places if name in place), None)
     if place is None:
-        return None
+        return None, False
     values = np.asarray(place[name])
     if values.dtype == np.uint8 and mapper.color_mode == "direct":
         values = values / 255.0
-    # Cells are numbered with points and lines before faces.
-    return values[surface.n_verts + surface.n_lines :] if place is of_cells else values
+    return values, place is of_cells
 
 
 def _bars(plotter, renderer):
