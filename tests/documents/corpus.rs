@@ -14,12 +14,13 @@ type Target = fn(&[u8]);
 
 #[test]
 fn every_file_of_the_corpus_is_read_or_refused_as_it_should_be() {
-    let targets: [(&str, Target); 15] = [
+    let targets: [(&str, Target); 16] = [
         ("obj", readers::obj),
         ("ply", readers::ply),
         ("stl", readers::stl),
         ("md2", readers::md2),
         ("three_ds", readers::three_ds),
+        ("three_mf", readers::three_mf),
         ("gltf", readers::gltf),
         ("load", readers::load),
         ("picture", readers::picture),

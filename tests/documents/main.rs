@@ -11,6 +11,7 @@ mod installing;
 mod licence_texts;
 mod licences;
 mod readme;
+mod reports;
 #[expect(dead_code, reason = "shared with the other tests")]
 #[path = "../support/mod.rs"]
 mod support;

@@ -210,7 +210,7 @@ fn one_object_or_several_have_the_same_hidden_lines() {
 #[test]
 fn strokes_of_a_cut_seen_edge_on_are_covered_by_its_outline() {
     let plane = SectionPlane { normal: DVec3::Y, offset: 0.5, is_of_file: false };
-    let (cut, _) = cuboid(DVec3::ZERO, DVec3::ONE).section(&plane, Some(0.1)).unwrap();
+    let (cut, _) = cuboid(DVec3::ZERO, DVec3::ONE).section(&[plane], Some(0.1)).unwrap();
     for (at, is_edge_on) in [("front", true), ("30,0", true), ("30,20", false)] {
         let scene = scene_of(vec![cut.clone()], view(at, true));
         let found = VisibleLines::of(&scene, &LineSettings::default()).unwrap();

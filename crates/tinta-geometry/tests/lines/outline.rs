@@ -217,7 +217,7 @@ fn with_outlines_there_are_the_same_lines_as_without() {
 #[test]
 fn smooth_silhouettes_are_the_same_with_outlines_and_hidden_lines_as_without() {
     for name in ["gear", "ant", "pawn"] {
-        let cut = builtin(name).section(&SectionPlane::parse("x=0.3").unwrap(), None).unwrap().0;
+        let cut = builtin(name).section(&[SectionPlane::parse("x=0.3").unwrap()], None).unwrap().0;
         for (mesh, camera) in [(builtin(name), "310,-20"), (cut.clone(), "310,-20"), (cut, "45,30")] {
             let scene = scene_of(vec![mesh], view(camera, false));
             let found = |finds_outline: bool, finds_hidden: bool| {

@@ -245,7 +245,7 @@ fn a_turned_cube_shows_nine_edges_and_hides_three() {
 
 #[test]
 fn a_prism_seen_nearly_end_on_has_two_lines_along_it() {
-    // itwinjs-core 1226.
+    // itwinjs-core 1129, 1226.
     for degrees in [1.0f64, 0.1, 0.01] {
         let angle = degrees.to_radians();
         let rim: f64 = (0..64)

@@ -1,0 +1,27 @@
+//! The page of public reports names a test in each row, and the test is there.
+
+use crate::support::root;
+
+/// The most rows that a reader goes through.
+const MOST: usize = 60;
+
+#[test]
+fn every_report_names_a_test_that_is_there() {
+    let page = std::fs::read_to_string(root().join("docs/results/reports.md")).unwrap();
+    // | [owner/name #number](address) | the fault | tinta's value | `file::function` |
+    let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| [")).collect();
+    assert!((20..=MOST).contains(&rows.len()), "{} rows", rows.len());
+    for row in rows {
+        let cells: Vec<&str> = row.trim_start_matches("| ").trim_end_matches(" |").split(" | ").collect();
+        assert_eq!(cells.len(), 4, "{row}");
+        assert!(cells[0].contains(" #") && cells[0].contains("](https://github.com/"), "{row}");
+        let (file, function) = cells[3].trim_matches('`').split_once("::").expect(row);
+        let source = std::fs::read_to_string(root().join(file)).expect(row);
+        let (rust, python) = (format!("fn {function}("), format!("def {function}("));
+        let is_there = source.lines().zip(source.lines().skip(1)).any(|(above, line)| {
+            let line = line.trim_start();
+            above.trim_start() == "#[test]" && line.starts_with(&rust) || line.starts_with(&python)
+        });
+        assert!(is_there, "{file} has no test {function}");
+    }
+}
