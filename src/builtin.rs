@@ -158,7 +158,7 @@ pub fn builtin(name: &str) -> Option<Result<Named>> {
     })
 }
 
-/// Reads a model: `builtin:NAME`, or an OBJ, PLY, STL, MD2, 3DS or glTF file.
+/// Reads a model: `builtin:NAME`, or a file as [`tinta_geometry::load()`] reads it.
 ///
 /// # Errors
 ///

@@ -99,10 +99,11 @@
 //!
 //! | feature | what it brings |
 //! |---|---|
+//! | `3mf` | 3MF models |
 //! | `gltf` | glTF models, JPEG pictures |
 //! | `pdf` | drawings as PDF |
-//! | `cli` | the command line and its batches; brings `gltf` and `pdf` |
-//! | `window` | the window; brings `gltf` |
+//! | `cli` | the command line and its batches; brings `3mf`, `gltf` and `pdf` |
+//! | `window` | the window; brings `3mf` and `gltf` |
 //!
 //! `examples/embedding/` is a program that uses tinta in this way.
 //! Error against run time is measured by the package `tinta-lab`, which lies above this one.

@@ -21,6 +21,7 @@
 mod staged_file;
 
 use crate::error::{Error, Result};
+use crate::lines::DrawingFormat;
 use staged_file::StagedFile;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -91,7 +92,7 @@ pub(crate) fn check_name(file: &Path) -> Result<()> {
         return refuse(format!("this names a folder; name a file in it, such as {text}drawing.png"));
     }
     match name.strip_prefix('.') {
-        Some(ending) if ["png", "svg", "pdf", "dxf", "json", "gif"].contains(&ending) => {
+        Some(ending) if ["png", "gif"].contains(&ending) || DrawingFormat::of_name(&format!("a{name}")).is_some() => {
             refuse(format!("this is an ending without a name; write drawing{name}"))
         }
         _ => Ok(()),

@@ -33,12 +33,14 @@ pub use around::{Around, LINES_AT_ONCE_MS};
 pub use draw::{DrawnPicture, ReadModels, Times};
 pub use drawing::{DrawingFile, DrawnLines};
 pub use emptiness::empty_remark;
-pub use format::{DrawingFormat, Wanted};
+pub use format::Wanted;
+#[cfg(feature = "cli")]
+pub(crate) use format::{endings_of_lines, is_drawn_into};
 #[cfg(feature = "cli")]
 pub(crate) use gone::gone;
-pub use layers::{OF_PAPER, OptionLayer, ignored_remark, layers, pixels_on_paper};
+pub use layers::{OptionLayer, ignored_remark, layers};
 #[cfg(feature = "cli")]
-pub(crate) use layers::{OF_PATHS, is_of_camera, unknown};
+pub(crate) use layers::{is_of_camera, unknown};
 pub use model_cache::{Model, ModelCache};
 pub use resolve::Resolved;
 pub use session::Session;
@@ -48,11 +50,15 @@ use crate::choice::Choice;
 use crate::error::{Error, FileKind, Result};
 use crate::gl::Backend;
 use crate::glsl::BUILT_IN;
+#[cfg(feature = "cli")]
+use crate::lines::LIGHTS;
 use crate::mesh::LoadOptions;
 use crate::plan::prune::{Pruning, Rule};
 use crate::recipe::{Driver, FileRecord, Recipe, files_read};
 use crate::renderer::Renderer;
 use crate::scene::{Scene, SceneSettings, Size};
+#[cfg(feature = "cli")]
+use crate::settings::Value as _;
 use crate::settings::{HasSettings, Kind, OptionValue, Options, Setting, Table, names_of, under, within};
 use crate::styles::{Show, Style, StyleName, is_of_lines_alone};
 use std::collections::BTreeMap;
@@ -183,7 +189,7 @@ fn settings() -> Vec<Setting<Request>> {
             Ok(())
         },
     )
-    .said("three-pass; into .dxf and .json: lines")
+    .said("three-pass; into files of lines such as .dxf: lines")
     .common()
     .first();
     let show = Setting::field(
@@ -195,11 +201,12 @@ fn settings() -> Vec<Setting<Request>> {
     );
     let exact_lines = Setting::flag(
         EXACT_LINES,
-        "Draw the view's exact visible lines over the picture, in place of the borders that --no-borders leaves out",
+        "Draw exact lines over the picture; they replace the borders that --no-borders leaves out",
         |request: &Request| request.exact_lines,
         |request, is_on| request.exact_lines = is_on,
     )
-    .labelled("exact lines");
+    .labelled("exact lines")
+    .common();
     let ground = Setting::field(
         "ground",
         "GROUND",
@@ -372,25 +379,46 @@ impl Request {
     ) -> Recipe {
         let Size { width, height } = self.scene.size;
         let paths = files_read(&self.models, beside, scene, gl.as_ref().map(|_| &self.style));
-        let mut options = self.options.clone();
-        if self.style.style_name().draws_lines() {
-            // A file's name does not ask for it.
-            options.entry("style".to_owned()).or_insert_with(|| OptionValue::text(self.style.name()));
-        }
-        if gl.is_some() && self.contents(false).is_ok_and(|contents| contents.lines.is_none()) {
-            // A picture without the exact lines that its look draws.
-            options.retain(|option, _| !(self.is_of_look(option) && is_of_lines_alone(option)));
-        }
         Recipe {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             command: "render".to_owned(),
             style: self.style.name().to_owned(),
             size: [width, height],
             models: self.models.clone(),
-            options,
+            options: self.kept_options(gl.is_some()),
             files: paths.iter().filter_map(|path| record(path)).collect(),
             gl,
         }
+    }
+
+    /// The options that a recipe keeps, of pixels or of lines.
+    fn kept_options(&self, of_pixels: bool) -> Options {
+        let mut options = self.options.clone();
+        if self.style.style_name().draws_lines() {
+            // A file's name does not ask for it.
+            options.entry("style".to_owned()).or_insert_with(|| OptionValue::text(self.style.name()));
+        }
+        if of_pixels && self.contents(false).is_ok_and(|contents| contents.lines.is_none()) {
+            // A picture without the exact lines that its look draws.
+            options.retain(|option, _| !(self.is_of_look(option) && is_of_lines_alone(option)));
+        }
+        options
+    }
+
+    /// Whether a recipe has this request's options, and besides those only the light that drawing chooses. `None` where its view is
+    /// either a flat sheet's, which drawing chooses too, or another request's.
+    #[cfg(feature = "cli")]
+    pub(crate) fn is_kept_in(&self, recipe: &Recipe) -> Option<bool> {
+        let mut options = self.kept_options(recipe.gl.is_some());
+        let is_chosen = |light: &&OptionValue| LIGHTS.iter().any(|known| **light == OptionValue::text(known.text()));
+        let chooses_light = self.style.far_tones().is_some_and(|(light, _)| light.known().is_none());
+        if let Some(light) = recipe.options.get("tone-light").filter(is_chosen).filter(|_| chooses_light) {
+            options.insert("tone-light".to_owned(), light.clone());
+        }
+        let view =
+            recipe.options.get("view").filter(|view| self.is_of_look("view") && options.get("view") != Some(*view));
+        options.extend(view.map(|view| ("view".to_owned(), view.clone())));
+        if options == recipe.options { view.is_none().then_some(true) } else { Some(false) }
     }
 
     /// Whether the picture has no background.

@@ -1,5 +1,6 @@
 //! Names with a number in them, in the notation of C's `printf`: `frame-%04d.png` is `frame-0001.png`, `frame-0002.png`, …
 
+use crate::lines::DrawingFormat;
 use crate::picture::PictureFormat;
 use std::path::Path;
 
@@ -12,14 +13,13 @@ pub struct NumberedName {
 }
 
 impl NumberedName {
-    /// Finds the first `%d` or `%0Nd` (N from 1 to 9) in the file name of a picture format or a drawing, `.svg` or `.pdf`; `None`
-    /// without one.
+    /// Finds the first `%d` or `%0Nd` (N from 1 to 9) in the file name of a picture or a drawing; `None` without one.
     ///
     /// Other per cent signs, and those in folder names, stay unchanged.
     pub fn parse(name: &str) -> Option<Self> {
         let file_name = Path::new(name).file_name()?.to_str()?;
-        let is_drawing = |name: &str| [".svg", ".pdf"].iter().any(|end| name.to_ascii_lowercase().ends_with(end));
-        if PictureFormat::of(Path::new(name)).is_none() && !is_drawing(name) {
+        let is_drawing = DrawingFormat::of_name(name).is_some_and(|format| !format.is_of_lines_alone);
+        if PictureFormat::of(Path::new(name)).is_none() && !is_drawing {
             return None;
         }
         let (folder, file_name) = name.split_at(name.rfind(file_name)?);

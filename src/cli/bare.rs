@@ -30,7 +30,7 @@ pub(super) fn with_command(words: Vec<OsString>, has_window: bool) -> (Vec<OsStr
 }
 
 /// Whether a word can only be a model: a built-in one, or a file name with a model's ending.
-fn is_model(word: &OsStr) -> bool {
+pub(super) fn is_model(word: &OsStr) -> bool {
     let text = word.to_string_lossy();
     text.starts_with("builtin:") || is_model_name(&text)
 }

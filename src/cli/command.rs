@@ -33,6 +33,8 @@ pub struct Command {
     pub examples: &'static [&'static str],
     /// Checks a job of a batch and makes a task of it. Default `None`: a batch has no such jobs.
     pub job: Option<fn(&JobOptions) -> Result<Task>>,
+    /// Whether a job's output tells that the job is done. Default `None`: it does not tell.
+    pub told: fn(&JobOptions) -> Option<bool>,
     /// Whether a job of it may have this option.
     pub has_in_jobs: fn(&str) -> bool,
     /// The values that a shell offers for an option. Default empty: those of a drawing's settings are offered.
@@ -62,7 +64,8 @@ impl Command {
         arguments: fn(clap::Command) -> clap::Command,
         run: fn(&ArgMatches, &mut Call<'_>) -> Result<Verdict>,
     ) -> Self {
-        Self { name, arguments, run, examples: &[], job: None, has_in_jobs: |_| false, offers: |_| Vec::new() }
+        let (examples, job, told) = (&[], None, |_: &JobOptions| None);
+        Self { name, arguments, run, examples, job, told, has_in_jobs: |_| false, offers: |_| Vec::new() }
     }
 }
 

@@ -5,8 +5,10 @@
 
 use super::Program;
 use super::groups::ALSO;
+use crate::request::endings_of_lines;
 use clap::{Arg, ArgAction, Command};
 use std::ffi::OsString;
+use tinta::mesh::Format;
 use tinta::preset::{LOOKS, OptionValue, Options};
 use tinta::settings::on_off;
 
@@ -48,9 +50,16 @@ fn commands(program: &Program) -> Command {
         .after_help(after_help(program))
         .subcommands(all);
     whole.mut_subcommands(|command| {
+        let command = command.mut_args(with_formats);
         let has_looks = options(&command).any(|arg| arg.get_long() == Some("look"));
         if has_looks { command.mut_args(|arg| with_drawn_default(arg, &look)) } else { command }
     })
+}
+
+/// An argument whose help lists the formats of models for `FORMATS`, and of files of lines for `DRAWINGS`.
+fn with_formats(arg: Arg) -> Arg {
+    let Some(help) = arg.get_help().map(ToString::to_string) else { return arg };
+    arg.help(help.replace("FORMATS", &Format::names().join(", ")).replace("DRAWINGS", &endings_of_lines()))
 }
 
 /// The beginning of the default at the end of an option's help.
@@ -108,12 +117,13 @@ fn lines(command: &Command) -> usize {
     command.clone().term_width(80).render_help().to_string().lines().count()
 }
 
-/// An option whose help has its own part alone, with one default.
+/// An option whose help has the first sentence of its own part alone, with one default.
 fn in_short(arg: Arg) -> Arg {
     let Some(help) = arg.get_help().map(ToString::to_string) else { return arg };
     let help = help.split(ALSO).next().unwrap_or_default();
     let (about, default) = help.rsplit_once(DEFAULT).map_or((help, String::new()), |(about, default)| {
         let default = default.split(OTHERWISE).next().unwrap_or_default().split(';').next().unwrap_or_default();
+        let about = about.split("; ").next().unwrap_or_default();
         (about, format!(" {DEFAULT}{}]", default.trim_end_matches(']')))
     });
     arg.help(about.trim_end().to_owned() + &default)

@@ -29,7 +29,7 @@ pub(super) const COMMAND: Command = Command {
 Exit code: 0 if a context works, and with --check if all draw as they should; 1 if one does not; 2 if none works. --check also names \
 the known faults of each driver.")]
 pub(super) struct Arguments {
-    /// Model file (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in model, or - for standard input [default: none, show the drivers]
+    /// Model file (FORMATS), built-in model, or - for standard input [default: none, show the drivers]
     #[arg(value_name = "MODEL")]
     model: Option<String>,
 
@@ -195,7 +195,7 @@ fn edges(model: &str, arguments: &Arguments) -> Result<()> {
         return Ok(());
     };
     let (mut read, rule) = (arguments.read.settings()?, SilhouetteRule::Exact);
-    read.section.iter_mut().for_each(|plane| plane.is_of_file = true);
+    read.section.iter_mut().flat_map(|planes| &mut planes.0).for_each(|plane| plane.is_of_file = true);
     let scene = Scene::new(load_meshes(&[model.to_owned()], &read)?, &SceneSettings::default())?;
     let Some(object) = scene.objects.first() else { return Ok(()) };
     let (mesh, found) = (&object.mesh, scene.edges(object));

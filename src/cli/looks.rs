@@ -8,10 +8,9 @@ use std::fmt::Write;
 use std::path::Path;
 use tinta::markup::escaped;
 use tinta::page::{Pictures, beginning};
-use tinta::picture::PictureFormat;
 use tinta::preset::{LOOKS, Look, OptionValue, Preset};
 use tinta::recipe::option_words;
-use tinta::request::{DrawingFormat, Request, Session, is_of_camera};
+use tinta::request::{Request, Session, is_drawn_into, is_of_camera};
 use tinta::settings::refuse_exclusive;
 use tinta::{Error, Result, Size, TextTarget};
 
@@ -52,10 +51,7 @@ fn share_camera(arguments: &mut Arguments) -> Result<()> {
 /// Draws a picture in each look, as pixels and as vectors where it has them, and writes a page that shows them side by side.
 fn run(arguments: &Arguments, session: &mut Session) -> Result<Verdict> {
     let folder = Path::new(&arguments.output);
-    if arguments.output == "-"
-        || DrawingFormat::of_name(&arguments.output).is_some()
-        || PictureFormat::of(folder).is_some()
-    {
+    if arguments.output == "-" || is_drawn_into(&arguments.output) {
         return Err(Error::output(&arguments.output, "--look all draws a picture in each look; name a folder"));
     }
     make_folder(folder)?;

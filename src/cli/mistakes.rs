@@ -5,8 +5,7 @@ use super::groups::inside_now;
 use super::help::options;
 use crate::choice::{meant_or, nearest, no_option};
 use crate::files::shown;
-use crate::picture::PictureFormat;
-use crate::request::{DrawingFormat, gone};
+use crate::request::{gone, is_drawn_into};
 use clap::Command;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::ffi::OsString;
@@ -88,7 +87,11 @@ fn unknown_command(error: &clap::Error, whole: &Command) -> Option<String> {
     if let Some(problem) = gone_command(name) {
         return Some(problem);
     }
-    if DrawingFormat::of_name(name).is_some() || PictureFormat::of(Path::new(name)).is_some() {
+    if is_drawn_into(name) {
+        let model = ["obj", "stl", "ply", "glb"].map(|ending| Path::new(name).with_extension(ending));
+        if let Some(model) = model.iter().find(|model| model.is_file()) {
+            return Some(format!("{} is no model; did you mean {}?", shortened(name), model.display()));
+        }
         return Some(format!(
             "{} is no model; tinta again {0} -o FILE draws a picture of tinta's again",
             shortened(name)
@@ -155,7 +158,7 @@ fn missing(error: &clap::Error, whole: &Command, command: &Command, words: &[OsS
     let output = missing.iter().find_map(|what| what.strip_prefix("--output "));
     let others: Vec<&str> = missing.iter().map(String::as_str).filter(|what| !what.starts_with("--output ")).collect();
     let name = command.get_name();
-    let is_model = others == ["<MODEL>..."] || others == ["<MODEL>"];
+    let is_model = matches!(others[..], ["<MODEL>..." | "<MODEL>" | "<MODEL|LIST>..."]);
     // An output's name for the model that is given, or for a cow.
     let models = models(whole, words);
     let stem = models.first().map_or("cow".to_owned(), stem);
@@ -171,9 +174,7 @@ fn missing(error: &clap::Error, whole: &Command, command: &Command, words: &[OsS
     };
     // Many programs take the output as their last word.
     let meant = models.last().and_then(|last| last.to_str()).filter(|_| models.len() > 1 && others.is_empty());
-    if let Some(meant) =
-        meant.filter(|last| PictureFormat::of(Path::new(last)).is_some() || DrawingFormat::of_name(last).is_some())
-    {
+    if let Some(meant) = meant.filter(|last| is_drawn_into(last)) {
         return Some(format!("--output is missing; did you mean -o {}?", shortened(meant)));
     }
     match output {

@@ -132,9 +132,16 @@ impl<S: Selection> FromArgMatches for Chosen<S> {
             let given = matches.value_source(group.name) == Some(ValueSource::CommandLine);
             for text in matches.get_many::<String>(group.name).into_iter().flatten().filter(|_| given) {
                 for (name, value) in group.split(text).unwrap_or_default() {
-                    if chosen.options.insert(name.to_owned(), value).is_some() {
-                        let problem = format!("--{name}: it is given twice; leave one of them out");
-                        return Err(clap::Error::raw(ErrorKind::ArgumentConflict, problem));
+                    let between = group.settings().find(|setting| setting.name == name).and_then(|it| it.between);
+                    match (chosen.options.get_mut(name), value, between) {
+                        (None, value, _) => drop(chosen.options.insert(name.to_owned(), value)),
+                        (Some(OptionValue::Text(before)), OptionValue::Text(more), Some(between)) => {
+                            *before += &[between, &more].concat();
+                        }
+                        _ => {
+                            let problem = format!("--{name}: it is given twice; leave one of them out");
+                            return Err(clap::Error::raw(ErrorKind::ArgumentConflict, problem));
+                        }
                     }
                 }
             }
@@ -210,7 +217,7 @@ pub struct PresetFile {
 pub(super) struct NamedLook {
     #[arg(long, value_name = "LOOK", value_parser = Look::of_name, help = format!(
         "Appearance of the picture: {}; a preset and every other option override it [default: {}; published \
-         if a style or preset is given, and into .dxf and .json]",
+         if a style or preset is given, and into files of lines such as .dxf]",
         Look::list(), LOOKS[0].name
     ))]
     pub look: Option<Look>,
@@ -221,7 +228,7 @@ pub(super) struct NamedLook {
 pub(super) struct NamedLooks {
     #[arg(id = "look", long, value_name = "LOOK", value_parser = Looks::of_name, help = format!(
         "Appearance of the picture: {}; all: a picture in each, into the folder of --output; a preset and every other option \
-         override it [default: {}; published if a style or preset is given, and into .dxf and .json]",
+         override it [default: {}; published if a style or preset is given, and into files of lines such as .dxf]",
         Look::list(), LOOKS[0].name
     ))]
     pub looks: Option<Looks>,

@@ -61,7 +61,7 @@ impl Lecture {
 /// Write a page for a browser that shows a model: one file with the program in it, for use without a server
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Model file (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in model
+    /// Model file (FORMATS) or built-in model
     #[arg(value_name = "MODEL")]
     model: String,
 

@@ -16,18 +16,18 @@ use super::Verdict;
 use super::batch::JobOptions;
 use super::inputs::Inputs;
 use super::options::{Below, CameraFile, Chosen, Looks, NamedLooks, OfRequest, PresetFile};
-use super::run_settings::{OfRun, RunSettings};
+use super::run_settings::{OfRun, RunSettings, is_of_one_run};
 use super::{Command, given};
 use rendering::{Rendering, pictures_of};
 use std::path::Path;
-use tinta::lines::Progress;
+use tinta::lines::{DrawingFormat, Progress};
 use tinta::mesh::BUILTINS;
 use tinta::picture::write_rgba_png;
 use tinta::preset::{LOOKS, Look};
 use tinta::record::{Made, PictureMade, Summary};
-use tinta::request::{DrawingFormat, DrawnPicture, Request, Session, Times};
+use tinta::request::{DrawnPicture, Request, Session, Times};
 use tinta::settings::refuse_exclusive;
-use tinta::{Error, Renderer, Result, Target};
+use tinta::{Error, Recipe, Renderer, Result, Target};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -42,8 +42,12 @@ pub(super) const COMMAND: Command = Command {
     ],
     job: Some(|job| {
         let arguments = Arguments::of_job(job)?;
+        let (request, _) = arguments.asked()?;
+        animate::check_name(&request.animation, &job.output)?;
+        request.drawing_format(&job.output)?;
         Ok(Box::new(move |session| run(&arguments, session)))
     }),
+    told: is_drawn,
     has_in_jobs: |name| name == "look" || Chosen::<OfRun>::has(name) || Chosen::<OfRequest>::has(name),
     ..Command::new("render", <Arguments as clap::Args>::augment_args, |matches, call| {
         run(&given::<Arguments>(matches)?, call.session)
@@ -54,11 +58,11 @@ pub(super) const COMMAND: Command = Command {
 #[derive(clap::Args)]
 #[command(after_help = after_help())]
 pub(super) struct Arguments {
-    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB), built-in models, or - for standard input; several make one scene
+    /// Model files (FORMATS), built-in models, or - for standard input; several make one scene
     #[arg(required = true, value_name = "MODEL")]
     pub models: Vec<String>,
 
-    /// File to write: .png .jpg .bmp .tga .ppm, or - for PNG on standard output; lines: .svg .pdf .dxf .json; animations: .gif .apng frame-%04d.png
+    /// File to write: .png .jpg .bmp .tga .ppm, or - for PNG on standard output; lines: DRAWINGS; animations: .gif .apng frame-%04d.png
     #[arg(short, long, value_name = "FILE")]
     pub output: String,
 
@@ -105,7 +109,7 @@ impl Arguments {
             camera: self.camera.camera.as_deref(),
             draws_lines: DrawingFormat::of_name(output).is_some_and(|format| {
                 // Areas are drawn from one view.
-                format.is_of_lines_alone() || self.options.options.contains_key("turntable")
+                format.is_of_lines_alone || self.options.options.contains_key("turntable")
             }),
             has_looks: true,
             command: "render",
@@ -131,6 +135,17 @@ pub fn asked_by(words: &[String]) -> Result<(Request, String)> {
     let matches = matches.map_err(|error| Error::CommandLine { problem: error.to_string() })?;
     let arguments: Arguments = given(&matches)?;
     Ok((arguments.asked()?.0, arguments.output))
+}
+
+/// Whether a job's picture says by its recipe that it need not be drawn; `None` where no recipe is there, or where it would not tell
+/// all that the job does.
+fn is_drawn(job: &JobOptions) -> Option<bool> {
+    let recipe = Recipe::read(Path::new(&job.output)).ok()?;
+    let (request, _) = Arguments::of_job(job).and_then(|arguments| arguments.asked()).ok()?;
+    match job.options.keys().any(|option| is_of_one_run(option)) {
+        true => None,
+        false => keep::is_drawn(&request, &recipe, Path::new(&job.output)),
+    }
 }
 
 /// Draws the arguments' models.
@@ -161,6 +176,11 @@ pub(super) fn render(
     session: &mut Session,
 ) -> Result<Verdict> {
     super::messages::check_output(output)?;
+    let is_folder = output.ends_with(std::path::is_separator) || Path::new(output).is_dir();
+    if output.contains("{name}") || request.models.len() > 1 && is_folder {
+        let problem = "tinta render makes one picture of all models; tinta batch in its place makes one of each";
+        return Err(Error::output(output, problem));
+    }
     if output != "-" {
         crate::output::check_name(Path::new(output))?;
     }
@@ -168,7 +188,7 @@ pub(super) fn render(
     inputs.keep(output)?;
     let preset = keep::preset_target(run.save_preset.as_deref(), output, &inputs)?;
     let rendering = Rendering { request, run, output };
-    let format = DrawingFormat::of(request, output)?;
+    let format = request.drawing_format(output)?;
     animate::check_name(&request.animation, output)?;
     let verdict = match format {
         Some(format) => lines::run(&rendering, format, session)?,
@@ -300,7 +320,7 @@ fn after_help() -> String {
         BUILTINS.iter().map(|builtin| format!("  builtin:{:<10} {}", builtin.name, builtin.what)).collect();
     format!(
         "Built-in models:\n{}\n\nLooks:\n{}\n\nWhere two defaults are given, the first is that of the look print, which tinta draws unless you give \
-         --look, --style, --preset or a .dxf or .json file. The second counts with --style, --preset or \
+         --look, --style, --preset or a file of lines such as .dxf. The second counts with --style, --preset or \
          --look published.\n\nPublished borders are black and one or two pixels wide at any \
          size, and edges are not smoothed.\n\nIf facets show as thin lines, the file's normals are wrong: try --normals smooth.",
         names.join("\n"),

@@ -27,7 +27,7 @@ pub(super) const COMMAND: Command = Command {
 #[derive(clap::Args)]
 #[command(after_help = "Press H in the window for a list of keys. Drop a model file on the window to show it.")]
 pub(super) struct Arguments {
-    /// Model files (OBJ, PLY, STL, MD2, 3DS, glTF, GLB) or built-in models; several make one scene [default: builtin:bust]
+    /// Model files (FORMATS) or built-in models; several make one scene [default: builtin:bust]
     #[arg(value_name = "MODEL", default_value = "builtin:bust", hide_default_value = true)]
     models: Vec<String>,
 

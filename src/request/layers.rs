@@ -5,8 +5,8 @@ use super::{EXACT_LINES, Request, Source};
 use crate::camera;
 use crate::choice::meant_or;
 use crate::error::{Error, Result};
-use crate::lines::DrawingSettings;
-use crate::mesh::SectionPlane;
+use crate::lines::{DrawingFormat, DrawingSettings};
+use crate::mesh::SectionPlanes;
 use crate::preset::{LOOKS, Look, Preset};
 use crate::scene::SceneSettings;
 use crate::settings::{EXCLUSIVE, HasSettings, OptionValue, Options, refuse_exclusive};
@@ -102,11 +102,11 @@ impl Read {
 /// Options as given by hand: a section is meant in the axes of the model's file.
 fn given(options: &Options) -> Options {
     let mut options = options.clone();
-    if let Some(OptionValue::Text(plane)) = options.get_mut("section")
-        && plane.contains('=')
-        && !plane.starts_with(SectionPlane::OF_FILE)
-    {
-        plane.insert_str(0, SectionPlane::OF_FILE);
+    let of_file = |planes: &mut String| *planes = SectionPlanes::of_file(planes);
+    match options.get_mut("section") {
+        Some(OptionValue::Text(planes)) => of_file(planes),
+        Some(OptionValue::Texts(planes)) => planes.iter_mut().for_each(of_file),
+        _ => {}
     }
     options
 }
@@ -196,8 +196,8 @@ impl Request {
     ///
     /// [`Error::Setting`] with the option.
     pub(crate) fn refuse_vectors_options(&self) -> Result<()> {
-        let has_lines_over = self.contents(false)?.lines.is_some();
-        let is_drawn = |option: &str| has_lines_over && is_of_exact_lines(option) && !is_of_files(option);
+        let has_strokes = self.contents(false)?.has_strokes();
+        let is_drawn = |option: &str| has_strokes && is_of_exact_lines(option) && !is_of_files(option);
         self.refuse_of_lines(|option| !self.is_of_look(option) && !is_drawn(option))
     }
 
@@ -213,6 +213,9 @@ impl Request {
             true => pixels_on_paper(&self.options),
             false if has_vectors && !is_of_vectors(option, self.style.style_name()) => {
                 "drawings of lines alone have it; leave it out, or choose --look technical or --style lines".to_owned()
+            }
+            false if option.starts_with("hatch") => {
+                "strokes stand for the tones of a finished picture; leave it out, or choose --look print".to_owned()
             }
             false if is_of_exact_lines(option) && !is_of_files(option) => {
                 "exact lines have it; leave it out, add --exact-lines, or write a .svg or .pdf".to_owned()
@@ -234,17 +237,14 @@ impl Request {
 
 /// Whether an option of drawings is about paths in a file, of which pixels have none.
 fn is_of_files(option: &str) -> bool {
-    OF_PATHS.contains(&option) || OF_PAPER.contains(&option)
+    DrawingFormat::PIXELS.lacks(option).is_some() || OF_PAPER.contains(&option)
 }
 
-/// The options that are about paths in a file.
-pub(crate) const OF_PATHS: [&str; 5] = ["provenance", "pen", "fit-curves", "hatch", "hatch-angle"];
-
 /// The options that are about paper.
-pub const OF_PAPER: [&str; 6] = ["page", "width-mm", "dpi", "margin", "scale", "units"];
+pub(super) const OF_PAPER: [&str; 6] = ["page", "width-mm", "dpi", "margin", "scale", "units"];
 
 /// The error about a paper size for pixels.
-pub fn pixels_on_paper(options: &Options) -> String {
+pub(super) fn pixels_on_paper(options: &Options) -> String {
     /// Dots an inch of a print.
     const DPI: f64 = 300.0;
     match DrawingSettings::from_options(options).ok().and_then(|drawing| drawing.page_size.pixels(DPI)) {

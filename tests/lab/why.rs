@@ -75,10 +75,7 @@ fn what_cannot_be_explained_is_refused_in_one_sentence() {
     let output = tinta(&[&["why", box_, "1,1"], &three[..]].concat());
     assert!(said(&output).trim_end().ends_with("of the model"), "{}", said(&output));
     refused_in_one_line(&["why", box_, "5,5", "--silhouette", "smooth"], &["ask for exact ones"]);
-    refused_in_one_line(
-        &["why", box_, "5,5", "-o", "a.png"],
-        &["--output: it explains the shaders", "--style three-pass"],
-    );
+    refused_in_one_line(&["why", box_, "5,5", "-o", "a.png"], &["--output: it explains shaders", "--style three-pass"]);
 }
 
 #[test]

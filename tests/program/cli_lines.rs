@@ -342,7 +342,7 @@ fn a_model_is_not_written_over_and_an_empty_drawing_is_said() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("no line of these classes is visible"));
     refused_in_one_line(
         &["render", &model, "-o", &folder.path("a.svgz")],
-        &[".svgz", ".svg, .pdf, .dxf or .json for lines"],
+        &[".svgz", ".svg, .pdf, .dxf, .json for lines"],
     );
 }
 

@@ -27,7 +27,7 @@ const FILES: [(&str, &str); 16] = [
 ];
 
 /// Command lines and their errors.
-const MISTAKES: [(&str, &str); 105] = [
+const MISTAKES: [(&str, &str); 118] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
     ("render triangle.obj", "--output is missing; name the picture to write: -o triangle.png; see --help"),
@@ -37,11 +37,11 @@ const MISTAKES: [(&str, &str); 105] = [
     ("out.png", "out.png is no model; tinta again out.png -o FILE draws a picture of tinta's again; see --help"),
     (
         "render triangle.obj twice.obj -o %s.png",
-        "%s.png: %s stands for no model's name, because all models make one picture; write a command for each",
+        "%s.png: %s stands for no model's name; tinta batch draws a picture of each model: -o '{name}.png'",
     ),
     (
-        "render triangle.obj -o out.png --section x=0 --section z=0",
-        "--section: it is given twice; leave one of them out; see --help",
+        "render triangle.obj -o out.png --page A4 --page A3",
+        "--page: it is given twice; leave one of them out; see --help",
     ),
     (
         "render triangle.obj -o out.png --style print",
@@ -186,11 +186,11 @@ const MISTAKES: [(&str, &str); 105] = [
     ),
     (
         "render triangle.obj -o out.xyz",
-        "out.xyz: tinta writes no .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf or .json for lines, .gif or .apng for an animation",
+        "out.xyz: tinta writes no .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf, .json for lines, .gif or .apng for an animation",
     ),
     (
         "render triangle.obj -o out",
-        "out: the name has no extension; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf or .json for lines, .gif or .apng for an animation",
+        "out: the name has no extension; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf, .json for lines, .gif or .apng for an animation",
     ),
     (
         "render triangle.obj -o out.svg --class-colors silhouete=red",
@@ -275,7 +275,7 @@ const MISTAKES: [(&str, &str); 105] = [
     ("render empty.obj -o out.png", "empty.obj: the file is empty; export the model again"),
     (
         "render notes.txt -o out.png",
-        "notes.txt: this is not a model in a supported format; use an OBJ, PLY, STL, MD2, 3DS or glTF file",
+        "notes.txt: this is not a model in a supported format; use one of OBJ, STL, PLY, MD2, 3DS, 3MF, glTF",
     ),
     (
         "render cut.obj -o out.png",
@@ -326,7 +326,44 @@ const MISTAKES: [(&str, &str); 105] = [
         "measure triangle.obj -o out --tolerance 0",
         "invalid value '0' for '--tolerance <SHARE>': it is a share of the picture's height, above 0 and at most 1/32; 1/256 are 2 pixels of 512; see --help",
     ),
-    ("batch jobs.jsonl -o out", "jobs.jsonl: line 1: it has no command; write render, compare or measure"),
+    ("batch jobs.jsonl -o out", "jobs.jsonl: line 1: it has no output; name the file to write"),
+    ("batch -o out", "a model is missing; name a file, or a built-in one such as builtin:bust; see --help"),
+    ("batch triangle.obj", "--output is missing; name the folder to write into: -o results; see --help"),
+    (
+        "batch triangle.obj -o out.svg",
+        "out.svg: each model is drawn into its own file; name a folder, or files such as 'pics/{name}.svg'",
+    ),
+    (
+        "batch triangle.obj sub/triangle.stl -o out",
+        "out/triangle.png: triangle.obj and sub/triangle.stl would both be drawn into it; rename one of them",
+    ),
+    ("batch dir -o out", "dir: this folder holds no model that tinta reads; name another"),
+    (
+        "batch triangle.obj notes.txt -o out",
+        "notes.txt: this is no model; name models and folders of models, or one list of jobs",
+    ),
+    (
+        "batch triangle.obj -o {name}.xyz",
+        "./triangle.xyz: tinta writes no .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf, .json for lines, .gif or .apng for an animation",
+    ),
+    (
+        "render triangle.obj twice.obj -o dir/",
+        "dir/: tinta render makes one picture of all models; tinta batch in its place makes one of each",
+    ),
+    (
+        "render triangle.obj -o {name}.svg",
+        "{name}.svg: tinta render makes one picture of all models; tinta batch in its place makes one of each",
+    ),
+    ("triangle.png", "triangle.png is no model; did you mean triangle.obj?"),
+    (
+        "render triangle.obj -o out.svg --size 100mm",
+        "invalid value '100mm' for '--size <WxH>': a size is in pixels, without a unit; for a size on paper write --page 100x80mm; see --help",
+    ),
+    ("render triangle.obj -o out.svg --section X:3", "invalid value 'X:3' for '--section <PLANE>': did you mean x=3?"),
+    (
+        "render triangle.obj -o out.svg --section w=3",
+        "invalid value 'w=3' for '--section <PLANE>': write an axis, x, y or z, and where it is cut, such as x=12, or a normal and a number, such as 1,1,0=5; see --help",
+    ),
     ("batch typo.jsonl -o out", "typo.jsonl: line 1: model: - is standard input, which jobs lack; name a file"),
     ("batch none.jsonl -o out", "none.jsonl: there is no such file; check the name"),
     ("again notes.txt", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),

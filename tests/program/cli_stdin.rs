@@ -120,7 +120,7 @@ fn a_list_of_jobs_is_read_from_standard_input() {
     let output = piped(&["batch", "-", "-o", &done], job.as_bytes());
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     assert!(std::path::Path::new(&done).join("a.svg").exists());
-    let nothing = piped(&["batch", "-", "-o", &done, "--resume"], b"");
+    let nothing = piped(&["batch", "-", "-o", &done], b"");
     assert!(said(&nothing).contains("standard input: nothing came; pipe a list of jobs into it"), "{}", said(&nothing));
     let wrong = piped(&["batch", "-", "-o", &folder.path("x")], job.replace("builtin:open-box", "-").as_bytes());
     let message = "tinta: standard input: line 1: model: - is standard input, which jobs lack; name a file\n";

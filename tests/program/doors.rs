@@ -9,16 +9,17 @@ use crate::program::done;
 use crate::support::Folder;
 use std::path::{Path, PathBuf};
 use tinta::cli::render::asked_by;
+use tinta::lines::DrawingFormat;
 use tinta::lines::Progress;
 use tinta::recipe::{Driver, FileRecord};
-use tinta::request::{DrawingFormat, Request, Resolved, Session};
+use tinta::request::{Request, Resolved, Session, Wanted};
 use tinta::{Picture, StyleName};
 
 /// A model's name, the ending of the file, and options.
 type Row = (&'static str, &'static str, &'static str);
 
 /// Drawings whose request and models decide something together.
-const ROWS: [Row; 26] = [
+const ROWS: [Row; 28] = [
     ("flat", "png", "--look print"),
     ("flat", "svg", "--look print"),
     ("flat", "png", "--look print --view 10,20"),
@@ -38,6 +39,8 @@ const ROWS: [Row; 26] = [
     ("gear", "svg", "--look print --section x=0"),
     ("gear", "svg", "--look technical --sheet third"),
     ("gear", "svg", "--look print --hatch auto"),
+    ("gear", "png", "--look print --hatch auto"),
+    ("bust", "png", "--look print --hatch 6,hatch-angle=30 --ground shadow --background transparent"),
     ("gear", "dxf", "--look print --hatch auto --pen"),
     ("gear", "json", "--look technical"),
     ("gear", "svg", "--look technical --areas object --no-borders"),
@@ -58,9 +61,9 @@ fn file(drawn: &Resolved, beside: &[PathBuf], format: Option<DrawingFormat>, ses
     let request = &drawn.request;
     let recipe = |gl| request.recipe(&drawn.scene, beside, gl, |path: &Path| FileRecord::of(path).ok());
     if let Some(format) = format {
-        let has_recipe = !matches!(format, DrawingFormat::Dxf | DrawingFormat::Json);
+        let has_recipe = !format.is_of_lines_alone;
         let recipe = has_recipe.then(|| recipe(None));
-        let lines = drawn.drawn_lines(format.wanted(false), &Progress::default()).unwrap();
+        let lines = drawn.drawn_lines(Wanted::of(format, false), &Progress::default()).unwrap();
         return lines.written(format, None, recipe.as_ref()).unwrap().bytes().unwrap();
     }
     let renderer = request.renderer(session).unwrap();
@@ -85,7 +88,7 @@ fn compared(folder: &Folder, session: &mut Session, (model, ending, options): Ro
     let by_command = std::fs::read(&out).unwrap();
     let words: Vec<String> = ["tinta"].into_iter().chain(words).map(str::to_owned).collect();
     let (request, _) = asked_by(&words).unwrap();
-    let format = DrawingFormat::of(&request, &out).unwrap();
+    let format = request.drawing_format(&out).unwrap();
     let read = request.models(&session.models).unwrap();
     // A scene keeps its copies.
     let mut plain = Request::default();
@@ -113,7 +116,7 @@ fn check(rows: impl IntoIterator<Item = Row>, count: usize) {
 
 #[test]
 fn every_door_draws_the_commands_file() {
-    check(ROWS, 26);
+    check(ROWS, 28);
 }
 
 #[test]

@@ -293,7 +293,7 @@ impl Error {
     }
 
     /// Returns the kind of the system's error, for a file with one.
-    pub fn io_kind(&self) -> Option<io::ErrorKind> {
+    fn io_kind(&self) -> Option<io::ErrorKind> {
         match self {
             Self::File { cause, .. } => cause.as_ref().map(io::Error::kind),
             _ => None,

@@ -82,7 +82,7 @@ pub use parts::style::{PartRole, PartStyle};
 pub use progress::{Phase, Progress};
 #[doc(hidden)]
 pub use regions::{
-    Joined, Region, Regions, SeenFace, Surface, ToneLight, ToneRule, TonedSurface, chosen_light, ground_light,
+    Joined, LIGHTS, Region, Regions, SeenFace, Surface, ToneLight, ToneRule, TonedSurface, chosen_light, ground_light,
     ground_shadow, lit_scene,
 };
 pub use segment::LineSegment;
@@ -97,15 +97,16 @@ pub use smooth::silhouettes::{SmoothSilhouette, smooth_silhouettes};
 pub use smooth::visibility_events::{Inconsistency, InconsistencyKind, VisibilityChanges};
 pub use visible_lines::{LineTimes, VisibleLines};
 pub use why::{Hider, Why, WhyLine, WhyPiece};
-pub use write::dxf::{dxf, dxf_of_paths};
+pub use write::dxf::dxf;
 #[cfg(feature = "pdf")]
-pub use write::pdf::{pdf, pdf_of_paths};
+pub use write::pdf::pdf;
 #[doc(hidden)]
 pub use write::raster::{
-    Raster, lay_area, lay_over, lay_strokes, lay_strokes_by, raster, raster_of_paths, raster_of_strokes,
+    Raster, lay_fills, lay_over, lay_strokes, lay_strokes_by, raster, raster_of_paths, raster_of_strokes,
 };
 pub use write::strokes::{Polyline, Strokes, strokes, strokes_of_paths};
 pub use write::svg::{svg, svg_of_paths};
+pub use write::{DrawingContent, DrawingFormat};
 #[doc(hidden)]
 pub use {
     eye::cast::{Hit, first_hits},

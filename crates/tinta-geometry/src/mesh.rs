@@ -48,6 +48,8 @@ mod stl;
 mod take_normals;
 mod text;
 mod three_ds;
+#[cfg(feature = "3mf")]
+mod three_mf;
 mod triangle_mesh;
 mod triangulate;
 mod vertices;
@@ -55,13 +57,13 @@ mod weld;
 
 pub use curves::Curves;
 pub use defects::Defects;
-pub use format::{is_model_name, is_read};
+pub use format::{Format, is_model_name};
 pub use frame::ModelFrame;
 #[cfg(feature = "gltf")]
 pub use gltf::camera as gltf_camera;
 pub use load::{Loaded, load, load_watched, read_as, read_bytes, refuse_address};
 pub use options::{LoadOptions, LoadStage, Normals, UpAxis};
-pub use section::{Cut, SECTION, SectionPlane};
+pub use section::{Cut, SECTION, SectionPlane, SectionPlanes};
 pub(crate) use shells::Shells;
 pub(crate) use triangle_mesh::triangle_normal;
 pub use triangle_mesh::{EmbeddedPicture, Material, Mesh, NONE, NamedPart, TextureAlpha, bounds};

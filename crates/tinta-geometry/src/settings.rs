@@ -310,7 +310,7 @@ impl<T: Clone + 'static> Setting<T> {
 
     /// Refuses values that `check` rejects for this struct.
     #[must_use]
-    pub fn refusing(mut self, check: fn(&T) -> Result<()>) -> Self {
+    pub(crate) fn refusing(mut self, check: fn(&T) -> Result<()>) -> Self {
         let set = self.set;
         self.set = Box::new(move |of, text| {
             set(of, text)?;

@@ -139,7 +139,7 @@ pub(crate) const COORDINATE_NOISE: f64 = 16.0 * f64::EPSILON;
 
 /// Rounding of coordinates far from the origin, pixels, above which exact lines are not called exact: an end of a line may be off
 /// by as much elsewhere.
-pub const LOST_PX: f64 = 0.05;
+pub(crate) const LOST_PX: f64 = 0.05;
 
 /// Sine of the angle between a face and the view below which the face is edge-on. A surface may end at each side of such a
 /// face, and a side shared with a face that is not edge-on is silhouette. An unnecessary one costs a ray.
@@ -222,4 +222,4 @@ pub(crate) const THROUGH_VERTEX: f64 = 1e-4;
 
 /// Least rate at which a curvature falls beside a crest, as a share of the curvature's third power. On pipes and balls the
 /// curvature is constant except for the mesh's error.
-pub const CREST_SHARPNESS: f64 = 0.05;
+pub(crate) const CREST_SHARPNESS: f64 = 0.05;

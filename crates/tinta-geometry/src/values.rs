@@ -45,6 +45,9 @@ impl FromStr for Size {
         let (width, height) = text.split_once(['x', 'X', ',']).unwrap_or((text, text));
         match (width.parse(), height.parse()) {
             (Ok(width), Ok(height)) if width > 0 && height > 0 => Ok(Self { width, height }),
+            _ if text.ends_with(['m', 'n']) => {
+                Err("a size is in pixels, without a unit; for a size on paper write --page 100x80mm".to_owned().into())
+            }
             _ => Err("a size is WIDTHxHEIGHT in pixels, each at least 1, or one number for both".to_owned().into()),
         }
     }

@@ -32,7 +32,7 @@ pub(super) fn check_name(animation: &AnimationSettings, output: &str) -> Result<
         return Err(Error::output(output, problem));
     }
     if output.contains("%s") {
-        let problem = "%s stands for no model's name, because all models make one picture; write a command for each";
+        let problem = "%s stands for no model's name; tinta batch draws a picture of each model: -o '{name}.png'";
         return Err(Error::output(output, problem));
     }
     Ok(())

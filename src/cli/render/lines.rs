@@ -9,13 +9,11 @@ use super::rendering::Rendering;
 use super::watched::{is_stopped, progress, watched};
 use super::{explain, keep};
 use std::time::Instant;
-use tinta::lines::{chain, strokes_of_paths};
+use tinta::lines::{DrawingContent, DrawingFormat, chain, strokes_of_paths};
 use tinta::record::{LineCounts, LinesMade, Made, Record};
 use tinta::renderer::milliseconds_since;
-use tinta::request::{DrawingFormat, DrawnLines, OF_PAPER, OF_PATHS, Session, pixels_on_paper};
-use tinta::settings::HasSettings;
-use tinta::styles::is_of_lines_alone;
-use tinta::{DrawingSettings, Error, Result, Show, Target, TextTarget};
+use tinta::request::{DrawnLines, Session, Wanted};
+use tinta::{Error, Result, Show, Target, TextTarget};
 
 /// Finds the lines and writes them.
 pub(super) fn run(rendering: &Rendering<'_>, format: DrawingFormat, session: &mut Session) -> Result<Verdict> {
@@ -23,8 +21,11 @@ pub(super) fn run(rendering: &Rendering<'_>, format: DrawingFormat, session: &mu
     let turn = request.animation.turntable;
     let turn = turn.map(|views| turn::names(output, format).map(|names| (views, names))).transpose()?;
     let first = turn.as_ref().map_or_else(|| output.to_owned(), |(_, names)| names.with(1));
-    check_output(&first, format, request.is_transparent())?;
-    refuse_what_lines_have_not(rendering, format)?;
+    match format.content {
+        DrawingContent::Pixels => Target::check(&first, request.is_transparent()).map(drop)?,
+        _ => TextTarget::check(&first).map(drop)?,
+    }
+    refuse_what_lines_have_not(rendering)?;
     // A job of a batch leaves signals to its run.
     let stop = (!is_captured()).then(Stop::on_signals);
     match turn {
@@ -41,7 +42,7 @@ fn one_view(
     stop: Option<&Stop>,
 ) -> Result<Verdict> {
     let Rendering { request, run, output } = *rendering;
-    let (progress, wanted) = (progress(rendering), format.wanted(run.is_told()));
+    let (progress, wanted) = (progress(rendering), Wanted::of(format, run.is_told()));
     let drawn = match watched(&progress, stop, || request.lines(session, wanted, &progress)) {
         Err(Error::Cancelled) => return Ok(stopped(stop)),
         drawn => drawn?,
@@ -52,16 +53,17 @@ fn one_view(
     let start = Instant::now();
     let DrawnLines { resolved, lines, areas, load_ms, .. } = &drawn;
     let drawing = &resolved.contents.drawing;
-    if format == DrawingFormat::Dxf && areas.as_ref().is_some_and(|areas| !areas.drawn.fills.is_empty()) {
+    if format.lacks("areas").is_some() && areas.as_ref().is_some_and(|areas| !areas.drawn.fills.is_empty()) {
         say(&format!(
-            "tinta: {output}: a .dxf file has no fills, so only lines are written; --hatch draws tones as lines"
+            "tinta: {output}: a .{} file has no fills, so only lines are written; --hatch draws tones as lines",
+            format.ending
         ));
     }
-    let has_recipe = matches!(format, DrawingFormat::Svg | DrawingFormat::Pdf | DrawingFormat::Picture);
+    let has_recipe = !format.is_of_lines_alone;
     let recipe = if has_recipe { keep::recipe(rendering, resolved, &drawn.files, None) } else { None };
-    let paths = match format {
-        DrawingFormat::Json if run.is_told() => chain(&lines.segments),
-        DrawingFormat::Json => Vec::new(),
+    let paths = match format.content {
+        DrawingContent::Data if run.is_told() => chain(&lines.segments),
+        DrawingContent::Data => Vec::new(),
         _ => drawn.paths(),
     };
     let counts = LineCounts::new(lines, &paths);
@@ -108,17 +110,7 @@ fn stopped(stop: Option<&Stop>) -> Verdict {
     Verdict::Stopped { signal: stop.map_or(0, Stop::signal) }
 }
 
-/// Checks that the file can be written, without writing.
-fn check_output(output: &str, format: DrawingFormat, is_transparent: bool) -> Result<()> {
-    match format {
-        DrawingFormat::Picture => Target::check(output, is_transparent).map(drop),
-        DrawingFormat::Svg | DrawingFormat::Pdf | DrawingFormat::Dxf | DrawingFormat::Json => {
-            TextTarget::check(output).map(drop)
-        }
-    }
-}
-
-fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: DrawingFormat) -> Result<()> {
+fn refuse_what_lines_have_not(rendering: &Rendering<'_>) -> Result<()> {
     let Rendering { request, run, output } = *rendering;
     // A format without appearance leaves out what a look says of it.
     let is_given = |option: &str| request.options.contains_key(option) && !request.is_of_look(option);
@@ -140,25 +132,5 @@ fn refuse_what_lines_have_not(rendering: &Rendering<'_>, format: DrawingFormat) 
         let problem = "the drawing and --json or --explain cannot share standard output; name a file";
         return Err(Error::value("o", "-", problem));
     }
-    match format {
-        DrawingFormat::Svg => Ok(()),
-        DrawingFormat::Pdf => refuse(&["provenance"], "a .pdf file has no place for it; leave it out, or write a .svg"),
-        DrawingFormat::Dxf => {
-            let problem =
-                "a .dxf file holds polylines without curves, fills and their edges; leave it out, or write a .svg";
-            refuse(&["provenance", "fit-curves", "areas"], problem)
-        }
-        DrawingFormat::Picture => {
-            let problem = "a picture has pixels and no paths; leave it out, or write a .svg";
-            refuse(&OF_PATHS, problem)?;
-            refuse(&["areas"], "a picture of exact lines has no areas; leave it out, or write a .svg")?;
-            refuse(&OF_PAPER, &pixels_on_paper(&request.options))
-        }
-        DrawingFormat::Json => {
-            refuse(&["sheet"], "a .json file holds one view; leave it out, or write a .svg")?;
-            let drawing = DrawingSettings::table().of(None).into_iter().map(|setting| setting.name);
-            let options: Vec<&str> = drawing.filter(|name| *name != "min-length" && is_of_lines_alone(name)).collect();
-            refuse(&options, "a .json file holds all lines but no appearance; leave it out, or write a .svg")
-        }
-    }
+    Ok(())
 }

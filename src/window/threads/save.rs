@@ -3,14 +3,14 @@
 use crate::animation::{AnimationTarget, AnimationWriter};
 use crate::error::Result;
 use crate::gl::{Backend, ContextInfo};
-use crate::lines::{Progress, Raster, raster_of_strokes};
+use crate::lines::{DrawingFormat, Progress, Raster, raster_of_strokes};
 use crate::mesh::LoadOptions;
 use crate::output::TextTarget;
 use crate::picture::{Picture, Target};
 use crate::preset::{OptionValue, Options, to_toml};
 use crate::recipe::{Driver, FileRecord};
 use crate::renderer::Renderer;
-use crate::request::{DrawingFormat, OptionLayer, Request, Wanted};
+use crate::request::{OptionLayer, Request, Wanted};
 use crate::scene::SceneSettings;
 use crate::settings::HasSettings;
 use crate::shell;
@@ -153,8 +153,8 @@ fn save_of(
             let request = request(state, job, surroundings, save, side)?;
             let resolved = request.resolve_again(&job.scene, true)?;
             let recipe = resolved.request.recipe(&resolved.scene, files, None, record);
-            let drawn = resolved.drawn_lines(DrawingFormat::Svg.wanted(false), &Progress::default())?;
-            drawn.written(DrawingFormat::Svg, None, Some(&recipe))?.write(&name, request.is_transparent())?;
+            let drawn = resolved.drawn_lines(Wanted::default(), &Progress::default())?;
+            drawn.written(DrawingFormat::SVG, None, Some(&recipe))?.write(&name, request.is_transparent())?;
         }
         Save::Turn => {
             turn(&request(state, job, surroundings, Save::Picture, side)?, job, surroundings.backend, &name)?;

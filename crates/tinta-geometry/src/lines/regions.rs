@@ -40,7 +40,7 @@ mod tones;
 mod view;
 
 pub use ground::{ground_light, ground_shadow};
-pub use lit::{chosen_light, lit_scene};
+pub use lit::{LIGHTS, chosen_light, lit_scene};
 pub use region::{Region, Regions, SeenFace};
 pub use surface::{Joined, Surface};
 pub use tones::{ToneLight, ToneRule, TonedSurface};

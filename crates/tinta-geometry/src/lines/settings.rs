@@ -135,7 +135,8 @@ impl LineSettings {
                  again for more parts, later rules above earlier ones",
                 |lines: &mut Self| &mut lines.parts,
             )
-            .repeated(PartRules::BETWEEN),
+            .repeated(PartRules::BETWEEN)
+            .common(),
             Setting::flag(
                 "join-parts",
                 "Leave out seams where coplanar faces of one material meet across parts of one file",

@@ -6,7 +6,7 @@
 use super::other_diagonals::drop_duplicates;
 use super::pieces::Pieces;
 use super::soup::{Corner, Soup};
-use super::{Curves, Cut, Defects, LoadOptions, LoadStage, Mesh, NONE, options, weld};
+use super::{Curves, Cut, Defects, LoadOptions, LoadStage, Mesh, NONE, SectionPlane, SectionPlanes, options, weld};
 use crate::error::{Error, Result};
 use crate::limits::{CONCAVE_CORNERS, CROSSING_CORNERS};
 use crate::tolerances::LARGEST_COORDINATE;
@@ -280,16 +280,18 @@ impl Mesh {
     }
 }
 
-/// Cuts a mesh open at the options' plane, if they have one, with remarks; `turn` turns the file's axes into the world's.
+/// Cuts a mesh open at the options' planes, if they have any, with remarks; `turn` turns the file's axes into the world's.
 fn cut_open(
     mesh: Mesh,
     (name, options): (&str, &LoadOptions),
     turn: impl Fn(DVec3) -> DVec3,
     remarks: &mut Vec<String>,
 ) -> Result<Mesh> {
-    let Some(plane) = &options.section else { return Ok(mesh) };
-    let hatching = if plane.is_of_file { options.section_hatch } else { Some(0.0) };
-    let (mesh, cut) = mesh.section(&plane.in_world(turn), hatching)?;
+    let Some(SectionPlanes(planes)) = &options.section else { return Ok(mesh) };
+    let is_of_file = planes.iter().any(|plane| plane.is_of_file);
+    let hatching = if is_of_file { options.section_hatch } else { Some(0.0) };
+    let planes: Vec<SectionPlane> = planes.iter().map(|plane| plane.in_world(&turn)).collect();
+    let (mesh, cut) = mesh.section(&planes, hatching)?;
     match cut {
         Cut::Closed => {}
         Cut::Gone => remarks.push(format!("{name}: it lies wholly in front of the section's plane, which cuts it away")),

@@ -19,8 +19,6 @@ mod uri;
 
 use super::folder::Folder;
 use super::left_out::{self, counted};
-use super::options::LoadOptions;
-use super::skin;
 use super::soup::Soup;
 use crate::error::{Error, Result};
 use crate::files::shown;
@@ -29,23 +27,14 @@ use accessors::Accessors;
 use buffers::Buffers;
 pub use cameras::camera;
 use container::Parts;
+pub(super) use container::looks_like;
 use gltf_json::Root;
 use materials::{LeftOut, Materials};
 use nodes::Nodes;
 
 /// Reads a glTF or GLB file's bytes. `path` appears in messages; `folder` holds its data and pictures.
-pub(super) fn read(
-    bytes: &[u8],
-    path: &str,
-    options: &LoadOptions,
-    folder: &Folder<'_>,
-    remarks: &mut Vec<String>,
-) -> Result<Soup> {
-    let mut soup = contents(bytes, path, folder, remarks).map_err(|problem| Error::model(path, problem))?;
-    if options.skin.is_none() {
-        skin::find_all(&mut soup, folder, path, remarks);
-    }
-    Ok(soup)
+pub(super) fn read(bytes: &[u8], path: &str, folder: &Folder<'_>, remarks: &mut Vec<String>) -> Result<Soup> {
+    contents(bytes, path, folder, remarks).map_err(|problem| Error::model(path, problem))
 }
 
 /// The same; the error is a sentence without the file's name.

@@ -2,14 +2,13 @@
 //! every byte it looks at goes through [`Bytes`].
 //!
 //! In the file x is forward, y left and z up, triangles are clockwise and texture coordinates count texels from the upper
-//! left. All of that is turned here to this program's: y up with the front towards +z (unless `--up-axis` says otherwise),
-//! counter-clockwise, shares from the lower left. The file's normals, numbers into a table of the game's, are not used:
+//! left. The latter two are turned here to this program's: counter-clockwise, shares from the lower left. The file's normals, numbers into a table of the game's, are not used:
 //! they are computed. Layout: the game's `dmdl_t` and its tables, as its authors published it.
 
 use super::Material;
 use super::folder::{Folder, Lookup};
 use super::frame::Between;
-use super::options::{LoadOptions, UpAxis};
+use super::options::LoadOptions;
 use super::skin::{self, Found};
 use super::soup::{Corner, Soup};
 use crate::bytes::{Bytes, name};
@@ -19,7 +18,7 @@ use glam::{DVec3, Vec2};
 use std::path::{Path, PathBuf};
 
 /// What every file begins with.
-pub(super) const MAGIC: &[u8] = b"IDP2";
+const MAGIC: &[u8] = b"IDP2";
 
 const VERSION: usize = 8;
 const SKIN_BYTES: usize = 64;
@@ -89,6 +88,11 @@ impl Header {
     }
 }
 
+/// Whether a file begins like MD2.
+pub(super) fn looks_like(bytes: &[u8]) -> bool {
+    bytes.starts_with(MAGIC)
+}
+
 /// Reads an MD2 file's bytes. `path` is for messages; `folder` holds its skin.
 pub(super) fn read(
     bytes: &[u8],
@@ -128,11 +132,9 @@ pub(super) fn read(
         positions: positions(frames, between, header.vertices),
         texture_coordinates: texels.map(|texel| texture_coordinate(texel, &header)).collect(),
         frames: names,
+        has_pictures: true,
         ..Soup::default()
     };
-    if options.up_axis == UpAxis::Auto {
-        soup.turn_by(to_y_up);
-    }
     for triangle in triangles {
         match corners(triangle, &header) {
             Some(corners) => soup.corners.extend(corners),
@@ -180,7 +182,7 @@ fn vertices(frame: &[u8], count: usize) -> Option<Vec<DVec3>> {
 }
 
 /// Turns forward x, left y and up z into +z, +x and +y: a rotation.
-fn to_y_up(v: DVec3) -> DVec3 {
+pub(super) fn to_y_up(v: DVec3) -> DVec3 {
     DVec3::new(v.y, v.z, v.x)
 }
 

@@ -26,7 +26,8 @@ use chunk::{Chunk, Counts, Naming, Place};
 const PIECE_BYTES: usize = 1 << 20;
 
 /// Whether the beginning of a file reads like OBJ: text with a line of one of its statements.
-pub(super) fn looks_like(head: &[u8]) -> bool {
+pub(super) fn looks_like(bytes: &[u8]) -> bool {
+    let head = text::head(bytes);
     const STATEMENTS: [&[u8]; 10] = [b"v", b"vt", b"vn", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"vp"];
     !head.contains(&0)
         && head.split(|byte| matches!(byte, b'\n' | b'\r')).any(|line| {

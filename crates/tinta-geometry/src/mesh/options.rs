@@ -1,6 +1,6 @@
 //! The options and stages of reading a model.
 
-use super::{ModelFrame, SectionPlane};
+use super::{ModelFrame, SectionPlanes};
 use crate::error::{Error, Result};
 use crate::settings::{HasSettings, Setting, Table, under};
 use crate::tolerances::{LARGEST_WELD, WELD};
@@ -20,7 +20,7 @@ pub struct LoadOptions {
     /// Largest angle between neighbouring faces that share a computed normal. Default 60 degrees; more rounds edges off, less
     /// makes facets.
     pub smooth_angle_degrees: f64,
-    /// The axis that points up in the file. Default: its format's, z for STL, MD2 and 3DS, y for the others.
+    /// The axis that points up in the file. Default: its format's.
     pub up_axis: UpAxis,
     /// Whether a defect is an error. Default: no, it is counted.
     pub strict: bool,
@@ -32,8 +32,8 @@ pub struct LoadOptions {
     /// Whether the model may name files outside its folder: materials, data and pictures. Default: no. Such files, named by
     /// `..`, absolutely or through links, are skipped with a remark.
     pub allow_external: bool,
-    /// The plane in front of which the model is cut away. Default: none.
-    pub section: Option<SectionPlane>,
+    /// The planes in front of all of which the model is cut away. Default: none.
+    pub section: Option<SectionPlanes>,
     /// Spacing of the strokes on a cut in the file's axes, file units; 0 draws none. Default a sixtieth of the model.
     pub section_hatch: Option<f64>,
 }
@@ -70,7 +70,7 @@ impl LoadOptions {
             Setting::field(
                 "up-axis",
                 "AXIS",
-                "Axis that points up in the file: auto (z in STL, MD2 and 3DS, else y), x, y, z, -x, -y, -z",
+                "Axis that points up in the file: auto (that of its format), x, y, z, -x, -y, -z",
                 |load: &mut Self| &mut load.up_axis,
             ),
             Setting::field(
@@ -119,12 +119,13 @@ impl LoadOptions {
                 "section",
                 "PLANE",
                 "",
-                "Cut away all beyond a plane, such as x=12 or 1,1,0=5, in the axes of the model's file; cut faces are hatched, and the part \
-                 section",
+                "Cut away all beyond a plane, such as x=12 or 1,1,0=5, in the axes of the model's file, or all beyond each of several planes; cut \
+                 faces are hatched, and the part section",
                 |load: &mut Self| &mut load.section,
             )
             .said("nothing is cut away")
-            .common(),
+            .common()
+            .repeated(SectionPlanes::BETWEEN),
             Setting::open_field(
                 "section-hatch",
                 "SPACING",
@@ -184,7 +185,7 @@ crate::choices! {
 crate::choices! {
     /// The model's up axis.
     pub enum UpAxis {
-        /// The format's up axis: z in STL and 3DS (with -y as the front) and in MD2 (with x as the front), y in the others.
+        /// The format's up axis.
         Auto = "auto",
         /// +x is up.
         X = "x",
@@ -203,7 +204,7 @@ crate::choices! {
 
 impl UpAxis {
     /// Rotates a vector to turn this axis into +y. Exact: components only change places and signs. For `Auto` the vector stays
-    /// unchanged, because the reader has already turned it.
+    /// unchanged, because the file's positions have been turned by its [`Format`](super::Format).
     pub fn to_y_up(self, v: DVec3) -> DVec3 {
         match self {
             Self::X => DVec3::new(-v.y, v.x, v.z),

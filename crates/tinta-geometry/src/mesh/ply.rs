@@ -22,6 +22,11 @@ use std::path::Path;
 /// Whether elements were read.
 type Read = std::result::Result<(), Damage>;
 
+/// Whether a file begins like PLY.
+pub(super) fn looks_like(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r")
+}
+
 /// Reads a PLY file's bytes. `path` appears in messages; `remarks` gets a sentence for each ignored part.
 pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
     if !bytes.starts_with(b"ply") {

@@ -47,6 +47,8 @@ pub(super) struct Soup {
     pub turn: Option<fn(DVec3) -> DVec3>,
     /// The alternative up axis, for formats that do not name one.
     pub other_up: Option<UpAxis>,
+    /// Whether its reader has looked for its materials' pictures, which else are names.
+    pub has_pictures: bool,
     /// The files read besides the model's own: its material libraries, its data.
     pub files: Vec<PathBuf>,
     /// Bytes of those files that hold vertices and faces.
@@ -125,8 +127,8 @@ impl Size {
     }
 }
 
-/// Of the one format that writes copies.
-#[cfg(feature = "gltf")]
+/// Of the formats that write copies.
+#[cfg(any(feature = "3mf", feature = "gltf"))]
 impl Size {
     /// This and more.
     pub(super) fn plus(self, more: Self) -> Self {

@@ -20,8 +20,14 @@ pub(super) fn is_binary(bytes: &[u8]) -> bool {
     whole_length(bytes) == Some(bytes.len() as u64)
 }
 
+/// Whether a file is STL, by its length or its beginning.
+pub(super) fn looks_like(bytes: &[u8]) -> bool {
+    is_binary(bytes) || is_text(bytes)
+}
+
 /// Whether the beginning of a file reads like text STL: `solid`, perhaps below comments.
-pub(super) fn is_text(head: &[u8]) -> bool {
+fn is_text(bytes: &[u8]) -> bool {
+    let head = text::head(bytes);
     let mut lines = head.split(|byte| b"\r\n".contains(byte)).map(<[u8]>::trim_ascii_start);
     let first = lines.find(|line| !line.is_empty() && !line.starts_with(b"#"));
     let is_solid = |line: &[u8]| line.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
@@ -47,7 +53,7 @@ pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Resul
     if is_binary(bytes) {
         return Ok(binary(&bytes[HEADER_BYTES..]));
     }
-    let is_text = is_text(&bytes[..bytes.len().min(4096)]);
+    let is_text = is_text(bytes);
     if let (false, Some((facets, rest, count))) = (is_text, longer(bytes)) {
         let (mut soup, has) = (binary(&facets), facets.len() / FACET_BYTES);
         let promise = format!("{count} {}", if count == 1 { "triangle" } else { "triangles" });

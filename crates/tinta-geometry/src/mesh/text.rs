@@ -22,6 +22,11 @@ pub(super) fn with_newlines(text: &[u8]) -> Cow<'_, [u8]> {
     }
 }
 
+/// The bytes that a format is recognised by.
+pub(super) fn head(bytes: &[u8]) -> &[u8] {
+    &bytes[..bytes.len().min(4096)]
+}
+
 fn of_utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Vec<u8> {
     let units = bytes.as_chunks::<2>().0.iter().map(|pair| unit(*pair));
     let characters = char::decode_utf16(units).map(|character| character.unwrap_or(char::REPLACEMENT_CHARACTER));

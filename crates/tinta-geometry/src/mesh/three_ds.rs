@@ -3,13 +3,10 @@
 //!
 //! The file is a tree of chunks, each a number, a length that counts itself, and data that may be followed by chunks.
 //! Vertices lie where the editor had them. The animation's first frame may have a mesh elsewhere: at its carrier's place · its own ·
-//! (its matrix⁻¹ · vertex - pivot). Smoothing groups are not used: normals are computed. In the file z is up and -y the front, which
-//! is turned to y up (unless `--up-axis` says otherwise).
+//! (its matrix⁻¹ · vertex - pivot). Smoothing groups are not used: normals are computed.
 
-use super::folder::Folder;
-use super::options::{LoadOptions, UpAxis};
 use super::soup::{Corner, Soup};
-use super::{Material, NONE, NamedPart, skin};
+use super::{Material, NONE, NamedPart};
 use crate::bytes::Bytes;
 use crate::error::{Error, Result};
 use crate::limits::{MATERIALS, NODE_LEVELS};
@@ -51,8 +48,8 @@ mod chunk {
 const CHUNK_HEADER_BYTES: usize = 6;
 
 /// Whether a file begins with a main chunk and, in it, a chunk that may be its first; TIFF pictures begin with MM too.
-pub(super) fn looks_like(head: &[u8]) -> bool {
-    let mut bytes = Bytes(head);
+pub(super) fn looks_like(bytes: &[u8]) -> bool {
+    let mut bytes = Bytes(bytes);
     bytes.u16() == Some(chunk::MAIN)
         && bytes.u32().is_some()
         && bytes.u16().is_some_and(|first| [chunk::VERSION, chunk::EDITOR, chunk::KEYFRAMER].contains(&first))
@@ -104,14 +101,8 @@ struct Mesh {
     matrix: DMat4,
 }
 
-/// Reads a 3DS file's bytes. `path` is for messages; `folder` holds its textures.
-pub(super) fn read(
-    bytes: &[u8],
-    path: &str,
-    options: &LoadOptions,
-    folder: &Folder<'_>,
-    remarks: &mut Vec<String>,
-) -> Result<Soup> {
+/// Reads a 3DS file's bytes. `path` is for messages.
+pub(super) fn read(bytes: &[u8], path: &str, remarks: &mut Vec<String>) -> Result<Soup> {
     let mut main = Bytes(bytes);
     let (number, length) = (main.u16(), main.u32());
     if number != Some(chunk::MAIN) {
@@ -144,12 +135,6 @@ pub(super) fn read(
     }
     let mut soup = contents.with_materials(path, remarks);
     remarks.extend(soup.note_more(path, &format!("{length} bytes"), [0, 0], bytes.get(length..).unwrap_or_default()));
-    if options.up_axis == UpAxis::Auto {
-        soup.turn_by(|position| UpAxis::Z.to_y_up(position));
-    }
-    if options.skin.is_none() {
-        skin::find_all(&mut soup, folder, path, remarks);
-    }
     Ok(soup)
 }
 

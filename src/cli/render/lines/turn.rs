@@ -9,9 +9,10 @@ use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
 use tinta::animation::NumberedName;
+use tinta::lines::DrawingFormat;
 use tinta::record::Summary;
 use tinta::renderer::milliseconds_since;
-use tinta::request::{DrawingFormat, ReadModels, Request, Session};
+use tinta::request::{ReadModels, Request, Session, Wanted};
 use tinta::{Error, Result};
 
 /// The names of the drawings.
@@ -20,7 +21,7 @@ use tinta::{Error, Result};
 ///
 /// [`Error::File`] for a name without a place for a number, or without a format of lines.
 pub(super) fn names(output: &str, format: DrawingFormat) -> Result<NumberedName> {
-    NumberedName::parse(output).filter(|_| format != DrawingFormat::Json).ok_or_else(|| {
+    NumberedName::parse(output).filter(|_| !format.is_of_lines_alone).ok_or_else(|| {
         Error::output(output, "this names one drawing; a turn has numbered ones such as frame-%04d.svg, .pdf or .png")
     })
 }
@@ -43,7 +44,7 @@ pub(super) fn run(
         let frame = Instant::now();
         let name = names.with(number);
         let progress = progress(rendering);
-        let drawn = watched(&progress, stop, || view.drawn_lines(format.wanted(false), &progress));
+        let drawn = watched(&progress, stop, || view.drawn_lines(Wanted::of(format, false), &progress));
         if is_stopped(stop) || matches!(drawn, Err(Error::Cancelled)) {
             return Ok(stopped(stop, number - 1, views));
         }

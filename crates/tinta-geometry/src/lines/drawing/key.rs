@@ -81,7 +81,9 @@ mod tests {
     #[test]
     fn a_pdf_has_a_form_for_each_opacity_and_texts_moved_by_their_widths() {
         let lines = VisibleLines::none(Size { width: 100, height: 60 });
-        let pdf = crate::lines::pdf_of_paths(&lines, Vec::new(), Some(&areas()), &DrawingSettings::default()).unwrap();
+        let pdf =
+            crate::lines::write::pdf::pdf_of_paths(&lines, Vec::new(), Some(&areas()), &DrawingSettings::default())
+                .unwrap();
         let pdf = String::from_utf8_lossy(&pdf);
         assert_eq!(pdf.matches("/S /Transparency").count(), 2, "{pdf}");
         for state in ["/ca 0.5", "/ca 0.25"] {

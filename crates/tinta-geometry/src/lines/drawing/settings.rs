@@ -157,7 +157,7 @@ impl DrawingSettings {
             Setting::field(
                 "hidden",
                 "HOW",
-                "Hidden lines: none, dashed (grey) or ghost (faint; unbroken and in full colour with --pen); half as \
+                "Hidden lines: none, dashed (grey) or ghost (faint, or unbroken and in full colour with --pen); half as \
                  wide as the visible ones, or as --class-widths and the look say, in layers below them",
                 |svg: &mut Self| &mut svg.hidden,
             )
@@ -202,7 +202,8 @@ impl DrawingSettings {
                  largest round one that fits",
                 |svg: &mut Self| &mut svg.scale,
             )
-            .said("none, the drawing fills its paper"),
+            .said("none, the drawing fills its paper")
+            .common(),
             Setting::field("units", "UNIT", "Unit of the model's numbers, for --scale: mm, cm, m, in", |svg: &mut Self| {
                 &mut svg.units
             }),
@@ -228,7 +229,7 @@ impl DrawingSettings {
                 |svg, is_on| svg.is_for_pen = is_on,
             ),
         ];
-        let heading = "Style lines: exact visible lines, as vectors into FILE.svg, FILE.pdf or FILE.json, as pixels \
+        let heading = "Style lines: exact visible lines, as vectors into FILE.svg and the like, as pixels \
             into FILE.png with --look technical or --style lines; also --classes, --class-colors, --line-width, \
             --crease-angle";
         let hatching = within(Hatching::settings(), |svg: &mut Self| Some(&mut svg.hatching));

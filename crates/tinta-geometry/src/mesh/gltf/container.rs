@@ -3,7 +3,7 @@
 //! GLB is taken apart here: the crate's own function (1.4) takes 12 from the header's length without asking whether it is more,
 //! and refuses chunks that the standard says to pass over.
 
-use super::super::format::GLB_MAGIC;
+use super::super::text;
 use super::extensions::tidied;
 use crate::bytes::Bytes;
 use crate::files::shown;
@@ -12,6 +12,9 @@ use gltf_json::{Camera, Root};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::{Value, json};
+
+/// How GLB begins, glTF in one file.
+const GLB_MAGIC: &[u8] = b"glTF";
 
 const HEADER_BYTES: usize = 12;
 const VERSION: u32 = 2;
@@ -34,6 +37,15 @@ pub(super) struct Parts<'a> {
     pub data: Option<&'a [u8]>,
     /// What follows GLB's end.
     pub unread: &'a [u8],
+}
+
+/// Whether the beginning of a file is that of GLB or reads like glTF's JSON.
+pub(crate) fn looks_like(bytes: &[u8]) -> bool {
+    const WORDS: [&[u8]; 6] =
+        [b"\"asset\"", b"\"accessors\"", b"\"buffers\"", b"\"bufferViews\"", b"\"meshes\"", b"\"nodes\""];
+    let head = text::head(bytes);
+    let has_words = || WORDS.iter().any(|word| memchr::memmem::find(head, word).is_some());
+    head.starts_with(GLB_MAGIC) || head.trim_ascii_start().starts_with(b"{") && has_words()
 }
 
 /// Takes a file apart.
