@@ -283,7 +283,7 @@ impl Error {
         self
     }
 
-    /// Adds the system's error, whose kind [`Error::io_kind`] returns; other errors stay unchanged.
+    /// Adds the system's error, whose kind `io_kind` returns; other errors stay unchanged.
     #[must_use]
     pub fn because(mut self, error: &io::Error) -> Self {
         if let Self::File { cause, .. } = &mut self {

@@ -30,7 +30,7 @@ impl Scene {
     }
 
     /// Returns a remark on exact lines of a scene so far from the origin, for its size, that numbers do not tell its points
-    /// apart to [`LOST_PX`] of the picture.
+    /// apart to `LOST_PX` of the picture.
     pub fn far_remark(&self) -> Option<String> {
         let reach = self.centre.abs().max_element().max(self.camera.eye.abs().max_element());
         let shown = match self.camera.projection {
