@@ -86,6 +86,7 @@ pub(crate) fn endings_of_lines() -> String {
 }
 
 /// Whether a file of this name holds lines or a picture.
+#[cfg(feature = "cli")]
 pub(crate) fn is_drawn_into(name: &str) -> bool {
     DrawingFormat::of_name(name).is_some() || PictureFormat::of(Path::new(name)).is_some()
 }

@@ -141,6 +141,7 @@ impl Size {
     }
 
     /// So many times this.
+    #[cfg(feature = "gltf")]
     pub(super) fn times(self, count: usize) -> Self {
         Self {
             vertices: self.vertices.saturating_mul(count),
