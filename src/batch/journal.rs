@@ -83,10 +83,16 @@ fn cut_torn(file: &mut File) -> std::io::Result<()> {
 fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
     use rustix::fs::{FlockOperation, flock};
     use rustix::io::Errno;
-    let file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
-    // If the file system cannot tell, the run counts as alone.
-    let is_taken = matches!(flock(&file, FlockOperation::NonBlockingLockExclusive), Err(Errno::WOULDBLOCK));
-    Ok((!is_taken).then_some(file))
+    use std::os::unix::fs::MetadataExt;
+    loop {
+        let file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
+        // If the file system cannot tell, the run counts as alone.
+        let is_taken = matches!(flock(&file, FlockOperation::NonBlockingLockExclusive), Err(Errno::WOULDBLOCK));
+        // A run that ended meanwhile removes its empty file.
+        if is_taken || file.metadata()?.nlink() > 0 {
+            return Ok((!is_taken).then_some(file));
+        }
+    }
 }
 
 /// The same on Windows, where a file itself limits how others may open it: for reading.
@@ -200,6 +206,23 @@ mod tests {
         Journal::open(folder.path(), Slice { count: 2, number: 1 }).unwrap();
         drop(journal);
         Journal::open(folder.path(), Slice::WHOLE).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn no_entry_is_lost_where_a_run_without_entries_ends_as_another_begins() {
+        for _ in 0..100 {
+            let folder = tempfile::tempdir().unwrap();
+            let writes = |run: usize| match Journal::open(folder.path(), Slice::WHOLE) {
+                Ok(mut journal) if run % 2 == 0 => journal.append(&done(&run.to_string())).is_ok(),
+                _ => false,
+            };
+            let written = std::thread::scope(|scope| {
+                let runs = [0, 1, 2, 3].map(|run| scope.spawn(move || writes(run)));
+                runs.into_iter().filter_map(|run| run.join().ok()).filter(|has_written| *has_written).count()
+            });
+            assert_eq!(entries(folder.path(), Slice::WHOLE).unwrap().len(), written);
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::super::Program;
 use super::super::models::session_for_many;
-use super::worker::carry_out;
+use super::worker::{carry_out, without};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use tinta::batch::{Job, Outcome};
@@ -30,6 +30,12 @@ fn outcomes(open: fn(Backend) -> Result<Renderer>, jobs: usize) -> (Vec<Outcome>
     let picture = |id: usize| std::fs::read(folder.path().join(format!("{id}.png"))).ok();
     let pictures = (0..jobs).filter_map(picture).collect();
     (outcomes, pictures, session.live_objects())
+}
+
+#[test]
+fn paths_below_the_folder_are_named_from_there_and_no_others() {
+    assert_eq!(without("/x y/out/", "/x y/out/a.png: not /x y/outer/b"), "a.png: not /x y/outer/b");
+    assert_eq!(without("./", "./a.png: ../models/a.obj is missing"), "a.png: ../models/a.obj is missing");
 }
 
 #[test]

@@ -68,7 +68,7 @@ pub(super) fn carry_out(job: &Job, folder: &Path, program: &Program, session: &m
     };
     // Named from the batch's folder, which is another one on another machine.
     let prefix = format!("{}{}", folder.display().to_string().trim_end_matches('/'), std::path::MAIN_SEPARATOR);
-    let short = |sentence: String| messages::plain(&sentence).replace(&prefix, "");
+    let short = |sentence: String| without(&prefix, &messages::plain(&sentence));
     let mut outcome = match &result {
         Ok(Verdict::Good) => Outcome::default(),
         Ok(Verdict::Different | Verdict::Stopped { .. }) => {
@@ -83,6 +83,13 @@ pub(super) fn carry_out(job: &Job, folder: &Path, program: &Program, session: &m
     outcome.printed = Some(captured.printed).filter(|printed| !printed.is_empty());
     outcome.tries = tries;
     outcome
+}
+
+/// A sentence with its paths below a folder named from there.
+pub(super) fn without(prefix: &str, sentence: &str) -> String {
+    // Within a path such as `../a.obj` the folder `./` is none.
+    let sentence = format!(" {sentence}").replace(&format!(" {prefix}"), " ");
+    sentence[1..].to_owned()
 }
 
 /// Does a job by its command.
