@@ -213,6 +213,14 @@ fn settings() -> Vec<Setting<Request>> {
         "Ground below the models: none, or shadow (the shadow that they cast on it, one grey area)",
         |request: &mut Request| &mut request.ground,
     );
+    let title = Setting::open_field(
+        "title",
+        "TEXT",
+        "the models' names",
+        "Title of the drawing, in the file, and on a --sheet in a title block with a frame",
+        |request: &mut Request| &mut request.title,
+    )
+    .like("BRACKET");
     let scene = || within(SceneSettings::settings(), |request: &mut Request| Some(&mut request.scene));
     let of_camera = |setting: &Setting<Request>| setting.heading == camera::HEADING;
     let read = within(LoadOptions::settings(), |request: &mut Request| Some(&mut request.read));
@@ -221,7 +229,7 @@ fn settings() -> Vec<Setting<Request>> {
         .into_iter()
         .chain(scene().filter(|setting| !of_camera(setting)))
         .chain(scene().filter(of_camera))
-        .chain(under("All styles", vec![show, exact_lines, ground]))
+        .chain(under("All styles", vec![show, exact_lines, ground, title]))
         .chain(styles)
         .chain(read)
         .chain(under(ANIMATION, of_animation()))
@@ -352,6 +360,11 @@ impl Request {
     #[must_use]
     pub fn with_models(self, models: Vec<String>) -> Self {
         Self { models, ..self }
+    }
+
+    /// The title in a sheet's title block: one that is an option.
+    pub(crate) fn title_block(&self) -> Option<&str> {
+        self.options.contains_key("title").then(|| self.title.as_deref()).flatten()
     }
 
     /// The title of the drawing.

@@ -214,7 +214,7 @@ impl Lines {
             layer.set_item("visible", visibility == "visible")?;
             layer.set_item("color", drawn.color.0)?;
             layer.set_item("width", drawn.width_px)?;
-            layer.set_item("dash", drawn.dash_px)?;
+            layer.set_item("dash", Some(drawn.dash_px).filter(|lengths| !lengths.is_empty()))?;
             layer.set_item("opacity", if drawn.is_ghost { GHOST_OPACITY } else { 1.0 })?;
             let mut paths = Vec::new();
             for path in drawn.paths {

@@ -306,7 +306,7 @@ impl Resolved {
         let has_strokes = self.contents.has_strokes();
         let has_no_effect = |option: &&String| {
             let is_drawn = has_strokes || self.request.is_of_look(option);
-            !is_drawn && is_of_vectors(option, style.style_name())
+            !is_drawn && is_of_vectors(option, style.style_name()) && !self.request.is_of_surfaces(option)
         };
         let of_vectors = options.keys().filter(has_no_effect);
         let mut remarks = if self.contents.is_hatched() { self.contents.remarks(scene) } else { style.remarks(scene) };

@@ -172,7 +172,7 @@ impl Resolved {
             return Ok(VisibleLines::none(scene.size));
         };
         if let Some(angle) = sheet {
-            return VisibleLines::on_sheet(scene, &lines, (*angle, drawing), progress);
+            return VisibleLines::on_sheet(scene, &lines, (*angle, drawing, self.request.title_block()), progress);
         }
         let mut found = VisibleLines::with_progress(scene, &lines, progress)?;
         found.put_to_scale(px_per_unit(scene), drawing)?;

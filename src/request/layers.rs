@@ -5,7 +5,7 @@ use super::{EXACT_LINES, Request, Source};
 use crate::camera;
 use crate::choice::meant_or;
 use crate::error::{Error, Result};
-use crate::lines::{DrawingFormat, DrawingSettings};
+use crate::lines::{DrawingFormat, DrawingSettings, PartRole, PartRule, PartStyle};
 use crate::mesh::SectionPlanes;
 use crate::preset::{LOOKS, Look, Preset};
 use crate::scene::SceneSettings;
@@ -186,8 +186,11 @@ impl Request {
             .iter()
             .filter_map(|layer| if let OptionLayer::Given(options) = layer { Some(options) } else { None });
         let given = given.flat_map(Options::keys).map(String::as_str);
-        let remark = ignored_remark(given.filter(|option| !is_of_lines(option)), &[style.name()]);
-        Ok((request, remark.into_iter().collect()))
+        let has_no_effect = |option: &&str| !is_of_lines(option) && !request.is_of_surfaces(option);
+        let remark = ignored_remark(given.clone().filter(has_no_effect), &[style.name()]);
+        let of_parts = request.part_remark().filter(|_| given.clone().any(|option| option == "part"));
+        let remarks = remark.into_iter().chain(of_parts).collect();
+        Ok((request, remarks))
     }
 
     /// Refuses the options, other than a look's, that a style of passes has as vectors alone, for a picture.
@@ -206,7 +209,8 @@ impl Request {
         if self.style.style_name().draws_lines() {
             return Ok(());
         }
-        let is_wrong = |option: &&String| is_of_lines_alone(option) && is_refused(option);
+        let is_wrong =
+            |option: &&String| is_of_lines_alone(option) && is_refused(option) && !self.is_of_surfaces(option);
         let Some(option) = self.options.keys().find(is_wrong) else { return Ok(()) };
         let has_vectors = self.style.vectors(self.scene.size).is_some();
         let problem = match OF_PAPER.contains(&option.as_str()) {
@@ -223,6 +227,38 @@ impl Request {
             false => "a picture of pixels cannot have it; leave it out, or write a .svg or .pdf".to_owned(),
         };
         Err(Error::setting(option.clone(), problem))
+    }
+
+    /// Whether an option is `part`, and its rules are about surfaces and sections alone, which all styles have.
+    pub(super) fn is_of_surfaces(&self, option: &str) -> bool {
+        let is_of_surface = |rule: &PartRule| {
+            let of_lines = PartStyle { name: String::new(), fill: None, ..rule.style.clone() };
+            of_lines
+                == PartStyle { role: of_lines.role.filter(|role| *role == PartRole::Uncut), ..PartStyle::default() }
+        };
+        option == "part" && self.part_rules().is_ok_and(|rules| rules.0.iter().all(is_of_surface))
+    }
+
+    /// The remark about rules for parts that change nothing here, or another thing than may be meant.
+    fn part_remark(&self) -> Option<String> {
+        let rules = self.part_rules().ok()?;
+        let [has_fill, has_color] =
+            [|style: &PartStyle| style.fill.is_some(), |style: &PartStyle| style.color.is_some()]
+                .map(|has| rules.have(has));
+        let is_whole = |style: &PartStyle| style.role == Some(PartRole::Uncut);
+        match self.style.style_name().draws_lines() {
+            _ if self.read.section.is_none() && rules.have(is_whole) => {
+                Some("--part: uncut changes nothing without --section".to_owned())
+            }
+            true if has_fill => Some(
+                "--part: a drawing of lines alone shows no fill; choose --look print, or color for the lines"
+                    .to_owned(),
+            ),
+            false if has_color && !has_fill => {
+                Some("--part: color is that of a part's lines; for its surface say fill".to_owned())
+            }
+            _ => None,
+        }
     }
 
     /// Like [`Request::from_layers`], for options alone.

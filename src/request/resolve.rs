@@ -75,6 +75,12 @@ impl Request {
         contents.check().map(|()| contents)
     }
 
+    /// The rules for parts, which all styles follow where they are about surfaces and sections.
+    pub(super) fn part_rules(&self) -> Result<PartRules> {
+        let mut lines = LineSettings::default();
+        LineSettings::table().apply(&mut lines, &self.options).map(|()| lines.parts)
+    }
+
     /// How the models are read: with a cut's strokes as far apart on paper as they should be, if the drawing is to scale; and with
     /// the normals that take no time where no step reads them.
     pub(super) fn load_options(&self) -> Result<Cow<'_, LoadOptions>> {
@@ -84,6 +90,10 @@ impl Request {
             if let Some(scale) = drawing.scale {
                 read.to_mut().section_hatch = Some(scale.of_model(HATCHING_MM, drawing.units));
             }
+        }
+        let uncut = self.part_rules()?.uncut();
+        if !uncut.is_empty() {
+            read.to_mut().uncut = uncut;
         }
         let reads_none = |lines: &LineSettings| {
             !lines.creases_by_normals && !lines.classes.contains(Class::Normal) && lines.parts == PartRules::default()
@@ -118,7 +128,7 @@ impl Request {
         let mut framed = self.clone();
         // One view is drawn to scale in a parallel projection.
         framed.scene.camera.parallel |= drawing.scale.is_some() && sheet.is_none();
-        let mut scene = scene(&framed.scene)?;
+        let mut scene = scene(&framed.scene)?.with_fills(&self.part_rules()?);
         if let Some(view) = self.view_of_sheet(&scene) {
             framed.scene.camera.view = view;
             framed.options.insert("view".to_owned(), OptionValue::text(view.text()));
@@ -189,7 +199,7 @@ impl Request {
     ///
     /// Those of [`Scene::new`].
     pub fn placed(&self, meshes: Vec<Arc<Mesh>>) -> Result<Scene> {
-        Scene::new(meshes, &self.scene)
+        Ok(Scene::new(meshes, &self.scene)?.with_fills(&self.part_rules()?))
     }
 
     /// The view along the normal of models that are a flat sheet, in place of a look's. It shows the sheet's true shape.

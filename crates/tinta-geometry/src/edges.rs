@@ -17,6 +17,7 @@
 //! # }
 //! ```
 
+mod axes;
 mod build;
 mod classes;
 mod cracks;
@@ -31,6 +32,7 @@ mod smooth;
 mod tangents;
 mod usual_angles;
 
+pub(crate) use axes::Axis;
 pub(crate) use lasting_creases::LastingCreases;
 
 pub use classes::{Class, ClassCounts, ClassSet, Classes, CreaseAngle};

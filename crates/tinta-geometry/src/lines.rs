@@ -47,12 +47,15 @@ mod smooth;
 mod smooth_tests;
 #[cfg(test)]
 mod stiff_tests;
+mod title_block;
 mod to_scale;
 mod visible;
 mod visible_lines;
 mod why;
 mod write;
 
+#[doc(hidden)]
+pub use crate::mesh::Pattern;
 #[doc(hidden)]
 pub use drawing::areas::Areas;
 pub use drawing::chain::{LinePath, chain};
@@ -73,8 +76,6 @@ pub use drawing::page::{PageSize, Paper, Sheet, Turn};
 pub use drawing::painted::painted;
 pub use drawing::scale::{ModelUnit, Scale};
 pub use drawing::settings::{DrawingSettings, Hidden};
-#[doc(hidden)]
-pub use parts::pattern::Pattern;
 pub use parts::rules::{PartRule, PartRules};
 #[doc(hidden)]
 pub use parts::scene_parts::ScenePart;
@@ -118,6 +119,7 @@ use crate::clock::{Instant, milliseconds_since};
 use crate::error::Result;
 use crate::scene::Scene;
 use input::candidates::Candidates;
+use input::centre_lines::add_centre_lines;
 use input::line_input::LineInput;
 use input::object_edges::ObjectEdges;
 use parts::scene_parts::SceneParts;
@@ -161,6 +163,7 @@ impl VisibleLines {
             candidates.contours.as_ref().map(|contours| ContourLines { lines: &lines, contours, input: &input });
         let changes = contours.map(|contours| contours.add(&mut segments, progress)).transpose()?.flatten();
         segments = visible::covered_lines::marked(segments, &input.scene_parts, &input.space, progress)?;
+        add_centre_lines(&input, &mut segments);
         input.scene_parts.put_looks(&mut segments);
         let (silhouette_ms, compared) = (candidates.silhouette_ms, candidates.compared + compared);
         let visibility_ms = milliseconds_since(clock) - topology_ms - silhouette_ms;

@@ -386,7 +386,8 @@ impl Scene {
 
     /// The colour of triangles with this material (or [`crate::mesh::NONE`]).
     pub fn material_color(&self, mesh: &Mesh, material: u32) -> Color {
-        if self.recolor {
+        let is_fill = |material: &Material| material.is_fill;
+        if self.recolor && !mesh.materials.get(material as usize).is_some_and(is_fill) {
             return self.color;
         }
         match mesh.materials.get(material as usize) {

@@ -4,9 +4,9 @@ use super::tangents::tangents;
 use super::{EdgeList, Incidence};
 use crate::choice::Choice;
 use crate::error::{Error, ParseError, Result};
-use crate::mesh::{Mesh, NONE, Shells, triangle_normal};
+use crate::mesh::{Mesh, NONE, Shells, face_normals};
 use crate::settings::{Kind, Problem, Setting, Value};
-use crate::threads::{filled, in_parallel, threads_for};
+use crate::threads::{in_parallel, threads_for};
 use crate::tolerances::{CREASE_DIGITS, PARALLEL_COSINE};
 use glam::DVec3;
 use serde::Serialize;
@@ -53,6 +53,8 @@ crate::choices! {
         Curve = "curve",
         /// Likewise a single point, drawn as a dot.
         Point = "point",
+        /// The axis of a round surface, or a cross at the middle of one seen end-on. Only the exact lines find it.
+        Centre = "centre",
     }
 }
 
@@ -72,13 +74,17 @@ impl ClassSet {
     pub const ALL: Self = Self(u32::MAX >> (u32::BITS as usize - Class::ALL.len()));
 
     /// Every class that a mesh's edges can be of.
-    pub const EDGES: Self = Self(Self::ALL.0 & !(1 << Class::Intersection as u8) & !Self::FORMS.0 & !Self::FREE.0);
+    pub const EDGES: Self =
+        Self(Self::ALL.0 & !(1 << Class::Intersection as u8) & !Self::FORMS.0 & !Self::OF_NO_SURFACE.0);
 
     /// The classes of form lines, which cross faces where the surface's curvature requires it.
     pub(crate) const FORMS: Self = Self::of(&[Class::Suggestive, Class::Ridge, Class::Valley]);
 
     /// The classes that belong to no surface: the model's own curves and points. They hide nothing.
     pub const FREE: Self = Self::of(&[Class::Curve, Class::Point]);
+
+    /// Those, and centre lines.
+    pub(crate) const OF_NO_SURFACE: Self = Self::FREE.or(Self::of(&[Class::Centre]));
 
     /// Returns the set of these classes.
     pub const fn of(classes: &[Class]) -> Self {
@@ -139,11 +145,12 @@ impl ClassSet {
             "CLASSES",
             Kind::Several(names.collect()),
             "Edges to draw: boundary, non-manifold, silhouette, crease (or convex-crease, concave-crease), material, texture, \
-             normal, part, marked, tangent, the model's own curve and point, in style lines also intersection and the form lines suggestive, \
-             ridge, valley; separated by commas, or all",
+             normal, part, marked, tangent, the model's own curve and point, in style lines also intersection, centre and the form lines suggestive, \
+             ridge, valley; separated by commas, or all; with + before them beside the default ones",
             move |of: &T| field(&mut of.clone()).text(),
             move |of: &mut T, text: &str| {
-                *field(of) = Self::parsed(text, all)?;
+                let (kept, text) = text.strip_prefix('+').map_or((Self::default(), text), |text| (*field(of), text));
+                *field(of) = kept.or(Self::parsed(text, all)?);
                 Ok(())
             },
         )
@@ -309,6 +316,8 @@ pub struct ClassCounts {
     pub curve: usize,
     /// Single points; likewise.
     pub point: usize,
+    /// Centre lines; likewise.
+    pub centre: usize,
 }
 
 impl ClassCounts {
@@ -333,6 +342,7 @@ impl ClassCounts {
             Class::Valley => &mut self.valley,
             Class::Curve => &mut self.curve,
             Class::Point => &mut self.point,
+            Class::Centre => &mut self.centre,
         }
     }
 }
@@ -410,22 +420,6 @@ impl Classes {
         }
         counts
     }
-}
-
-/// Computes the unit normals of all faces; NaN for a face without area, which makes every comparison with it fail.
-fn face_normals(mesh: &Mesh, threads: usize) -> Vec<[f64; 3]> {
-    let normal = |triangle: &[u32; 3]| {
-        let Some([a, b, c]) = mesh.corners(triangle) else { return DVec3::NAN };
-        let product = (b - a).cross(c - a);
-        let squared = product.length_squared();
-        // Plain arithmetic unless it overflows, underflows or loses a needle; the careful way otherwise.
-        if (1e-200..1e200).contains(&squared) {
-            product / squared.sqrt()
-        } else {
-            triangle_normal([a, b, c]).unwrap_or(DVec3::NAN)
-        }
-    };
-    filled(mesh.triangles.len(), threads, [0.0; 3], |face| normal(&mesh.triangles[face]).to_array())
 }
 
 /// The data that decides an edge's classes.

@@ -1,9 +1,11 @@
 //! A mesh's edges with the data kept between views: the list, its classes, the faces' planes.
 
+use super::axes::{Axis, axes};
 use super::{
     Class, ClassSet, Classes, CreaseAngle, EdgeList, Eye, LastingCreases, SilhouetteRule, Silhouettes, SmoothSurface,
 };
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, face_normals};
+use crate::threads::threads_for;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// The edges of a mesh, to select the ones to draw.
@@ -18,6 +20,7 @@ pub struct MeshEdges {
     lasting: Mutex<Option<Arc<LastingCreases>>>,
     /// For the latest angle.
     smooth: Mutex<Option<Arc<SmoothSurface>>>,
+    axes: OnceLock<Vec<Axis>>,
 }
 
 impl MeshEdges {
@@ -30,7 +33,7 @@ impl MeshEdges {
     /// Takes a list built from the mesh.
     pub(crate) fn with_list(mesh: Arc<Mesh>, list: EdgeList) -> Self {
         let (classes, lasting, smooth) = (Mutex::new(None), Mutex::new(None), Mutex::new(None));
-        Self { mesh, list, silhouettes: OnceLock::new(), classes, lasting, smooth }
+        Self { mesh, list, silhouettes: OnceLock::new(), classes, lasting, smooth, axes: OnceLock::new() }
     }
 
     /// The mesh.
@@ -96,6 +99,15 @@ impl MeshEdges {
                 smooth
             }
         }
+    }
+
+    /// The axes of round surfaces.
+    pub(crate) fn axes(&self) -> &[Axis] {
+        self.axes.get_or_init(|| {
+            let threads = threads_for(self.mesh.triangles.len());
+            let smooth = CreaseAngle::of_drawings().cosine;
+            axes(&self.mesh, &self.list, &face_normals(&self.mesh, threads), smooth, threads)
+        })
     }
 
     /// The silhouette edges for an eye in the mesh's own coordinates, ascending.

@@ -2,6 +2,7 @@
 //! features.
 
 pub(super) mod candidates;
+pub(super) mod centre_lines;
 mod coplanar;
 mod edge_classes;
 pub(super) mod face_subset;

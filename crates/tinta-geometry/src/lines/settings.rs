@@ -130,8 +130,8 @@ impl LineSettings {
                 "part",
                 "RULE",
                 "Style of some parts: PATTERN: SETTINGS, for instance 'bolt*: color=red, ghost'; the pattern names parts and \
-                 models, or with material: before it materials; settings are color (of lines), line-width, classes (with + \
-                 between them), crease-angle, hidden, and ghost (drawn, hides nothing) or occlude-only (hides, is not drawn); give it \
+                 models, or with material: before it materials; settings are color (of lines), fill (of the surface), line-width, classes (with + \
+                 between them), crease-angle, hidden, and ghost (drawn, hides nothing) or occlude-only (hides, is not drawn) or uncut (--section leaves it whole); give it \
                  again for more parts, later rules above earlier ones",
                 |lines: &mut Self| &mut lines.parts,
             )

@@ -6,9 +6,12 @@
 use crate::camera::CameraSettings;
 use crate::edges::Class;
 use crate::error::{Error, Result};
+use crate::lines::drawing::page::PageSize;
+use crate::lines::drawing::scale::Scale;
 use crate::lines::drawing::scale::round_below;
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::sheet_text::{strokes, width_of};
+use crate::lines::title_block::{closed, rectangle};
 use crate::lines::{Label, LineSegment, LineSettings, PartStyle, Progress, VisibleLines};
 use crate::scene::{Scene, Size};
 use crate::settings::Value;
@@ -42,13 +45,23 @@ impl ProjectionAngle {
 const BORDER: f64 = 0.05;
 const GAP: f64 = 0.08;
 
-/// Height of the strip that holds the scale bar, likewise, and half the height of the bar's ends.
+/// Height of the strip that holds the scale bar, likewise, also with a title block, and half the height of the bar's ends.
 const STRIP: f64 = 0.08;
+const STRIP_OF_BLOCK: f64 = 0.12;
 const TICK: f64 = 0.01;
 
 /// Height of the numbers, and of the views' names, likewise.
 const DIGIT: f64 = 0.03;
-const NAME: f64 = 0.018;
+pub(super) const NAME: f64 = 0.018;
+
+/// Distance of the frame from the sheet's edge, likewise.
+const FRAME: f64 = 0.025;
+
+/// The least scale of the isometric view, as a share of the others'.
+const ISO: f64 = 0.5;
+
+/// Steps in which it grows to theirs.
+const ISO_STEPS: u32 = 100;
 
 /// Sides of a ring in the symbol of the projection.
 const SIDES: u32 = 48;
@@ -72,16 +85,25 @@ struct View {
     is_in_front_row: bool,
 }
 
+impl View {
+    /// Whether it is the view in space, which has a scale of its own.
+    fn is_iso(&self) -> bool {
+        self.column == 1 && !self.is_in_front_row
+    }
+}
+
 impl VisibleLines {
-    /// Finds the lines of a scene in the views of a sheet, in place of those of its camera.
+    /// Finds the lines of a scene in the views of a sheet, in place of those of its camera; with a title they have a frame and a title
+    /// block.
     ///
     /// # Errors
     ///
-    /// Those of [`VisibleLines::with_progress`], and [`Error::Setting`] for a sheet too small for four views.
+    /// Those of [`VisibleLines::with_progress`], and [`Error::Setting`] for a sheet too small for four views, and for a title that does not
+    /// fit its field.
     pub fn on_sheet(
         scene: &Scene,
         settings: &LineSettings,
-        (angle, drawing): (ProjectionAngle, &DrawingSettings),
+        (angle, drawing, title): (ProjectionAngle, &DrawingSettings, Option<&str>),
         progress: &Progress,
     ) -> Result<Self> {
         let corners = corners(scene);
@@ -101,13 +123,15 @@ impl VisibleLines {
             let extent = 2.0 * reach.fold(DVec2::ZERO, DVec2::max);
             views.push(View { name, settings, extent, column, is_in_front_row });
         }
-        let layout = Layout::new(&views, scene, angle)?;
+        let scene = &Scene { size: on_paper(scene.size, drawing), ..scene.clone() };
+        let layout = Layout::new(&views, scene.size, angle, title.map(|_| drawing))?;
         let settings = LineSettings { counts_changes: false, ..settings.clone() };
         let mut sheet = Self::none(scene.size);
         for view in &views {
-            let px = (view.extent * layout.px_per_unit + 2.0 * PAD_PX).ceil();
+            let px_per_unit = layout.px_per_unit(view);
+            let px = (view.extent * px_per_unit + 2.0 * PAD_PX).ceil();
             let size = Size { width: px.x as u32, height: px.y as u32 };
-            let camera = CameraSettings { height: Some(px.y / layout.px_per_unit), ..view.settings.clone() };
+            let camera = CameraSettings { height: Some(px.y / px_per_unit), ..view.settings.clone() };
             let camera = camera.fit(scene.centre, scene.radius, size.aspect(), corners.iter().copied())?;
             let seen = Scene { camera, size, ..scene.clone() };
             let lines = Self::with_progress(&seen, &settings, progress)?;
@@ -115,11 +139,22 @@ impl VisibleLines {
         }
         // Labels and scale bars have a layer.
         sheet.looks.resize_with(sheet.looks.len().max(1), PartStyle::default);
-        sheet.looks.push(PartStyle { name: "sheet".to_owned(), ..PartStyle::default() });
+        sheet.looks.push(PartStyle { name: "sheet".to_owned(), is_lettering: true, ..PartStyle::default() });
         sheet.put_names(&layout, &views);
         let right_px = sheet.put_bar(&layout, &drawing.units.text(), scene.size);
-        sheet.put_scale(&layout, right_px, drawing)?;
-        sheet.put_symbol(&layout, angle);
+        if title.is_some() {
+            sheet.put_strokes(rectangle(layout.frame()));
+        }
+        let scale = sheet.put_scale(&layout, drawing)?.map(|scale| format!("SCALE {scale}"));
+        let digit = DIGIT * layout.side;
+        match title {
+            Some(title) => sheet.put_block(&layout, (angle, drawing), &title.to_uppercase(), scale.as_deref())?,
+            None => {
+                let right = layout.origin_px.x + layout.views_px().x;
+                sheet.put_symbol(DVec2::new(right, layout.text_px + 0.5 * digit), digit, angle);
+                sheet.put_strokes(strokes(&scale.unwrap_or_default(), DVec2::new(right_px, layout.text_px), digit));
+            }
+        }
         Ok(sheet)
     }
 
@@ -127,22 +162,22 @@ impl VisibleLines {
     fn put_names(&mut self, layout: &Layout, views: &[View]) {
         let height = NAME * layout.side;
         for view in views {
-            let name = view.name.to_uppercase();
-            let below = DVec2::Y * (view.extent.y * 0.5 * layout.px_per_unit + height);
+            let px_per_unit = layout.px_per_unit(view);
+            let note = if px_per_unit < layout.px_per_unit { ", NOT TO SCALE" } else { "" };
+            let name = view.name.to_uppercase() + note;
+            let below = DVec2::Y * (view.extent.y * 0.5 * px_per_unit + height);
             let left = DVec2::X * (width_of(&name) * 0.5 * height);
             self.put_strokes(strokes(&name, layout.middle_px(view) + below - left, height));
         }
     }
 
-    /// Puts the sheet to the scale of its settings, or on paper to the largest round one that fits, and writes it.
-    fn put_scale(&mut self, layout: &Layout, left_px: f64, drawing: &DrawingSettings) -> Result<()> {
-        let scale = drawing.scale.or_else(|| self.round_scale(layout.px_per_unit, drawing));
-        let Some(scale) = scale else { return Ok(()) };
-        let to_scale = DrawingSettings { scale: Some(scale), ..drawing.clone() };
+    /// Puts the sheet to the scale of its settings, or on paper to the largest round one that fits, and returns it.
+    fn put_scale(&mut self, layout: &Layout, drawing: &DrawingSettings) -> Result<Option<String>> {
+        let known = drawing.scale.or(layout.scale);
+        let scale = known.or_else(|| self.round_scale(layout.px_per_unit, drawing));
+        let to_scale = DrawingSettings { scale, ..drawing.clone() };
         self.put_to_scale(Some(layout.px_per_unit), &to_scale)?;
-        let text = format!("SCALE {}", scale.text());
-        self.put_strokes(strokes(&text, DVec2::new(left_px, layout.text_px), DIGIT * layout.side));
-        Ok(())
+        Ok(scale.map(|scale| scale.text()))
     }
 
     /// Adds the lines of a view, moved to its place. All views of a sheet have the same parts.
@@ -165,7 +200,7 @@ impl VisibleLines {
     fn put_bar(&mut self, layout: &Layout, unit: &str, size: Size) -> f64 {
         let (side, digit) = (layout.side, DIGIT * layout.side);
         let length = round_below(BAR * f64::from(size.width) / layout.px_per_unit);
-        let from = DVec2::new(layout.origin_px.x, layout.text_px + 0.5 * digit);
+        let from = DVec2::new(layout.bar_px, layout.text_px + 0.5 * digit);
         let to = from + DVec2::X * (length * layout.px_per_unit);
         let tick = DVec2::Y * (TICK * side);
         self.put_strokes(vec![[from - tick, from + tick], [from, to], [to - tick, to + tick]]);
@@ -175,20 +210,16 @@ impl VisibleLines {
         left + (width_of(&text) + 1.5) * digit
     }
 
-    /// Adds the symbol of the projection, at the right of the strip: a cut cone and its view from the left, which lies on the
-    /// right in first angle and on the left in third (ISO 5456-2).
-    fn put_symbol(&mut self, layout: &Layout, angle: ProjectionAngle) {
-        let unit = DIGIT * layout.side;
-        let right = layout.origin_px.x + layout.views_px().x;
-        let middle = layout.text_px + 0.5 * unit;
+    /// Adds the symbol of the projection, with the middle of its right side here: a cut cone and its view from the left, which lies on
+    /// the right in first angle and on the left in third (ISO 5456-2).
+    pub(super) fn put_symbol(&mut self, DVec2 { x: right, y: middle }: DVec2, unit: f64, angle: ProjectionAngle) {
         let centres = [right - 3.4 * unit, right - 0.8 * unit];
         let [cone, rings] = match angle {
             ProjectionAngle::First => centres,
             ProjectionAngle::Third => [centres[1], centres[0]],
         };
         let at = |x: f64, y: f64| DVec2::new(cone + x * unit, middle + y * unit);
-        let corners = [at(-0.7, -0.4), at(0.7, -0.8), at(0.7, 0.8), at(-0.7, 0.4)];
-        self.put_strokes((0..4).map(|k| [corners[k], corners[(k + 1) % 4]]).collect());
+        self.put_strokes(closed([at(-0.7, -0.4), at(0.7, -0.8), at(0.7, 0.8), at(-0.7, 0.4)]));
         for radius in [0.4, 0.8] {
             let on = |k: u32| {
                 DVec2::new(rings, middle) + DVec2::from_angle(f64::from(k) * TAU / f64::from(SIDES)) * (radius * unit)
@@ -197,7 +228,7 @@ impl VisibleLines {
         }
     }
 
-    fn put_strokes(&mut self, strokes: Vec<[DVec2; 2]>) {
+    pub(super) fn put_strokes(&mut self, strokes: Vec<[DVec2; 2]>) {
         let look = self.looks.len() as u32 - 1;
         let stroke = |ends| LineSegment { look, ..LineSegment::new(Class::Curve, ends, [DVec3::ZERO; 2]) };
         self.segments.extend(strokes.into_iter().map(stroke));
@@ -205,15 +236,21 @@ impl VisibleLines {
 }
 
 /// The places of the views on a sheet.
-struct Layout {
+pub(super) struct Layout {
+    /// The scale of a drawing whose frame fills its paper.
+    scale: Option<Scale>,
     px_per_unit: f64,
-    /// The sheet's shorter side, and the top of the text in the strip, pixels.
-    side: f64,
+    /// The same of the isometric view.
+    iso_px_per_unit: f64,
+    /// The sheet, its shorter side, and the top of the text in the strip, pixels.
+    pub(super) sheet_px: DVec2,
+    pub(super) side: f64,
     text_px: f64,
-    /// The upper left corner of all views.
+    /// The upper left corner of all views, and the left end of the scale bar.
     origin_px: DVec2,
+    bar_px: f64,
     gap_px: f64,
-    /// Widths of both columns, and heights of both rows from the top, file units.
+    /// Widths of both columns, and heights of both rows from the top, pixels.
     columns: [f64; 2],
     rows: [f64; 2],
     /// Which row holds the front view.
@@ -221,45 +258,111 @@ struct Layout {
 }
 
 impl Layout {
-    fn new(views: &[View], scene: &Scene, angle: ProjectionAngle) -> Result<Self> {
+    fn new(views: &[View], size: Size, angle: ProjectionAngle, of_block: Option<&DrawingSettings>) -> Result<Self> {
         let front_row = usize::from(angle == ProjectionAngle::Third);
-        let (mut columns, mut rows) = ([0.0_f64; 2], [0.0_f64; 2]);
-        for view in views {
-            let row = if view.is_in_front_row { front_row } else { 1 - front_row };
-            columns[view.column] = columns[view.column].max(view.extent.x);
-            rows[row] = rows[row].max(view.extent.y);
-        }
-        let sheet = DVec2::new(f64::from(scene.size.width), f64::from(scene.size.height));
-        let side = sheet.min_element();
+        let sheet_px = DVec2::new(f64::from(size.width), f64::from(size.height));
+        let side = sheet_px.min_element();
         let gap_px = GAP * side;
-        let room = sheet - DVec2::splat(2.0 * BORDER * side + gap_px) - DVec2::Y * (STRIP * side);
+        let strip = if of_block.is_some() { STRIP_OF_BLOCK } else { STRIP };
+        let room = sheet_px - DVec2::splat(2.0 * BORDER * side + gap_px) - DVec2::Y * (strip * side);
         if room.min_element() < LEAST_PX {
-            let problem = format!("four views do not fit a sheet of {}; give a larger --size", scene.size);
+            let problem = format!("four views do not fit a sheet of {size}; give a larger --size");
             return Err(Error::setting("sheet", problem));
         }
-        let units = DVec2::new(columns[0] + columns[1], rows[0] + rows[1]);
-        let px_per_unit = (room / units).min_element();
-        let origin_px = DVec2::splat(BORDER * side) + (room - units * px_per_unit) * 0.5;
+        let row_of = |view: &View| if view.is_in_front_row { front_row } else { 1 - front_row };
+        let cells = |iso: f64| {
+            let (mut columns, mut rows) = ([0.0_f64; 2], [0.0_f64; 2]);
+            for view in views {
+                let extent = if view.is_iso() { view.extent * iso } else { view.extent };
+                columns[view.column] = columns[view.column].max(extent.x);
+                rows[row_of(view)] = rows[row_of(view)].max(extent.y);
+            }
+            (columns, rows)
+        };
+        let px_per_unit = |(columns, rows): ([f64; 2], [f64; 2])| {
+            (room / DVec2::new(columns.iter().sum(), rows.iter().sum())).min_element()
+        };
+        let largest = px_per_unit(cells(ISO));
+        let frame = sheet_px - 2.0 * FRAME * side;
+        let round = of_block.and_then(|drawing| on_round_scale(largest, frame, drawing));
+        let (round, scale) = round.map_or((None, largest), |(round, scale)| (Some(round), scale));
+        // The isometric view takes what the others leave.
+        let fits = |iso: &f64| px_per_unit(cells(*iso)) >= scale;
+        let steps = (0..=ISO_STEPS).map(|step| ISO + (1.0 - ISO) * f64::from(step) / f64::from(ISO_STEPS));
+        let iso = steps.filter(fits).fold(ISO, f64::max);
+        let (columns, rows) = cells(iso);
+        let [columns, rows] = [columns, rows].map(|lengths| lengths.map(|length| length * scale));
+        let origin_px =
+            DVec2::splat(BORDER * side) + (room - DVec2::new(columns.iter().sum(), rows.iter().sum())) * 0.5;
         // At the strip's lower edge, below the names of the views.
-        let text_px = sheet.y - (BORDER + DIGIT) * side;
-        Ok(Self { px_per_unit, side, text_px, origin_px, gap_px, columns, rows, front_row })
+        let text_px = sheet_px.y - (BORDER + DIGIT) * side;
+        let bar_px = if of_block.is_some() { BORDER * side } else { origin_px.x };
+        let (px_per_unit, iso_px_per_unit) = (scale, iso * scale);
+        Ok(Self {
+            scale: round,
+            px_per_unit,
+            iso_px_per_unit,
+            sheet_px,
+            side,
+            text_px,
+            origin_px,
+            bar_px,
+            gap_px,
+            columns,
+            rows,
+            front_row,
+        })
+    }
+
+    /// Pixels of a unit in a view.
+    fn px_per_unit(&self, view: &View) -> f64 {
+        if view.is_iso() { self.iso_px_per_unit } else { self.px_per_unit }
+    }
+
+    /// The frame's upper left and lower right corner, pixels.
+    pub(super) fn frame(&self) -> [DVec2; 2] {
+        let edge = DVec2::splat(FRAME * self.side);
+        [edge, self.sheet_px - edge]
     }
 
     /// Width and height of all views together, pixels.
     fn views_px(&self) -> DVec2 {
-        let units = DVec2::new(self.columns[0] + self.columns[1], self.rows[0] + self.rows[1]);
-        units * self.px_per_unit + self.gap_px
+        DVec2::new(self.columns.iter().sum(), self.rows.iter().sum()) + self.gap_px
     }
 
     /// The middle of a view, pixels.
     fn middle_px(&self, view: &View) -> DVec2 {
         let row = if view.is_in_front_row { self.front_row } else { 1 - self.front_row };
         let middle = |number: usize, lengths: [f64; 2]| match number {
-            0 => lengths[0] * 0.5 * self.px_per_unit,
-            _ => (lengths[0] + lengths[1] * 0.5) * self.px_per_unit + self.gap_px,
+            0 => lengths[0] * 0.5,
+            _ => lengths[0] + lengths[1] * 0.5 + self.gap_px,
         };
         self.origin_px + DVec2::new(middle(view.column, self.columns), middle(row, self.rows))
     }
+}
+
+/// A sheet's size in pixels, of a shape whose frame fills its paper up to the margins, if it has one.
+fn on_paper(size: Size, drawing: &DrawingSettings) -> Size {
+    let PageSize::Paper(paper) = drawing.page_size else { return size };
+    let width = f64::from(size.width);
+    let [across, down] =
+        paper.sides_mm(DVec2::new(width, f64::from(size.height))).map(|side| side - 2.0 * drawing.margin.0);
+    let (shape, edges) = (across / down, 2.0 * FRAME);
+    let height = match shape > 1.0 {
+        true => width / (shape * (1.0 - edges) + edges),
+        false => width * ((1.0 - edges) / shape + edges),
+    };
+    Size { height: height.round() as u32, ..size }
+}
+
+/// The scale of a drawing whose frame fills its paper, the given one or the largest round one, and the pixels of a unit; `None` without
+/// paper, and for a scale at which the views do not fit.
+fn on_round_scale(largest: f64, frame_px: DVec2, drawing: &DrawingSettings) -> Option<(Scale, f64)> {
+    let PageSize::Paper(paper) = drawing.page_size else { return None };
+    let room_mm = DVec2::from(paper.sides_mm(frame_px)) - 2.0 * drawing.margin.0;
+    let px_per_unit = (frame_px / room_mm).max_element() * drawing.units.millimetres();
+    let scale = drawing.scale.unwrap_or_else(|| Scale::round_below(largest / px_per_unit));
+    Some((scale, scale.0 * px_per_unit)).filter(|(_, scale)| *scale <= largest)
 }
 
 /// The corners of the boxes around all objects.
@@ -292,7 +395,7 @@ mod tests {
         let lines = VisibleLines::on_sheet(
             &scene,
             &LineSettings::default(),
-            (angle, &DrawingSettings::default()),
+            (angle, &DrawingSettings::default(), None),
             &Progress::default(),
         )
         .unwrap();
@@ -306,7 +409,7 @@ mod tests {
             View { name, settings, extent: 2.0 * reach.fold(DVec2::ZERO, DVec2::max), column, is_in_front_row }
         };
         let views: Vec<View> = angle.views().into_iter().map(view).collect();
-        let layout = Layout::new(&views, &scene, angle).unwrap();
+        let layout = Layout::new(&views, scene.size, angle, None).unwrap();
         (lines, layout, views, scene)
     }
 
@@ -327,8 +430,9 @@ mod tests {
                     let iso = DVec2::new((from.x - from.z) * half, -(2.0 * from.y - from.x - from.z) * third);
                     let flat =
                         [DVec2::new(from.x, -from.y), DVec2::new(from.x, from.z), DVec2::new(side, -from.y), iso];
-                    let is_there =
-                        |k: &usize| (layout.middle_px(&views[*k]) + flat[*k] * layout.px_per_unit).distance(px) < 1e-6;
+                    let is_there = |k: &usize| {
+                        (layout.middle_px(&views[*k]) + flat[*k] * layout.px_per_unit(&views[*k])).distance(px) < 1e-6
+                    };
                     let view = (0..4).find(is_there);
                     counts[view.unwrap_or_else(|| panic!("{angle}: {world} at {px}"))] += 1;
                 }
@@ -342,7 +446,13 @@ mod tests {
         let (lines, layout, views, _) = found(ProjectionAngle::Third);
         // The names of the views come first.
         let of_sheet = |segment: &LineSegment| segment.ends_world == [DVec3::ZERO; 2];
-        let names: usize = views.iter().map(|view| strokes(&view.name.to_uppercase(), DVec2::ZERO, 1.0).len()).sum();
+        let names: usize = views
+            .iter()
+            .map(|view| match layout.px_per_unit(view) < layout.px_per_unit {
+                true => strokes("ISO, NOT TO SCALE", DVec2::ZERO, 1.0).len(),
+                false => strokes(&view.name.to_uppercase(), DVec2::ZERO, 1.0).len(),
+            })
+            .sum();
         let bar = lines.segments.iter().position(of_sheet).unwrap() + names;
         let drawn: Vec<_> = lines.segments[bar..].iter().map(|segment| segment.ends_px).collect();
         let length = drawn[1][0].distance(drawn[1][1]) / layout.px_per_unit;
@@ -360,7 +470,7 @@ mod tests {
         let refused = VisibleLines::on_sheet(
             &scene,
             &LineSettings::default(),
-            (ProjectionAngle::First, &DrawingSettings::default()),
+            (ProjectionAngle::First, &DrawingSettings::default(), None),
             &Progress::default(),
         );
         assert!(refused.unwrap_err().to_string().contains("larger --size"));

@@ -291,7 +291,7 @@ fn cut_open(
     let is_of_file = planes.iter().any(|plane| plane.is_of_file);
     let hatching = if is_of_file { options.section_hatch } else { Some(0.0) };
     let planes: Vec<SectionPlane> = planes.iter().map(|plane| plane.in_world(&turn)).collect();
-    let (mesh, cut) = mesh.section(&planes, hatching)?;
+    let (mesh, cut) = mesh.section_except(&planes, hatching, &options.uncut)?;
     match cut {
         Cut::Closed => {}
         Cut::Gone => remarks.push(format!("{name}: it lies wholly in front of the section's plane, which cuts it away")),

@@ -1,6 +1,6 @@
 //! The options and stages of reading a model.
 
-use super::{ModelFrame, SectionPlanes};
+use super::{ModelFrame, Pattern, SectionPlanes};
 use crate::error::{Error, Result};
 use crate::settings::{HasSettings, Setting, Table, under};
 use crate::tolerances::{LARGEST_WELD, WELD};
@@ -36,6 +36,8 @@ pub struct LoadOptions {
     pub section: Option<SectionPlanes>,
     /// Spacing of the strokes on a cut in the file's axes, file units; 0 draws none. Default a sixtieth of the model.
     pub section_hatch: Option<f64>,
+    /// Patterns of parts that the planes leave whole, as a drawing leaves shafts and bolts. Default: none.
+    pub uncut: Vec<Pattern>,
 }
 
 impl Default for LoadOptions {
@@ -51,6 +53,7 @@ impl Default for LoadOptions {
             allow_external: false,
             section: None,
             section_hatch: None,
+            uncut: Vec::new(),
         }
     }
 }

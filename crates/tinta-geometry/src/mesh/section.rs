@@ -10,7 +10,7 @@ mod hatching;
 mod rings;
 mod wedge;
 
-use super::{Curves, Mesh, NONE};
+use super::{Curves, Mesh, NONE, Named, Pattern};
 use crate::error::{Error, Result};
 use crate::settings::{Kind, Problem, Value};
 use crate::tolerances::ON_PLANE;
@@ -163,6 +163,20 @@ impl Mesh {
     ///
     /// [`Error::Setting`] if a plane is none.
     pub fn section(self, planes: &[SectionPlane], hatching: Option<f64>) -> Result<(Self, Cut)> {
+        self.section_except(planes, hatching, &[])
+    }
+
+    /// The same; parts that any of these patterns names stay whole.
+    ///
+    /// # Errors
+    ///
+    /// As [`Mesh::section`].
+    pub(super) fn section_except(
+        self,
+        planes: &[SectionPlane],
+        hatching: Option<f64>,
+        uncut: &[Pattern],
+    ) -> Result<(Self, Cut)> {
         let unit = |plane: &SectionPlane| plane.unit().ok_or_else(|| Error::setting("section", NO_PLANE));
         let given = planes.iter().map(unit).collect::<Result<Vec<_>>>()?;
         let (low, high) = self.extent();
@@ -177,33 +191,34 @@ impl Mesh {
                 planes.push(plane);
             }
         }
+        let uncut: Vec<Named> = uncut.iter().map(|pattern| pattern.named(&self)).collect();
         match planes.as_slice() {
             [] => Ok((self, Cut::Missed)),
-            [plane] => Ok(self.cut(plane, spacing, tolerance)),
+            [plane] => Ok(self.cut(plane, &uncut, spacing, tolerance)),
             several => {
                 // Far from the origin, points computed on a plane are rounded to either side of it.
                 let farthest = low.abs().max(high.abs()).max_element();
-                Ok(self.cut_by_all(several, spacing, tolerance.max(farthest * ROUNDED)))
+                Ok(self.cut_by_all(several, &uncut, spacing, tolerance.max(farthest * ROUNDED)))
             }
         }
     }
 
     /// The mesh with the faces that a plane crosses in two parts.
-    fn split(&self, plane: &SectionPlane, tolerance: f64) -> Self {
+    fn split(&self, plane: &SectionPlane, uncut: &[Named], tolerance: f64) -> Self {
         let sides = self.positions.iter().map(|point| plane.side(*point, tolerance)).collect();
-        let mut cutter = Cutter::new(self, sides, true);
+        let mut cutter = Cutter::new(self, sides, uncut, true);
         cutter.clip_faces(plane.normal);
         cutter.finished(self, self.curves.clone())
     }
 
     /// Cuts away the mesh in front of a plane. Positions within the tolerance lie in the plane.
-    fn cut(&self, plane: &SectionPlane, spacing: f64, tolerance: f64) -> (Self, Cut) {
+    fn cut(&self, plane: &SectionPlane, uncut: &[Named], spacing: f64, tolerance: f64) -> (Self, Cut) {
         let sides = |points: &[DVec3]| points.iter().map(|point| plane.side(*point, tolerance)).collect::<Vec<f64>>();
         let (sides, of_curves) = (sides(&self.positions), sides(&self.curves.positions));
         if sides.iter().chain(&of_curves).all(|side| *side <= 0.0) {
             return (self.clone(), Cut::Missed);
         }
-        let mut cutter = Cutter::new(self, sides, false);
+        let mut cutter = Cutter::new(self, sides, uncut, false);
         cutter.clip_faces(plane.normal);
         let (is_closed, strokes) = cutter.close(cutter.open_sides(), plane.normal, spacing);
         let mut curves = clipped(&self.curves, &of_curves, cutter.next_vertex);

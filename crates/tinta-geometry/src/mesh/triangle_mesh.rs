@@ -1,6 +1,7 @@
 //! Triangles over shared positions, with their normals, texture coordinates and materials.
 
 use super::{Curves, Defects};
+use crate::threads::filled;
 use crate::tolerances::WELD;
 use glam::{DVec3, Vec2, Vec3};
 use serde::Serialize;
@@ -83,6 +84,9 @@ pub struct Material {
     /// The meaning of the texture's alpha.
     #[serde(skip)]
     pub texture_alpha: TextureAlpha,
+    /// Whether the colour was chosen for a part, so that no other replaces it.
+    #[serde(skip)]
+    pub is_fill: bool,
 }
 
 /// The meaning of a texture's alpha. Surfaces are never drawn transparent: anything behind them shows as white, like paper.
@@ -199,4 +203,20 @@ pub(crate) fn triangle_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
 /// Returns the smallest and largest corner of the points' bounding box; inverted infinities for no points.
 pub fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
     points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| (low.min(*point), high.max(*point)))
+}
+
+/// Computes the unit normals of all faces; NaN for a face without area, which makes every comparison with it fail.
+pub(crate) fn face_normals(mesh: &Mesh, threads: usize) -> Vec<[f64; 3]> {
+    let normal = |triangle: &[u32; 3]| {
+        let Some([a, b, c]) = mesh.corners(triangle) else { return DVec3::NAN };
+        let product = (b - a).cross(c - a);
+        let squared = product.length_squared();
+        // Plain arithmetic unless it overflows, underflows or loses a needle; the careful way otherwise.
+        if (1e-200..1e200).contains(&squared) {
+            product / squared.sqrt()
+        } else {
+            triangle_normal([a, b, c]).unwrap_or(DVec3::NAN)
+        }
+    };
+    filled(mesh.triangles.len(), threads, [0.0; 3], |face| normal(&mesh.triangles[face]).to_array())
 }

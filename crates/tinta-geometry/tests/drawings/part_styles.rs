@@ -227,7 +227,7 @@ fn the_last_rule_of_each_setting_counts_and_hidden_lines_follow() {
     let layers = drawn_layers(&lines, &drawing).unwrap();
     let [arm, others]: [Vec<_>; 2] =
         [true, false].map(|is_arm| layers.iter().filter(|it| it.part.contains("arm") == is_arm).collect());
-    assert!(arm.iter().any(|layer| !layer.layer.is_visible() && layer.dash_px.is_some() && layer.width_px == 2.0));
+    assert!(arm.iter().any(|layer| !layer.layer.is_visible() && !layer.dash_px.is_empty() && layer.width_px == 2.0));
     assert!(
         arm.iter().filter(|it| it.layer.is_visible()).all(|it| it.color.to_string() == "#0000ff" && it.width_px == 4.0)
     );

@@ -7,9 +7,9 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use tinta::edges::{EdgeList, Incidence};
-use tinta::mesh::{Curves, Cut, SECTION, SectionPlane, SectionPlanes};
+use tinta::mesh::{Curves, Cut, Pattern, SECTION, SectionPlane, SectionPlanes};
 use tinta::settings::Value;
-use tinta::{CameraSettings, LineSettings, LoadOptions, Mesh, Scene, SceneSettings, VisibleLines};
+use tinta::{CameraSettings, LineSettings, LoadOptions, Mesh, Scene, SceneSettings, VisibleLines, load};
 
 fn plane(text: &str) -> SectionPlane {
     SectionPlane::parse(text).unwrap_or_else(|_| panic!("{text}"))
@@ -280,6 +280,40 @@ fn of_a_sphere_and_a_hollow_several_planes_cut_away_the_part_in_front_of_all() {
         }
     }
     assert!(compared > 70, "{compared}");
+}
+
+#[test]
+fn parts_that_stay_whole_count_on_both_sides_of_a_plane() {
+    let cut = |planes: &str, uncut: &[&str]| {
+        let section = (!planes.is_empty()).then(|| SectionPlanes::parse(planes).unwrap());
+        let uncut = uncut.iter().map(|name| Pattern((*name).to_owned())).collect();
+        let options = LoadOptions { section, uncut, ..LoadOptions::default() };
+        load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/plates.obj"), &options).unwrap().mesh
+    };
+    let is_pin = |mesh: &Mesh, face: &usize| mesh.parts[mesh.triangle_parts[*face] as usize].name.starts_with("pin");
+    let pins = |mesh: &Mesh| {
+        let faces = (0..mesh.triangles.len()).filter(|face| is_pin(mesh, face));
+        faces.map(|face| mesh.triangles[face].map(|corner| mesh.positions[corner as usize])).collect::<Vec<_>>()
+    };
+    let whole = cut("", &[]);
+    let of_pins = Mesh {
+        triangles: (0..whole.triangles.len())
+            .filter(|face| is_pin(&whole, face))
+            .map(|face| whole.triangles[face])
+            .collect(),
+        ..whole.clone()
+    };
+    for offset in [0.0, 0.13, -0.31] {
+        let sides = [format!("z={offset}"), format!("-z={}", -offset)];
+        let sum: f64 = sides.iter().map(|plane| volume(&cut(plane, &["pin*"]))).sum();
+        assert_near(sum, volume(&whole) + volume(&of_pins), "both sides");
+    }
+    for planes in ["z=0", "z=0; x=0", "y=5"] {
+        let kept = cut(planes, &["pin 1", "pin*"]);
+        assert_eq!(pins(&kept), pins(&whole), "{planes}");
+        assert_eq!(kept == whole, planes == "y=5", "{planes}");
+    }
+    assert_eq!(cut("z=0", &["lower plate", "upper plate", "pin*", "spacer", "block"]).triangles, whole.triangles);
 }
 
 #[test]

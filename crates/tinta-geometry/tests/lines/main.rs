@@ -2,6 +2,7 @@
 
 extern crate tinta_geometry as tinta;
 
+mod centre_lines;
 mod corners;
 mod degenerate;
 mod flicker;

@@ -14,6 +14,7 @@ use crate::lines::drawing::pen::{dashes, in_pen_order};
 use crate::lines::drawing::settings::{DrawingSettings, Hidden};
 use crate::lines::drawing::simplify::simplified;
 use crate::lines::drawing::taper::{Lines, taper};
+use crate::lines::parts::style::PartRole;
 use crate::lines::{LineSegment, VisibleLines};
 use crate::scene::{Color, Size};
 use glam::DVec2;
@@ -25,12 +26,17 @@ pub const GHOST_OPACITY: f32 = 0.3;
 /// Default line width for a pen, pixels: only for display, because the pen has its own.
 const PEN_WIDTH_PX: f64 = 0.5;
 
-/// Lengths of dashes and gaps, in line widths; round ends take one width from each gap.
-const DASH_WIDTHS: [f64; 2] = [6.0, 5.0];
+/// Lengths of dashes and gaps in turn, in line widths; round ends take one width from each gap.
+const DASHED: &[f64] = &[6.0, 5.0];
 
-/// A pen's dashes and gaps, as shares of the picture's longer side: their number is limited, however large the
-/// picture.
-const PEN_DASHES: [f64; 2] = [1.0 / 128.0, 1.0 / 170.0];
+/// The same on paper, and of chain lines with one dot and with two: lines 02, 04 and 05 of ISO 128-2.
+const DASHED_ON_PAPER: &[f64] = &[11.0, 4.0];
+const CHAIN: &[f64] = &[23.0, 4.0, 0.5, 4.0];
+const DOUBLE_CHAIN: &[f64] = &[23.0, 4.0, 0.5, 4.0, 0.5, 4.0];
+
+/// A width that stands for a pen's in the lengths of its dashes, as a share of the picture's longer side: their number is limited, however
+/// large the picture.
+const PEN_WIDTH: f64 = 1.0 / 800.0;
 
 pub(in crate::lines) struct Drawing<'a> {
     pub segments: &'a [LineSegment],
@@ -55,8 +61,8 @@ pub struct DrawnLayer {
     pub color: Color,
     /// The width of its lines, pixels.
     pub width_px: f64,
-    /// Lengths of dash and gap, pixels.
-    pub dash_px: Option<[f64; 2]>,
+    /// Lengths of dashes and gaps in turn, pixels; empty for whole lines.
+    pub dash_px: Vec<f64>,
     /// Whether the whole layer has [`GHOST_OPACITY`], so that crossings do not add up.
     pub is_ghost: bool,
     /// Its paths, without their tips.
@@ -116,8 +122,10 @@ impl<'a> Drawing<'a> {
         keep_once(drawn.iter_mut().filter(|(layer, ..)| !matches!(layer, Layer::Hatch(_))).map(|(.., paths)| paths));
         drawn.retain(|(.., paths)| !paths.is_empty());
         let styled = |(layer, look, paths): (Layer, u32, Vec<LinePath>)| {
-            let part = lines.looks.get(look as usize).map_or(String::new(), |look| look.name.clone());
-            let drawn = DrawnLayer::new(layer, paths, &page, &looks[look as usize], lines.size);
+            let part = lines.looks.get(look as usize);
+            let is_ghost = part.is_some_and(|part| part.role == Some(PartRole::Ghost));
+            let part = part.map_or(String::new(), |part| part.name.clone());
+            let drawn = DrawnLayer::new(layer, paths, &page, &looks[look as usize], (is_ghost, lines.size));
             DrawnLayer { look, part, ..drawn }
         };
         let mut layers: Vec<DrawnLayer> = drawn.into_iter().map(styled).collect();
@@ -166,15 +174,34 @@ impl DrawnLayer {
         format!("{}{between}{}", self.layer.words().join(" "), self.part)
     }
 
-    fn new(layer: Layer, mut paths: Vec<LinePath>, page: &Page, settings: &DrawingSettings, size: Size) -> Self {
+    fn new(
+        layer: Layer,
+        mut paths: Vec<LinePath>,
+        page: &Page,
+        settings: &DrawingSettings,
+        (is_of_ghost, size): (bool, Size),
+    ) -> Self {
         let is_pens_own = settings.is_for_pen && !settings.says_width(layer);
         let width_px = if is_pens_own { PEN_WIDTH_PX } else { settings.width_px(layer, page.units) };
-        let is_point = layer == Layer::Hidden(Class::Point);
-        let is_dashed = !layer.is_visible() && !is_point && settings.hidden == Hidden::Dashed;
+        let is_on_paper = settings.is_on_paper();
+        let pattern = match layer {
+            Layer::Visible(Class::Centre) | Layer::Hidden(Class::Centre) => CHAIN,
+            Layer::Hidden(Class::Point) => &[],
+            Layer::Hidden(_) if settings.hidden == Hidden::Dashed => {
+                if is_on_paper {
+                    DASHED_ON_PAPER
+                } else {
+                    DASHED
+                }
+            }
+            Layer::Visible(_) | Layer::Outline if is_of_ghost && is_on_paper => DOUBLE_CHAIN,
+            _ => &[],
+        };
         if settings.is_for_pen {
-            if is_dashed {
-                let [dash, gap] = PEN_DASHES.map(|share| share * f64::from(size.width.max(size.height)));
-                paths = paths.iter().flat_map(|path| dashes(path, dash, gap)).collect();
+            if !pattern.is_empty() {
+                let width = PEN_WIDTH * f64::from(size.width.max(size.height));
+                let lengths: Vec<f64> = pattern.iter().map(|widths| widths * width).collect();
+                paths = paths.iter().flat_map(|path| dashes(path, &lengths)).collect();
             }
             paths = in_pen_order(paths);
         }
@@ -184,7 +211,7 @@ impl DrawnLayer {
             part: String::new(),
             color: settings.color(layer),
             width_px,
-            dash_px: (is_dashed && !settings.is_for_pen).then(|| DASH_WIDTHS.map(|widths| widths * width_px)),
+            dash_px: pattern.iter().filter(|_| !settings.is_for_pen).map(|widths| widths * width_px).collect(),
             is_ghost: !layer.is_visible() && settings.hidden == Hidden::Ghost && !settings.is_for_pen,
             paths,
             tips: Vec::new(),

@@ -408,7 +408,7 @@ mod tests {
     fn strokes_of_tones_lie_below_hidden_layers_and_these_below_visible_ones() {
         let layers: Vec<Layer> = Layer::upwards().collect();
         assert_eq!(layers.len(), 2 * CLASSES + 3);
-        assert_eq!(layers[..3], [Layer::Hatch(1), Layer::Hatch(0), Layer::Hidden(Class::Point)]);
+        assert_eq!(layers[..3], [Layer::Hatch(1), Layer::Hatch(0), Layer::Hidden(Class::Centre)]);
         assert_eq!(layers[2 * CLASSES + 1..], [Layer::Visible(Class::Boundary), Layer::Outline]);
         assert!(layers[2..].iter().position(|layer| layer.is_visible()) == Some(CLASSES));
     }

@@ -83,7 +83,7 @@ impl Sheet {
 
 impl Paper {
     /// Width and height in millimetres, for a drawing of this shape.
-    fn sides_mm(self, drawing: DVec2) -> [f64; 2] {
+    pub(in crate::lines) fn sides_mm(self, drawing: DVec2) -> [f64; 2] {
         let [width, height] = self.sheet.sides_mm();
         let lies = match (self.sheet, self.turn) {
             (Sheet::Mm(_), _) | (_, Turn::Portrait) => false,

@@ -144,9 +144,11 @@ fn count_parts(part: Range<usize>, left: &mut [usize]) {
     count_parts(middle + 1..part.end, left);
 }
 
-/// Cuts a path into dashes of `dash_px` with gaps of `gap_px`, both above 0, because plotter programs ignore an SVG's
-/// dashes.
-pub(in crate::lines) fn dashes(path: &LinePath, dash_px: f64, gap_px: f64) -> Vec<LinePath> {
+/// Cuts a path into dashes with gaps between them, of these lengths in turn, all above 0, because plotter programs ignore an
+/// SVG's dashes.
+pub(in crate::lines) fn dashes(path: &LinePath, pattern_px: &[f64]) -> Vec<LinePath> {
+    let mut lengths = pattern_px.iter().copied().cycle();
+    let mut next = move || lengths.next().unwrap_or(f64::INFINITY);
     let count = path.points_px.len();
     let begin = |point: DVec2, piece: usize| LinePath {
         points_px: vec![point],
@@ -156,7 +158,7 @@ pub(in crate::lines) fn dashes(path: &LinePath, dash_px: f64, gap_px: f64) -> Ve
     };
     let mut dashes: Vec<LinePath> = Vec::new();
     let mut dash: Option<LinePath> = path.points_px.first().zip(path.segments.first()).map(|(p, s)| begin(*p, *s));
-    let mut rest = dash_px;
+    let mut rest = next();
     for (k, piece) in path.segments.iter().enumerate() {
         let [a, b] = [path.points_px[k], path.points_px[(k + 1) % count]];
         let length = a.distance(b);
@@ -169,17 +171,14 @@ pub(in crate::lines) fn dashes(path: &LinePath, dash_px: f64, gap_px: f64) -> Ve
         while length - done > rest {
             done += rest;
             let point = a + (b - a) * (done / length);
-            rest = match dash.take() {
+            match dash.take() {
                 Some(mut whole) => {
                     whole.points_px.push(point);
                     dashes.push(whole);
-                    gap_px
                 }
-                None => {
-                    dash = Some(begin(point, *piece));
-                    dash_px
-                }
-            };
+                None => dash = Some(begin(point, *piece)),
+            }
+            rest = next();
         }
         rest -= length - done;
         if let Some(dash) = &mut dash {
@@ -269,7 +268,7 @@ mod tests {
     #[test]
     fn dashes_go_round_corners_and_keep_their_lengths() {
         let corner = path(&[[0.0, 0.0], [10.0, 0.0], [10.0, 7.0]], false);
-        let pieces = dashes(&corner, 4.0, 3.0);
+        let pieces = dashes(&corner, &[4.0, 3.0]);
         let shapes: Vec<Vec<[f64; 2]>> =
             pieces.iter().map(|dash| dash.points_px.iter().map(|point| point.to_array()).collect()).collect();
         let expected = vec![
@@ -282,7 +281,7 @@ mod tests {
         assert_eq!(of, [&[0][..], &[0, 1], &[1]]);
         let square = path(&[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]], true);
         let length = |dash: &LinePath| dash.points_px.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
-        let total: f64 = dashes(&square, 1.0, 1.0).iter().map(length).sum();
-        assert!((total - 8.0).abs() < 1e-9 && dashes(&square, 1.0, 1.0).iter().all(|dash| !dash.is_closed));
+        let total: f64 = dashes(&square, &[1.0, 1.0]).iter().map(length).sum();
+        assert!((total - 8.0).abs() < 1e-9 && dashes(&square, &[1.0, 1.0]).iter().all(|dash| !dash.is_closed));
     }
 }

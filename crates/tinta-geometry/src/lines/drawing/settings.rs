@@ -334,12 +334,18 @@ impl DrawingSettings {
         match (self.class_widths.0.of(layer), layer) {
             (Some(Length::Times(times)), _) => times * px(self.width()),
             (Some(width), _) => px(width),
+            (None, Layer::Hidden(Class::Centre)) => self.width_px(Layer::Visible(Class::Centre), units),
             (None, Layer::Hidden(class)) => self.width_px(Layer::Visible(class), units) * HIDDEN_WIDTH,
             (None, Layer::Visible(Class::Point)) => px(self.width()) * POINT_WIDTHS,
-            (None, Layer::Visible(Class::Tangent)) => px(self.width()) * HIDDEN_WIDTH,
+            (None, Layer::Visible(Class::Tangent | Class::Centre)) => px(self.width()) * HIDDEN_WIDTH,
             (None, Layer::Hatch(_)) => HATCH_WIDTH_ON_PAPER.px(units).unwrap_or(px(self.width()) * HATCH_WIDTH),
             (None, _) => px(self.width()),
         }
+    }
+
+    /// Whether it is drawn on a sheet of paper, by the lines of technical drawings.
+    pub(in crate::lines) fn is_on_paper(&self) -> bool {
+        matches!(self.page_size, PageSize::Paper(_))
     }
 
     /// Whether a layer's width is set.
@@ -354,7 +360,8 @@ impl DrawingSettings {
             (Some(color), _) => color,
             (None, Layer::Hidden(class)) => {
                 let color = self.color(Layer::Visible(class));
-                let is_grey = self.hidden == Hidden::Dashed && !self.is_for_pen;
+                let is_grey =
+                    self.hidden == Hidden::Dashed && class != Class::Centre && !self.is_for_pen && !self.is_on_paper();
                 if is_grey { mixed(color, self.paper_color(), HIDDEN_STRENGTH) } else { color }
             }
             (None, _) => Color([0.0; 3]),

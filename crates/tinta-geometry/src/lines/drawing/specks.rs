@@ -63,7 +63,7 @@ impl VisibleLines {
                 .enumerate()
                 .filter(|(_, segment)| segment.is_visible == is_visible && !segment.is_covered)
                 // A model's own curves and points are no noise, and connect nothing.
-                .filter(|(_, segment)| !ClassSet::FREE.contains(segment.class))
+                .filter(|(_, segment)| !ClassSet::OF_NO_SURFACE.contains(segment.class))
                 .map(|(number, segment)| Stroke::new(number, segment, &looks[segment.look as usize], units))
                 .collect();
             let border = DVec2::new(f64::from(self.size.width), f64::from(self.size.height));

@@ -74,7 +74,7 @@ pub(in crate::lines) fn taper(layers: &mut [Lines<'_>], size: Size) -> Vec<Vec<V
 
 /// Whether a path may: not a ring, nor a model's own curve or point.
 fn can_taper(path: &LinePath) -> bool {
-    !path.is_closed && !ClassSet::FREE.contains(path.class) && length(path) > 0.0
+    !path.is_closed && !ClassSet::OF_NO_SURFACE.contains(path.class) && length(path) > 0.0
 }
 
 fn length(path: &LinePath) -> f64 {

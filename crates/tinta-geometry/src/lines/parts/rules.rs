@@ -6,8 +6,8 @@
 use crate::choice::meant_or;
 use crate::error::Result;
 use crate::lines::drawing::settings::DrawingSettings;
-use crate::lines::parts::pattern::Pattern;
-use crate::lines::parts::style::PartStyle;
+use crate::lines::parts::style::{PartRole, PartStyle};
+use crate::mesh::Pattern;
 use crate::settings::{HasSettings, Kind, OptionValue, Options, Problem, Value};
 
 /// Rules for parts, the earlier ones below the later ones.
@@ -32,7 +32,18 @@ impl PartRules {
 
     /// Whether hidden lines of any part are drawn.
     pub fn draw_hidden(&self) -> bool {
-        self.0.iter().any(|rule| rule.style.draws_hidden())
+        self.have(PartStyle::draws_hidden)
+    }
+
+    /// Whether any rule has a style like this.
+    pub fn have(&self, is_such: impl Fn(&PartStyle) -> bool) -> bool {
+        self.0.iter().any(|rule| is_such(&rule.style))
+    }
+
+    /// The patterns of parts that a section leaves whole.
+    pub fn uncut(&self) -> Vec<Pattern> {
+        let whole = self.0.iter().filter(|rule| rule.style.role == Some(PartRole::Uncut));
+        whole.map(|rule| rule.pattern.clone()).collect()
     }
 
     /// Refuses styles that the drawing cannot have.
@@ -74,7 +85,7 @@ impl PartRule {
             if !table.has(name) {
                 let names = table.settings.iter().map(|setting| setting.name);
                 let names: Vec<&str> = names.filter(|name| *name != PartStyle::ROLE).collect();
-                let otherwise = format!("choose {}, or ghost, occlude-only or solid alone", names.join(", "));
+                let otherwise = format!("choose {}, or ghost, occlude-only, uncut or solid alone", names.join(", "));
                 return Err(
                     format!("{pattern}: a part has no setting {name}; {}", meant_or(name, &names, &otherwise)).into()
                 );
@@ -162,7 +173,7 @@ mod tests {
             (": ghost", "write PATTERN: SETTINGS"),
             ("bolt*:", "write PATTERN: SETTINGS"),
             ("bolt*: colour=red", "bolt*: a part has no setting colour; did you mean color?"),
-            ("bolt*: wobble=1", "a part has no setting wobble; choose color, line-width"),
+            ("bolt*: wobble=1", "a part has no setting wobble; choose color, fill, line-width"),
             ("bolt*: ghostt", "bolt*: ghostt: did you mean ghost?"),
             ("bolt*: color=redd", "a colour is a CSS name"),
             ("bolt*: ghost, solid", "bolt*: as comes twice"),

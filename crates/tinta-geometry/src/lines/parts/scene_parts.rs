@@ -2,11 +2,10 @@
 
 use crate::edges::{Class, ClassSet, CreaseAngle};
 use crate::error::{Error, Result};
-use crate::lines::parts::pattern::Named;
 use crate::lines::parts::rules::PartRules;
 use crate::lines::parts::style::{PartRole, PartStyle};
 use crate::lines::{LineSegment, LineSettings};
-use crate::mesh::{Mesh, NONE, SECTION};
+use crate::mesh::{Mesh, NONE, Named, SECTION};
 use crate::scene::Scene;
 use std::collections::HashMap;
 use std::sync::Arc;

@@ -16,6 +16,8 @@ crate::choices! {
         /// Both.
         #[default]
         Solid = "solid",
+        /// Both; a section leaves it whole.
+        Uncut = "uncut",
         /// Drawn, but hides nothing.
         Ghost = "ghost",
         /// Hides others, but is not drawn.
@@ -30,6 +32,8 @@ pub struct PartStyle {
     pub name: String,
     /// The colour of its lines, whatever their classes; hidden ones follow.
     pub color: Option<Color>,
+    /// The colour of its surface, whatever colours the model has.
+    pub fill: Option<Color>,
     /// The width of its lines, whatever their classes; widths of classes in line widths (`2x`) follow.
     pub line_width: Option<Length>,
     /// How its hidden lines are drawn.
@@ -42,6 +46,8 @@ pub struct PartStyle {
     pub role: Option<PartRole>,
     /// Whether it is the hatched cut of a section: its lines are then twice as wide unless `line_width` is set.
     pub is_cut: bool,
+    /// Whether it is a sheet's lettering, half as wide as other lines.
+    pub is_lettering: bool,
 }
 
 /// Width of the lines of a hatched cut.
@@ -49,6 +55,9 @@ const CUT_WIDTH: Length = Length::Times(2.0);
 
 /// Width of the strokes on it.
 const STROKE_WIDTH: Length = Length::Times(0.7);
+
+/// Width of a sheet's lettering.
+const LETTERING_WIDTH: Length = Length::Times(0.5);
 
 /// The text of an unset value, which cannot be given.
 const UNSET: &str = "";
@@ -71,6 +80,13 @@ impl PartStyle {
     fn settings() -> Vec<Setting<Self>> {
         vec![
             Setting::open_field("color", "COLOR", UNSET, "Colour of its lines", |style: &mut Self| &mut style.color),
+            Setting::open_field(
+                "fill",
+                "COLOR",
+                UNSET,
+                "Colour of its surface, in looks with tones",
+                |style: &mut Self| &mut style.fill,
+            ),
             Setting::open_field("line-width", "WIDTH", UNSET, "Width of its lines", |style: &mut Self| {
                 &mut style.line_width
             }),
@@ -113,7 +129,9 @@ impl PartStyle {
         Self {
             name,
             is_cut: self.is_cut || below.is_cut,
+            is_lettering: self.is_lettering || below.is_lettering,
             color: self.color.or(below.color),
+            fill: self.fill.or(below.fill),
             line_width: self.line_width.or(below.line_width),
             hidden: self.hidden.or(below.hidden),
             classes: self.classes.or(below.classes),
@@ -124,7 +142,7 @@ impl PartStyle {
 
     /// Whether it changes how lines are drawn, and not only which.
     pub(super) fn changes_drawing(&self) -> bool {
-        self.color.is_some() || self.line_width.is_some() || self.hidden.is_some() || self.is_cut
+        self.color.is_some() || self.line_width.is_some() || self.hidden.is_some() || self.is_cut || self.is_lettering
     }
 
     /// Whether its hidden lines are drawn.
@@ -145,6 +163,9 @@ impl PartStyle {
         if self.is_cut && self.line_width.is_none() {
             own.class_widths = ClassWidths(OfLayers::of_visible(CUT_WIDTH));
             own.class_widths.0.set_class(Class::Curve, STROKE_WIDTH);
+        }
+        if self.is_lettering {
+            own.class_widths.0.set_class(Class::Curve, LETTERING_WIDTH);
         }
         if self.line_width.is_some() {
             own.line_width = self.line_width;

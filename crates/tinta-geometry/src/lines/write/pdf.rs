@@ -246,8 +246,7 @@ fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, number: usize, content
     };
     let [red, green, blue] = color.0;
     content.set_stroke_rgb(red, green, blue).set_line_width(drawn.width_px as f32);
-    let dash = drawn.dash_px.map(|dash| dash.map(|length| length as f32));
-    content.set_dash_pattern(dash.into_iter().flatten(), 0.0);
+    content.set_dash_pattern(drawn.dash_px.iter().map(|length| *length as f32), 0.0);
     for path in &drawn.paths {
         write_path(drawing.settings, path, content);
     }

@@ -85,12 +85,12 @@ pub(in crate::lines) fn strokes_of(drawing: &Drawing<'_>) -> Vec<Strokes> {
 
 /// The polylines of a layer, each dash one.
 pub(in crate::lines) fn polylines(drawn: &DrawnLayer, settings: &DrawingSettings) -> Vec<Polyline> {
-    let of_path = |path: &LinePath| match drawn.dash_px {
-        Some([dash, gap]) => dashes(path, dash, gap)
+    let of_path = |path: &LinePath| match drawn.dash_px.is_empty() {
+        false => dashes(path, &drawn.dash_px)
             .into_iter()
             .map(|dash| Polyline { points_px: dash.points_px, is_closed: false })
             .collect(),
-        None => vec![Polyline { points_px: settings.points_of(path), is_closed: path.is_closed }],
+        true => vec![Polyline { points_px: settings.points_of(path), is_closed: path.is_closed }],
     };
     drawn.paths.iter().flat_map(of_path).collect()
 }

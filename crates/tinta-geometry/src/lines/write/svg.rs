@@ -213,9 +213,9 @@ pub(super) fn layer_tag(drawn: &DrawnLayer) -> String {
     if let Layer::Hatch(tone) = drawn.layer {
         let _ = write!(tag, r#" data-tone="{tone}""#);
     }
-    if let Some(dash) = drawn.dash_px {
-        let [dash, gap] = dash.map(number);
-        let _ = write!(tag, r#" stroke-dasharray="{dash} {gap}""#);
+    if !drawn.dash_px.is_empty() {
+        let lengths: Vec<String> = drawn.dash_px.iter().map(|length| number(*length)).collect();
+        let _ = write!(tag, r#" stroke-dasharray="{}""#, lengths.join(" "));
     }
     if drawn.is_ghost {
         let _ = write!(tag, r#" opacity="{GHOST_OPACITY}""#);

@@ -166,15 +166,8 @@ fn drawn(material: &gltf_json::Material, name: String, factor: [f32; 4], image: 
     };
     let [red, green, blue, _] = factor.map(to_srgb);
     let color = if is_left_out { [1.0; 3] } else { [red, green, blue] };
-    let mut drawn = Material {
-        name,
-        color: Some(color),
-        texture,
-        texture_within: None,
-        embedded,
-        texture_color: Some(color),
-        texture_alpha: TextureAlpha::Ignored,
-    };
+    let mut drawn =
+        Material { name, color: Some(color), texture, embedded, texture_color: Some(color), ..Material::default() };
     match mode {
         AlphaMode::Mask => drawn.texture_alpha = TextureAlpha::Cutoff((cutoff / alpha * 255.0).ceil() as u8),
         AlphaMode::Blend => drawn.blend(alpha),

@@ -2,7 +2,7 @@
 
 use super::caps::{self, Cap};
 use super::hatching::{self, upright};
-use crate::mesh::{Curves, Mesh, NONE, NamedPart, Shells};
+use crate::mesh::{Curves, Mesh, NONE, Named, NamedPart, Shells};
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, HashMap};
 
@@ -25,6 +25,8 @@ pub(super) struct Cutter {
     /// For each face of the mesh its solid, and whether its front is outside.
     solids: Vec<u32>,
     is_outside: Vec<bool>,
+    /// For each face of the mesh whether it is of a part that is left whole.
+    pub(super) is_whole: Vec<bool>,
     /// The faces kept, each with the face of the mesh that it is or is cut from.
     faces: Vec<Face>,
     /// Whether the parts in front are kept, too.
@@ -54,15 +56,17 @@ pub(super) struct OpenSide {
 type Corner = [u32; 3];
 
 impl Cutter {
-    pub(super) fn new(mesh: &Mesh, sides: Vec<f64>, keeps_front: bool) -> Self {
+    pub(super) fn new(mesh: &Mesh, sides: Vec<f64>, uncut: &[Named], keeps_front: bool) -> Self {
         let highest = |numbers: &[u32]| numbers.iter().max().map_or(0, |highest| highest + 1);
         let count = mesh.triangles.len();
         let shells = Shells::of(mesh);
+        let is_whole = |face: usize| uncut.iter().any(|named| named.holds(mesh.part_and_material(face)));
         Self {
             next_vertex: highest(&mesh.file_vertices).max(highest(&mesh.curves.file_vertices)),
             next_face: if mesh.file_faces.is_empty() { count as u32 } else { highest(&mesh.file_faces) },
             solids: shells.solids(count),
             is_outside: shells.fronts_outside(count),
+            is_whole: (0..count).map(is_whole).collect(),
             mesh: mesh.clone(),
             sides,
             on_edges: HashMap::new(),
@@ -77,6 +81,10 @@ impl Cutter {
     /// to its front: they close the solid behind it.
     pub(super) fn clip_faces(&mut self, normal: DVec3) {
         for face in 0..self.mesh.triangles.len() {
+            if self.is_whole[face] {
+                self.keep_whole(face);
+                continue;
+            }
             let positions = self.mesh.triangles[face];
             let normals = self.mesh.triangle_normals.get(face).copied().unwrap_or([NONE; 3]);
             let coordinates = self.mesh.triangle_texture_coordinates.get(face).copied().unwrap_or([NONE; 3]);
@@ -240,7 +248,7 @@ impl Cutter {
     pub(super) fn open_sides(&self) -> BTreeMap<u32, Vec<OpenSide>> {
         let mut open: HashMap<(u32, [u32; 2]), Vec<u32>> = HashMap::new();
         let mut order = Vec::new();
-        for face in &self.faces {
+        for face in self.faces.iter().filter(|face| !self.is_whole[face.from as usize]) {
             let [a, b, c] = face.positions;
             let (solid, is_outside) = (self.solids[face.from as usize], self.is_outside[face.from as usize]);
             for [from, to] in [[a, b], [b, c], [c, a]] {
@@ -280,18 +288,14 @@ impl Cutter {
 
     /// The mesh of the faces kept.
     pub(super) fn finished(self, old: &Mesh, curves: Curves) -> Mesh {
-        let Self { mut mesh, faces, on_edges, sides, keeps_front, .. } = self;
+        let Self { mut mesh, faces, on_edges, .. } = self;
         let mut number = vec![NONE; mesh.positions.len()];
         faces.iter().flat_map(|face| face.positions).for_each(|position| number[position as usize] = 0);
         let kept: Vec<u32> = (0..number.len() as u32).filter(|position| number[*position as usize] == 0).collect();
         kept.iter().enumerate().for_each(|(at, position)| number[*position as usize] = at as u32);
-        let is_kept = |position: u32| keeps_front || sides[position as usize] <= 0.0;
-        let marked = mesh.marked.iter().flat_map(|[a, b]| {
-            let parts = match on_edges.get(&[*a, *b]) {
-                Some(middle) => vec![[*a, *middle], [*middle, *b]],
-                None => vec![[*a, *b]],
-            };
-            parts.into_iter().filter(|[a, b]| is_kept(*a) && is_kept(*b))
+        let marked = mesh.marked.iter().flat_map(|[a, b]| match on_edges.get(&[*a, *b]) {
+            Some(middle) => vec![[*a, *middle], [*middle, *b]],
+            None => vec![[*a, *b]],
         });
         let marked = marked.map(|ends| ends.map(|end| number[end as usize])).filter(|ends| !ends.contains(&NONE));
         let mut marked: Vec<[u32; 2]> = marked.map(|[a, b]| [a.min(b), a.max(b)]).collect();

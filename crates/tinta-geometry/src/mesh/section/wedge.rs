@@ -5,17 +5,23 @@
 
 use super::cutter::{Cutter, OpenSide};
 use super::{Curves, Cut, SectionPlane, clipped};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Named};
 use glam::DVec3;
 use std::collections::{BTreeMap, HashMap};
 
 impl Mesh {
     /// Cuts away the mesh in front of all of several planes with normals of length 1.
-    pub(super) fn cut_by_all(&self, planes: &[SectionPlane], spacing: f64, tolerance: f64) -> (Self, Cut) {
-        let split = planes.iter().fold(self.clone(), |mesh, plane| mesh.split(plane, tolerance));
+    pub(super) fn cut_by_all(
+        &self,
+        planes: &[SectionPlane],
+        uncut: &[Named],
+        spacing: f64,
+        tolerance: f64,
+    ) -> (Self, Cut) {
+        let split = planes.iter().fold(self.clone(), |mesh, plane| mesh.split(plane, uncut, tolerance));
         let sides = |plane: &SectionPlane| split.positions.iter().map(|point| plane.side(*point, tolerance)).collect();
         let sides: Vec<Vec<f64>> = planes.iter().map(sides).collect();
-        let mut cutter = Cutter::new(&split, vec![0.0; split.positions.len()], true);
+        let mut cutter = Cutter::new(&split, vec![0.0; split.positions.len()], uncut, true);
         let is_away = cutter.drop_wedge(planes, &sides);
         let curves = behind_any(&self.curves, planes, tolerance);
         if !is_away && curves.segments == self.curves.segments && curves.points == self.curves.points {
@@ -23,7 +29,7 @@ impl Mesh {
         }
         let (mut is_closed, mut strokes) = (true, Vec::new());
         for (number, plane) in planes.iter().enumerate() {
-            let mut alone = Cutter::new(&split, sides[number].clone(), false);
+            let mut alone = Cutter::new(&split, sides[number].clone(), uncut, false);
             alone.clip_faces(plane.normal);
             let mut open = alone.open_sides();
             for other in (0..planes.len()).filter(|other| *other != number) {
@@ -139,7 +145,7 @@ impl Cutter {
                     false => of_corners.iter().all(|side| *side >= 0.0),
                 }
             };
-            let goes = planes.iter().zip(sides).all(is_in_front);
+            let goes = !self.is_whole[face] && planes.iter().zip(sides).all(is_in_front);
             is_away |= goes;
             if !goes {
                 self.keep_whole(face);

@@ -1,7 +1,7 @@
 //! Patterns for names: `bolt*` names parts and models, `material:steel*` materials.
 
+use super::{Mesh, NONE};
 use crate::choice::meant_or;
-use crate::mesh::{Mesh, NONE};
 
 /// How patterns for materials begin.
 const MATERIAL: &str = "material:";
@@ -14,7 +14,7 @@ const LISTED: usize = 6;
 pub struct Pattern(pub String);
 
 /// What of a mesh a pattern names.
-pub(super) struct Named {
+pub(crate) struct Named {
     /// The whole model.
     pub model: bool,
     /// Each part, by its number; a part is named if the one that holds it is.
@@ -25,12 +25,12 @@ pub(super) struct Named {
 
 impl Named {
     /// Whether it names anything.
-    pub(super) fn is_any(&self) -> bool {
+    pub(crate) fn is_any(&self) -> bool {
         self.model || self.parts.contains(&true) || self.materials.contains(&true)
     }
 
     /// Whether it names triangles of a part and a material, by their numbers or [`NONE`].
-    pub(super) fn holds(&self, [part, material]: [u32; 2]) -> bool {
+    pub(crate) fn holds(&self, [part, material]: [u32; 2]) -> bool {
         let is_named = |list: &[bool], number: u32| list.get(number as usize).copied().unwrap_or(false);
         self.model || is_named(&self.parts, part) || is_named(&self.materials, material)
     }
@@ -38,7 +38,7 @@ impl Named {
 
 impl Pattern {
     /// The parts and materials of a mesh that it names.
-    pub(super) fn named(&self, mesh: &Mesh) -> Named {
+    pub(crate) fn named(&self, mesh: &Mesh) -> Named {
         if let Some(pattern) = self.0.strip_prefix(MATERIAL) {
             let materials = mesh.materials.iter().map(|material| matches(pattern, &material.name)).collect();
             return Named { model: false, parts: Vec::new(), materials };
@@ -52,7 +52,7 @@ impl Pattern {
     }
 
     /// The sentence for a pattern that names nothing in these meshes.
-    pub(super) fn names_nothing<'a>(&self, meshes: impl Iterator<Item = &'a Mesh>) -> String {
+    pub(crate) fn names_nothing<'a>(&self, meshes: impl Iterator<Item = &'a Mesh>) -> String {
         let (word, is_material) = match self.0.strip_prefix(MATERIAL) {
             Some(word) => (word, true),
             None => (self.0.as_str(), false),

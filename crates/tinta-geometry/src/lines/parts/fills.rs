@@ -1,0 +1,59 @@
+//! Surfaces of parts in the colours that rules give them.
+//!
+//! In: a scene and rules. Out: the scene, whose meshes have a material more for each colour of a material's faces.
+
+use crate::lines::parts::rules::PartRules;
+use crate::mesh::{Material, Mesh, NONE, Named};
+use crate::scene::{Color, Scene};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+impl Scene {
+    /// The scene with the surfaces of parts in the colours of [`PartStyle::fill`](super::style::PartStyle::fill).
+    #[must_use]
+    pub fn with_fills(mut self, rules: &PartRules) -> Self {
+        if !rules.have(|style| style.fill.is_some()) {
+            return self;
+        }
+        let mut known: HashMap<*const Mesh, Option<Arc<Mesh>>> = HashMap::new();
+        for object in &mut self.objects {
+            let filled = known.entry(Arc::as_ptr(&object.mesh)).or_insert_with(|| filled(&object.mesh, rules));
+            if let Some(filled) = filled {
+                *object = object.with_mesh(filled.clone());
+            }
+        }
+        self
+    }
+}
+
+/// The mesh with materials for its filled parts; `None` if no face changes.
+fn filled(mesh: &Mesh, PartRules(rules): &PartRules) -> Option<Arc<Mesh>> {
+    // Of several rules the last one counts.
+    let fills = rules.iter().rev().filter_map(|rule| Some((rule.pattern.named(mesh), rule.style.fill?)));
+    let fills: Vec<(Named, Color)> = fills.collect();
+    let mut filled = mesh.clone();
+    filled.triangle_materials.resize(mesh.triangles.len(), NONE);
+    let mut numbers: HashMap<[u32; 2], Option<u32>> = HashMap::new();
+    let mut has_changed = false;
+    for (face, material) in filled.triangle_materials.iter_mut().enumerate() {
+        let key = mesh.part_and_material(face);
+        let number = *numbers.entry(key).or_insert_with(|| {
+            let (_, Color(color)) = fills.iter().find(|(named, _)| named.holds(key))?;
+            let name = mesh.materials.get(key[1] as usize).map_or_else(String::new, |material| material.name.clone());
+            let fill = Material { name, color: Some(*color), is_fill: true, ..Material::default() };
+            let known = filled.materials.iter().position(|material| *material == fill);
+            Some(known.unwrap_or_else(|| {
+                filled.materials.push(fill);
+                filled.materials.len() - 1
+            }) as u32)
+        });
+        let Some(number) = number.filter(|number| number != material) else { continue };
+        (*material, has_changed) = (number, true);
+        if !mesh.position_colors.is_empty() {
+            for corner in mesh.triangles[face] {
+                filled.position_colors[corner as usize] = [1.0; 3];
+            }
+        }
+    }
+    has_changed.then(|| Arc::new(filled))
+}

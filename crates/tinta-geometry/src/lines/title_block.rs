@@ -1,0 +1,71 @@
+//! The title block of a sheet: title, scale, unit, projection and size of the paper.
+
+use super::drawing::page::PageSize;
+use super::drawing::settings::DrawingSettings;
+use super::sheet::{Layout, NAME, ProjectionAngle};
+use super::sheet_text::{strokes, unknown_letter, width_of};
+use super::visible_lines::VisibleLines;
+use crate::error::{Error, Result};
+use crate::settings::Value;
+use glam::DVec2;
+
+/// Height of a row, as a share of the sheet's shorter side, and the block's width, as a share of the sheet's.
+const ROW: f64 = 0.05;
+const BLOCK: f64 = 0.55;
+
+/// Where the cells of the lower row end, as shares of the block's width.
+const CELLS: [f64; 3] = [0.4, 0.55, 0.8];
+
+impl VisibleLines {
+    /// Adds the title block: the title, and below it scale, unit, projection and size of the paper.
+    pub(super) fn put_block(
+        &mut self,
+        layout: &Layout,
+        (angle, drawing): (ProjectionAngle, &DrawingSettings),
+        title: &str,
+        scale: Option<&str>,
+    ) -> Result<()> {
+        let [_, high] = layout.frame();
+        let (row, width) = (ROW * layout.side, BLOCK * layout.sheet_px.x);
+        let low = high - DVec2::new(width, 2.0 * row);
+        let (height, pad) = (NAME * layout.side, (ROW - NAME) * 0.5 * layout.side);
+        let room = (width - 2.0 * pad) / height;
+        if let Some(letter) = unknown_letter(title) {
+            let problem =
+                format!("a sheet's lettering has no sign {letter}; it has letters, digits and . , : - + / _ ( )");
+            return Err(Error::value("title", title, problem));
+        }
+        if width_of(title) > room {
+            let fits = title.char_indices().filter(|(at, _)| width_of(&title[..*at]) <= room).count();
+            let problem = format!("it is too long for its field, which holds some {} letters", fits.saturating_sub(1));
+            return Err(Error::value("title", title, problem));
+        }
+        let below = low + DVec2::Y * row;
+        self.put_strokes(rectangle([low, high]));
+        self.put_strokes(vec![[below, below + DVec2::X * width]]);
+        let ends = CELLS.map(|share| below + DVec2::X * (share * width));
+        self.put_strokes(ends.map(|end| [end, end + DVec2::Y * row]).to_vec());
+        let paper = match drawing.page_size {
+            PageSize::Paper(paper) => paper.to_string().to_uppercase(),
+            _ => String::new(),
+        };
+        let paper = paper.split('-').next().unwrap_or_default();
+        let texts =
+            [(low, title), (below, scale.unwrap_or_default()), (ends[0], &drawing.units.text()), (ends[2], paper)];
+        for (corner, text) in texts {
+            self.put_strokes(strokes(text, corner + pad, height));
+        }
+        self.put_symbol(DVec2::new(ends[2].x - pad, below.y + 0.5 * row), height, angle);
+        Ok(())
+    }
+}
+
+/// The sides of a quadrilateral.
+pub(super) fn closed(corners: [DVec2; 4]) -> Vec<[DVec2; 2]> {
+    (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]).collect()
+}
+
+/// The sides of a rectangle between two corners.
+pub(super) fn rectangle([low, high]: [DVec2; 2]) -> Vec<[DVec2; 2]> {
+    closed([low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)])
+}
