@@ -103,7 +103,7 @@ fn what_makes_no_turn_of_lines_is_refused() {
         refused_in_one_line(&[&["render", "builtin:ant", "-o", output, "--turntable", "4"], options].concat(), words);
     };
     for output in ["a.svg", "a.pdf", "a.dxf", "a.json", "%d.json"] {
-        refused(output, &[], &[output, "this names one drawing", "frame-%04d.svg"]);
+        refused(output, &[], &[output, "this names one drawing", ".gif or .apng", "frame-%04d.svg"]);
     }
     refused("no/such/%d.svg", &[], &["no/such/1.svg: the folder no/such does not exist"]);
     refused("%d.svg", &["--page", "A4"], &["--page", "each view", "--page width-mm"]);

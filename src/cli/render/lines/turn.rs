@@ -22,7 +22,8 @@ use tinta::{Error, Result};
 /// [`Error::File`] for a name without a place for a number, or without a format of lines.
 pub(super) fn names(output: &str, format: DrawingFormat) -> Result<NumberedName> {
     NumberedName::parse(output).filter(|_| !format.is_of_lines_alone).ok_or_else(|| {
-        Error::output(output, "this names one drawing; a turn has numbered ones such as frame-%04d.svg, .pdf or .png")
+        let problem = "this names one drawing; a turn is a .gif or .apng, or numbered drawings such as frame-%04d.svg";
+        Error::output(output, problem)
     })
 }
 
