@@ -173,7 +173,7 @@ fn frame_table(settings: &Settings, mesh: &Arc<Mesh>, peers: &[Peer], size: Size
     let inking = Inking { silhouette: SilhouetteRule::Exact, ..Inking::default() };
     let styles = [
         ("tinta mrt", Style::Mrt(Mrt::default())),
-        ("tinta mrt --cull back", Style::Mrt(Mrt { cull_back_faces: true, ..Mrt::default() })),
+        ("tinta mrt --cull back", Style::Mrt(Mrt(Cartoon { cull_back_faces: true, ..Cartoon::default() }))),
         ("tinta three-pass", Style::ThreePass(Cartoon::default())),
         ("tinta three-pass --cull back", Style::ThreePass(culled)),
         ("tinta ink", Style::Ink(Ink::default())),

@@ -316,7 +316,10 @@ fn contestants(scene: &Scene) -> Vec<(String, Contestant)> {
             "three-pass --cull back",
             Contestant::Pruned(Style::ThreePass(Cartoon { cull_back_faces: true, ..Cartoon::default() })),
         ),
-        named("mrt --cull back", Contestant::Pruned(Style::Mrt(Mrt { cull_back_faces: true, ..Mrt::default() }))),
+        named(
+            "mrt --cull back",
+            Contestant::Pruned(Style::Mrt(Mrt(Cartoon { cull_back_faces: true, ..Cartoon::default() }))),
+        ),
         named("limit: the mesh once, untextured and unlit, culled", mesh_once(true)),
         named("limit: clear and one filter", filter_once(scene)),
         named("limit: clear and read back", limit("clear", vec![Step::clear([1.0; 4])])),

@@ -252,7 +252,7 @@ fn improved() -> [Style; 5] {
     let cartoon = |map_encoding| Style::ThreePass(Cartoon { map_encoding, ..Cartoon::default() });
     let best = Style::Ink(Ink { quality: Quality::Best, ..Ink::default() });
     let texture = Style::TwoPass(Cartoon { map_target: MapTarget::Texture, ..Cartoon::default() });
-    let mrt = Style::Mrt(Mrt { supersample: Supersample::Two, ..Mrt::default() });
+    let mrt = Style::Mrt(Mrt(Cartoon { supersample: Supersample::Two, ..Cartoon::default() }));
     [cartoon(MapEncoding::Float), cartoon(MapEncoding::DepthTexture), best, texture, mrt]
 }
 

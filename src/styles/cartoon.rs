@@ -4,6 +4,7 @@
 //! in place of the constants. A test shows that the twins draw the same picture.
 
 use super::textured::textured;
+use super::tones::TOON;
 use super::{
     ALL_STYLES, Border, CARTOON, IMAGE_SPACE, MapEncoding, MapTarget, Show, Supersample, Tones, cull, no_borders,
 };
@@ -60,7 +61,13 @@ impl Cartoon {
             Supersample::setting(|cartoon: &mut Self| &mut cartoon.supersample),
         ];
         let map = vec![
-            background_square(|cartoon: &mut Self| &mut cartoon.background_square),
+            Setting::field(
+                "background-quad",
+                ON_OFF,
+                "Draw a square behind the scene, on or off; without it outer borders are lost",
+                |cartoon: &mut Self| &mut cartoon.background_square,
+            )
+            .labelled("background square"),
             Setting::field("map-encoding", "ENCODING", MapEncoding::HELP, |cartoon: &mut Self| {
                 &mut cartoon.map_encoding
             }),
@@ -73,12 +80,6 @@ impl Cartoon {
             .chain(under(IMAGE_SPACE, image_space))
             .collect()
     }
-}
-
-/// Returns the setting that draws a square behind the scene into the map.
-pub(super) fn background_square<T: Clone + 'static>(field: fn(&mut T) -> &mut bool) -> Setting<T> {
-    let help = "Draw a square behind the scene, on or off; without it outer borders are lost";
-    Setting::field("background-quad", ON_OFF, help, field).labelled("background square")
 }
 
 /// Borders alone are drawn on white, as in figure 12.
@@ -218,25 +219,12 @@ impl Cartoon {
 
     /// Step 2: uniform shading.
     fn tone_pass(&self, scene: &Scene) -> Pass {
-        let published = self.tones.are_published();
         let steps = self.scene_steps(scene, |background| {
-            let fragments = match published {
-                true => vec!["evangelista/toon.frag"],
-                false => vec!["evangelista/toon-settings.frag", self.tones.shader()],
-            };
-            let program = Program::new("evangelista/toon.vert", fragments);
-            let facts = Facts {
-                // On the background every tone is 1: the published highlight's, or that of settings.
-                constant_color: background.then(|| scene.background.clear_color()),
-                shorter: self.tones.shorter(&program),
-                ..Facts::plain()
-            };
-            Draw {
-                facts,
-                uniforms: if published { Vec::new() } else { self.tones.uniforms(background) },
-                textures: if published { Vec::new() } else { self.tones.textures() },
-                ..self.draw(Geometry::Objects(Paint::Materials), program)
-            }
+            let mut draw = self.tones.draw(TOON, background);
+            draw.cull_back_faces = self.cull_back_faces;
+            // On the background every tone is 1: the published highlight's, or that of settings.
+            draw.facts.constant_color = background.then(|| scene.background.clear_color());
+            draw
         });
         Pass::new("tones", steps)
     }

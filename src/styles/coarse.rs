@@ -38,6 +38,6 @@ mod tests {
         let mut tones = Style::named(StyleName::ThreePass);
         Style::table().find(&tones, "tones").unwrap().set(&mut tones, "2").unwrap();
         let Style::Mrt(mrt) = coarse(&tones) else { panic!("mrt") };
-        assert_eq!((mrt.tones.count, mrt.cull_back_faces), (2, true));
+        assert_eq!((mrt.0.tones.count, mrt.0.cull_back_faces), (2, true));
     }
 }

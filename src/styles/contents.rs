@@ -85,7 +85,7 @@ impl Style {
         match self {
             Self::ThreePass(Cartoon { tones, border, .. })
             | Self::TwoPass(Cartoon { tones, border, .. })
-            | Self::Mrt(Mrt { tones, border, .. }) => {
+            | Self::Mrt(Mrt(Cartoon { tones, border, .. })) => {
                 let width = border.and_then(|border| border.width).unwrap_or(LISTED_WIDTH);
                 // The listing's filter compares normals.
                 let lines = LineSettings { creases_by_normals: true, ..LineSettings::default() };

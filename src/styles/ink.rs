@@ -9,7 +9,7 @@ use super::lens::DepthRange;
 use super::map::map_texture;
 use super::surfaces::{has_doubled_faces, stacked};
 use super::textured::textured;
-use super::tones::ToneLookup;
+use super::tones::{TOON, ToneLookup};
 use super::{
     ALL_STYLES, IMAGE_SPACE, INK, INKING, LineWidth, MapTarget, Show, Supersample, Tones, cull, lens, no_borders,
     supersample,
@@ -235,26 +235,12 @@ impl Ink {
 
     /// The published tones; the background is cleared and needs no square.
     fn tone_pass(&self, scene: &Scene) -> Pass {
-        let (program, uniforms, textures) = match self.tone_light {
+        let mut objects = match self.tone_light {
             Some(light) => self.far_tones(light.towards(scene, self.tones.far_thresholds())),
-            None if self.tones.are_published() => {
-                let program = Program::new("evangelista/toon.vert", ["evangelista/toon.frag"]);
-                (program, Vec::new(), Vec::new())
-            }
-            None => {
-                let fragments = vec!["evangelista/toon-settings.frag", self.tones.shader()];
-                let program = Program::new("evangelista/toon.vert", fragments);
-                (program, self.tones.uniforms(false), self.tones.textures())
-            }
+            None => self.tones.draw(TOON, false),
         };
-        let objects = Draw {
-            uniforms,
-            textures,
-            cull_back_faces: self.cull_back_faces,
-            culls_doubled_faces: has_doubled_faces(scene),
-            facts: Facts { shorter: self.tones.shorter(&program), ..Facts::plain() },
-            ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
-        };
+        objects.cull_back_faces = self.cull_back_faces;
+        objects.culls_doubled_faces = has_doubled_faces(scene);
         let texture = textured(scene, &objects);
         let mut steps = vec![Step::clear(scene.background.clear_color()), Step::Draw(objects)];
         steps.extend(texture);
@@ -262,14 +248,15 @@ impl Ink {
     }
 
     /// Tones by a light from a direction.
-    fn far_tones(&self, light: [f32; 3]) -> (Program, Vec<Uniform>, Vec<(&'static str, Texture)>) {
+    fn far_tones(&self, light: [f32; 3]) -> Draw {
         let program = Program::new("improved/tones-far.vert", ["improved/tones-far.frag"]);
         let uniforms = vec![
             Uniform::new("lightDirection", Value::Vec3(unit(light).as_vec3().to_array())),
             Uniform::new("toneThresholds", Value::Vec2(self.tones.far_thresholds())),
             Uniform::new("toneLevels", Value::Vec3(self.tones.levels)),
         ];
-        (program, uniforms, Vec::new())
+        let draw = Draw::new(Geometry::Objects(Paint::Materials), Some(program));
+        Draw { uniforms, facts: Facts::plain(), ..draw }
     }
 
     /// The filter over the whole picture.
@@ -289,39 +276,15 @@ impl Ink {
         let [before, behind] = taps(Some(width.max(inner_width)), scale, false);
         uniforms.extend(lens::rays(scene, surface));
         let fragments = vec!["improved/plane-ink.frag", "improved/ink-depth-map.frag", "improved/ink-turn-planes.frag"];
-        let program = Program::new("evangelista/border.vert", fragments);
-        Draw {
-            uniforms,
-            textures: vec![("planeMap", map_texture(self.map_target.target()))],
-            depth: Depth::Ignore,
-            facts: Facts {
-                reach_px: Some(before.max(behind) + 1),
-                // It discards pixels without ink.
-                keeps_pixels: false,
-                where_even: Some(WhereEven::Unchanged),
-                ..Facts::plain()
-            },
-            ..Draw::new(Geometry::ScreenSquare, Some(program))
-        }
+        let textures = vec![("planeMap", map_texture(self.map_target.target()))];
+        over_the_picture(fragments, uniforms, textures, before.max(behind) + 1)
     }
 
     /// Redraws the ink without its specks.
     fn without_specks(&self, scene: &Scene, surface: Size) -> Draw {
         let size = self.speck_size(scene);
-        let program = Program::new("evangelista/border.vert", ["improved/specks.frag"]);
-        Draw {
-            uniforms: vec![supersample::texture_unit(surface), Uniform::new("speckSize", Value::Float(size as f32))],
-            textures: vec![("inkMask", Texture::BorderMap)],
-            depth: Depth::Ignore,
-            facts: Facts {
-                reach_px: Some(size + 1),
-                // It discards pixels without ink.
-                keeps_pixels: false,
-                where_even: Some(WhereEven::Unchanged),
-                ..Facts::plain()
-            },
-            ..Draw::new(Geometry::ScreenSquare, Some(program))
-        }
+        let uniforms = vec![supersample::texture_unit(surface), Uniform::new("speckSize", Value::Float(size as f32))];
+        over_the_picture(vec!["improved/specks.frag"], uniforms, vec![("inkMask", Texture::BorderMap)], size + 1)
     }
 
     /// Largest width and height of a speck, in drawn pixels: a mark less than twice as long as wide is no stroke.
@@ -336,4 +299,27 @@ const LARGEST_SPECK: u32 = 16;
 /// Returns the ground for ink alone: white, or transparent.
 fn blank(scene: &Scene) -> [f32; 4] {
     if scene.background == Background::Transparent { [0.0; 4] } else { [1.0; 4] }
+}
+
+/// A filter over the whole picture, whose pixels depend on others up to `reach_px` away.
+fn over_the_picture(
+    fragments: Vec<&'static str>,
+    uniforms: Vec<Uniform>,
+    textures: Vec<(&'static str, Texture)>,
+    reach_px: u32,
+) -> Draw {
+    let program = Program::new("evangelista/border.vert", fragments);
+    Draw {
+        uniforms,
+        textures,
+        depth: Depth::Ignore,
+        facts: Facts {
+            reach_px: Some(reach_px),
+            // It discards pixels without ink.
+            keeps_pixels: false,
+            where_even: Some(WhereEven::Unchanged),
+            ..Facts::plain()
+        },
+        ..Draw::new(Geometry::ScreenSquare, Some(program))
+    }
 }

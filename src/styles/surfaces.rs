@@ -42,7 +42,7 @@ pub(super) fn of_doubled_faces(style: &Style, scene: &Scene) -> Vec<String> {
     let chooses = match style {
         Style::Phong(phong) => phong.cull_back_faces,
         Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => cartoon.cull_back_faces,
-        Style::Mrt(mrt) => mrt.cull_back_faces,
+        Style::Mrt(mrt) => mrt.0.cull_back_faces,
         Style::Inking(inking) => inking.cull_back_faces,
         Style::Charcoal(charcoal) | Style::Sand(charcoal) => charcoal.cull_back_faces || charcoal.improve.two_sided,
         // The others draw both sides alike or the one that faces the eye.

@@ -2,7 +2,7 @@
 
 use super::CARTOON;
 use crate::error::{Error, Result};
-use crate::plan::{PlanTable, Program, Shorter, Texture, Uniform, Value};
+use crate::plan::{Draw, Facts, Geometry, Paint, PlanTable, Program, Shorter, Texture, Uniform, Value};
 use crate::settings::{Kind, Setting, Value as _, under};
 use crate::tolerances::UNREACHED_LIGHT;
 
@@ -94,6 +94,9 @@ const NEVER: f32 = 2.0;
 /// The part that compares both kinds of light with their thresholds.
 const STEPS: &str = "evangelista/tone-steps.frag";
 
+/// The shaders of uniform shading: the vertices', and the fragments' with the listing's constants and with settings.
+pub(super) const TOON: [&str; 3] = ["evangelista/toon.vert", "evangelista/toon.frag", "evangelista/toon-settings.frag"];
+
 /// Texels of the tone table: thresholds are exact to 1/1023.
 const TABLE_SIZE: usize = 1024;
 
@@ -149,6 +152,20 @@ impl Tones {
         match self.lookup {
             ToneLookup::Steps => STEPS,
             ToneLookup::Texture => "evangelista/tone-texture.frag",
+        }
+    }
+
+    /// Returns the draw of the objects by these shaders, those of a program as [`TOON`] has them; `is_square` if it draws the
+    /// background's square instead.
+    pub(super) fn draw(&self, [vertex, listed, with_settings]: [&'static str; 3], is_square: bool) -> Draw {
+        let published = self.are_published();
+        let fragments = if published { vec![listed] } else { vec![with_settings, self.shader()] };
+        let program = Program::new(vertex, fragments);
+        Draw {
+            uniforms: if published { Vec::new() } else { self.uniforms(is_square) },
+            textures: if published { Vec::new() } else { self.textures() },
+            facts: Facts { shorter: self.shorter(&program), ..Facts::plain() },
+            ..Draw::new(Geometry::Objects(Paint::Materials), Some(program))
         }
     }
 

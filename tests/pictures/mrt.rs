@@ -52,8 +52,7 @@ fn in_textures(mut plan: Plan) -> Plan {
 fn pair(change: impl Fn(&mut Cartoon)) -> [Style; 2] {
     let mut cartoon = Cartoon::default();
     change(&mut cartoon);
-    let Cartoon { tones, border, background_square, cull_back_faces, supersample, .. } = cartoon.clone();
-    [Style::ThreePass(cartoon), Style::Mrt(Mrt { tones, border, background_square, cull_back_faces, supersample })]
+    [Style::ThreePass(cartoon.clone()), Style::Mrt(Mrt(cartoon))]
 }
 
 fn assert_same(context: &str, expected: &Picture, actual: &Picture) {
@@ -202,7 +201,7 @@ fn steps_can_be_dumped_and_the_last_is_the_picture() {
         let mut renderer = renderer(backend);
         let scene = scene("builtin:gear", 120, 90);
         for supersample in [Supersample::One, Supersample::Two] {
-            let style = Style::Mrt(Mrt { supersample, ..Mrt::default() });
+            let style = Style::Mrt(Mrt(Cartoon { supersample, ..Cartoon::default() }));
             let plan = style.plan(&scene, Show::Final).unwrap();
             let steps = renderer.step_pictures(&scene, &plan).unwrap();
             assert_eq!(steps.len(), plan.steps().count());

@@ -52,7 +52,7 @@ fn every_style_and_everything_it_shows_passes_pruned_or_not() {
             }
         }
     }
-    styles.push(Style::Mrt(Mrt { supersample: Supersample::Four, ..Mrt::default() }));
+    styles.push(Style::Mrt(Mrt(Cartoon { supersample: Supersample::Four, ..Cartoon::default() })));
     let mut count = 0;
     for style in &styles {
         for (name, show) in Show::ALL {

@@ -47,7 +47,7 @@ impl<'a> Shading<'a> {
     pub(super) fn of(style: &'a Style, scene: &Scene) -> Result<Option<Self>> {
         Ok(match style {
             Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => Some(Self::Tones(&cartoon.tones)),
-            Style::Mrt(mrt) => Some(Self::Tones(&mrt.tones)),
+            Style::Mrt(mrt) => Some(Self::Tones(&mrt.0.tones)),
             Style::Ink(ink) => ink.tone_light.is_none().then_some(Self::Tones(&ink.tones)),
             Style::Phong(phong) => Some(Self::Phong(phong)),
             Style::Charcoal(charcoal) | Style::Sand(charcoal) => {
