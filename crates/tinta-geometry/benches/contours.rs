@@ -1,6 +1,8 @@
 //! Measures the error of silhouettes against the smooth surface's, the breaks in their visibility, and their cost.
 //! docs/results/exactness.md has the commands and the results.
 
+#[path = "../tests/support/contour_distance.rs"]
+mod contour_distance;
 #[path = "contours/flicker.rs"]
 mod flicker;
 
@@ -10,7 +12,7 @@ use std::collections::HashSet;
 use std::sync::Arc;
 use std::time::Instant;
 use tinta_geometry::edges::{Class, ClassSet, CreaseAngle, SilhouetteRule};
-use tinta_geometry::lines::closed_forms::{ClosedForm, Patch, distance};
+use tinta_geometry::lines::closed_forms::{ClosedForm, Patch};
 use tinta_geometry::lines::{LineSettings, VisibilityChanges};
 use tinta_geometry::{CameraSettings, LoadOptions, Mesh, Result, Scene, SceneSettings, View, VisibleLines, load};
 
@@ -66,7 +68,10 @@ fn truth(surfaces: &[String]) -> Result<()> {
                     for way in views() {
                         let scene = scene(&mesh, way)?;
                         let lines = VisibleLines::of(&scene, &settings(silhouette))?;
-                        let distance = distance(&lines, &form.visible_contour(&scene));
+                        let is_drawn = |class, is_visible| class == Class::Silhouette && is_visible;
+                        let drawn = lines.segments.iter().filter(|segment| is_drawn(segment.class, segment.is_visible));
+                        let drawn: Vec<_> = drawn.map(|segment| segment.ends_px).collect();
+                        let distance = contour_distance::distance(&drawn, &form.visible_contour(&scene));
                         distances.push(distance.hausdorff_px());
                         sum += distance.mean_px;
                     }

@@ -44,6 +44,9 @@ mod sheet;
 mod sheet_text;
 mod smooth;
 #[cfg(test)]
+#[path = "../tests/support/contour_distance.rs"]
+mod contour_distance;
+#[cfg(test)]
 mod smooth_tests;
 #[cfg(test)]
 mod stiff_tests;

@@ -1,10 +1,11 @@
 //! Smooth contours compared with closed forms, with themselves in other places and orders, and with edges where all
 //! faces are flat; also on degenerate surfaces.
 
+use super::contour_distance::{self, ContourDistance};
 use super::{LineSegment, LineSettings, VisibleLines, chain, first_hits};
 use crate::camera::{CameraSettings, View};
 use crate::edges::{Class, ClassSet, SilhouetteRule};
-use crate::lines::smooth::closed_forms::{ClosedForm, distance};
+use crate::lines::smooth::closed_forms::ClosedForm;
 use crate::mesh::{LoadOptions, Mesh, load, read_bytes};
 use crate::scene::{Scene, SceneSettings};
 use glam::{DQuat, DVec2, DVec3};
@@ -30,6 +31,12 @@ pub(super) fn found(scene: &Scene, settings: &LineSettings) -> VisibleLines {
 
 pub(super) fn of_triangles(positions: Vec<DVec3>, triangles: &[[u32; 3]]) -> Mesh {
     Mesh::of_triangles("a test", positions, triangles, &LoadOptions::default()).unwrap()
+}
+
+/// The distance between the visible silhouettes among some lines and a true contour.
+pub(super) fn distance(lines: &VisibleLines, truth: &[Vec<DVec2>]) -> ContourDistance {
+    let drawn = lines.segments.iter().filter(|segment| segment.class == Class::Silhouette && segment.is_visible);
+    contour_distance::distance(&drawn.map(|segment| segment.ends_px).collect::<Vec<_>>(), truth)
 }
 
 fn length(lines: &VisibleLines, is_visible: bool) -> f64 {

@@ -2,9 +2,10 @@
 //! and mostly flat shapes.
 
 use super::LineSettings;
-use super::smooth_tests::{camera, found, of_triangles, scene, smooth};
+use super::contour_distance::ContourDistance;
+use super::smooth_tests::{camera, distance, found, of_triangles, scene, smooth};
 use crate::edges::{Class, SilhouetteRule};
-use crate::lines::smooth::closed_forms::{ClosedForm, ContourDistance, Patch, distance};
+use crate::lines::smooth::closed_forms::{ClosedForm, Patch};
 use crate::mesh::{LoadOptions, Mesh, load};
 use glam::{DVec2, DVec3, Vec3};
 use std::io::Write;

@@ -3,23 +3,17 @@
 //! Input: a [`ClosedForm`] and a [`Scene`] of its mesh. Output: the visible contour of the exact surface, in pixels.
 //! It comes from formulas in f64, independent of faces, edges and the code that finds lines. A ray that touches a
 //! torus has a double root there, and the rest of its quartic is a quadratic, so visibility has a closed form too.
-//! Ellipsoids and superquadrics are convex and hide none of their contour. A [`Patch`] leaves a quartic. [`distance`]
-//! measures the distance of drawn lines from the contour.
+//! Ellipsoids and superquadrics are convex and hide none of their contour. A [`Patch`] leaves a quartic.
 //!
 //! ```
 //! # fn main() -> tinta_geometry::Result<()> {
 //! use std::sync::Arc;
-//! use tinta_geometry::lines::closed_forms::{ClosedForm, distance};
-//! use tinta_geometry::edges::SilhouetteRule;
-//! use tinta_geometry::lines::LineSettings;
-//! use tinta_geometry::{Scene, SceneSettings, VisibleLines};
+//! use tinta_geometry::lines::closed_forms::ClosedForm;
+//! use tinta_geometry::{Scene, SceneSettings};
 //!
 //! let sphere = ClosedForm::ellipsoid(1.0, 1.0, 1.0);
 //! let scene = Scene::new(vec![Arc::new(sphere.mesh(10_000, 0.0)?)], &SceneSettings::default())?;
-//! let lines = VisibleLines::of(&scene, &LineSettings { silhouette: SilhouetteRule::Smooth, ..LineSettings::default() })?;
-//!
-//! let error = distance(&lines, &sphere.visible_contour(&scene));
-//! assert!(error.hausdorff_px() < 0.5, "{error:?}");
+//! assert_eq!(sphere.visible_contour(&scene).len(), 1, "a circle");
 //! # Ok(())
 //! # }
 //! ```
@@ -33,9 +27,8 @@ pub use patch::Patch;
 use curve::{Curve, HALVINGS};
 use patch::quad;
 
-use crate::edges::{Class, Eye, SilhouetteRule};
+use crate::edges::{Eye, SilhouetteRule};
 use crate::error::Result;
-use crate::lines::VisibleLines;
 use crate::lines::eye::space::Space;
 use crate::mesh::{LoadOptions, Mesh};
 use crate::scene::Scene;
@@ -67,24 +60,6 @@ pub enum ClosedForm {
         /// The tube's radius, less than `ring`.
         tube: f64,
     },
-}
-
-/// The distance between drawn lines and a true contour, pixels.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContourDistance {
-    /// The largest distance of a point of the true contour from all drawn lines.
-    pub missed_px: f64,
-    /// The largest distance of a point of a drawn line from the true contour.
-    pub invented_px: f64,
-    /// Mean distance of the drawn lines from the true contour, weighted by length.
-    pub mean_px: f64,
-}
-
-impl ContourDistance {
-    /// The Hausdorff distance: the larger of the two.
-    pub fn hausdorff_px(&self) -> f64 {
-        self.missed_px.max(self.invented_px)
-    }
 }
 
 /// Samples along a contour, before bisection finds the ends of its visible parts.
@@ -339,44 +314,6 @@ impl Random {
         self.0 ^= self.0 << 17;
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
-}
-
-/// Returns the distance between the visible silhouettes among some lines and a true contour.
-///
-/// If either is empty, the other is infinitely far from it.
-pub fn distance(lines: &VisibleLines, truth: &[Vec<DVec2>]) -> ContourDistance {
-    let is_drawn = |class: Class, is_visible: bool| class == Class::Silhouette && is_visible;
-    let drawn = lines.segments.iter().filter(|segment| is_drawn(segment.class, segment.is_visible));
-    let drawn: Vec<[DVec2; 2]> = drawn.map(|segment| segment.ends_px).collect();
-    let pieces = |line: &Vec<DVec2>| line.windows(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>();
-    let truth: Vec<[DVec2; 2]> = truth.iter().flat_map(pieces).collect();
-    let (missed_px, _) = farthest(&truth, &drawn);
-    let (invented_px, mean_px) = farthest(&drawn, &truth);
-    ContourDistance { missed_px, invented_px, mean_px }
-}
-
-/// The largest and the mean distance of some lines' points from other lines.
-fn farthest(from: &[[DVec2; 2]], to: &[[DVec2; 2]]) -> (f64, f64) {
-    let (mut largest, mut sum, mut length) = (0.0f64, 0.0, 0.0);
-    for [a, b] in from {
-        let steps = (a.distance(*b) / STEP_PX).ceil().max(1.0);
-        for step in 0..=steps as usize {
-            let point = a.lerp(*b, step as f64 / steps);
-            let nearest = to.iter().map(|ends| square_to(point, *ends)).fold(f64::INFINITY, f64::min).sqrt();
-            largest = largest.max(nearest);
-            sum += nearest * a.distance(*b) / (steps + 1.0);
-        }
-        length += a.distance(*b);
-    }
-    (largest, if length > 0.0 { sum / length } else { 0.0 })
-}
-
-/// The squared distance of a point from a line.
-fn square_to(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
-    let along = b - a;
-    let square = along.length_squared();
-    let share = if square > 0.0 { ((point - a).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
-    point.distance_squared(a + along * share)
 }
 
 #[cfg(test)]
