@@ -125,7 +125,7 @@ row::styles! {
     Mrt(Mrt) {
         name: "mrt",
         draw: Draw::Plan(Mrt::plan),
-        has_lines: |mrt| mrt.border.is_some(),
+        has_lines: |mrt| mrt.0.border.is_some(),
         shows: CARTOON_SHOWS,
         origin: Origin::Own,
         mark: Some(Mark { rgb: [86, 180, 233], outline: Outline::Polygon { corners: 5, turn: PI } }),
@@ -492,7 +492,7 @@ picture: the framebuffer
     fn a_filter_of_two_programs_is_two_blended_passes_and_no_part_of_a_joint_one() {
         let border = Some(Border { filter: Filter::MitchellTwo, ..Border::default() });
         let cartoon = Cartoon { border, ..Cartoon::default() };
-        let (two, mrt) = (Style::TwoPass(cartoon.clone()), Style::Mrt(Mrt { border, ..Mrt::default() }));
+        let (two, mrt) = (Style::TwoPass(cartoon.clone()), Style::Mrt(Mrt(cartoon.clone())));
         let whole = plan(&Style::ThreePass(cartoon), Show::Final);
         assert_eq!(
             whole.passes.iter().map(|pass| pass.name).collect::<Vec<_>>(),

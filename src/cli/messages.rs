@@ -98,13 +98,18 @@ fn printed(result: std::io::Result<()>) -> Result<()> {
 
 /// Makes the folder that `-o` names, if it is not there.
 pub fn make_folder(folder: &Path) -> Result<()> {
+    make_folder_of("-o", folder)
+}
+
+/// Makes the folder that an option names, if it is not there.
+pub(super) fn make_folder_of(option: &str, folder: &Path) -> Result<()> {
     std::fs::create_dir_all(folder).map_err(|error| {
         let problem = if folder.is_file() {
             "this is a file; name a folder".to_owned()
         } else {
             format!("the folder cannot be created ({error}); choose another")
         };
-        Error::output(format!("-o {}", folder.display()), problem).because(&error)
+        Error::output(format!("{option} {}", folder.display()), problem).because(&error)
     })
 }
 

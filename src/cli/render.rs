@@ -305,14 +305,7 @@ fn make_dump_folder(folder: Option<&Path>, output: &str) -> Result<()> {
     if is_step && parent.is_some_and(is_folder) {
         return Err(Error::output(output, "a picture in the --dump folder could overwrite it; give it another name"));
     }
-    std::fs::create_dir_all(folder).map_err(|error| {
-        let problem = if folder.is_file() {
-            "this is a file; name a folder".to_owned()
-        } else {
-            format!("the folder cannot be created ({error}); choose another")
-        };
-        Error::output(format!("--dump {}", folder.display()), problem).because(&error)
-    })
+    super::messages::make_folder_of("--dump", folder)
 }
 
 fn after_help() -> String {

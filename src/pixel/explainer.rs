@@ -73,25 +73,11 @@ impl<'a> Explainer<'a> {
     /// [`Error::Setting`] for supersampled plans and for textures that cannot be recomputed, [`Error::Statement`] for shaders that the
     /// interpreter does not understand.
     pub fn new(scene: &'a Scene, plan: &'a Plan, values: &'a [StepValues], how: Recomputation) -> Result<Self> {
-        Self::with_shaders(scene, plan, values, how, &HashMap::new())
+        Self::at(scene, plan, values, how, &HashMap::new(), None)
     }
 
-    /// Like [`Explainer::new`], of a renderer with these shaders, by their paths below `glsl/`, instead of those built in.
-    ///
-    /// # Errors
-    ///
-    /// As [`Explainer::new`].
-    pub(crate) fn with_shaders(
-        scene: &'a Scene,
-        plan: &'a Plan,
-        values: &'a [StepValues],
-        how: Recomputation,
-        replaced: &HashMap<String, String>,
-    ) -> Result<Self> {
-        Self::at(scene, plan, values, how, replaced, None)
-    }
-
-    /// Like [`Explainer::with_shaders`], for this pixel alone if one is given, which takes less time.
+    /// Like [`Explainer::new`], of a renderer with these shaders, by their paths below `glsl/`, instead of those built in; for this
+    /// pixel alone if one is given, which takes less time.
     pub(super) fn at(
         scene: &'a Scene,
         plan: &'a Plan,

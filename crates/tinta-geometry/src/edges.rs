@@ -33,7 +33,7 @@ mod tangents;
 mod usual_angles;
 
 pub(crate) use axes::Axis;
-pub(crate) use lasting_creases::LastingCreases;
+pub(crate) use lasting_creases::{LastingCreases, pair};
 
 pub use classes::{Class, ClassCounts, ClassSet, Classes, CreaseAngle};
 pub use cracks::cracks;

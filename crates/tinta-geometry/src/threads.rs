@@ -65,10 +65,15 @@ pub(crate) fn each_piece<T: Send>(
             work(piece * length, places);
         }
     };
+    on_threads(threads, take);
+}
+
+/// Does the same work on so many threads, this one included.
+fn on_threads(threads: usize, work: impl Fn() + Copy + Send) {
     std::thread::scope(|scope| {
         let others: Vec<_> =
-            (1..threads).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, take).ok()).collect();
-        take();
+            (1..threads).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, work).ok()).collect();
+        work();
         for other in others {
             other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         }
@@ -180,15 +185,7 @@ fn in_strides<T: Send + Sync>(
             let _ = results[index].set(work(piece.clone()));
         }
     };
-    std::thread::scope(|scope| {
-        let wanted = threads.min(pieces.len());
-        let others: Vec<_> =
-            (1..wanted).map_while(|_| std::thread::Builder::new().spawn_scoped(scope, take).ok()).collect();
-        take();
-        for other in others {
-            other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        }
-    });
+    on_threads(threads.min(pieces.len()), take);
     results.into_iter().filter_map(OnceLock::into_inner).collect()
 }
 

@@ -112,6 +112,17 @@ impl LastingCreases {
     }
 }
 
+/// Makes the ends of pairs partners, each end of one other: first in pairs without the mark, then in the straightest. A pair is its
+/// mark, the cosine between its lines, which is -1 where they are straight, and its ends.
+pub(crate) fn pair(mut pairs: Vec<(bool, f64, usize, usize)>, partners: &mut [Option<usize>]) {
+    pairs.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then((a.2, a.3).cmp(&(b.2, b.3))));
+    for (_, _, first, second) in pairs {
+        if partners[first].is_none() && partners[second].is_none() {
+            (partners[first], partners[second]) = (Some(second), Some(first));
+        }
+    }
+}
+
 /// Returns for each edge whether it is a lasting crease.
 fn lasting(mesh: &Mesh, edges: &EdgeList, sharpness: &[Sharpness]) -> Vec<bool> {
     let creases: Vec<u32> =
@@ -134,12 +145,7 @@ fn lasting(mesh: &Mesh, edges: &EdgeList, sharpness: &[Sharpness]) -> Vec<bool> 
             });
             pairs.extend(with_second.filter(|(_, cosine, ..)| *cosine < -STRAIGHT));
         }
-        pairs.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then((a.2, a.3).cmp(&(b.2, b.3))));
-        for (_, _, first, second) in pairs {
-            if partners[first].is_none() && partners[second].is_none() {
-                (partners[first], partners[second]) = (Some(second), Some(first));
-            }
-        }
+        pair(pairs, &mut partners);
     }
     let (low, high) = mesh.bounds();
     let least = LEAST_LENGTH * (high - low).length();

@@ -155,6 +155,17 @@ pub enum Cut {
     Gone,
 }
 
+impl Cut {
+    /// How planes cut what is left of a mesh, with caps that close all of the cut or not.
+    fn of(left: &Mesh, is_closed: bool) -> Self {
+        match left.is_empty() {
+            true => Self::Gone,
+            false if is_closed => Self::Closed,
+            false => Self::Open,
+        }
+    }
+}
+
 impl Mesh {
     /// Cuts away the mesh in front of all of some planes in world space, and closes the cut with faces of the part [`SECTION`].
     /// `hatching` is the spacing of the strokes on the cut, file units; 0 draws none, `None` chooses one.
@@ -224,11 +235,7 @@ impl Mesh {
         let mut curves = clipped(&self.curves, &of_curves, cutter.next_vertex);
         curves.add_hatching(&strokes, &mut cutter.next_vertex);
         let mesh = cutter.finished(self, curves);
-        let cut = match mesh.is_empty() {
-            true => Cut::Gone,
-            false if is_closed => Cut::Closed,
-            false => Cut::Open,
-        };
+        let cut = Cut::of(&mesh, is_closed);
         (mesh, cut)
     }
 }

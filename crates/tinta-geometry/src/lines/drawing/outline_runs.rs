@@ -13,6 +13,7 @@
 //! Runs follow chains: pieces that continue one another, whatever their classes and objects. Where pieces meet, two of the
 //! outline are paired first, then the pair that continues straightest.
 
+use crate::edges::pair;
 use crate::lines::LineSegment;
 use crate::lines::eye::image::Image;
 use crate::lines::eye::pieces::Pieces;
@@ -190,12 +191,7 @@ fn partners(pieces: &[LineSegment], is_meant: fn(&LineSegment) -> bool) -> Vec<O
                 pairs.push((!are_outline, away(*first).dot(away(*second)), *first, *second));
             }
         }
-        pairs.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then((a.2, a.3).cmp(&(b.2, b.3))));
-        for (_, _, first, second) in pairs {
-            if partners[first].is_none() && partners[second].is_none() {
-                (partners[first], partners[second]) = (Some(second), Some(first));
-            }
-        }
+        pair(pairs, &mut partners);
     }
     partners
 }

@@ -44,11 +44,7 @@ impl Mesh {
         let mut curves = curves;
         curves.add_hatching(&strokes, &mut cutter.next_vertex);
         let mesh = cutter.finished(&split, curves);
-        let cut = match mesh.is_empty() {
-            true => Cut::Gone,
-            false if is_closed => Cut::Closed,
-            false => Cut::Open,
-        };
+        let cut = Cut::of(&mesh, is_closed);
         (mesh, cut)
     }
 }

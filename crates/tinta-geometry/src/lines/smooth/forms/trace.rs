@@ -1,5 +1,6 @@
 //! Traces lines through a face from the values at its three corners.
 
+use crate::lines::smooth::contours::between;
 use crate::tolerances::{CREST_SHARPNESS, THROUGH_VERTEX};
 use glam::DVec3;
 
@@ -53,15 +54,6 @@ impl Corners {
         };
         let tests = tests.map(|test| test[from] + (test[to] - test[from]) * share);
         End { view: between(self.view[from], self.view[to], share), tests }
-    }
-}
-
-/// A point between two others; shares of 0 and 1 give them exactly.
-fn between(from: DVec3, to: DVec3, share: f64) -> DVec3 {
-    match share {
-        0.0 => from,
-        1.0 => to,
-        _ => from + (to - from) * share,
     }
 }
 
