@@ -364,7 +364,7 @@ impl Request {
 
     /// The title in a sheet's title block: one that is an option.
     pub(crate) fn title_block(&self) -> Option<&str> {
-        self.options.contains_key("title").then(|| self.title.as_deref()).flatten()
+        self.title.as_deref().filter(|_| self.options.contains_key("title"))
     }
 
     /// The title of the drawing.

@@ -214,7 +214,7 @@ mod tests {
         for _ in 0..100 {
             let folder = tempfile::tempdir().unwrap();
             let writes = |run: usize| match Journal::open(folder.path(), Slice::WHOLE) {
-                Ok(mut journal) if run % 2 == 0 => journal.append(&done(&run.to_string())).is_ok(),
+                Ok(mut journal) if run.is_multiple_of(2) => journal.append(&done(&run.to_string())).is_ok(),
                 _ => false,
             };
             let written = std::thread::scope(|scope| {

@@ -5,7 +5,7 @@ use super::{EXACT_LINES, Request, Source};
 use crate::camera;
 use crate::choice::meant_or;
 use crate::error::{Error, Result};
-use crate::lines::{DrawingFormat, DrawingSettings, PartRole, PartRule, PartStyle};
+use crate::lines::{DrawingFormat, DrawingSettings, PartRole, PartStyle};
 use crate::mesh::SectionPlanes;
 use crate::preset::{LOOKS, Look, Preset};
 use crate::scene::SceneSettings;
@@ -231,12 +231,7 @@ impl Request {
 
     /// Whether an option is `part`, and its rules are about surfaces and sections alone, which all styles have.
     pub(super) fn is_of_surfaces(&self, option: &str) -> bool {
-        let is_of_surface = |rule: &PartRule| {
-            let of_lines = PartStyle { name: String::new(), fill: None, ..rule.style.clone() };
-            of_lines
-                == PartStyle { role: of_lines.role.filter(|role| *role == PartRole::Uncut), ..PartStyle::default() }
-        };
-        option == "part" && self.part_rules().is_ok_and(|rules| rules.0.iter().all(is_of_surface))
+        option == "part" && self.part_rules().is_ok_and(|rules| rules.0.iter().all(|rule| rule.style.is_of_surface()))
     }
 
     /// The remark about rules for parts that change nothing here, or another thing than may be meant.

@@ -77,8 +77,8 @@ impl Request {
 
     /// The rules for parts, which all styles follow where they are about surfaces and sections.
     pub(super) fn part_rules(&self) -> Result<PartRules> {
-        let mut lines = LineSettings::default();
-        LineSettings::table().apply(&mut lines, &self.options).map(|()| lines.parts)
+        let rules = self.options.get_key_value("part").map(|(name, rules)| (name.clone(), rules.clone()));
+        Ok(LineSettings::from_options(&rules.into_iter().collect())?.parts)
     }
 
     /// How the models are read: with a cut's strokes as far apart on paper as they should be, if the drawing is to scale; and with

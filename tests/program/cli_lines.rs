@@ -32,7 +32,7 @@ fn lines_are_written_as_json_and_their_record_is_printed() {
     let out = folder.path("lines.json");
     let record = answer(&["render", "builtin:open-box", "-o", &out, "--json", "--classes", "all"]);
     assert_eq!(record["style"]["name"], "lines");
-    assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(18));
+    assert_eq!(record["style"]["classes"].as_array().map(Vec::len), Some(19));
     assert_eq!(record["model"]["path"], "builtin:open-box");
     for time in ["load_ms", "topology_ms", "silhouette_ms", "visibility_ms", "lines_ms"] {
         assert!(record[time].is_f64(), "{time}");
@@ -200,7 +200,7 @@ fn nonsense_for_lines_is_refused_by_the_options_name() {
     refuse(&["--class-widths", "crease=-1"], &["--class-widths crease=-1"]);
     refuse(&["--class-widths", "crease"], &["--class-widths", "CLASS=PIXELS"]);
     refuse(&["--hidden", "dotted"], &["--hidden", "none, dashed, ghost"]);
-    refuse(&["--classes", "outline"], &["--classes", "curve, point, or all"]);
+    refuse(&["--classes", "outline"], &["--classes", "curve, point, centre, or all"]);
     refuse(&["--crease-angle", "200"], &["--crease-angle 200"]);
     refuse(&["--line-width", "2x"], &["--line-width 2x", "--class-widths"]);
     refuse(&["--min-length", "2x"], &["--min-length 2x", "--class-widths"]);

@@ -63,6 +63,34 @@ fn rules_given_twice_together_or_in_a_preset_are_the_same() {
 }
 
 #[test]
+fn a_filled_part_is_drawn_as_one_whose_material_has_that_colour() {
+    let (filled, red) = (Folder::new(), Folder::new());
+    let models = [boxes(&filled), boxes(&red)];
+    red.file("boxes.mtl", b"newmtl steel\nKd 0.5 0.5 0.6\nnewmtl brass plate\nKd 1 0 0\n");
+    let drawn = |folder: &Folder, model: &str, name: &str, options: &[&str]| {
+        let out = folder.path(name);
+        done(&[&["render", model, "-o", &out, "--size", "160x120", "--no-recipe"], options].concat());
+        // A filled part has a material more.
+        String::from_utf8_lossy(&std::fs::read(out).unwrap()).replace("fill-0-2", "fill-0-1")
+    };
+    let fills = ["far box: fill=red", "material:brass*: fill=blue; far*: fill=#ff0000"];
+    for (name, options) in
+        [("a.png", &[][..]), ("a.svg", &[]), ("b.png", &["--look", "published"]), ("b.svg", &["--hatch", "auto"])]
+    {
+        let expected = drawn(&red, &models[1], name, options);
+        assert!(drawn(&filled, &models[0], name, options) != expected);
+        for fill in &fills[..if name.starts_with('a') { 2 } else { 1 }] {
+            let with_fill = [options, &["--part", fill]].concat();
+            assert!(drawn(&filled, &models[0], name, &with_fill) == expected, "{name} {fill}");
+        }
+    }
+    // One colour for all surfaces leaves those that were chosen.
+    let one = drawn(&red, &models[1], "c.svg", &["--color", "white"]);
+    let chosen = drawn(&filled, &models[0], "c.svg", &["--color", "white", "--part", "far*: fill=#ff0000"]);
+    assert!(one != chosen && chosen.contains("#ff0000"));
+}
+
+#[test]
 fn parts_and_materials_are_named_and_unknown_ones_refused() {
     let folder = Folder::new();
     let model = boxes(&folder);

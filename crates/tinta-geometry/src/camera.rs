@@ -231,7 +231,7 @@ impl CameraSettings {
             "VIEW",
             View::kind(),
             "View from iso, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees; if you see the \
-             model's back, try 210,15 or 180,0",
+             model's back, try 210,23 or 180,0",
             // The position of an eye does not depend on the view.
             |camera: &Self| if camera.eye.is_some() { View::DEFAULT.text() } else { camera.view.text() },
             |camera, text| {

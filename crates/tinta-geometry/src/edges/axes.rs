@@ -44,9 +44,11 @@ pub(super) fn axes(mesh: &Mesh, edges: &EdgeList, normals: &[[f64; 3]], smooth: 
             None => rounds.push(Round { surface: *surface, faces: faces.clone() }),
         }
     }
-    // A cut's corners lie on facets: it takes one facet more at each end.
     let is_cut = mesh.parts.iter().any(|part| part.name == SECTION);
-    rounds.into_iter().filter_map(|round| round.axis(&patches, normals, if is_cut { 2.0 } else { 0.0 })).collect()
+    // A cut's corners lie on facets: at each end of a cylinder it takes a part of one.
+    let lost = |kind: Kind| if is_cut && kind == Kind::Cylinder { 2.0 } else { 0.0 };
+    let kinds: Vec<Kind> = rounds.iter().map(|round| round.surface.kind).collect();
+    rounds.into_iter().zip(kinds).filter_map(|(round, kind)| round.axis(&patches, normals, lost(kind))).collect()
 }
 
 /// Whether a surface lies around another's axis.
@@ -70,7 +72,7 @@ impl Round {
             // A half sphere's mean normal is half as long as each.
             let is_half = sum.length() <= (0.5 + FLAT) * faces.iter().map(area).sum::<f64>();
             let ends = [surface.point; 2];
-            return is_half.then(|| Axis { ends, direction: DVec3::ZERO, radius: surface.sizes[0], faces });
+            return is_half.then_some(Axis { ends, direction: DVec3::ZERO, radius: surface.sizes[0], faces });
         }
         let [first, second]: [DVec3; 2] = surface.axis.any_orthonormal_pair().into();
         let (mut turns, mut low, mut high, mut radius) = (Vec::new(), f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
@@ -85,6 +87,6 @@ impl Round {
         gaps.sort_by(f64::total_cmp);
         let [.., facet, gap] = gaps[..] else { return None };
         let ends = [low, high].map(|along| surface.point + surface.axis * along);
-        (gap - facets * facet <= PI + FLAT).then(|| Axis { ends, direction: surface.axis, radius, faces })
+        (gap - facets * facet <= PI + FLAT).then_some(Axis { ends, direction: surface.axis, radius, faces })
     }
 }

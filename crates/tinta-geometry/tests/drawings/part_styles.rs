@@ -7,7 +7,7 @@ use glam::DVec3;
 use std::cell::Cell;
 use std::sync::Arc;
 use tinta::edges::{Class, ClassSet};
-use tinta::lines::{Hidden, LineSegment, PartRules, drawn_layers, svg};
+use tinta::lines::{Hidden, LineSegment, PageSize, PartRules, drawn_layers, svg};
 use tinta::mesh::NamedPart;
 use tinta::settings::Value as _;
 use tinta::{CameraSettings, DrawingSettings, LineSettings, Mesh, Scene, SceneSettings, VisibleLines};
@@ -233,6 +233,34 @@ fn the_last_rule_of_each_setting_counts_and_hidden_lines_follow() {
     );
     assert!(others.iter().filter(|it| it.layer.is_visible()).all(|it| it.color.to_string() == "#ff0000"));
     assert_eq!(lines.drawing(0, &drawing).hidden, Hidden::None);
+}
+
+#[test]
+fn on_paper_hidden_lines_are_dashed_and_ghosts_chain_lines_in_line_widths() {
+    let random = &mut Random(3);
+    let lines = found(&scene(1, random), "arm: ghost");
+    let paper = PageSize::Paper("A4".parse().unwrap());
+    for (page_size, ghost, hidden) in [(PageSize::Unset, 0, 6.0), (paper, 6, 11.0)] {
+        let drawing = DrawingSettings {
+            page_size,
+            hidden: Hidden::Dashed,
+            min_length: Some("0".parse().unwrap()),
+            ..DrawingSettings::default()
+        };
+        let layers = drawn_layers(&lines, &drawing).unwrap();
+        let (mut ghosts, mut dashed) = (0, 0);
+        for layer in &layers {
+            let widths: Vec<f64> = layer.dash_px.iter().map(|length| length / layer.width_px).collect();
+            if layer.layer.is_visible() {
+                assert_eq!(widths.len(), if layer.part.contains("arm") { ghost } else { 0 }, "{layer:?}");
+                ghosts += usize::from(layer.part.contains("arm"));
+            } else {
+                assert!((widths[0] - hidden).abs() < 1e-9 && widths.len() == 2, "{widths:?}");
+                dashed += 1;
+            }
+        }
+        assert!(ghosts > 0 && dashed > 0);
+    }
 }
 
 /// A wall of blocks side by side along x, a part each, and the same wall as one block.

@@ -6,7 +6,7 @@ use glam::DVec2;
 use resvg::{tiny_skia, usvg};
 use roxmltree::{Document, Node};
 use tinta::edges::Class;
-use tinta::lines::{ClassColors, Hidden, Length, LineSegment, PageSize, raster, svg};
+use tinta::lines::{Hidden, Length, LineSegment, PageSize, raster, svg};
 use tinta::{Background, Color, DrawingSettings, VisibleLines};
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
@@ -192,12 +192,12 @@ fn provenance_names_a_paths_edges_and_angles() {
 
 #[test]
 fn another_renderer_draws_the_lines_where_they_are() {
-    let mut colors = ClassColors::default();
-    colors.0.set_class(Class::Crease, Color([1.0, 0.0, 0.0]));
-    colors.0.set_hidden(Color([1.0, 0.0, 0.0]));
-    let mut settings = DrawingSettings { class_colors: colors, hidden: Hidden::Ghost, ..DrawingSettings::default() };
-    settings.class_widths.0.set_class(Class::Silhouette, Length::Px(6.0));
-    settings.class_widths.0.set_hidden(Length::Px(2.0));
+    let mut settings = DrawingSettings {
+        class_colors: "crease=red,hidden=red".parse().unwrap(),
+        class_widths: "silhouette=6,hidden=2".parse().unwrap(),
+        hidden: Hidden::Ghost,
+        ..DrawingSettings::default()
+    };
     let pixels = rendered(&svg(&drawing(), &settings).unwrap(), 1.0);
     assert_eq!((pixels.width(), pixels.height()), (120, 80));
     assert_eq!(rgba(&pixels, 5, 5), [255; 4], "the background");

@@ -60,11 +60,11 @@ fn an_axis_is_a_line_from_the_side_and_a_cross_end_on() {
     for _ in 0..40 {
         let (radius, half) = (0.2 + random.number(), 0.2 + 2.0 * random.number());
         let turn = DMat3::from_axis_angle(random.direction(), TAU * random.number());
-        let mut mesh = prism(12 + random.whole(0, 40), radius, -half, half, random.number());
+        let mut mesh = prism(13 + random.whole(0, 40), radius, -half, half, random.number());
         mesh.positions.iter_mut().for_each(|point| *point = turn * *point);
         let axis = turn * DVec3::X;
         let seen_along = |direction: DVec3, up: DVec3| {
-            let camera = CameraSettings { parallel: true, ..CameraSettings::default() };
+            let camera = CameraSettings { parallel: true, height: Some(6.0), ..CameraSettings::default() };
             let camera =
                 CameraSettings { eye: Some(direction * 20.0), target: Some(DVec3::ZERO), up: Some(up), ..camera };
             scene_of(vec![mesh.clone()], camera)

@@ -166,11 +166,6 @@ impl<T: Copy> OfLayers<T> {
         self.0[Name::Outline.index()] = Some(value);
     }
 
-    /// Sets the value of all hidden lines that have no value of their class.
-    pub fn set_hidden(&mut self, value: T) {
-        self.0[Name::Hidden.index()] = Some(value);
-    }
-
     /// The same value for all visible lines.
     pub(in crate::lines) fn of_visible(value: T) -> Self {
         let mut values = Self::default();

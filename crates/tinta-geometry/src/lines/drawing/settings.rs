@@ -492,11 +492,13 @@ mod tests {
         told.class_widths.0.set_class(Class::Crease, Length::Mm(3.0));
         told.class_colors.0.set_class(Class::Crease, red);
         assert_eq!((told.width_px(hidden, units(Some(2.0))), told.color(hidden)), (3.0, Color([1.0, 0.5, 0.5])));
-        told.class_widths.0.set_hidden(Length::Px(0.25));
-        told.class_colors.0.set_hidden(red);
+        told.class_widths = "crease=3mm,hidden=0.25".parse().unwrap();
+        told.class_colors = "crease=red,hidden=red".parse().unwrap();
         assert_eq!((told.width_px(hidden, units(Some(2.0))), told.color(hidden)), (0.25, red));
         let pen = DrawingSettings { is_for_pen: true, ..dashed.clone() };
         assert_eq!(pen.color(hidden), Color([0.0; 3]), "a pen's ink does not thin");
+        let on_paper = DrawingSettings { page_size: PageSize::Paper("A4".parse().unwrap()), ..dashed.clone() };
+        assert_eq!(on_paper.color(hidden), Color([0.0; 3]), "narrow and black, as in technical drawings");
         let on_black = DrawingSettings { background: Background::Color(Color([0.0; 3])), ..told };
         assert_eq!(on_black.paper_color(), Color([0.0; 3]));
     }

@@ -2,7 +2,7 @@
 
 use crate::edges::{Class, ClassSet, CreaseAngle};
 use crate::error::{Error, Result};
-use crate::lines::parts::rules::PartRules;
+use crate::lines::parts::rules::{PartRule, PartRules};
 use crate::lines::parts::style::{PartRole, PartStyle};
 use crate::lines::{LineSegment, LineSettings};
 use crate::mesh::{Mesh, NONE, Named, SECTION};
@@ -77,8 +77,9 @@ impl SceneParts {
             let is_cut = mesh.curves.hatching > 0 && names(mesh, key).name == SECTION;
             let name = if is_cut { SECTION.to_owned() } else { String::new() };
             let mut style = PartStyle { name, is_cut, ..PartStyle::default() };
-            for (rule, _) in rules.iter().zip(&named).filter(|(_, named)| named.holds(key)) {
-                style = rule.style.over(&style);
+            let of_lines = |(rule, named): &(&PartRule, &Named)| named.holds(key) && !rule.style.is_of_surface();
+            for (rule, _) in rules.iter().zip(&named).filter(of_lines) {
+                style = PartStyle { fill: None, ..rule.style.over(&style) };
             }
             let look = self.look(style);
             self.list.push(ScenePart { look, ..names(mesh, key) });

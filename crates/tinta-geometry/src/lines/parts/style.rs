@@ -145,6 +145,12 @@ impl PartStyle {
         self.color.is_some() || self.line_width.is_some() || self.hidden.is_some() || self.is_cut || self.is_lettering
     }
 
+    /// Whether it is about the surface and sections alone, which all drawings have.
+    pub fn is_of_surface(&self) -> bool {
+        let of_lines = Self { name: String::new(), fill: None, ..self.clone() };
+        of_lines == Self { role: of_lines.role.filter(|role| *role == PartRole::Uncut), ..Self::default() }
+    }
+
     /// Whether its hidden lines are drawn.
     pub(super) fn draws_hidden(&self) -> bool {
         self.hidden.is_some_and(|hidden| hidden != Hidden::None)
