@@ -84,12 +84,14 @@ fn open_alone(path: &Path) -> std::io::Result<Option<File>> {
     use rustix::fs::{FlockOperation, flock};
     use rustix::io::Errno;
     use std::os::unix::fs::MetadataExt;
+    let mut attempts = 0;
     loop {
         let file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
         // If the file system cannot tell, the run counts as alone.
         let is_taken = matches!(flock(&file, FlockOperation::NonBlockingLockExclusive), Err(Errno::WOULDBLOCK));
-        // A run that ended meanwhile removes its empty file.
-        if is_taken || file.metadata()?.nlink() > 0 {
+        // A run that ended meanwhile removes its empty file. Some file systems count no links.
+        attempts += 1;
+        if is_taken || file.metadata()?.nlink() > 0 || attempts > 100 {
             return Ok((!is_taken).then_some(file));
         }
     }

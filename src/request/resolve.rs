@@ -83,7 +83,7 @@ impl Request {
 
     /// How the models are read: with a cut's strokes as far apart on paper as they should be, if the drawing is to scale; and with
     /// the normals that take no time where no step reads them.
-    pub(super) fn load_options(&self) -> Result<Cow<'_, LoadOptions>> {
+    pub(crate) fn load_options(&self) -> Result<Cow<'_, LoadOptions>> {
         let mut read = Cow::Borrowed(&self.read);
         if self.read.section.is_some() && self.read.section_hatch.is_none() {
             let drawing = self.contents(true)?.drawing;

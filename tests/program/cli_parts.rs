@@ -181,3 +181,39 @@ fn of_several_models_one_beyond_a_sections_plane_is_left_out() {
     assert_eq!(alone.status.code(), Some(2), "{said}");
     assert!(said.contains("nothing is left of") && said.contains("move the plane"), "{said}");
 }
+
+#[test]
+fn later_rules_undo_uncut_and_narrow_sheets_hold_their_titles() {
+    let folder = Folder::new();
+    let cut = |rules: &[&str]| {
+        let parts: Vec<&str> = rules.iter().flat_map(|rule| ["--part", rule]).collect();
+        drawn(&folder, "builtin:plates", "a.svg", &[&["--section", "z=0"], &parts[..]].concat())
+    };
+    let paths = |svg: &str| svg.matches("<path").count();
+    assert_eq!(paths(&cut(&["pin*: uncut", "pin*: solid"])), paths(&cut(&["pin*: solid"])));
+    assert_eq!(paths(&cut(&["pin*: uncut", "pin*: ghost"])), paths(&cut(&["pin*: ghost"])));
+    assert!(paths(&cut(&["pin*: ghost", "pin*: uncut"])) < paths(&cut(&["pin*: solid"])));
+    for page in ["210x297mm", "150x150mm", "1000x1400mm", "99x99mm", "A5", "letter"] {
+        let out = folder.path("sheet.svg");
+        done(&[
+            "render",
+            "builtin:plates",
+            "-o",
+            &out,
+            "--look",
+            "technical",
+            "--sheet",
+            "third",
+            "--title",
+            "P",
+            "--page",
+            page,
+        ]);
+    }
+    let sheet = |title: &str, words: &[&str]| {
+        let out = folder.path("refused.svg");
+        refused_in_one_line(&["render", "builtin:plates", "-o", &out, "--sheet", "first", "--title", title], words);
+    };
+    sheet("Größe", &["--title Größe", "no sign 'Ö'"]);
+    sheet(&"long ".repeat(30), &["too long for its field, which holds some"]);
+}

@@ -136,7 +136,7 @@ fn of_empty(remarks: &[String], pictures: usize) -> Option<String> {
 pub fn views(request: &Request, models: &ModelCache) -> Result<(Vec<Resolved>, f64)> {
     if let Some(movement) = &request.animation.animate {
         let start = Instant::now();
-        let frames = model_frames(&request.models, &request.read, movement)?;
+        let frames = model_frames(&request.models, request.load_options()?.as_ref(), movement)?;
         let load_ms = milliseconds_since(start);
         return Ok((request.animation(one_scene_a_frame(frames, request)?, false)?, load_ms));
     }

@@ -139,7 +139,7 @@ impl VisibleLines {
         }
         // Labels and scale bars have a layer.
         sheet.looks.resize_with(sheet.looks.len().max(1), PartStyle::default);
-        sheet.looks.push(PartStyle { name: "sheet".to_owned(), is_lettering: true, ..PartStyle::default() });
+        sheet.looks.push(PartStyle { name: "sheet".to_owned(), is_of_sheet: true, ..PartStyle::default() });
         sheet.put_names(&layout, &views);
         let right_px = sheet.put_bar(&layout, &drawing.units.text(), scene.size);
         if title.is_some() {
@@ -148,7 +148,7 @@ impl VisibleLines {
         let scale = sheet.put_scale(&layout, drawing)?.map(|scale| format!("SCALE {scale}"));
         let digit = DIGIT * layout.side;
         match title {
-            Some(title) => sheet.put_block(&layout, (angle, drawing), &title.to_uppercase(), scale.as_deref())?,
+            Some(title) => sheet.put_block(&layout, (angle, drawing), title, scale.as_deref())?,
             None => {
                 let right = layout.origin_px.x + layout.views_px().x;
                 sheet.put_symbol(DVec2::new(right, layout.text_px + 0.5 * digit), digit, angle);

@@ -30,13 +30,14 @@ impl VisibleLines {
         let low = high - DVec2::new(width, 2.0 * row);
         let (height, pad) = (NAME * layout.side, (ROW - NAME) * 0.5 * layout.side);
         let room = (width - 2.0 * pad) / height;
-        if let Some(letter) = unknown_letter(title) {
+        let lettered = title.to_uppercase();
+        if let Some(letter) = unknown_letter(&lettered) {
             let problem =
-                format!("a sheet's lettering has no sign {letter}; it has letters, digits and . , : - + / _ ( )");
+                format!("a sheet's lettering has no sign {letter:?}; it has letters, digits and . , : - + / _ ( )");
             return Err(Error::value("title", title, problem));
         }
-        if width_of(title) > room {
-            let fits = title.char_indices().filter(|(at, _)| width_of(&title[..*at]) <= room).count();
+        if width_of(&lettered) > room {
+            let fits = lettered.char_indices().filter(|(at, _)| width_of(&lettered[..*at]) <= room).count();
             let problem = format!("it is too long for its field, which holds some {} letters", fits.saturating_sub(1));
             return Err(Error::value("title", title, problem));
         }
@@ -50,9 +51,14 @@ impl VisibleLines {
             _ => String::new(),
         };
         let paper = paper.split('-').next().unwrap_or_default();
-        let texts =
-            [(low, title), (below, scale.unwrap_or_default()), (ends[0], &drawing.units.text()), (ends[2], paper)];
-        for (corner, text) in texts {
+        let texts = [
+            (low, width, &*lettered),
+            (below, ends[0].x - below.x, scale.unwrap_or("NOT TO SCALE")),
+            (ends[0], ends[1].x - ends[0].x, &drawing.units.text()),
+            (ends[2], high.x - ends[2].x, paper),
+        ];
+        for (corner, cell, text) in texts {
+            let height = height.min((cell - 2.0 * pad) / width_of(text).max(1.0));
             self.put_strokes(strokes(text, corner + pad, height));
         }
         self.put_symbol(DVec2::new(ends[2].x - pad, below.y + 0.5 * row), height, angle);

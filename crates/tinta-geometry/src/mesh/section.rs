@@ -177,7 +177,7 @@ impl Mesh {
         self.section_except(planes, hatching, &[])
     }
 
-    /// The same; parts that any of these patterns names stay whole.
+    /// The same; parts stay whole of which the last of these patterns says so.
     ///
     /// # Errors
     ///
@@ -186,7 +186,7 @@ impl Mesh {
         self,
         planes: &[SectionPlane],
         hatching: Option<f64>,
-        uncut: &[Pattern],
+        uncut: &[(Pattern, bool)],
     ) -> Result<(Self, Cut)> {
         let unit = |plane: &SectionPlane| plane.unit().ok_or_else(|| Error::setting("section", NO_PLANE));
         let given = planes.iter().map(unit).collect::<Result<Vec<_>>>()?;
@@ -202,7 +202,8 @@ impl Mesh {
                 planes.push(plane);
             }
         }
-        let uncut: Vec<Named> = uncut.iter().map(|pattern| pattern.named(&self)).collect();
+        let uncut: Vec<(Named, bool)> =
+            uncut.iter().rev().map(|(pattern, is_whole)| (pattern.named(&self), *is_whole)).collect();
         match planes.as_slice() {
             [] => Ok((self, Cut::Missed)),
             [plane] => Ok(self.cut(plane, &uncut, spacing, tolerance)),
@@ -215,7 +216,7 @@ impl Mesh {
     }
 
     /// The mesh with the faces that a plane crosses in two parts.
-    fn split(&self, plane: &SectionPlane, uncut: &[Named], tolerance: f64) -> Self {
+    fn split(&self, plane: &SectionPlane, uncut: &[(Named, bool)], tolerance: f64) -> Self {
         let sides = self.positions.iter().map(|point| plane.side(*point, tolerance)).collect();
         let mut cutter = Cutter::new(self, sides, uncut, true);
         cutter.clip_faces(plane.normal);
@@ -223,7 +224,7 @@ impl Mesh {
     }
 
     /// Cuts away the mesh in front of a plane. Positions within the tolerance lie in the plane.
-    fn cut(&self, plane: &SectionPlane, uncut: &[Named], spacing: f64, tolerance: f64) -> (Self, Cut) {
+    fn cut(&self, plane: &SectionPlane, uncut: &[(Named, bool)], spacing: f64, tolerance: f64) -> (Self, Cut) {
         let sides = |points: &[DVec3]| points.iter().map(|point| plane.side(*point, tolerance)).collect::<Vec<f64>>();
         let (sides, of_curves) = (sides(&self.positions), sides(&self.curves.positions));
         if sides.iter().chain(&of_curves).all(|side| *side <= 0.0) {

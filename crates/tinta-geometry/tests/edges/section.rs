@@ -286,7 +286,9 @@ fn of_a_sphere_and_a_hollow_several_planes_cut_away_the_part_in_front_of_all() {
 fn parts_that_stay_whole_count_on_both_sides_of_a_plane() {
     let cut = |planes: &str, uncut: &[&str]| {
         let section = (!planes.is_empty()).then(|| SectionPlanes::parse(planes).unwrap());
-        let uncut = uncut.iter().map(|name| Pattern((*name).to_owned())).collect();
+        // A part with a minus before it is cut.
+        let pattern = |name: &&str| (Pattern(name.trim_start_matches('-').to_owned()), !name.starts_with('-'));
+        let uncut = uncut.iter().map(pattern).collect();
         let options = LoadOptions { section, uncut, ..LoadOptions::default() };
         load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/plates.obj"), &options).unwrap().mesh
     };
@@ -313,6 +315,7 @@ fn parts_that_stay_whole_count_on_both_sides_of_a_plane() {
         assert_eq!(pins(&kept), pins(&whole), "{planes}");
         assert_eq!(kept == whole, planes == "y=5", "{planes}");
     }
+    assert_eq!(cut("z=0", &["pin*", "-*"]), cut("z=0", &[]), "the last rule counts");
     assert_eq!(cut("z=0", &["lower plate", "upper plate", "pin*", "spacer", "block"]).triangles, whole.triangles);
 }
 

@@ -5,7 +5,7 @@ use crate::support::lines::{assert_near, distance, length, lines_with, px, scene
 use crate::support::shapes::{Random, cuboid, icosphere, joined, mesh};
 use glam::{DMat3, DVec3};
 use std::f64::consts::TAU;
-use tinta::edges::Class;
+use tinta::edges::{Class, ClassSet, SilhouetteRule};
 use tinta::lines::LineSettings;
 use tinta::mesh::SectionPlane;
 use tinta::settings::Value;
@@ -16,7 +16,7 @@ const BEYOND: f64 = 0.02;
 
 fn centre_lines(scene: &Scene) -> Vec<tinta::lines::LineSegment> {
     let mut settings = LineSettings::default();
-    settings.classes = settings.classes.or(tinta::edges::ClassSet::of(&[Class::Centre]));
+    settings.classes = settings.classes.or(ClassSet::of(&[Class::Centre]));
     lines_with(scene, &settings).segments.into_iter().filter(|segment| segment.class == Class::Centre).collect()
 }
 
@@ -130,4 +130,17 @@ fn the_line_of_a_hidden_hole_is_hidden() {
         let found = centre_lines(&scene_of(vec![both.clone()], view(camera, true)));
         assert_eq!(found.iter().map(|line| line.is_visible).collect::<Vec<_>>(), [is_visible; 2], "{camera}");
     }
+}
+
+#[test]
+fn a_centre_line_needs_no_other_line_and_no_edge_that_is_drawn() {
+    let alone = |mesh: Mesh, settings: LineSettings| {
+        let found = lines_with(&scene_of(vec![mesh], view("iso", true)), &settings).segments;
+        found.into_iter().filter(|line| line.class == Class::Centre && line.is_visible).count()
+    };
+    let only = LineSettings { classes: ClassSet::of(&[Class::Centre]), ..LineSettings::default() };
+    assert_eq!(alone(holed(48, 0.5, 1.0, 0.4), only), 1, "aslant a line, however short");
+    let mut smooth = LineSettings { silhouette: SilhouetteRule::Smooth, ..LineSettings::default() };
+    smooth.classes = smooth.classes.or(ClassSet::of(&[Class::Centre]));
+    assert_eq!(alone(icosphere(3), smooth), 2);
 }

@@ -186,7 +186,7 @@ impl DrawnLayer {
         let is_on_paper = settings.is_on_paper();
         let pattern = match layer {
             Layer::Visible(Class::Centre) | Layer::Hidden(Class::Centre) => CHAIN,
-            Layer::Hidden(Class::Point) => &[],
+            Layer::Visible(Class::Point) | Layer::Hidden(Class::Point) => &[],
             Layer::Hidden(_) if settings.hidden == Hidden::Dashed => {
                 if is_on_paper {
                     DASHED_ON_PAPER

@@ -157,7 +157,7 @@ impl DrawingSettings {
             Setting::field(
                 "hidden",
                 "HOW",
-                "Hidden lines: none, dashed (grey) or ghost (faint, or unbroken and in full colour with --pen); half as \
+                "Hidden lines: none, dashed (grey, on --page black) or ghost (faint, or unbroken and in full colour with --pen); half as \
                  wide as the visible ones, or as --class-widths and the look say, in layers below them",
                 |svg: &mut Self| &mut svg.hidden,
             )

@@ -49,11 +49,14 @@ fn filled(mesh: &Mesh, PartRules(rules): &PartRules) -> Option<Arc<Mesh>> {
         });
         let Some(number) = number.filter(|number| number != material) else { continue };
         (*material, has_changed) = (number, true);
-        if !mesh.position_colors.is_empty() {
-            for corner in mesh.triangles[face] {
-                filled.position_colors[corner as usize] = [1.0; 3];
-            }
-        }
     }
+    // Colours of vertices multiply those of faces.
+    let mut is_filled = vec![true; mesh.positions.len()];
+    for (triangle, material) in mesh.triangles.iter().zip(&filled.triangle_materials) {
+        let is_fill = filled.materials.get(*material as usize).is_some_and(|material| material.is_fill);
+        triangle.iter().for_each(|corner| is_filled[*corner as usize] &= is_fill);
+    }
+    let colors = filled.position_colors.iter_mut().zip(is_filled);
+    colors.filter(|(_, is_filled)| *is_filled).for_each(|(color, _)| *color = [1.0; 3]);
     has_changed.then(|| Arc::new(filled))
 }

@@ -40,10 +40,11 @@ impl PartRules {
         self.0.iter().any(|rule| is_such(&rule.style))
     }
 
-    /// The patterns of parts that a section leaves whole.
-    pub fn uncut(&self) -> Vec<Pattern> {
-        let whole = self.0.iter().filter(|rule| rule.style.role == Some(PartRole::Uncut));
-        whole.map(|rule| rule.pattern.clone()).collect()
+    /// The patterns of parts with a role, and whether a section leaves them whole; none if it leaves no part whole.
+    pub fn uncut(&self) -> Vec<(Pattern, bool)> {
+        let of_role = |rule: &PartRule| Some((rule.pattern.clone(), rule.style.role? == PartRole::Uncut));
+        let roles: Vec<(Pattern, bool)> = self.0.iter().filter_map(of_role).collect();
+        if roles.iter().any(|(_, is_whole)| *is_whole) { roles } else { Vec::new() }
     }
 
     /// Refuses styles that the drawing cannot have.

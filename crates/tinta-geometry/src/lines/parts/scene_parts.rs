@@ -77,7 +77,8 @@ impl SceneParts {
             let is_cut = mesh.curves.hatching > 0 && names(mesh, key).name == SECTION;
             let name = if is_cut { SECTION.to_owned() } else { String::new() };
             let mut style = PartStyle { name, is_cut, ..PartStyle::default() };
-            let of_lines = |(rule, named): &(&PartRule, &Named)| named.holds(key) && !rule.style.is_of_surface();
+            let is_fill = |style: &PartStyle| style.role.is_none() && style.is_of_surface();
+            let of_lines = |(rule, named): &(&PartRule, &Named)| named.holds(key) && !is_fill(&rule.style);
             for (rule, _) in rules.iter().zip(&named).filter(of_lines) {
                 style = PartStyle { fill: None, ..rule.style.over(&style) };
             }

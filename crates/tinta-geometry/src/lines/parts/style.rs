@@ -46,8 +46,8 @@ pub struct PartStyle {
     pub role: Option<PartRole>,
     /// Whether it is the hatched cut of a section: its lines are then twice as wide unless `line_width` is set.
     pub is_cut: bool,
-    /// Whether it is a sheet's lettering, half as wide as other lines.
-    pub is_lettering: bool,
+    /// Whether it is a sheet's own: lettering, frame, scale bar, half as wide as other lines.
+    pub is_of_sheet: bool,
 }
 
 /// Width of the lines of a hatched cut.
@@ -56,8 +56,8 @@ const CUT_WIDTH: Length = Length::Times(2.0);
 /// Width of the strokes on it.
 const STROKE_WIDTH: Length = Length::Times(0.7);
 
-/// Width of a sheet's lettering.
-const LETTERING_WIDTH: Length = Length::Times(0.5);
+/// Width of a sheet's own lines.
+const SHEET_WIDTH: Length = Length::Times(0.5);
 
 /// The text of an unset value, which cannot be given.
 const UNSET: &str = "";
@@ -129,7 +129,7 @@ impl PartStyle {
         Self {
             name,
             is_cut: self.is_cut || below.is_cut,
-            is_lettering: self.is_lettering || below.is_lettering,
+            is_of_sheet: self.is_of_sheet || below.is_of_sheet,
             color: self.color.or(below.color),
             fill: self.fill.or(below.fill),
             line_width: self.line_width.or(below.line_width),
@@ -142,7 +142,7 @@ impl PartStyle {
 
     /// Whether it changes how lines are drawn, and not only which.
     pub(super) fn changes_drawing(&self) -> bool {
-        self.color.is_some() || self.line_width.is_some() || self.hidden.is_some() || self.is_cut || self.is_lettering
+        self.color.is_some() || self.line_width.is_some() || self.hidden.is_some() || self.is_cut || self.is_of_sheet
     }
 
     /// Whether it is about the surface and sections alone, which all drawings have.
@@ -170,8 +170,8 @@ impl PartStyle {
             own.class_widths = ClassWidths(OfLayers::of_visible(CUT_WIDTH));
             own.class_widths.0.set_class(Class::Curve, STROKE_WIDTH);
         }
-        if self.is_lettering {
-            own.class_widths.0.set_class(Class::Curve, LETTERING_WIDTH);
+        if self.is_of_sheet {
+            own.class_widths.0.set_class(Class::Curve, SHEET_WIDTH);
         }
         if self.line_width.is_some() {
             own.line_width = self.line_width;

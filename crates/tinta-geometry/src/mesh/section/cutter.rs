@@ -56,11 +56,14 @@ pub(super) struct OpenSide {
 type Corner = [u32; 3];
 
 impl Cutter {
-    pub(super) fn new(mesh: &Mesh, sides: Vec<f64>, uncut: &[Named], keeps_front: bool) -> Self {
+    pub(super) fn new(mesh: &Mesh, sides: Vec<f64>, uncut: &[(Named, bool)], keeps_front: bool) -> Self {
         let highest = |numbers: &[u32]| numbers.iter().max().map_or(0, |highest| highest + 1);
         let count = mesh.triangles.len();
         let shells = Shells::of(mesh);
-        let is_whole = |face: usize| uncut.iter().any(|named| named.holds(mesh.part_and_material(face)));
+        let is_whole = |face: usize| {
+            let key = mesh.part_and_material(face);
+            uncut.iter().find(|(named, _)| named.holds(key)).is_some_and(|(_, is_whole)| *is_whole)
+        };
         Self {
             next_vertex: highest(&mesh.file_vertices).max(highest(&mesh.curves.file_vertices)),
             next_face: if mesh.file_faces.is_empty() { count as u32 } else { highest(&mesh.file_faces) },

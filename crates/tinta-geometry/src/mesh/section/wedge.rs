@@ -14,7 +14,7 @@ impl Mesh {
     pub(super) fn cut_by_all(
         &self,
         planes: &[SectionPlane],
-        uncut: &[Named],
+        uncut: &[(Named, bool)],
         spacing: f64,
         tolerance: f64,
     ) -> (Self, Cut) {
