@@ -236,24 +236,18 @@ impl Request {
 
     /// The remark about rules for parts that change nothing here, or another thing than may be meant.
     fn part_remark(&self) -> Option<String> {
-        let rules = self.part_rules().ok()?;
-        let [has_fill, has_color] =
-            [|style: &PartStyle| style.fill.is_some(), |style: &PartStyle| style.color.is_some()]
-                .map(|has| rules.have(has));
-        let is_whole = |style: &PartStyle| style.role == Some(PartRole::Uncut);
-        match self.style.style_name().draws_lines() {
-            _ if self.read.section.is_none() && rules.have(is_whole) => {
-                Some("--part: uncut changes nothing without --section".to_owned())
+        let styles = self.part_rules().ok()?.0.into_iter().map(|rule| rule.style).collect::<Vec<PartStyle>>();
+        let has_fill = styles.iter().any(|style| style.fill.is_some());
+        let is_uncut = styles.iter().any(|style| style.role == Some(PartRole::Uncut));
+        let remark = match self.style.style_name().draws_lines() {
+            _ if is_uncut && self.read.section.is_none() => "uncut changes nothing without --section",
+            true if has_fill => "a drawing of lines alone shows no fill; choose --look print, or color for the lines",
+            false if !has_fill && styles.iter().any(|style| style.color.is_some()) => {
+                "color is that of a part's lines; for its surface say fill"
             }
-            true if has_fill => Some(
-                "--part: a drawing of lines alone shows no fill; choose --look print, or color for the lines"
-                    .to_owned(),
-            ),
-            false if has_color && !has_fill => {
-                Some("--part: color is that of a part's lines; for its surface say fill".to_owned())
-            }
-            _ => None,
-        }
+            _ => return None,
+        };
+        Some(format!("--part: {remark}"))
     }
 
     /// Like [`Request::from_layers`], for options alone.

@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::lines::Progress;
 use crate::renderer::PassTime;
 use crate::scene::Scene;
+use crate::window::threads::job::Cost;
 use crate::window::threads::line_measure::{LineMeasure, LineScore};
 use crate::window::threads::report::{Report, Reporter};
 use crate::window::values::event::Side;
@@ -31,7 +32,7 @@ pub struct SideCost {
     pub side: Side,
     /// The style's name.
     pub style: &'static str,
-    /// A whole frame, from the style's plan to the picture read back: the median of a few, milliseconds by the clock.
+    /// A whole frame, from the style's plan to the picture read back, milliseconds by the clock.
     pub frame_ms: f64,
     /// Each pass and its time.
     pub passes: Vec<PassTime>,
@@ -40,9 +41,6 @@ pub struct SideCost {
     /// Whether it draws lines.
     pub has_lines: bool,
 }
-
-/// A side's cost without its error, and the darkness of each pixel of its lines; `None` without lines, and if not measured.
-pub(in crate::window) type DrawnCost = (SideCost, Option<Vec<u8>>);
 
 /// A style's time and error.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,12 +83,12 @@ impl Costs {
     }
 
     /// Takes a picture's cost and starts to measure its lines.
-    pub fn take(&mut self, scene: Scene, costs: Vec<DrawnCost>, measure: Option<LineMeasure>, reporter: Reporter) {
+    pub fn take(&mut self, scene: Scene, costs: Vec<Cost>, measure: Option<LineMeasure>, reporter: Reporter) {
         self.style_changed();
         let mut inks = Vec::new();
-        for (cost, ink) in costs {
-            inks.extend(ink.map(|ink| (cost.side, ink)));
-            self.sides.push(cost);
+        for Cost { side, style, frame_ms, passes, has_lines, ink } in costs {
+            self.sides.push(SideCost { side, style, frame_ms, passes, error: None, has_lines });
+            inks.extend(ink.map(|ink| (side, ink)));
         }
         let Some(measure) = measure.filter(|_| !inks.is_empty()) else { return };
         let progress = Arc::new(Progress::default());

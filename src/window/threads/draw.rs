@@ -13,10 +13,9 @@ use crate::request::{Request, Resolved, Wanted};
 use crate::scene::{Rectangle, Scene};
 use crate::styles::{Show, Style, StyleName};
 use crate::window::threads::coarse;
-use crate::window::threads::cost::{DrawnCost, SideCost};
 use crate::window::threads::exact;
 use crate::window::threads::explain::PixelJob;
-use crate::window::threads::job::{Drawing, Job};
+use crate::window::threads::job::{Cost, Drawing, Job};
 use crate::window::threads::line_measure::LineMeasure;
 use crate::window::threads::report::{Report, Reporter};
 use crate::window::values::event::Side;
@@ -221,7 +220,7 @@ impl Drawer {
     /// # Errors
     ///
     /// As [`Renderer::render`].
-    pub fn measure_cost(&mut self, job: &Job, measure: Option<LineMeasure>) -> Result<(Scene, Vec<DrawnCost>)> {
+    pub fn measure_cost(&mut self, job: &Job, measure: Option<LineMeasure>) -> Result<(Scene, Vec<Cost>)> {
         let scene = job.scene()?;
         let mut costs = Vec::new();
         for (side, style, show) in &job.drawings {
@@ -239,8 +238,7 @@ impl Drawer {
                 None => None,
             };
             let has_lines = style.style_name().has_lines();
-            let cost = SideCost { side: *side, style: style.name(), frame_ms, passes, error: None, has_lines };
-            costs.push((cost, ink));
+            costs.push(Cost { side: *side, style: style.name(), frame_ms, passes, has_lines, ink });
         }
         Ok((scene, costs))
     }

@@ -4,6 +4,7 @@ use crate::camera::CameraSettings;
 use crate::error::Result;
 use crate::orbit::Orbit;
 use crate::picture::Picture;
+use crate::renderer::PassTime;
 use crate::scene::{Scene, SceneSettings};
 use crate::styles::{LineStyle, Show, Style};
 use crate::window::threads::coarse;
@@ -93,4 +94,21 @@ pub struct Drawing {
     pub picture: Picture,
     /// Time from the style's plan to the picture read back, milliseconds.
     pub frame_ms: f64,
+}
+
+/// The cost of a side's picture.
+#[derive(Debug)]
+pub struct Cost {
+    /// The side.
+    pub side: Side,
+    /// The style's name.
+    pub style: &'static str,
+    /// Time of a whole frame, from the style's plan to the picture read back: the median of a few, milliseconds.
+    pub frame_ms: f64,
+    /// Time of each pass.
+    pub passes: Vec<PassTime>,
+    /// Whether the style draws lines.
+    pub has_lines: bool,
+    /// The darkness of each pixel of its lines; `None` without lines, and if not measured.
+    pub ink: Option<Vec<u8>>,
 }

@@ -5,8 +5,7 @@ use crate::gl::ContextInfo;
 use crate::mesh::LoadOptions;
 use crate::pixel::Explanation;
 use crate::scene::Scene;
-use crate::window::threads::cost::DrawnCost;
-use crate::window::threads::job::Drawing;
+use crate::window::threads::job::{Cost, Drawing};
 use crate::window::threads::line_job::Found;
 use crate::window::threads::line_measure::LineScore;
 use crate::window::values::event::Side;
@@ -38,7 +37,7 @@ pub enum Report {
         /// The scene.
         scene: Box<Scene>,
         /// A cost for each side.
-        costs: Vec<DrawnCost>,
+        costs: Vec<Cost>,
     },
     /// The measurement of a job's cost failed.
     NotPriced(Error),

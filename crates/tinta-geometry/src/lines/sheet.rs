@@ -11,7 +11,6 @@ use crate::lines::drawing::scale::Scale;
 use crate::lines::drawing::scale::round_below;
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::sheet_text::{strokes, width_of};
-use crate::lines::title_block::{closed, rectangle};
 use crate::lines::{Label, LineSegment, LineSettings, PartStyle, Progress, VisibleLines};
 use crate::scene::{Scene, Size};
 use crate::settings::Value;
@@ -233,6 +232,16 @@ impl VisibleLines {
         let stroke = |ends| LineSegment { look, ..LineSegment::new(Class::Curve, ends, [DVec3::ZERO; 2]) };
         self.segments.extend(strokes.into_iter().map(stroke));
     }
+}
+
+/// The sides of a quadrilateral.
+fn closed(corners: [DVec2; 4]) -> Vec<[DVec2; 2]> {
+    (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]).collect()
+}
+
+/// The sides of a rectangle between two corners.
+pub(super) fn rectangle([low, high]: [DVec2; 2]) -> Vec<[DVec2; 2]> {
+    closed([low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)])
 }
 
 /// The places of the views on a sheet.

@@ -2,7 +2,7 @@
 
 use super::drawing::page::PageSize;
 use super::drawing::settings::DrawingSettings;
-use super::sheet::{Layout, NAME, ProjectionAngle};
+use super::sheet::{Layout, NAME, ProjectionAngle, rectangle};
 use super::sheet_text::{strokes, unknown_letter, width_of};
 use super::visible_lines::VisibleLines;
 use crate::error::{Error, Result};
@@ -64,14 +64,4 @@ impl VisibleLines {
         self.put_symbol(DVec2::new(ends[2].x - pad, below.y + 0.5 * row), height, angle);
         Ok(())
     }
-}
-
-/// The sides of a quadrilateral.
-pub(super) fn closed(corners: [DVec2; 4]) -> Vec<[DVec2; 2]> {
-    (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]).collect()
-}
-
-/// The sides of a rectangle between two corners.
-pub(super) fn rectangle([low, high]: [DVec2; 2]) -> Vec<[DVec2; 2]> {
-    closed([low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)])
 }

@@ -6,7 +6,7 @@ use crate::support::shapes::{Random, cuboid, icosphere, joined, mesh};
 use glam::{DMat3, DVec3};
 use std::f64::consts::TAU;
 use tinta::edges::{Class, ClassSet, SilhouetteRule};
-use tinta::lines::LineSettings;
+use tinta::lines::{LineSettings, VisibleLines};
 use tinta::mesh::SectionPlane;
 use tinta::settings::Value;
 use tinta::{CameraSettings, Mesh, Scene};
@@ -135,7 +135,7 @@ fn the_line_of_a_hidden_hole_is_hidden() {
 #[test]
 fn a_centre_line_needs_no_other_line_and_no_edge_that_is_drawn() {
     let alone = |mesh: Mesh, settings: LineSettings| {
-        let found = lines_with(&scene_of(vec![mesh], view("iso", true)), &settings).segments;
+        let found = VisibleLines::of(&scene_of(vec![mesh], view("iso", true)), &settings).unwrap().segments;
         found.into_iter().filter(|line| line.class == Class::Centre && line.is_visible).count()
     };
     let only = LineSettings { classes: ClassSet::of(&[Class::Centre]), ..LineSettings::default() };

@@ -36,7 +36,7 @@ impl PartRules {
     }
 
     /// Whether any rule has a style like this.
-    pub fn have(&self, is_such: impl Fn(&PartStyle) -> bool) -> bool {
+    pub(in crate::lines) fn have(&self, is_such: impl Fn(&PartStyle) -> bool) -> bool {
         self.0.iter().any(|rule| is_such(&rule.style))
     }
 

@@ -15,7 +15,6 @@
 use crate::edges::{CreaseAngle, EdgeList, Eye, Incidence, Shell, SilhouetteRule, SmoothSurface};
 use crate::lines::eye::space::Space;
 use crate::lines::input::object_edges::ObjectEdges;
-use crate::lines::smooth::cusps;
 use crate::mesh::{Mesh, NONE, triangle_normal};
 use crate::scene::Scene;
 use crate::threads::{cores, filled, in_chunks};
@@ -94,7 +93,7 @@ pub(in crate::lines) enum OnEdge {
 const CHUNK: usize = 8192;
 
 impl Contours {
-    /// Finds the segments and their cusps. `positions` are those of all objects in eye space. The
+    /// Finds the segments, each with the bend of its own face. `positions` are those of all objects in eye space. The
     /// near plane may cut faces open.
     pub(in crate::lines) fn new(
         scene: &Scene,
@@ -136,8 +135,6 @@ impl Contours {
             }
             all.surfaces.push(curved);
         }
-        all.links = cusps::links(&all.surfaces, &all.pieces);
-        cusps::settle(&all.surfaces, &mut all.pieces, positions, &mut all.links);
         all
     }
 

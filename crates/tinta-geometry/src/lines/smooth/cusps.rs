@@ -1,21 +1,41 @@
 //! The bend of smooth contours, averaged over several faces, and their cusps, where it changes.
 //!
-//! Input: the segments of [`Contours`](super::contours::Contours), each with the bend of its own face. Output: the same segments, each with the
+//! Input: the segments of [`Contours`], each with the bend of its own face. Output: the same segments, each with the
 //! mean bend of its contour within two edges in both directions, weighted by the faces' areas. The mean is linear
 //! between the midpoints of two segments, so a cusp has a place inside a segment, which is cut in two there. Slopes
 //! of a linear n . v are right only on average: where the contour runs along the view, the sign may differ from face
 //! to face. A change that lasts for less than two edges is not a cusp.
 
-use crate::edges::Shell;
-use crate::lines::smooth::contours::{ContourPiece, Link, ObjectSurface, between};
+use crate::edges::{CreaseAngle, Shell};
+use crate::lines::eye::space::Space;
+use crate::lines::input::object_edges::ObjectEdges;
+use crate::lines::smooth::contours::{ContourPiece, Contours, Link, ObjectSurface, between};
 use crate::mesh::NONE;
+use crate::scene::Scene;
 use glam::DVec3;
 
 /// How far along its contour a segment's mean reaches, in edges.
 pub(in crate::lines) const REACH: f64 = 2.0;
 
+impl Contours {
+    /// Finds contours and their cusps; see [`Contours::new`].
+    pub(in crate::lines) fn with_cusps(
+        scene: &Scene,
+        space: &Space,
+        positions: &[DVec3],
+        is_cut_by_near: bool,
+        objects: &[ObjectEdges<'_>],
+        crease_angle: CreaseAngle,
+    ) -> Self {
+        let mut all = Self::new(scene, space, positions, is_cut_by_near, objects, crease_angle);
+        all.links = links(&all.surfaces, &all.pieces);
+        settle(&all.surfaces, &mut all.pieces, positions, &mut all.links);
+        all
+    }
+}
+
 /// The places where two segments meet: on edges that are not sharp.
-pub(super) fn links(surfaces: &[ObjectSurface], pieces: &[ContourPiece]) -> Vec<Link> {
+fn links(surfaces: &[ObjectSurface], pieces: &[ContourPiece]) -> Vec<Link> {
     let mut ends: Vec<(u32, u32, usize, usize)> = Vec::with_capacity(pieces.len() * 2);
     for (number, piece) in pieces.iter().enumerate() {
         let is_sharp = &surfaces[piece.object as usize].surface.is_sharp;
@@ -65,12 +85,7 @@ fn means(
 }
 
 /// Gives each segment the mean bend of its contour, and cuts segments in two where it changes.
-pub(super) fn settle(
-    surfaces: &[ObjectSurface],
-    pieces: &mut Vec<ContourPiece>,
-    positions: &[DVec3],
-    links: &mut Vec<Link>,
-) {
+fn settle(surfaces: &[ObjectSurface], pieces: &mut Vec<ContourPiece>, positions: &[DVec3], links: &mut Vec<Link>) {
     let lengths: Vec<f64> = pieces.iter().map(|piece| piece.ends[0].distance(piece.ends[1])).collect();
     let means = means(surfaces, pieces, &lengths, positions, links);
     for (piece, (mean, is_short)) in pieces.iter_mut().zip(&means).filter(|(piece, _)| piece.on_edge.is_none()) {
