@@ -36,7 +36,7 @@ pub struct LoadOptions {
     pub section: Option<SectionPlanes>,
     /// Spacing of the strokes on a cut in the file's axes, file units; 0 draws none. Default a sixtieth of the model.
     pub section_hatch: Option<f64>,
-    /// Patterns of parts, and whether the planes leave them whole, as a drawing leaves shafts and bolts: the last that names a part
+    /// Patterns of parts, and whether the planes leave them whole, as a drawing leaves shafts and bolts. The last pattern of a part
     /// counts. Default: none.
     pub uncut: Vec<(Pattern, bool)>,
 }

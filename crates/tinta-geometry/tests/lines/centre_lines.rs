@@ -1,4 +1,4 @@
-//! Centre lines of cylinders, holes, spheres and shafts, by formula; none on what is not round.
+//! Centre lines of cylinders, holes, spheres and shafts, by formula; none on boxes and short arcs.
 
 use crate::support::families::{extruded, prism};
 use crate::support::lines::{assert_near, distance, length, lines_with, px, scene_of, view};
@@ -11,7 +11,7 @@ use tinta::mesh::SectionPlane;
 use tinta::settings::Value;
 use tinta::{CameraSettings, Mesh, Scene};
 
-/// The share of the scene's radius by which a line goes beyond its surface.
+/// How far a line goes beyond its surface: a share of the scene's radius.
 const BEYOND: f64 = 0.02;
 
 fn centre_lines(scene: &Scene) -> Vec<tinta::lines::LineSegment> {

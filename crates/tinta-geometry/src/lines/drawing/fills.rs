@@ -34,7 +34,7 @@ pub struct FillGroup {
     pub is_crisp: bool,
     /// Closed polygons by the even-odd rule, pixels, outside of which nothing of the group is drawn; empty: all of it is.
     pub clip: Vec<Vec<DVec2>>,
-    /// The areas, in the order in which they are painted.
+    /// The areas, the first painted first.
     pub fills: Vec<Fill>,
 }
 
