@@ -45,10 +45,7 @@ pub(super) fn axes(mesh: &Mesh, edges: &EdgeList, normals: &[[f64; 3]], smooth: 
         }
     }
     let is_cut = mesh.parts.iter().any(|part| part.name == SECTION);
-    // A cut's corners lie on facets: at each end of a cylinder it takes a part of one.
-    let lost = |kind: Kind| if is_cut && kind == Kind::Cylinder { 2.0 } else { 0.0 };
-    let kinds: Vec<Kind> = rounds.iter().map(|round| round.surface.kind).collect();
-    rounds.into_iter().zip(kinds).filter_map(|(round, kind)| round.axis(&patches, normals, lost(kind))).collect()
+    rounds.into_iter().filter_map(|round| round.axis(&patches, normals, is_cut)).collect()
 }
 
 /// Whether a surface lies around another's axis.
@@ -59,10 +56,9 @@ fn is_around(surface: &FittedSurface, other: &FittedSurface) -> bool {
 }
 
 impl Round {
-    /// The axis, if the surfaces go half around, with some of their facets added.
-    fn axis(self, patches: &Patches<'_>, normals: &[[f64; 3]], facets: f64) -> Option<Axis> {
+    /// The axis, if the surfaces go half around, before a cut took a part of them.
+    fn axis(self, patches: &Patches<'_>, normals: &[[f64; 3]], is_cut: bool) -> Option<Axis> {
         let Self { surface, faces } = self;
-        let points = || faces.iter().flat_map(|face| patches.corners(*face));
         if surface.kind == Kind::Sphere {
             let area = |face: &u32| {
                 let [a, b, c] = patches.corners(*face);
@@ -76,7 +72,7 @@ impl Round {
         }
         let [first, second]: [DVec3; 2] = surface.axis.any_orthonormal_pair().into();
         let (mut turns, mut low, mut high, mut radius) = (Vec::new(), f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
-        for point in points() {
+        for point in faces.iter().flat_map(|face| patches.corners(*face)) {
             let (place, outwards) = surface.profile(point);
             turns.push(outwards.dot(second).atan2(outwards.dot(first)));
             (low, high, radius) = (low.min(place.y), high.max(place.y), radius.max(place.x));
@@ -87,6 +83,8 @@ impl Round {
         gaps.sort_by(f64::total_cmp);
         let [.., facet, gap] = gaps[..] else { return None };
         let ends = [low, high].map(|along| surface.point + surface.axis * along);
-        (gap - facets * facet <= PI + FLAT).then_some(Axis { ends, direction: surface.axis, radius, faces })
+        // A cut's corners lie on facets: at each end of a cylinder it takes a part of one.
+        let lost = if is_cut && surface.kind == Kind::Cylinder { 2.0 * facet } else { 0.0 };
+        (gap - lost <= PI + FLAT).then_some(Axis { ends, direction: surface.axis, radius, faces })
     }
 }
