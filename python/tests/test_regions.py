@@ -444,3 +444,46 @@ def test_the_surface_of_a_ball_is_seen_by_half_and_behind_others_not_at_all(cube
     assert hidden.visible_area("object") == pytest.approx({0: 1})
     with pytest.raises(ValueError, match="by tone: choose one of face, material, object"):
         hidden.visible_area("tone")
+
+
+def test_a_png_has_the_areas_below_its_lines():
+    pv = pytest.importorskip("pyvista")
+    plotter = pv.Plotter(off_screen=True, window_size=(200, 100), shape=(1, 2), border=False)
+    plotter.add_mesh(pv.Sphere(), color="blue", opacity=0.5)
+    plotter.add_mesh(pv.Cube(x_length=0.3, y_length=0.3, z_length=0.3), color="red")
+    plotter.view_xz()
+    plotter.subplot(0, 1)
+    sphere = pv.Sphere()
+    plotter.add_mesh(sphere, scalars=sphere.points[:, 2], cmap=["lime", "navy"], n_colors=2)
+    plotter.view_xz()
+
+    def drawn(name, **settings):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            tinta_npr.pv.export_svg(plotter, name, fill=True, **settings)
+        return tinta_npr._pixels.of_png(open(name, "rb").read())
+
+    yellow = drawn("yellow.png", background="yellow")
+    assert yellow.shape == (100, 200, 4) and (yellow[..., 3] == 1).all()
+    colors = {"corner": yellow[0, 0], "ball": yellow[25, 50], "box": yellow[50, 50], "upper": yellow[30, 150], "lower": yellow[70, 150]}
+    expected = {"corner": (1, 1, 0), "ball": (0.5, 0.5, 0.5), "box": (0.5, 0, 0.5), "upper": (0, 0, 128 / 255), "lower": (0, 1, 0)}
+    for place, color in expected.items():
+        assert np.abs(colors[place][:3] - color).max() < 0.01, place
+    assert np.abs(yellow[..., :3]).sum(axis=2).min() < 0.01, "lines are black"
+    for settings in ({"background": "transparent"}, {"transparent": True}):
+        clear = drawn("clear.png", **settings)
+        assert clear[0, 0].tolist() == [0, 0, 0, 0] and clear[25, 50] == pytest.approx((0, 0, 1, 0.5), abs=0.01)
+    plotter.close()
+
+
+def test_pixels_have_the_exact_shares_of_areas():
+    from tinta_npr._pixels import of_areas
+
+    corners = np.array([(-3, -2), (-3, 7.25), (9, 7.25), (9, -2)], dtype=float)
+    hole = np.array([(1.5, 1.25), (4.25, 1.5), (3, 4.75)])
+    both = [[corners, hole], [hole[::-1]]]
+    pixels = of_areas((6, 8), both, np.array([(1, 0, 0), (0, 0.5, 1)]))
+    triangle = 0.5 * abs(np.linalg.det((hole - hole[0])[1:]))
+    assert pixels[..., 1].sum() == pytest.approx(0.5 * triangle) and pixels[..., 0].sum() == pytest.approx(6 * 7.25 - triangle)
+    assert np.allclose(pixels[:7, :, 3], 1) and np.allclose(pixels[7, :, 3], 0.25), "neighbours leave no seam"
+    assert (of_areas((6, 8), [], np.empty((0, 3))) == 0).all()

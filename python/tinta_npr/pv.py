@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from . import _native, _with_settings
+from . import _native, _pixels, _with_settings
 from . import lines as _lines
 from ._arrays import counted, padded, rows, same_places, sides
 from ._camera import size_of
@@ -61,7 +61,7 @@ def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None,
     fill : bool
         Whether to fill the surfaces below the lines: each face in one colour, the actor's or that of its scalar by the actor's
         lookup table, without light. A face with scalars at its points has the colour of their mean. What is opaque shows through
-        a transparent actor, whose nearest surface alone is drawn. Scalar bars lie above the lines. Into .svg, .pdf or .json.
+        a transparent actor, whose nearest surface alone is drawn. Scalar bars lie above the lines, except in a .png.
     file, format, title
         As in `tinta_npr.Lines.save`.
 
@@ -72,12 +72,16 @@ def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None,
     settings = {"look": look, "preset": preset, **settings}
     renderers = list(plotter.renderers)
     has_texts = ending in ("svg", "pdf") and any(_texts(renderer) for renderer in renderers)
-    if len(renderers) == 1 and not fill and not has_texts or ending not in (("svg", "pdf") if fill else ("svg", "pdf", "png")):
+    if len(renderers) == 1 and not fill and not has_texts or ending not in ("svg", "pdf", "png"):
         found = lines(plotter, **settings)
         (found.regions() if fill else found).save(file, format=format, title=title)
         return
     if settings.get("areas") is not None and len(renderers) > 1:
         raise ValueError("areas: subplots have the colours of their actors by fill=True; leave areas out")
+    background = None
+    if fill and ending == "png":
+        background = _background(settings)
+        settings = {**settings, "transparent": True, "background": None}
     whole = plotter.window_size if settings.get("size") is None else size_of(settings)
     letter = _LETTER_MM * whole[0] / float(settings["width_mm"]) if settings.get("width_mm") else _LETTER
     views, keys, count = [], [], 0
@@ -95,7 +99,8 @@ def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None,
             keys += [_key(bar, box, letter) for bar in _bars(plotter, renderer)] if fill else []
             keys += [_key_of_text(actor, box, of_window, letter) for actor in _texts(renderer)]
         count += len(shown.surfaces) + len(free)
-    _written(file, path, _native.sheet(ending, tuple(whole), views, keys, title))
+    content = _native.sheet(ending, tuple(whole), views, keys, title)
+    _written(file, path, content if background is None else _filled_picture(content, views, background))
 
 
 @dataclasses.dataclass
@@ -278,18 +283,41 @@ def _views(renderer, shown, free, box, settings, fill, first):
     def view(kept, among, free):
         drawn = [one for one, is_among in zip(shown, among) if is_among]
         found = _found(renderer, drawn, free, settings)
-        areas = None
+        areas = filled = None
         if fill and drawn:
             regions, colors = _filled(found, drawn)
             areas = regions._found, regions._colors(colors), float(opacity[kept][0])
+            filled = regions, kept[among]
         numbers = np.where(kept, np.arange(len(shown)) + first, -1)
         # Curves and points come last.
         objects = [*numbers[among].tolist(), *range(len(shown) + first, len(shown) + first + len(free[0]))]
-        return {"lines": found._found, "areas": areas, "at": (left, top), "objects": objects}
+        return {"lines": found._found, "areas": areas, "at": (left, top), "objects": objects, "filled": filled}
 
     opaque, everything = opacity == 1, np.full(len(shown), True)
     views = [view(opaque, opaque, free)] if opaque.any() or free[0] else []
     return views + [view(opacity == share, everything, ([], {})) for share in np.unique(opacity[~opaque])[::-1]]
+
+
+def _background(settings):
+    """The background of pictures with these settings: red, green, blue and opacity, from 0 to 1."""
+    settings = {name: settings.get(name) for name in ("look", "preset", "background", "transparent")}
+    # A corner of a picture of two points in the middle.
+    return _pixels.of_png(_lines(points=[(0, 0, 0), (1, 0, 0)], size=64, **settings).png())[0, 0]
+
+
+def _filled_picture(lines, views, background):
+    """The PNG of views with areas; `lines` is that of their lines alone, over nothing."""
+    lines = _pixels.multiplied(_pixels.of_png(lines))
+    picture = np.broadcast_to(_pixels.multiplied(background), lines.shape)
+    size = lines.shape[1::-1]
+    for view in views:
+        if view["filled"] is None:
+            continue
+        (regions, is_kept), (_, colors, opacity) = view["filled"], view["areas"]
+        among = np.flatnonzero(np.append(is_kept, False)[regions.object])
+        areas = [[corners + view["at"] for corners in regions.loops[number]] for number in among]
+        picture = _pixels.laid(picture, _pixels.of_areas(size, areas, colors[among]), opacity)
+    return _native.png(_pixels.divided(_pixels.laid(picture, lines)))
 
 
 def _warn_of(count, one, several):
