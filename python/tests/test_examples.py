@@ -1,12 +1,14 @@
 """The examples run, and write the files that they name."""
 
 import os
+import re
 import runpy
 from pathlib import Path
 
 import pytest
 
 GUIDE = Path(os.environ.get("TINTA_GUIDE") or Path(__file__).parents[2] / "docs" / "guide")
+README = Path(os.environ.get("TINTA_README") or Path(__file__).parents[2] / "README.md")
 EXAMPLES = Path(os.environ.get("TINTA_EXAMPLES") or Path(__file__).parents[1] / "examples")
 WRITTEN = {
     "cad_sheet": ["cad-sheet.pdf", "cad-faces.svg"],
@@ -56,6 +58,15 @@ def test_recipes_are_those_of_the_guide(name):
     of_guide = [line.strip() for line in (GUIDE / "python.md").read_text().splitlines()]
     start = of_guide.index(lines[0])
     assert of_guide[start : start + len(lines)] == lines
+
+
+def test_the_readme_shows_a_recipe_as_it_is_typed():
+    pytest.importorskip("pyvista")
+    [block] = re.findall(r"```python\n(.*?)```", README.read_text(), re.S)
+    _, recipe = (EXAMPLES / "recipe_pyvista.py").read_text().split("# %% ")
+    assert block.endswith(recipe.split("\n", 1)[1])
+    exec(block, {})
+    assert Path("hills-tinta.svg").stat().st_size > 500
 
 
 def test_recipes_are_exact_where_the_libraries_own_exports_are_not():
