@@ -343,3 +343,37 @@ def test_bad_curves_points_and_labels_are_refused_by_name(cube):
 def test_lines_are_as_many_as_they_say_when_one_goes_through_them(cube):
     lines = tn.lines(*cube, **ISO)
     assert len(list(lines)) == len(lines) and np.array_equal(np.array(list(lines)), lines.segments)
+
+
+def test_a_section_is_in_the_axes_of_its_mesh_and_hatched_as_on_the_command_line(cube, tinta):
+    with open("cube.obj", "w") as file:
+        file.writelines("v {} {} {}\n".format(*vertex) for vertex in cube[0])
+        file.writelines("f {} {} {} {}\n".format(*corners) for corners in cube[1] + 1)
+    assert tinta("render", "cube.obj", "-o", "cut.svg", "--style", "lines", "--up-axis", "z", "--section", "z=0.5", "--section", "x=0.25") == (0, "")
+    for section in ("z=0.5; x=0.25", ["z=0.5", "x=0.25"], ["file:z=0.5", "x=0.25"]):
+        lines = tn.lines("cube.obj", up_axis="z", section=section)
+        lines.save("python.svg")
+        with open("python.svg") as mine, open("cut.svg") as theirs:
+            assert mine.read() == theirs.read()
+        of_arrays = tn.lines(*cube, up_axis="z", section=section)
+        assert of_arrays.counts == lines.counts and lines.counts["curve"] > 20, "strokes"
+    mesh = tn.mesh(*cube, up_axis="z", section="z=0.5")
+    assert mesh.vertices[:, 1].max() == 0.5 and len(tn.lines(mesh, section="z=0.5")) == len(tn.lines(mesh))
+    with pytest.raises(ValueError, match="did you mean z=3"):
+        tn.lines(*cube, section="Z: 3")
+
+
+def test_meshes_of_a_list_are_cut_one_by_one(cube):
+    vertices, faces = cube
+    pin = vertices * 0.4 + 0.3 + np.array([0, 0, 0.2])
+    cut = tn.mesh(vertices, faces, up_axis="z", section="z=0.5", name="box")
+
+    def height(pin):
+        lines = tn.lines([cut, pin], view=(30, 40), classes="silhouette,crease")
+        return np.ptp(lines.segments[lines.object == 1][..., 1])
+
+    assert height(tn.mesh(pin, faces, up_axis="z")) > 1.2 * height(tn.mesh(pin, faces, up_axis="z", section="z=0.6"))
+    for part in ("pin*:uncut", "pin*: color=red, uncut", ["a:color=red", "pin*:uncut"], {"pin*": {"uncut": True}}):
+        with pytest.raises(ValueError, match="part: here uncut spares no part; give a list"):
+            tn.lines("builtin:plates", section="z=0", part=part)
+    assert len(tn.lines("builtin:plates", section="z=0", part="pin*:color=red"))

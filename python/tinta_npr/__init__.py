@@ -14,6 +14,7 @@ build123d or CadQuery.
 import atexit as _atexit
 import functools as _functools
 import inspect as _inspect
+import re as _re
 
 from . import _cad, _native
 from ._camera import settings_of as _camera_settings
@@ -82,7 +83,8 @@ def lines(
     Parameters
     ----------
     mesh, faces, name
-        As in `tinta_npr.mesh`; a list of meshes makes one scene. May be left out if curves or points are given.
+        As in `tinta_npr.mesh`; a list of meshes makes one scene, of which those read with ``section`` are cut and others stay
+        whole. May be left out if curves or points are given.
     curves : list of array_like (K, 3), optional
         Curves in the mesh's coordinates, each a list of positions in order; or an object with ``points`` and ``lines``
         (PyVista). Faces in front hide them; they hide nothing. Their class is ``"curve"``.
@@ -275,6 +277,9 @@ def _drawn(function, mesh, faces, name, camera, settings, basis, free=(None, Non
     _native.check(function, settings)
     asked = _reading(settings)
     reading = {**_native.reading(function, *basis), **asked}
+    if reading.get("section") and _says_uncut(settings.get("part")):
+        # Silence would cut them, and the drawing's recipe would say that it does not.
+        raise ValueError("part: here uncut spares no part; give a list: of what is cut mesh(..., section=...), of the rest the meshes as they are")
     of_curves = _mesh_of_curves(*free, reading)
     if mesh is None and of_curves is None:
         raise TypeError("mesh: it is missing; give a mesh, curves or points")
@@ -292,10 +297,31 @@ def _drawn(function, mesh, faces, name, camera, settings, basis, free=(None, Non
     return meshes, settings, moved_from_mesh
 
 
+def _says_uncut(part):
+    """Whether rules for parts, as text, a list or a dict, leave one whole in a section."""
+    if hasattr(part, "items"):
+        return any(hasattr(rule, "items") and rule.get("uncut") for rule in part.values())
+    if isinstance(part, (list, tuple)):
+        return any(map(_says_uncut, part))
+    return part is not None and _re.search(r"[:,]\s*uncut\s*([,;]|$)", str(part)) is not None
+
+
 def _reading(settings):
     """Removes and returns the settings for reading a mesh."""
     found = {key: settings.pop(key) for key in list(settings) if key.replace("-", "_") in _READING}
+    if found.get("section") is not None:
+        found["section"] = _in_its_axes(found["section"])
     return {key: value for key, value in found.items() if value is not None}
+
+
+def _in_its_axes(section):
+    """Planes in the axes of the given mesh, as the command line reads them; a plane alone is one in tinta's axes, whose cut has no hatching."""
+    if isinstance(section, (list, tuple)):
+        return list(map(_in_its_axes, section))
+    if not isinstance(section, str):
+        return section
+    planes = map(str.strip, section.split(";"))
+    return "; ".join(f"file:{plane}" if "=" in plane and not plane.startswith("file:") else plane for plane in planes)
 
 
 _READING = frozenset(setting["name"] for setting in _native.settings("mesh"))
