@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::sync::{Arc, OnceLock};
 use tinta::glam::DVec3;
-use tinta::lines::{DrawingContent, DrawingFormat, GHOST_OPACITY, LineSegment, Progress, drawn_layers};
+use tinta::lines::{DrawingContent, DrawingFormat, GHOST_OPACITY, LineSegment, Progress, Sight, drawn_layers};
 use tinta::request::{DrawnLines, Resolved, Wanted};
 use tinta::styles::Below;
 use tinta::{Error, Result, VisibleLines};
@@ -45,7 +45,7 @@ pub(crate) fn lines(
         || progress.cancel(),
         move || {
             let drawn = resolved(&meshes, &request, true)?;
-            let lines = drawn.all_lines(Wanted::default(), &watched)?;
+            let lines = drawn.all_lines(&Sight::of(&drawn.scene), Wanted::default(), &watched)?;
             Ok((lines, drawn))
         },
     )?;
@@ -73,7 +73,7 @@ impl Lines {
         }
         let wanted = Wanted::of(format_named("json"), false);
         let all = self.with_lines(py, (*self.drawn).clone(), wanted, move |drawn, lines, progress| {
-            drawn.drawing(lines, wanted, progress).map(Arc::new)
+            drawn.drawing(&Sight::of(&drawn.scene), lines, wanted, progress).map(Arc::new)
         })?;
         // Another thread may have been here first: then both keep its result.
         Ok(self.all.get_or_init(|| all).clone())
@@ -91,7 +91,11 @@ impl Lines {
         let progress = Arc::new(Progress::default());
         let watched = progress.clone();
         let work = move || {
-            let lines = if serves { lines } else { drawn.all_lines(wanted, &watched).map(Arc::new)? };
+            let lines = if serves {
+                lines
+            } else {
+                drawn.all_lines(&Sight::of(&drawn.scene), wanted, &watched).map(Arc::new)?
+            };
             work(drawn, lines, &watched)
         };
         done(py, || progress.cancel(), work)
@@ -112,7 +116,7 @@ impl Lines {
     ) -> PyResult<Bound<'py, PyBytes>> {
         let (asked, wanted) = (self.asked.clone(), Wanted::of(format, false));
         let bytes = self.with_lines(py, self.drawn_with(given, title)?, wanted, move |drawn, lines, progress| {
-            let mut drawn = drawn.drawing(lines, wanted, progress)?;
+            let mut drawn = drawn.drawing(&Sight::of(&drawn.scene), lines, wanted, progress)?;
             put(&mut drawn)?;
             drawn.written(format, None, asked.recipe(&drawn.resolved, None).as_ref())?.bytes()
         })?;

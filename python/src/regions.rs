@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList};
 use std::sync::Arc;
 use tinta::choice::Choice;
-use tinta::lines::{Areas, Joined, Progress, Surface, painted};
+use tinta::lines::{Areas, Joined, Progress, Sight, Surface, painted};
 use tinta::record::regions_json;
 use tinta::request::Resolved;
 use tinta::styles::{Contents, LineStyle, ViewAreas};
@@ -74,7 +74,7 @@ pub(crate) fn regions(
     let progress = Arc::new(Progress::default());
     let (watched, seen) = (progress.clone(), drawn.clone());
     let none = || Error::setting("by", "this style has no areas");
-    let find = move || vectors.areas(&seen.scene, &found, &watched)?.ok_or_else(none);
+    let find = move || vectors.areas(&Sight::of(&seen.scene), &found, &watched)?.ok_or_else(none);
     let areas = done(py, || progress.cancel(), find)?;
     Ok(Regions { areas: Arc::new(areas), drawn, lines, is_alone })
 }

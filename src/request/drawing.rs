@@ -7,8 +7,8 @@ use super::{Resolved, Wanted};
 use crate::edges::SilhouetteRule;
 use crate::error::{Error, Result};
 use crate::lines::{
-    DrawingContent, DrawingFormat, DrawingSettings, Hidden, LinePath, LineSettings, PageSize, Progress, Raster,
-    Strokes, VisibleLines, chain, raster_of_paths, strokes_of_paths,
+    DrawingContent, DrawingFormat, DrawingSettings, Hidden, Length, LinePath, LineSettings, PageSize, Progress, Raster,
+    Sight, Strokes, VisibleLines, chain, raster_of_paths, strokes_of_paths,
 };
 use crate::output::TextTarget;
 use crate::picture::{Note, Picture, Target};
@@ -162,7 +162,7 @@ impl Resolved {
     /// # Errors
     ///
     /// [`Error::Setting`] for a picture of passes without exact lines; those of [`VisibleLines::with_progress`].
-    pub fn all_lines(&self, wanted: Wanted, progress: &Progress) -> Result<VisibleLines> {
+    pub fn all_lines(&self, sight: &Sight<'_>, wanted: Wanted, progress: &Progress) -> Result<VisibleLines> {
         let (scene, Contents { below, drawing, sheet, .. }) = (&self.scene, &self.contents);
         let Some(lines) = self.contents.to_find(wanted) else {
             if let Below::Passes(style) = below {
@@ -174,7 +174,7 @@ impl Resolved {
         if let Some(angle) = sheet {
             return VisibleLines::on_sheet(scene, &lines, (*angle, drawing, self.request.title_block()), progress);
         }
-        let mut found = VisibleLines::with_progress(scene, &lines, progress)?;
+        let mut found = VisibleLines::in_sight(sight, &lines, progress)?;
         found.put_to_scale(px_per_unit(scene), drawing)?;
         Ok(found)
     }
@@ -184,11 +184,20 @@ impl Resolved {
     /// # Errors
     ///
     /// Those of [`Contents::areas`].
-    pub fn drawing(&self, lines: Arc<VisibleLines>, wanted: Wanted, progress: &Progress) -> Result<DrawnLines> {
+    pub fn drawing(
+        &self,
+        sight: &Sight<'_>,
+        lines: Arc<VisibleLines>,
+        wanted: Wanted,
+        progress: &Progress,
+    ) -> Result<DrawnLines> {
         let (scene, contents) = (&self.scene, &self.contents);
         let drawing = &contents.drawing;
-        let lines = match wanted.all && drawing.min_length.is_none() {
-            true => lines,
+        let keeps_short = wanted.short && drawing.min_length.is_none();
+        let drawn_long = DrawingSettings { min_length: Some(Length::Px(0.0)), ..drawing.clone() };
+        let lines = match keeps_short {
+            true if wanted.all => lines,
+            true => Arc::new(lines.without_specks_with_progress(&drawn_long, progress)?),
             false => Arc::new(lines.without_specks_with_progress(drawing, progress)?),
         };
         let mut remarks = scene.crack_remarks();
@@ -199,7 +208,7 @@ impl Resolved {
             remarks
                 .push("--height does not set the scale, as the drawing fills its paper; --scale 1:1 does".to_owned());
         }
-        let mut areas = contents.areas(scene, &lines, progress)?;
+        let mut areas = contents.areas(sight, &lines, progress)?;
         remarks.extend(contents.remarks(scene));
         if let Some(areas) = areas.as_mut().filter(|_| !drawing.is_for_pen) {
             self.add_shadow(&mut areas.drawn, progress)?;
@@ -217,6 +226,7 @@ impl Resolved {
     ///
     /// Those of [`Resolved::all_lines`] and [`Resolved::drawing`].
     pub fn drawn_lines(&self, wanted: Wanted, progress: &Progress) -> Result<DrawnLines> {
-        self.drawing(Arc::new(self.all_lines(wanted, progress)?), wanted, progress)
+        let sight = Sight::of(&self.scene);
+        self.drawing(&sight, Arc::new(self.all_lines(&sight, wanted, progress)?), wanted, progress)
     }
 }

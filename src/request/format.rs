@@ -17,12 +17,15 @@ pub struct Wanted {
     pub all: bool,
     /// Hidden lines, and the number of places where smooth silhouettes break.
     pub hidden: bool,
+    /// Short lines, unless a least length is given.
+    pub short: bool,
 }
 
 impl Wanted {
     /// The parts found for a file of this format; `is_told`: its numbers are reported.
     pub fn of(format: DrawingFormat, is_told: bool) -> Self {
-        Self { all: matches!(format.content, DrawingContent::Data), hidden: is_told }
+        let all = matches!(format.content, DrawingContent::Data);
+        Self { all, hidden: is_told, short: format.is_of_lines_alone }
     }
 }
 

@@ -7,8 +7,8 @@ use super::surfaces::of_averaged_normals;
 use super::{Cartoon, Ink, LineWidth, Mrt, Style, Tones};
 use crate::error::{Error, Result};
 use crate::lines::{
-    Areas, DrawingSettings, FillGroup, Hidden, Joined, LineSettings, Progress, ProjectionAngle, Regions, Surface,
-    ToneLight, ToneRule, TonedSurface, VisibleLines, fills, hatches, painted,
+    Areas, DrawingSettings, FillGroup, Hidden, Joined, LineSettings, Progress, ProjectionAngle, Regions, Sight,
+    Surface, ToneLight, ToneRule, TonedSurface, VisibleLines, fills, hatches, painted,
 };
 use crate::mesh::NONE;
 use crate::scene::{Color, Scene, Size};
@@ -123,6 +123,14 @@ fn below_strokes(Color(color): Color) -> Color {
     Color(color.map(|channel| channel + (1.0 - channel) * missing))
 }
 
+/// Finds something of a scene in flat colours, by the sight of the scene that it was made from where it is the same.
+fn in_sight<T>(flat: &Cow<'_, Scene>, sight: &Sight<'_>, find: impl FnOnce(&Sight<'_>) -> Result<T>) -> Result<T> {
+    match flat {
+        Cow::Borrowed(_) => find(sight),
+        Cow::Owned(flat) => find(&Sight::of(flat)),
+    }
+}
+
 /// The least luminance of an area with strokes on it.
 const LEAST_LUMINANCE: f32 = 0.5;
 
@@ -136,14 +144,15 @@ impl Contents {
     ///
     /// [`Error::Setting`] for invalid tones and settings of the drawing, and for too many strokes; those of [`Regions::toned`] and
     /// [`Regions::joined_by`].
-    pub fn areas(&self, scene: &Scene, lines: &VisibleLines, progress: &Progress) -> Result<Option<ViewAreas>> {
+    pub fn areas(&self, sight: &Sight<'_>, lines: &VisibleLines, progress: &Progress) -> Result<Option<ViewAreas>> {
+        let scene = sight.scene;
         self.drawing.check()?;
         match &self.below {
             Below::Passes(_) | Below::Nothing => Ok(None),
-            Below::Tones(tones, light) => self.areas_of_tone((tones, *light), scene, lines, progress).map(Some),
+            Below::Tones(tones, light) => self.areas_of_tone((tones, *light), sight, lines, progress).map(Some),
             Below::Joined(joined) => {
                 let flat = if *joined == Joined::Material { in_flat_colors(scene)? } else { Cow::Borrowed(scene) };
-                let regions = whole(Regions::joined_by(&flat, *joined, progress)?)?;
+                let regions = whole(in_sight(&flat, sight, |sight| Regions::joined_by(sight, *joined, progress))?)?;
                 let fills =
                     painted(&regions, self.lines.is_some(), |number| joined_color(&flat, &regions, number, *joined));
                 let drawn = Areas { fills: named(&flat, fills), ..Areas::around(&regions) };
@@ -155,10 +164,11 @@ impl Contents {
     fn areas_of_tone(
         &self,
         (tones, light): (&Tones, Option<FarLight>),
-        scene: &Scene,
+        sight: &Sight<'_>,
         lines: &VisibleLines,
         progress: &Progress,
     ) -> Result<ViewAreas> {
+        let scene = sight.scene;
         let spacing = self.drawing.hatching.spacing;
         if spacing.is_some() && tones.count == 1 {
             let problem =
@@ -168,7 +178,7 @@ impl Contents {
         tones.check()?;
         let rule = tone_rule(scene, tones, light);
         let flat = if self.drawing.is_for_pen { Cow::Borrowed(scene) } else { in_flat_colors(scene)? };
-        let regions = whole(Regions::toned(&flat, &rule, progress)?)?;
+        let regions = whole(in_sight(&flat, sight, |sight| Regions::toned(sight, &rule, progress))?)?;
         let color = |TonedSurface { object, material, tone }| {
             let Color(color) = own_color(&flat, object, material);
             Color(color.map(|channel| channel * tones.levels[usize::from(tone)]))
@@ -182,7 +192,7 @@ impl Contents {
             Some(_) => fills(&regions.joined(without_tones), |surface| below_strokes(color(surface))),
             None => fills(&regions, color),
         };
-        let hatches = hatches(scene, (&rule, &regions), lines, &self.drawing, progress)?;
+        let hatches = hatches(sight, (&rule, &regions), lines, &self.drawing, progress)?;
         let drawn = Areas { fills: named(&flat, fills), hatches, ..Areas::around(&regions) };
         Ok(ViewAreas { regions: of_file(regions.labelled(|seen| seen.map(Surface::from)), scene, &flat), drawn })
     }

@@ -2,7 +2,7 @@
 
 use crate::support::{BACKENDS, renderer};
 use glam::{DMat3, DVec2, DVec3};
-use tinta::lines::{Progress, Region, Regions, ToneLight, ToneRule};
+use tinta::lines::{Progress, Region, Regions, Sight, ToneLight, ToneRule};
 use tinta::preset::LOOKS;
 use tinta::request::{OptionLayer, Request};
 use tinta::settings::{OptionValue, Options};
@@ -72,7 +72,7 @@ fn of_faces_in_one_plane_pictures_and_areas_show_the_same() {
             let scene = scene(turn, names, &request);
             let picture: Picture =
                 request.moving(scene.clone(), None, false).and_then(|view| view.picture(&mut renderer)).unwrap();
-            let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+            let regions = Regions::toned(&Sight::of(&scene), &rule, &Progress::default()).unwrap();
             let materials = &scene.objects[0].mesh.materials;
             for px in places(&scene, turn) {
                 let region = regions.regions.iter().find(|region| is_in(region, px)).unwrap();

@@ -242,6 +242,13 @@ fn the_command_writes_dxf_and_refuses_what_it_lacks() {
     for (option, value) in [("--fit-curves", "0.5"), ("--areas", "face")] {
         refused_in_one_line(&["render", "builtin:gear", "-o", &output, option, value], &[option, "polylines", ".svg"]);
     }
+    // What is measured from a file is not left out of it.
+    let vertices = |options: &[&str]| {
+        assert!(tinta(&[&["render", "builtin:bust", "-o", &output], options].concat()).status.success());
+        std::fs::read_to_string(&output).unwrap().matches("\nVERTEX\n").count()
+    };
+    let all = vertices(&[]);
+    assert!(all == vertices(&["--min-length", "0"]) && all > vertices(&["--min-length", "2"]), "{all}");
     // Fills are left out aloud.
     let done = draw(&["--look", "print"]);
     assert!(done.status.success() && String::from_utf8_lossy(&done.stderr).contains("has no fills"));

@@ -42,6 +42,7 @@ mod segment;
 mod settings;
 mod sheet;
 mod sheet_text;
+mod sight;
 mod smooth;
 #[cfg(test)]
 #[path = "../tests/support/contour_distance.rs"]
@@ -93,6 +94,8 @@ pub use segment::LineSegment;
 pub use settings::LineSettings;
 pub use sheet::ProjectionAngle;
 #[doc(hidden)]
+pub use sight::Sight;
+#[doc(hidden)]
 pub use smooth::closed_forms;
 pub use smooth::forms::FormSettings;
 #[doc(hidden)]
@@ -127,8 +130,8 @@ use input::line_input::LineInput;
 use input::object_edges::ObjectEdges;
 use parts::scene_parts::SceneParts;
 use smooth::contour_visibility::ContourLines;
+use std::sync::Arc;
 use visible::line_index::LineIndex;
-use visible::search::Search;
 
 impl VisibleLines {
     /// Finds the visible and hidden lines of a scene.
@@ -148,12 +151,25 @@ impl VisibleLines {
     /// Those of [`VisibleLines::of`], [`Error::Cancelled`](crate::Error::Cancelled) after [`Progress::cancel`], and
     /// [`Error::OutOfTime`](crate::Error::OutOfTime) after [`Progress::within`].
     pub fn with_progress(scene: &Scene, settings: &LineSettings, progress: &Progress) -> Result<Self> {
+        Self::in_sight(&Sight::of(scene), settings, progress)
+    }
+
+    /// Like [`VisibleLines::with_progress`], for a scene whose areas are found, too.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`VisibleLines::with_progress`].
+    #[doc(hidden)]
+    pub fn in_sight(sight: &Sight<'_>, settings: &LineSettings, progress: &Progress) -> Result<Self> {
         let clock = Instant::now();
         progress.begin(Phase::Preparing, 0);
-        let input = LineInput::of(scene, settings)?;
+        let input = LineInput::of(sight, settings)?;
         let topology_ms = milliseconds_since(clock);
         progress.go_on()?;
-        let search = if settings.reference { Search::default() } else { Search::of(&input, progress) };
+        let search = match settings.reference {
+            true => Arc::default(),
+            false => sight.search(&input.space, &input.faces, progress),
+        };
         let candidates = Candidates::of(&input, &search, progress)?;
         let lines = LineIndex::new(&input, &candidates, &search, progress)?;
         progress.go_on()?;
@@ -172,8 +188,8 @@ impl VisibleLines {
         let visibility_ms = milliseconds_since(clock) - topology_ms - silhouette_ms;
         let LineInput { objects, scene_parts: SceneParts { list, looks, .. }, .. } = input;
         Ok(Self {
-            size: scene.size,
-            labels: labels::labels(scene, &segments),
+            size: sight.scene.size,
+            labels: labels::labels(sight.scene, &segments),
             segments,
             parts: list,
             looks,

@@ -1,7 +1,7 @@
 //! Parent side of a worker process: sends jobs and receives results, one line of JSON each.
 
 use std::io::{BufRead, BufReader, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use tinta::batch::{Job, Outcome};
 use tinta::{Error, Result};
@@ -20,6 +20,9 @@ pub(super) const CRASH: &str = "crash";
 /// The variable for the number of Mesa's extra threads, which Mesa reads once when it starts.
 const RASTER_THREADS: &str = "LP_NUM_THREADS";
 
+/// The variable for the Python whose package carries out the command line.
+const PYTHON: &str = "TINTA_PYTHON";
+
 impl WorkerProcess {
     /// Starts one of so many.
     pub(super) fn start(folder: &Path, workers: usize, cores: usize) -> Result<Self> {
@@ -28,7 +31,7 @@ impl WorkerProcess {
                 "no worker could be started ({error}); check the limits on processes, or give fewer --jobs"
             ),
         };
-        let mut command = Command::new(program().map_err(cannot)?);
+        let mut command = program().map_err(cannot)?;
         command.args(["batch", "--worker", "--output"]).arg(folder);
         // More drawing threads only while processors are free.
         if std::env::var_os(RASTER_THREADS).is_none() {
@@ -70,10 +73,16 @@ impl Drop for WorkerProcess {
     }
 }
 
-/// This program, also where its file was replaced since.
-fn program() -> std::io::Result<PathBuf> {
+/// A command that starts this program, also where its file was replaced since, or where a Python carries it out.
+fn program() -> std::io::Result<Command> {
+    if let Some(python) = std::env::var_os(PYTHON) {
+        let mut command = Command::new(python);
+        command.args(["-m", "tinta_npr"]);
+        return Ok(command);
+    }
     let same = Path::new("/proc/self/exe");
-    if cfg!(target_os = "linux") && same.exists() { Ok(same.to_owned()) } else { std::env::current_exe() }
+    let is_kept = cfg!(target_os = "linux") && same.exists();
+    Ok(Command::new(if is_kept { same.to_owned() } else { std::env::current_exe()? }))
 }
 
 fn in_words(status: ExitStatus) -> String {

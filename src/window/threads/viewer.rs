@@ -326,12 +326,11 @@ impl Viewer {
         let found = self.lines.found().filter(|found| found.job.style == self.state.line_style());
         let is_fast =
             found.is_some_and(|found| found.ms < LINES_AT_ONCE_MS && Arc::ptr_eq(&found.job.view.scene, &job.scene));
-        let is_found = found.is_some_and(|found| found.job.view.is_of_same_picture(&job));
         for side in self.state.sides() {
             let (style, show) = self.state.buffer.drawn(self.state.style(*side));
             let shown = self.state.lines_shown(*side);
-            // Until exact lines are found the style's own borders stand for them.
-            let is_replaced = shown == LinesShown::Over && (is_fast || is_found);
+            // Until exact lines are found there are none: other borders would flicker.
+            let is_replaced = shown == LinesShown::Over;
             let style = if is_replaced { style.without_borders().unwrap_or(style) } else { style };
             job.keeps_patches |= self.is_moving && style.far_tones().is_some();
             job.drawings.extend((shown != LinesShown::Alone).then_some((*side, style, show)));

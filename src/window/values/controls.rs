@@ -17,7 +17,7 @@ pub const SCENE_SETTINGS: [&str; 8] =
     ["view", "fov", "parallel", "framing", "background", "color", "bare-color", "surface"];
 
 /// The settings for reading models that a window offers; the others are for untrusted files.
-const LOAD_SETTINGS: [&str; 6] = ["up-axis", "normals", "smooth-angle", "weld", "model-frame", "skin"];
+const LOAD_SETTINGS: [&str; 7] = ["up-axis", "normals", "smooth-angle", "reach", "weld", "model-frame", "skin"];
 
 /// The same style with its source's settings.
 fn published(style: &Style) -> Style {

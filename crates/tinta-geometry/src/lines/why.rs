@@ -8,15 +8,16 @@ use crate::lines::input::candidates::Candidates;
 use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
 use crate::lines::settings::LineSettings;
+use crate::lines::sight::Sight;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
-use crate::lines::visible::search::Search;
 use crate::lines::visible_lines::VisibleLines;
 use crate::mesh::{Mesh, triangle_normal};
 use crate::scene::Scene;
 use crate::tolerances::JOINED_PX;
 use glam::DVec2;
 use serde::Serialize;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// The line nearest to a place of the picture, where it is visible, and what hides it elsewhere.
@@ -125,7 +126,8 @@ impl VisibleLines {
             return Err(Error::value("place", format!("{},{}", px.x, px.y), problem));
         }
         let by_rules = LineSettings { reference: true, ..settings.clone() };
-        let (input, search, progress) = (LineInput::of(scene, &by_rules)?, Search::default(), Progress::default());
+        let sight = Sight::of(scene);
+        let (input, search, progress) = (LineInput::of(&sight, &by_rules)?, Arc::default(), Progress::default());
         let candidates = Candidates::of(&input, &search, &progress)?;
         let lines = LineIndex::new(&input, &candidates, &search, &progress)?;
         let mut why = Explained { lines: &lines, input: &input }.nearest(px).ok_or_else(|| {

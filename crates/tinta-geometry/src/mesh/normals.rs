@@ -32,6 +32,8 @@ pub(super) struct Splitting {
     /// The same around flat faces, and beside a persistent crease that ends at a vertex, where a near-crease continues it. `None`
     /// if all creases are split.
     pub cos_beside: Option<f64>,
+    /// How far normals are averaged then, in shares of the diagonal of the model's box; 0: not.
+    pub reach: f64,
 }
 
 /// Computes a normal for every corner whose entry in `triangle_normals` is [`NONE`] and appends it to `normals`.
@@ -41,7 +43,7 @@ pub(super) fn fill_missing(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
     face_normals: &[DVec3],
-    Splitting { cos_smooth, cos_beside }: Splitting,
+    Splitting { cos_smooth, cos_beside, reach }: Splitting,
     normals: &mut Vec<Vec3>,
     triangle_normals: &mut [[u32; 3]],
 ) {
@@ -123,7 +125,7 @@ pub(super) fn fill_missing(
         }
     }
     if let Some(lasting) = &lasting {
-        average(positions, triangles, lasting, first, normals, triangle_normals);
+        average(positions, triangles, (lasting, reach), first, normals, triangle_normals);
     }
 }
 

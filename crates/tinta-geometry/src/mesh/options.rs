@@ -20,6 +20,9 @@ pub struct LoadOptions {
     /// Largest angle between neighbouring faces that share a computed normal. Default 60 degrees; more rounds edges off, less
     /// makes facets.
     pub smooth_angle_degrees: f64,
+    /// How far lasting normals are averaged on surfaces that bend both ways: the root of the mean square of the distance, as a share of
+    /// the bounding-box diagonal. Default 0.021; less keeps more relief, 0 all.
+    pub normal_reach: f64,
     /// The axis that points up in the file. Default: its format's.
     pub up_axis: UpAxis,
     /// Whether a defect is an error. Default: no, it is counted.
@@ -41,12 +44,16 @@ pub struct LoadOptions {
     pub uncut: Vec<(Pattern, bool)>,
 }
 
+/// The largest [`LoadOptions::normal_reach`].
+const LARGEST_REACH: f64 = 0.1;
+
 impl Default for LoadOptions {
     fn default() -> Self {
         Self {
             weld: WELD,
             normals: Normals::File,
             smooth_angle_degrees: 60.0,
+            normal_reach: 0.021,
             up_axis: UpAxis::Auto,
             strict: false,
             model_frame: ModelFrame::default(),
@@ -91,7 +98,7 @@ impl LoadOptions {
                 "Normals: file (the file's; if it has none, as smooth), smooth (computed, see --smooth-angle), \
                  checked (the file's, unless many stand far off their faces), \
                  lasting (as checked; if the file has none, computed with sharp edges only at long creases; averaged \
-                 over 2 % of the model where it bends both ways), flat (one for each face), dachsbacher (one for each vertex, as in his text)",
+                 over their reach where it bends both ways), flat (one for each face), dachsbacher (one for each vertex, as in his text)",
                 |load: &mut Self| &mut load.normals,
             ),
             Setting::field(
@@ -103,6 +110,14 @@ impl LoadOptions {
             )
             .inside("normals")
             .range(0.0, 180.0, 1),
+            Setting::field(
+                "reach",
+                "SHARE",
+                "How far lasting normals are averaged, as a share of the model's size; less keeps more relief, 0 all",
+                |load: &mut Self| &mut load.normal_reach,
+            )
+            .inside("normals")
+            .range(0.0, LARGEST_REACH, 3),
             Setting::flag(
                 "strict",
                 "Refuse models with defects",
@@ -262,6 +277,10 @@ pub(super) fn check(options: &LoadOptions) -> Result<()> {
             options.smooth_angle_degrees,
             "the angle is between 0 and 180 degrees",
         ));
+    }
+    if !(0.0..=LARGEST_REACH).contains(&options.normal_reach) {
+        let problem = format!("the reach is a share of the model's size from 0 to {LARGEST_REACH}");
+        return Err(Error::value("reach", options.normal_reach, problem));
     }
     options.skin.as_deref().map_or(Ok(()), check_skin)
 }

@@ -30,7 +30,7 @@ impl Mesh {
         remarks: &mut Vec<String>,
     ) {
         let angle = options.smooth_angle_degrees.to_radians();
-        let all = Splitting { cos_smooth: angle.cos(), cos_beside: None };
+        let all = Splitting { cos_smooth: angle.cos(), cos_beside: None, reach: options.normal_reach };
         let lasting = Splitting { cos_beside: Some((angle * NEARLY).cos()), ..all };
         let (mut file_normals, splitting): (&[Vec3], Splitting) = match options.normals {
             Normals::File | Normals::Checked => (file_normals, all),

@@ -5,7 +5,7 @@ use crate::support::lines::view;
 use crate::support::shapes::icosphere;
 use glam::DVec3;
 use tinta::camera::Framing;
-use tinta::lines::{Progress, Regions, ToneLight, ToneRule, TonedSurface, lit_scene};
+use tinta::lines::{Progress, Regions, Sight, ToneLight, ToneRule, TonedSurface, lit_scene};
 use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
 
 const THRESHOLDS: [f64; 2] = [0.2, 0.56];
@@ -23,7 +23,7 @@ fn seen_all<const N: usize>(meshes: [Mesh; N], name: &str) -> Scene {
 
 fn toned(scene: &Scene, light: [f64; 3]) -> Regions<Option<TonedSurface>> {
     let rule = ToneRule { light: ToneLight::Far(DVec3::from_array(light).normalize()), thresholds: THRESHOLDS };
-    Regions::toned(scene, &rule, &Progress::default()).unwrap()
+    Regions::toned(&Sight::of(scene), &rule, &Progress::default()).unwrap()
 }
 
 /// The shares of the three tones in what is seen.

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use std::time::Duration;
 use tinta::camera::Projection;
 use tinta::lines::{
-    Areas, Hit, Joined, Progress, Region, Regions, SeenFace, Surface, ToneLight, ToneRule, TonedSurface, fills,
+    Areas, Hit, Joined, Progress, Region, Regions, SeenFace, Sight, Surface, ToneLight, ToneRule, TonedSurface, fills,
     first_hits, painted, svg_of_paths,
 };
 use tinta::mesh::NONE;
@@ -297,7 +297,7 @@ fn rules() -> [ToneRule; 3] {
 fn check_tones(name: &str, scene: &Scene) -> Checked {
     let mut all = Checked::default();
     for rule in rules() {
-        let found = Regions::toned(scene, &rule, &Progress::default()).unwrap();
+        let found = Regions::toned(&Sight::of(scene), &rule, &Progress::default()).unwrap();
         let surface = |hit: Hit| TonedSurface { object: hit.object, material: NONE, tone: tone(scene, &rule, &hit) };
         add(&mut all, check_labels(name, scene, &found, surface, |_, _| false));
         if let Some(folder) = std::env::var_os("TINTA_TONES") {
@@ -366,7 +366,7 @@ fn check_joined(name: &str, scene: &Scene) -> Checked {
     let mut all = Checked::default();
     let of_faces = Regions::of(scene).unwrap();
     for joined in [Joined::Face, Joined::Material, Joined::Object] {
-        let found = Regions::joined_by(scene, joined, &Progress::default()).unwrap();
+        let found = Regions::joined_by(&Sight::of(scene), joined, &Progress::default()).unwrap();
         let label = |hit: Hit| surface(scene, SeenFace { object: hit.object, face: hit.face }, joined);
         let is_as_right = |hit: &Hit, seen: Surface| {
             let point = world(scene, hit);
@@ -434,7 +434,7 @@ fn the_triangles_of_a_polygon_are_one_region() {
     let mesh = tinta::Mesh::of_polygons("a box", positions, &corners, sizes, &LoadOptions::default()).unwrap();
     let settings = SceneSettings { camera: view("30,30", true), ..SceneSettings::default() };
     let scene = Scene::new([mesh], &settings).unwrap();
-    let found = Regions::joined_by(&scene, Joined::Face, &Progress::default()).unwrap();
+    let found = Regions::joined_by(&Sight::of(&scene), Joined::Face, &Progress::default()).unwrap();
     let mut seen: Vec<_> = found.regions.iter().filter_map(|region| region.seen?.face).collect();
     seen.sort_unstable();
     assert_eq!(seen, [2, 4, 6], "in front, on top, on the right");
@@ -478,7 +478,7 @@ fn a_hole_that_touches_its_outline_in_a_corner_is_a_ring_of_its_own() {
     let before = at([[1.0, 0.0], [0.5, 0.5], [0.0, 0.0], [0.5, -0.5]], 1.0);
     let settings = SceneSettings { camera: view("front", true), ..SceneSettings::default() };
     let scene = Scene::new([square, before], &settings).unwrap();
-    let found = Regions::joined_by(&scene, Joined::Object, &Progress::default()).unwrap();
+    let found = Regions::joined_by(&Sight::of(&scene), Joined::Object, &Progress::default()).unwrap();
     let square = found.regions.iter().find(|it| it.seen.is_some_and(|seen| seen.object == 0)).unwrap();
     assert!(has_valid_rings(square, "square"), "its rings touch");
     assert_eq!(square.loops.iter().map(Vec::len).collect::<Vec<_>>(), [5, 4]);
@@ -487,9 +487,9 @@ fn a_hole_that_touches_its_outline_in_a_corner_is_a_ring_of_its_own() {
 #[test]
 fn regions_end_when_asked() {
     let scene = scene_of_kind(0, &mut Random::seeded(1)).1;
-    let late = Regions::with_progress(&scene, &Progress::within(Duration::ZERO));
+    let late = Regions::with_progress(&Sight::of(&scene), &Progress::within(Duration::ZERO));
     assert!(matches!(late, Err(Error::OutOfTime { .. })));
     let progress = Progress::default();
     progress.cancel();
-    assert!(matches!(Regions::with_progress(&scene, &progress), Err(Error::Cancelled)));
+    assert!(matches!(Regions::with_progress(&Sight::of(&scene), &progress), Err(Error::Cancelled)));
 }

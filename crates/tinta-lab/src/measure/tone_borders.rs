@@ -7,7 +7,7 @@ use glam::DVec2;
 use rstar::RTree;
 use std::collections::HashMap;
 use tinta::error::Result;
-use tinta::lines::{Progress, Regions, ToneRule, TonedSurface};
+use tinta::lines::{Progress, Regions, Sight, ToneRule, TonedSurface};
 use tinta::picture::Picture;
 use tinta::scene::Scene;
 use tinta::styles::Tones;
@@ -30,7 +30,7 @@ impl ToneBorders {
     ///
     /// Those of [`Regions::toned`].
     pub(super) fn of(rule: &ToneRule, scene: &Scene) -> Result<Self> {
-        let borders = borders(&Regions::toned(scene, rule, &Progress::default())?);
+        let borders = borders(&Regions::toned(&Sight::of(scene), rule, &Progress::default())?);
         let of_border = |ends: [DVec2; 2]| {
             let points: Vec<DVec2> = middles(ends, STEP_PX).collect();
             let length = ends[0].distance(ends[1]) / points.len() as f64;

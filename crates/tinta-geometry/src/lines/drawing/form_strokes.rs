@@ -13,8 +13,8 @@ use crate::lines::eye::space::Space;
 use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
 use crate::lines::regions::{SeenFace, ToneRule, View};
+use crate::lines::sight::Sight;
 use crate::memory::STROKES;
-use crate::scene::Scene;
 use glam::{DVec2, DVec3};
 use std::collections::{BTreeMap, HashMap};
 
@@ -62,12 +62,12 @@ struct Cut {
 ///
 /// Those of [`Regions::toned`](crate::lines::Regions::toned).
 pub(super) fn form_strokes(
-    scene: &Scene,
+    sight: &Sight<'_>,
     rule: &ToneRule,
     [spacing_px, least_px]: [f64; 2],
     progress: &Progress,
 ) -> Result<Option<Vec<Vec<DVec2>>>> {
-    let view = View::of(scene, STROKES, progress)?;
+    let view = View::of(sight, STROKES, progress)?;
     let Some(cuts) = cuts(&view, spacing_px) else { return Ok(None) };
     let faces = &view.input.faces;
     let inside = cuts.iter().map(|cut| (cut.place, cut.weights.map(|weights| at(faces.corners(cut.place), weights))));

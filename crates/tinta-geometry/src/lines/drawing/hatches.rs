@@ -20,6 +20,7 @@ use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::eye::space::Space;
 use crate::lines::progress::Progress;
 use crate::lines::regions::{Regions, ToneRule, TonedSurface};
+use crate::lines::sight::Sight;
 use crate::scene::Scene;
 use glam::DVec2;
 
@@ -32,7 +33,7 @@ use glam::DVec2;
 /// [`Error::Setting`] for settings that [`DrawingSettings::check`] refuses, and for more than [`HATCH_STROKES`] strokes; those of
 /// [`Regions::toned`].
 pub fn hatches(
-    scene: &Scene,
+    sight: &Sight<'_>,
     (rule, regions): (&ToneRule, &Regions<Option<TonedSurface>>),
     lines: &VisibleLines,
     settings: &DrawingSettings,
@@ -57,13 +58,13 @@ pub fn hatches(
             return Ok(Vec::new());
         }
         let tone = brightest - 1;
-        let strokes = form_strokes(scene, rule, [spacing_px, least_px(tone)], progress)?;
+        let strokes = form_strokes(sight, rule, [spacing_px, least_px(tone)], progress)?;
         return Ok(vec![Hatch {
             tone,
             strokes: strokes.ok_or_else(|| too_many(format!("more than {HATCH_STROKES}")))?,
         }]);
     };
-    let anchor_px = anchor_px(scene);
+    let anchor_px = anchor_px(sight.scene);
     let of_tone = |tone: u8| {
         let turn = f64::from(brightest - 1 - tone) / f64::from(brightest);
         let ruling = Ruling::new(anchor_px, angle + 180.0 * turn, spacing_px);

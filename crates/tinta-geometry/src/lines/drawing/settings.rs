@@ -179,7 +179,7 @@ impl DrawingSettings {
                 |svg: &mut Self| &mut svg.min_length,
             )
             .range(0.0, 20.0, 1)
-            .said("the line's width, 8 widths for creases, 16 with --taper; 0 into .json"),
+            .said("the line's width, 8 widths for creases, 16 with --taper; 0 into .json and .dxf"),
             Setting::open_field(
                 "fit-curves",
                 "PX",

@@ -8,11 +8,13 @@ use crate::error::Result;
 use crate::lines::input::feature::Feature;
 use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
+use crate::lines::sight::Intersections;
 use crate::lines::smooth::contours::Contours;
-use crate::lines::visible::intersections::{Intersections, intersections};
+use crate::lines::visible::intersections::intersections;
 use crate::lines::visible::search::Search;
 use glam::DVec3;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Lines to decide, with the places where edges pass through faces.
 pub(in crate::lines) struct Candidates {
@@ -34,7 +36,7 @@ impl Candidates {
     /// # Errors
     ///
     /// Those of [`Progress::go_on`], and [`Error::Setting`](crate::Error::Setting) for more lines than memory holds.
-    pub(in crate::lines) fn of(input: &LineInput<'_>, search: &Search, progress: &Progress) -> Result<Self> {
+    pub(in crate::lines) fn of(input: &LineInput<'_>, search: &Arc<Search>, progress: &Progress) -> Result<Self> {
         let clock = Instant::now();
         let LineInput { scene, settings, space, objects, faces, .. } = input;
         let has_contours = settings.has_smooth_contours();

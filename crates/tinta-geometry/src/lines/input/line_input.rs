@@ -7,10 +7,12 @@ use crate::lines::eye::space::Space;
 use crate::lines::input::object_edges::{Edges, IsGhost, ObjectEdges, ghost_faces, object_edges};
 use crate::lines::parts::scene_parts::SceneParts;
 use crate::lines::settings::{LineSettings, check_on_surface, not_published};
+use crate::lines::sight::Sight;
 use crate::memory::{Asked, LINES};
 use crate::mesh::Mesh;
 use crate::scene::Scene;
 use crate::threads::both;
+use std::sync::Arc;
 
 /// Classes at which a surface ends or turns away.
 pub(in crate::lines) const OCCLUDING: ClassSet =
@@ -18,13 +20,14 @@ pub(in crate::lines) const OCCLUDING: ClassSet =
 
 /// A scene, repaired where needed.
 pub(in crate::lines) struct LineInput<'a> {
+    pub sight: &'a Sight<'a>,
     pub scene: &'a Scene,
     /// With the classes of all parts together. Hidden pieces are found wherever anything depends on them.
     pub settings: LineSettings,
     pub space: Space,
     pub objects: Vec<ObjectEdges<'a>>,
     pub scene_parts: SceneParts,
-    pub faces: Faces,
+    pub faces: Arc<Faces>,
     /// The lines' purpose.
     pub asked: Asked,
 }
@@ -35,7 +38,8 @@ impl<'a> LineInput<'a> {
     /// # Errors
     ///
     /// [`Error::Setting`]: settings without lines, a pattern that names no part, too large a scene.
-    pub(in crate::lines) fn of(scene: &'a Scene, settings: &LineSettings) -> Result<Self> {
+    pub(in crate::lines) fn of(sight: &'a Sight<'_>, settings: &LineSettings) -> Result<Self> {
+        let scene = sight.scene;
         check(scene, settings)?;
         let scene_parts = SceneParts::new(scene, settings)?;
         let mut settings = scene_parts.settings(settings);
@@ -55,16 +59,20 @@ impl<'a> LineInput<'a> {
             }
             objects
         };
-        let (objects, mut faces) = both(edges, || Faces::of(&space, scene));
-        if objects.iter().any(|object| matches!(object.edges, Edges::Repaired(_))) {
+        let (objects, mut faces) = both(edges, || sight.faces(&space));
+        let is_repaired = objects.iter().any(|object| matches!(object.edges, Edges::Repaired(_)));
+        if is_repaired || ghosts.is_some() {
             let meshes: Vec<_> = objects.iter().map(|object| (object.object, object.shape().clone())).collect();
-            faces = Faces::new(&space, &meshes);
-            faces.widen_welds(objects.iter().map(ObjectEdges::beside));
+            let mut own = Faces::new(&space, &meshes);
+            if is_repaired {
+                own.widen_welds(objects.iter().map(ObjectEdges::beside));
+            }
+            if let Some(is_ghost) = ghosts {
+                own.set_ghosts(&ghost_faces(&objects, is_ghost));
+            }
+            faces = Arc::new(own);
         }
-        if let Some(is_ghost) = ghosts {
-            faces.set_ghosts(&ghost_faces(&objects, is_ghost));
-        }
-        Ok(Self { scene, settings, space, objects, scene_parts, faces, asked: LINES })
+        Ok(Self { sight, scene, settings, space, objects, scene_parts, faces, asked: LINES })
     }
 
     /// A given scene without repairs and styles of parts, for areas and strokes.
@@ -72,14 +80,15 @@ impl<'a> LineInput<'a> {
     /// # Errors
     ///
     /// [`Error::Setting`] for too large a scene.
-    pub(in crate::lines) fn as_given(scene: &'a Scene, asked: Asked) -> Result<Self> {
+    pub(in crate::lines) fn as_given(sight: &'a Sight<'_>, asked: Asked) -> Result<Self> {
+        let scene = sight.scene;
         let classes = ClassSet::of(&[Class::Intersection]);
         let settings = LineSettings { classes, finds_hidden: false, ..LineSettings::default() };
         check(scene, &settings)?;
         let (scene_parts, space) = (SceneParts::new(scene, &settings)?, Space::of(scene));
         let edges = || ObjectEdges::all(scene, |_, object| Edges::OfScene(scene.edges(object)));
-        let (objects, faces) = both(edges, || Faces::of(&space, scene));
-        Ok(Self { scene, settings, space, objects, scene_parts, faces, asked })
+        let (objects, faces) = both(edges, || sight.faces(&space));
+        Ok(Self { sight, scene, settings, space, objects, scene_parts, faces, asked })
     }
 }
 

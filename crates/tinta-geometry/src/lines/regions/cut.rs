@@ -7,6 +7,7 @@ use super::snap::{Segment, ordered, snapped};
 use super::view::View;
 use crate::error::Result;
 use crate::lines::progress::Progress;
+use crate::lines::sight::Sight;
 use crate::memory::AREAS;
 use crate::scene::Scene;
 use crate::threads::{cores, in_chunks};
@@ -22,7 +23,7 @@ impl Regions {
     ///
     /// [`crate::Error::Setting`] if the scene has too many faces.
     pub fn of(scene: &Scene) -> Result<Self> {
-        Self::with_progress(scene, &Progress::default())
+        Self::with_progress(&Sight::of(scene), &Progress::default())
     }
 
     /// Like [`Regions::of`], and may be ended.
@@ -30,8 +31,8 @@ impl Regions {
     /// # Errors
     ///
     /// Those of [`Regions::of`], [`crate::Error::Cancelled`] and [`crate::Error::OutOfTime`].
-    pub fn with_progress(scene: &Scene, progress: &Progress) -> Result<Self> {
-        let view = View::of(scene, AREAS, progress)?;
+    pub fn with_progress(sight: &Sight<'_>, progress: &Progress) -> Result<Self> {
+        let view = View::of(sight, AREAS, progress)?;
         let seen = |px| view.first_hit(px).map(|hit| SeenFace { object: hit.object, face: hit.face });
         cut(&view, view.borders([], |_| true, progress)?, seen, progress)
     }

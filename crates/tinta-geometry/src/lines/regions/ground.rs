@@ -10,6 +10,7 @@ use crate::camera::{CameraSettings, Framing};
 use crate::error::Result;
 use crate::lines::eye::space::Space;
 use crate::lines::progress::Progress;
+use crate::lines::sight::Sight;
 use crate::scene::{Scene, SceneSettings, Size};
 use glam::{DVec2, DVec3};
 
@@ -56,7 +57,7 @@ pub fn ground_shadow(scene: &Scene, light: DVec3, progress: &Progress) -> Result
     };
     let size = Size { width: LIGHT_PX, height: LIGHT_PX };
     let lit = scene.seen_with(&SceneSettings { camera, size, ..SceneSettings::default() })?;
-    let outline = Regions::joined_by(&lit, Joined::Object, progress)?.joined(|seen| seen.map(|_| ()));
+    let outline = Regions::joined_by(&Sight::of(&lit), Joined::Object, progress)?.joined(|seen| seen.map(|_| ()));
     let of_light = Space::of(&lit);
     let on_ground = |px: &DVec2| {
         let [from, _] = of_light.ray(*px);

@@ -4,6 +4,7 @@ use super::region::{Regions, SeenFace};
 use super::tones::TonedSurface;
 use crate::error::Result;
 use crate::lines::progress::Progress;
+use crate::lines::sight::Sight;
 use crate::mesh::NONE;
 use crate::scene::Scene;
 
@@ -58,8 +59,9 @@ impl Regions<Option<Surface>> {
     /// # Errors
     ///
     /// Those of [`Regions::with_progress`].
-    pub fn joined_by(scene: &Scene, joined: Joined, progress: &Progress) -> Result<Self> {
-        let of_triangles = Regions::with_progress(scene, progress)?;
+    pub fn joined_by(sight: &Sight<'_>, joined: Joined, progress: &Progress) -> Result<Self> {
+        let of_triangles = Regions::with_progress(sight, progress)?;
+        let scene = sight.scene;
         let surface = |seen: Option<SeenFace>| seen.map(|seen| Surface::of(scene, seen, joined));
         let is_cut = scene.objects.iter().any(|object| !object.mesh.file_faces.is_empty());
         match joined == Joined::Face && !is_cut {

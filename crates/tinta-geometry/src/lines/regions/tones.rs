@@ -12,9 +12,9 @@ use crate::error::Result;
 use crate::lines::eye::cast::Hit;
 use crate::lines::input::line_input::LineInput;
 use crate::lines::progress::Progress;
+use crate::lines::sight::Sight;
 use crate::memory::TONES;
 use crate::mesh::NONE;
-use crate::scene::Scene;
 use crate::threads::{cores, in_chunks};
 use crate::tolerances::ANGLE_OF_COSINE;
 use glam::{DVec2, DVec3};
@@ -85,8 +85,8 @@ impl Regions<Option<TonedSurface>> {
     /// # Errors
     ///
     /// Those of [`Regions::with_progress`].
-    pub fn toned(scene: &Scene, rule: &ToneRule, progress: &Progress) -> Result<Self> {
-        let view = View::of(scene, TONES, progress)?;
+    pub fn toned(sight: &Sight<'_>, rule: &ToneRule, progress: &Progress) -> Result<Self> {
+        let (view, scene) = (View::of(sight, TONES, progress)?, sight.scene);
         let label = |SeenFace { object, face }: SeenFace, tone: u8| {
             let materials = &scene.objects[object as usize].mesh.triangle_materials;
             TonedSurface { object, material: materials.get(face as usize).copied().unwrap_or(NONE), tone }

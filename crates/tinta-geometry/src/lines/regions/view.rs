@@ -24,18 +24,19 @@ use crate::lines::input::feature::{Feature, Own};
 use crate::lines::input::line_input::LineInput;
 use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::progress::{Phase, Progress};
+use crate::lines::sight::{Intersections, Sight};
 use crate::lines::visible::contact::ProbedLine;
-use crate::lines::visible::intersections::{Intersections, intersections};
+use crate::lines::visible::intersections::intersections;
 use crate::lines::visible::interval::Interval;
 use crate::lines::visible::line_index::LineIndex;
 use crate::lines::visible::occluder_probe::{OccluderProbe, SearchDepth};
 use crate::lines::visible::search::Search;
 use crate::memory::Asked;
 use crate::ranges::{gaps, united};
-use crate::scene::Scene;
 use crate::threads::{cores, in_chunks, spread_chunks};
 use glam::{DVec2, DVec3};
 use std::collections::HashSet;
+use std::sync::Arc;
 
 /// How far a piece is drawn beyond its end, grid steps: at angles above a hundredth of a degree it then crosses the border there.
 const BEYOND: f64 = 8192.0;
@@ -50,7 +51,7 @@ const EDGES: usize = 4096;
 /// The faces of a scene in the eye's space.
 pub(in crate::lines) struct View<'a> {
     pub input: LineInput<'a>,
-    search: Search,
+    search: Arc<Search>,
     pub(super) grid: Grid,
 }
 
@@ -70,11 +71,12 @@ impl<'a> View<'a> {
     /// # Errors
     ///
     /// Those of [`LineInput::as_given`] and [`Progress::go_on`].
-    pub(in crate::lines) fn of(scene: &'a Scene, asked: Asked, progress: &Progress) -> Result<Self> {
+    pub(in crate::lines) fn of(sight: &'a Sight<'_>, asked: Asked, progress: &Progress) -> Result<Self> {
         progress.begin(Phase::Areas, 0);
-        let input = LineInput::as_given(scene, asked)?;
+        let input = LineInput::as_given(sight, asked)?;
         progress.go_on()?;
-        Ok(Self { grid: Grid::over(input.space.size), search: Search::of(&input, progress), input })
+        let search = sight.search(&input.space, &input.faces, progress);
+        Ok(Self { grid: Grid::over(input.space.size), search, input })
     }
 
     /// The first face that the ray through a place of the picture hits.

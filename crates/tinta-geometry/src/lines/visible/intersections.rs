@@ -12,6 +12,7 @@ use crate::lines::input::feature::Own;
 use crate::lines::input::line_input::LineInput;
 use crate::lines::input::object_edges::ObjectEdges;
 use crate::lines::progress::{Phase, Progress};
+use crate::lines::sight::{Intersection, Intersections};
 use crate::lines::visible::contact::ProbedLine;
 use crate::lines::visible::half_planes::{HalfPlanes, SplitEdges};
 use crate::lines::visible::nearest_faces::NearestFaces;
@@ -21,34 +22,25 @@ use crate::thresholds::THRESHOLDS;
 use crate::tolerances::{CONTACT, SAME_PLACE};
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
-
-/// A piece of line common to two faces.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::lines) struct Intersection {
-    /// The one with the lower number first.
-    pub faces: [u32; 2],
-    /// In the eye's space.
-    pub ends: [DVec3; 2],
-}
-
-/// The common lines and points of faces that pass through one another.
-#[derive(Default)]
-pub(in crate::lines) struct Intersections {
-    /// By their faces' numbers.
-    pub lines: Vec<Intersection>,
-    pub piercings: Vec<Piercing>,
-    /// Count of tested boxes.
-    pub compared: u64,
-}
+use std::sync::Arc;
 
 /// Whether a pyramid hides a line.
 fn is_hidden(space: &Space, pyramid: &Pyramid, ends: [DVec3; 2]) -> bool {
     ends.iter().all(|end| -end.z >= space.near) && pyramid.hides_line(ends.map(|end| space.project(end)))
 }
 
-/// Finds all intersections of a scene's faces, and the points where edges pierce faces. Unless hidden ones are wanted, leaves out
+/// Returns all intersections of a scene's faces, and the points where edges pierce faces. Unless hidden ones are wanted, leaves out
 /// those that the search finds hidden. The list is incomplete if the time runs out.
-pub(in crate::lines) fn intersections(input: &LineInput<'_>, search: &Search, progress: &Progress) -> Intersections {
+pub(in crate::lines) fn intersections(
+    input: &LineInput<'_>,
+    search: &Arc<Search>,
+    progress: &Progress,
+) -> Arc<Intersections> {
+    let found = || found(input, search, progress);
+    if input.settings.finds_hidden { Arc::new(found()) } else { input.sight.intersections(search, found) }
+}
+
+fn found(input: &LineInput<'_>, search: &Search, progress: &Progress) -> Intersections {
     let LineInput { space, faces, objects, .. } = input;
     let pyramid = search.pyramid.as_ref().filter(|_| !input.settings.finds_hidden);
     let nearest_faces = search.nearest_faces.as_ref().filter(|_| !input.settings.finds_hidden);

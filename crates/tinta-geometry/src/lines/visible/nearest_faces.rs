@@ -134,8 +134,8 @@ mod tests {
     use crate::lines::eye::cast::{first_hit, nearest_hits};
     use crate::lines::input::feature::Own;
     use crate::lines::input::line_input::LineInput;
+    use crate::lines::sight::Sight;
     use crate::lines::visible::intersections::intersections;
-    use crate::lines::visible::search::Search;
     use crate::mesh::Mesh;
     use crate::scene::{Scene, SceneSettings};
     use std::sync::Arc;
@@ -176,12 +176,13 @@ mod tests {
     #[test]
     fn an_intersection_that_the_nearest_faces_hide_lies_behind_a_face_everywhere() {
         let scene = soup();
-        let input = LineInput::of(&scene, &LineSettings::default()).unwrap();
+        let sight = Sight::of(&scene);
+        let input = LineInput::of(&sight, &LineSettings::default()).unwrap();
         let (space, faces) = (&input.space, &input.faces);
         let nearest_faces = NearestFaces::new(space, faces, &Progress::default());
-        let all = intersections(&input, &Search::default(), &Progress::default()).lines;
+        let all = &intersections(&input, &Arc::default(), &Progress::default()).lines;
         let (mut hidden, mut points) = (0, 0);
-        for line in &all {
+        for line in all {
             let own = Own::Faces(line.faces);
             if !nearest_faces.hide(space, faces, ProbedLine::new(faces, own, line.ends, 1e-7), line.ends) {
                 continue;

@@ -1,8 +1,9 @@
 //! Accelerators of the search for lines in crowded scenes. No line depends on them.
 
+use crate::lines::eye::faces::Faces;
 use crate::lines::eye::pieces::PieceTree;
 use crate::lines::eye::pyramid::{Pyramid, is_crowded};
-use crate::lines::input::line_input::LineInput;
+use crate::lines::eye::space::Space;
 use crate::lines::progress::Progress;
 use crate::lines::visible::nearest_faces::NearestFaces;
 use crate::lines::visible::occluders::occluders;
@@ -20,7 +21,7 @@ pub(in crate::lines) struct Search {
 
 impl Search {
     /// Builds what pays for a scene.
-    pub(in crate::lines) fn of(LineInput { space, faces, .. }: &LineInput<'_>, progress: &Progress) -> Self {
+    pub(in crate::lines) fn of(space: &Space, faces: &Faces, progress: &Progress) -> Self {
         if !is_crowded(space, faces) {
             return Self::default();
         }

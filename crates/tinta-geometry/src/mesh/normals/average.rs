@@ -13,10 +13,7 @@ use crate::mesh::NONE;
 use crate::threads::{filled, threads_for_items};
 use glam::{DVec3, Vec3};
 
-/// How far normals are averaged, in shares of the diagonal of the model's box: the root of the mean square of the distance.
-const REACH: f64 = 0.021;
-
-/// How far where a longer way would erase form.
+/// How far at least where a longer way would erase form, in shares of the diagonal of the model's box.
 const LEAST: f64 = 0.006;
 
 /// Both in distances to a corner's neighbours, where these are far apart.
@@ -54,12 +51,12 @@ const SAME: f32 = 0.999_999;
 pub(super) fn average(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
-    lasting: &PersistentCreases,
+    (lasting, reach): (&PersistentCreases, f64),
     first: u32,
     normals: &mut Vec<Vec3>,
     triangle_normals: &mut [[u32; 3]],
 ) {
-    if !lasting.is_curved.contains(&true) {
+    if reach == 0.0 || !lasting.is_curved.contains(&true) {
         return;
     }
     let nodes = Nodes::of(positions, triangles, lasting, normals, triangle_normals);
@@ -71,7 +68,12 @@ pub(super) fn average(
         normals.push(normal);
         normals.len() as u32 - 1
     };
-    let numbers: Vec<u32> = nodes.numbers.iter().zip(nodes.averaged(lasting.diagonal)).map(place).collect();
+    let numbers: Vec<u32> = nodes
+        .numbers
+        .iter()
+        .zip(nodes.averaged([LEAST.min(reach), reach].map(|share| (share * lasting.diagonal) as f32)))
+        .map(place)
+        .collect();
     for (node, normal) in nodes.of_corners.as_flattened().iter().zip(triangle_normals.as_flattened_mut()) {
         if *node != NONE {
             *normal = numbers[*node as usize];
@@ -133,10 +135,9 @@ impl Nodes {
         Self { of_corners, places, normals, numbers, areas, neighbours }
     }
 
-    /// The averaged normal of each.
-    fn averaged(&self, diagonal: f64) -> Vec<Vec3> {
+    /// The averaged normal of each, over a way between these.
+    fn averaged(&self, [least, most]: [f32; 2]) -> Vec<Vec3> {
         let mut normals = self.normals.clone();
-        let [least, most] = [LEAST, REACH].map(|share| (share * diagonal) as f32);
         let reach = Reach { least, most, noise: AGREES * self.noise() };
         spread(&self.neighbours, &self.areas, &self.places, &mut normals, &reach);
         let length = |(mean, own): (Vec3, &Vec3)| if mean.length() < SHORTEST { SHORTEST * *own } else { mean };

@@ -4,13 +4,13 @@ use std::collections::HashSet;
 use std::f64::consts::TAU;
 
 fn computed(positions: &[DVec3], triangles: &[[u32; 3]], angle: f64) -> (Vec<Vec3>, Vec<[u32; 3]>) {
-    split(positions, triangles, Splitting { cos_smooth: angle.to_radians().cos(), cos_beside: None })
+    split(positions, triangles, Splitting { cos_smooth: angle.to_radians().cos(), cos_beside: None, reach: 0.021 })
 }
 
 /// Split along creases of 40 degrees that last.
 fn lasting(positions: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let [cos_smooth, cos_beside] = [40.0f64, 80.0 / 3.0].map(|angle| angle.to_radians().cos());
-    split(positions, triangles, Splitting { cos_smooth, cos_beside: Some(cos_beside) })
+    split(positions, triangles, Splitting { cos_smooth, cos_beside: Some(cos_beside), reach: 0.021 })
 }
 
 fn split(positions: &[DVec3], triangles: &[[u32; 3]], splitting: Splitting) -> (Vec<Vec3>, Vec<[u32; 3]>) {
@@ -411,6 +411,18 @@ fn averaged_normals_are_shorter_where_a_surface_bends_within_the_reach_and_hardl
     // The reach is 0.021 of the diagonal, 1.8 cells.
     let [short, long] = [least(wavy(6.0)), least(wavy(60.0))];
     assert!(short < 0.93 && long > 0.99, "{short}, {long}");
+}
+
+#[test]
+fn a_shorter_reach_averages_less_and_none_averages_nothing() {
+    let (positions, triangles) = wavy(6.0);
+    let mean = |reach: f64| {
+        let [cos_smooth, cos_beside] = [40.0f64, 80.0 / 3.0].map(|angle| angle.to_radians().cos());
+        let (normals, _) = split(&positions, &triangles, Splitting { cos_smooth, cos_beside: Some(cos_beside), reach });
+        normals.iter().map(|normal| f64::from(normal.length())).sum::<f64>() / normals.len() as f64
+    };
+    let [none, short, long] = [0.0, 0.01, 0.021].map(mean);
+    assert!((none - 1.0).abs() < 1e-6 && none > short && short > long, "{none}, {short}, {long}");
 }
 
 #[test]

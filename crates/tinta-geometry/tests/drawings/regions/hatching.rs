@@ -8,8 +8,8 @@ use crate::support::{builtin, public_meshes};
 use glam::{DVec2, DVec3};
 use tinta::camera::Projection;
 use tinta::lines::{
-    Areas, Hatch, Hatching, Hit, Length, PageSize, Progress, Region, Regions, ToneRule, TonedSurface, chain, hatches,
-    svg_of_paths,
+    Areas, Hatch, Hatching, Hit, Length, PageSize, Progress, Region, Regions, Sight, ToneRule, TonedSurface, chain,
+    hatches, svg_of_paths,
 };
 use tinta::mesh::Normals;
 use tinta::{CameraSettings, DrawingSettings, LoadOptions, Mesh, Scene, SceneSettings, Size, VisibleLines};
@@ -37,7 +37,8 @@ fn hatched(
     rule: &ToneRule,
     settings: &DrawingSettings,
 ) -> tinta::Result<Vec<Straight>> {
-    let found = hatches(scene, (rule, regions), &VisibleLines::none(scene.size), settings, &Progress::default())?;
+    let found =
+        hatches(&Sight::of(scene), (rule, regions), &VisibleLines::none(scene.size), settings, &Progress::default())?;
     let ends = |stroke: Vec<DVec2>| <[DVec2; 2]>::try_from(stroke).unwrap();
     let straight = |Hatch { tone, strokes }: Hatch| Straight { tone, strokes: strokes.into_iter().map(ends).collect() };
     Ok(found.into_iter().map(straight).collect())
@@ -128,7 +129,7 @@ struct Checked {
 /// Checks the strokes of a scene, with rays along at most so many of each direction.
 fn check(name: &str, scene: &Scene, random: &mut Random, most_strokes: usize, all: &mut Checked) {
     for rule in rules() {
-        let regions = Regions::toned(scene, &rule, &Progress::default()).unwrap();
+        let regions = Regions::toned(&Sight::of(scene), &rule, &Progress::default()).unwrap();
         let (spacing, angle) = (2.0 + 14.0 * random.number(), -90.0 + 180.0 * random.number());
         let found = hatched(scene, &regions, &rule, &settings(Length::Px(spacing), angle)).unwrap();
         assert_eq!(
@@ -260,7 +261,7 @@ fn strokes_move_with_the_scene_from_view_to_view() {
     let [_, rule, _] = rules();
     let lines_of = |degrees: f64| {
         let scene = ball(looking_past(degrees), SIZE);
-        let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+        let regions = Regions::toned(&Sight::of(&scene), &rule, &Progress::default()).unwrap();
         let found = hatched(&scene, &regions, &rule, &settings(Length::Px(9.0), 30.0)).unwrap();
         let centre = image(&scene, scene.camera.view_from_world().transform_point3(scene.centre));
         let along = DVec2::from_angle(-30f64.to_radians());
@@ -277,7 +278,7 @@ fn strokes_move_with_the_scene_from_view_to_view() {
 fn spacing_is_in_millimetres_on_paper_or_in_widths_of_a_stroke() {
     let [rule, ..] = rules();
     let scene = ball(view("30,23", false), SIZE);
-    let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+    let regions = Regions::toned(&Sight::of(&scene), &rule, &Progress::default()).unwrap();
     let gap = |settings: &DrawingSettings| {
         let found = hatched(&scene, &regions, &rule, settings).unwrap();
         let mut places: Vec<f64> = found[0].strokes.iter().map(|[from, _]| from.y).collect();
@@ -308,11 +309,13 @@ fn one_tone_has_no_strokes_and_too_many_are_refused_before_they_are_made() {
     let [rule, ..] = rules();
     let size = Size { width: 4096, height: 4096 };
     let scene = ball(view("front", true), size);
-    let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+    let regions = Regions::toned(&Sight::of(&scene), &rule, &Progress::default()).unwrap();
     let lines = VisibleLines::none(size);
     let one = ToneRule { thresholds: [2.0; 2], ..rule };
     for hatching in [settings(Length::Px(5.0), 45.0), along_form(5.0)] {
-        assert!(hatches(&scene, (&one, &regions), &lines, &hatching, &Progress::default()).unwrap().is_empty());
+        assert!(
+            hatches(&Sight::of(&scene), (&one, &regions), &lines, &hatching, &Progress::default()).unwrap().is_empty()
+        );
     }
     let refused = hatched(&scene, &regions, &rule, &settings(Length::Px(0.001), 45.0)).unwrap_err().to_string();
     assert!(refused.starts_with("hatch 0.001: this makes ") && refused.contains("at most 1000000;"), "{refused}");
@@ -322,11 +325,11 @@ fn one_tone_has_no_strokes_and_too_many_are_refused_before_they_are_made() {
 fn a_drawing_has_a_layer_of_strokes_for_each_tone_and_lines_alone_have_none() {
     let [rule, ..] = rules();
     let scene = ball(view("30,23", false), SIZE);
-    let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+    let regions = Regions::toned(&Sight::of(&scene), &rule, &Progress::default()).unwrap();
     let lines = VisibleLines::of(&scene, &tinta::LineSettings::default()).unwrap();
     let mut settings = settings(Length::Px(8.0), 45.0);
     settings.class_colors = "hatch=#010203".parse().unwrap();
-    let strokes = hatches(&scene, (&rule, &regions), &lines, &settings, &Progress::default()).unwrap();
+    let strokes = hatches(&Sight::of(&scene), (&rule, &regions), &lines, &settings, &Progress::default()).unwrap();
     let counts: Vec<usize> = strokes.iter().map(|hatch| hatch.strokes.len()).collect();
     let areas = Areas { hatches: strokes, ..Areas::around(&regions) };
     for is_for_pen in [false, true] {
@@ -352,9 +355,10 @@ fn along_form(spacing_px: f64) -> DrawingSettings {
 
 /// The strokes along the form.
 fn formed(scene: &Scene, rule: &ToneRule, spacing_px: f64) -> Vec<Vec<DVec2>> {
-    let regions = Regions::toned(scene, rule, &Progress::default()).unwrap();
+    let regions = Regions::toned(&Sight::of(scene), rule, &Progress::default()).unwrap();
     let lines = VisibleLines::none(scene.size);
-    let found = hatches(scene, (rule, &regions), &lines, &along_form(spacing_px), &Progress::default()).unwrap();
+    let found =
+        hatches(&Sight::of(scene), (rule, &regions), &lines, &along_form(spacing_px), &Progress::default()).unwrap();
     assert_eq!(found.iter().map(|hatch| hatch.tone).collect::<Vec<_>>(), [brightest(rule) - 1]);
     found.into_iter().flat_map(|hatch| hatch.strokes).collect()
 }
@@ -389,7 +393,7 @@ fn strokes_along_the_form_lie_in_their_tones_in_every_family() {
         let scene = with_normals(scene, seed % 3 == 0);
         for rule in rules() {
             let strokes = formed(&scene, &rule, 6.0);
-            let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+            let regions = Regions::toned(&Sight::of(&scene), &rule, &Progress::default()).unwrap();
             let dark = regions.joined(|seen| seen.filter(|it| it.tone < brightest(&rule)).map(|_| ()));
             for px in samples(&strokes, 8.0).step_by(1 + strokes.len() / 100) {
                 let mut loops = dark.regions.iter().flat_map(|region| &region.loops);
@@ -430,10 +434,10 @@ fn an_area_without_a_stroke_is_narrower_than_the_distance_of_strokes() {
     {
         let settings = SceneSettings { camera: view(camera, false), size: SIZE, ..SceneSettings::default() };
         let scene = Scene::new([builtin(model)], &settings).unwrap();
-        let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+        let regions = Regions::toned(&Sight::of(&scene), &rule, &Progress::default()).unwrap();
         let strokes = DrawingSettings { min_length: None, ..along_form(SPACING_PX) };
         let lines = VisibleLines::none(scene.size);
-        let found = hatches(&scene, (&rule, &regions), &lines, &strokes, &Progress::default()).unwrap();
+        let found = hatches(&Sight::of(&scene), (&rule, &regions), &lines, &strokes, &Progress::default()).unwrap();
         let strokes: Vec<Vec<DVec2>> = found.into_iter().flat_map(|hatch| hatch.strokes).collect();
         for tone in 0..brightest(&rule) {
             let of_tone = regions.joined(|seen| seen.filter(|surface| surface.tone == tone).map(|_| ()));
@@ -522,7 +526,7 @@ fn where_sheets_lie_on_one_another_one_has_strokes() {
     let total = |meshes: Vec<Mesh>| {
         let settings = SceneSettings { camera: view("front", true), size: SIZE, ..SceneSettings::default() };
         let scene = with_normals(Scene::new(meshes, &settings).unwrap(), false);
-        let regions = Regions::toned(&scene, &rule, &Progress::default()).unwrap();
+        let regions = Regions::toned(&Sight::of(&scene), &rule, &Progress::default()).unwrap();
         let seen = regions.regions.iter().filter(|region| region.seen.is_some());
         let area: f64 = seen.map(|region| region.area_px).sum();
         let strokes = formed(&scene, &rule, 8.0);
