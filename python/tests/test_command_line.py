@@ -197,3 +197,11 @@ def test_every_setting_of_the_tables_is_taken_and_told(tinta):
             assert f"  {setting['name']} : " in owner.__doc__ and setting["help"] in owner.__doc__
     told = {setting["name"] for setting in tn._native.settings("lines")}
     assert {"line_width", "crease_angle", "eye", "up_axis", "hidden"} <= told
+
+
+def test_the_packages_program_draws_a_batch(tmp_path):
+    (tmp_path / "jobs.jsonl").write_text('{"model": "builtin:gear"}\n{"model": "builtin:open-box"}\n')
+    words = [sys.executable, "-m", "tinta_npr", "batch", "jobs.jsonl", "-o", "drawn", "--size", "64", "--jobs", "2"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert len(list((tmp_path / "drawn").glob("*.png"))) == 2

@@ -1,5 +1,6 @@
 """The program `tinta`: `python -m tinta_npr render cow.obj -o cow.svg`. It has all commands but the window and `tinta judge`."""
 
+import os
 import signal
 import sys
 
@@ -10,6 +11,8 @@ def main():
     """Carry out the command line of the process; returns the exit code."""
     # The program itself, or the system, answers Ctrl-C.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    # A batch starts workers by it: this process is Python's.
+    os.environ["TINTA_PYTHON"] = sys.executable
     return _native.command(["tinta", *sys.argv[1:]])
 
 
