@@ -75,22 +75,7 @@ impl VisibleLines {
             gone.into_iter().for_each(|stroke| keeps[strokes[stroke].number] = false);
         }
         let kept = segments.into_iter().zip(keeps).filter(|(_, keeps)| *keeps).map(|(segment, _)| segment);
-        Ok(Self { segments: kept.collect(), ..self.clone_without_segments() })
-    }
-
-    fn clone_without_segments(&self) -> Self {
-        Self {
-            size: self.size,
-            segments: Vec::new(),
-            labels: self.labels.clone(),
-            parts: self.parts.clone(),
-            looks: self.looks.clone(),
-            edges: self.edges,
-            changes: self.changes.clone(),
-            px_per_mm: self.px_per_mm,
-            covered_triangles: self.covered_triangles,
-            times: self.times,
-        }
+        Ok(Self { segments: kept.collect(), ..self.clone() })
     }
 }
 
