@@ -82,7 +82,7 @@ pub struct Found {
 }
 
 /// A style's picture beside the reference.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct StyleCheck {
     /// The style's name.
     pub style: &'static str,
@@ -140,14 +140,7 @@ impl StyleCheck {
             .and_then(|reference| Ok((reference, renderer.render(&scene(name)?, &Style::named(name))?.opaque())));
         match pictures {
             Ok((reference, picture)) => Self::compared(style, &reference, &picture),
-            Err(error) => Self {
-                style,
-                differing: None,
-                of_other_shades: 0,
-                largest: 0,
-                passed: false,
-                problem: Some(error.to_string()),
-            },
+            Err(error) => Self { style, problem: Some(error.to_string()), ..Self::default() },
         }
     }
 

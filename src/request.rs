@@ -66,7 +66,7 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 /// A requested drawing.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Request {
     /// The models, as the user named them. Default empty.
     pub models: Vec<String>,
@@ -154,12 +154,6 @@ impl PruneSettings {
     /// The pruning for this renderer; `None` to prune nothing.
     pub fn pruning(&self, renderer: &Renderer) -> Option<Pruning> {
         (!self.is_full).then(|| Pruning { keep: self.keep.clone(), ..renderer.pruning() })
-    }
-}
-
-impl Default for Request {
-    fn default() -> Self {
-        Self::of_style(StyleName::ThreePass)
     }
 }
 
@@ -332,22 +326,7 @@ fn glsl() -> Setting<Request> {
 impl Request {
     /// All settings at their defaults, in this style as published.
     pub fn of_style(style: StyleName) -> Self {
-        Self {
-            models: Vec::new(),
-            read: LoadOptions::default(),
-            scene: SceneSettings::default(),
-            style: Style::named(style),
-            show: Show::default(),
-            exact_lines: false,
-            ground: Ground::None,
-            animation: AnimationSettings::default(),
-            backend: Backend::default(),
-            glsl: None,
-            pruning: PruneSettings::default(),
-            title: None,
-            options: Options::new(),
-            sources: BTreeMap::new(),
-        }
+        Self { style: Style::named(style), ..Self::default() }
     }
 
     /// This picture of this style, of scenes that are there already.

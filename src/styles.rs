@@ -215,6 +215,12 @@ const LINE_SHOWS: &[Show] = &[Show::Final, Show::Borders, Show::Tones];
 /// Pictures of the drawings in charcoal and sand.
 const CHARCOAL_SHOWS: &[Show] = &[Show::Final, Show::Diffuse, Show::Cem, Show::Cet, Show::Paper];
 
+impl Default for Style {
+    fn default() -> Self {
+        Self::named(StyleName::ThreePass)
+    }
+}
+
 impl Style {
     /// Returns the style of this name with the published settings.
     #[must_use]

@@ -18,7 +18,7 @@ const DEPTH_STEPS: f64 = 16_777_215.0;
 const EQUAL_DEPTH_STEPS: f64 = 4.0;
 
 /// A triangle that covers the pixel.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct Fragment {
     /// The object's number in the scene; `None` for a square over the picture.
     pub object: Option<usize>,
@@ -133,13 +133,9 @@ impl PreparedDraw<'_> {
             object: group.object,
             triangle: triangle.number,
             is_front: cover.is_front,
-            corners: Vec::new(),
             depth,
             is_nearer,
-            varyings: Vec::new(),
-            events: Vec::new(),
-            is_discarded: false,
-            colors: Vec::new(),
+            ..Fragment::default()
         };
         if is_nearer == Some(false) {
             return Ok(fragment);

@@ -45,7 +45,7 @@ use glam::{DMat4, DVec3, Mat4, Vec3};
 use std::sync::{Arc, LazyLock, OnceLock, Weak};
 
 /// A mesh in its place.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Object {
     /// The mesh, shared between copies.
     pub mesh: Arc<Mesh>,
@@ -468,14 +468,7 @@ impl Object {
 
     /// A mesh at its own coordinates.
     fn at_home(mesh: Arc<Mesh>) -> Self {
-        Self {
-            mesh,
-            offset: DVec3::ZERO,
-            arrays: Arc::default(),
-            boxes: Arc::default(),
-            edges: Arc::default(),
-            curvatures: Arc::default(),
-        }
+        Self { mesh, ..Self::default() }
     }
 
     /// The identity shared by this object and its copies, valid while one of them exists.

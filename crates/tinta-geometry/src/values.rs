@@ -6,7 +6,7 @@ use std::fmt;
 use std::str::FromStr;
 
 /// A picture's size in pixels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Size {
     /// Pixels across.
     pub width: u32,

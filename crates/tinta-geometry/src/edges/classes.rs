@@ -13,7 +13,7 @@ use serde::Serialize;
 
 crate::choices! {
     /// Why an edge is drawn. An edge of several classes belongs to the first of them here.
-    #[derive(PartialOrd, Ord)]
+    #[derive(Default, PartialOrd, Ord)]
     #[repr(u8)]
     pub enum Class {
         /// It has one face.
@@ -21,6 +21,7 @@ crate::choices! {
         /// It has three faces or more; the text's listing overwrites one of them and never draws the edge (errata D2).
         NonManifold = "non-manifold",
         /// One of its two faces is seen from the front, the other from the back.
+        #[default]
         Silhouette = "silhouette",
         /// The normals of its two faces differ by more than the crease angle.
         Crease = "crease",

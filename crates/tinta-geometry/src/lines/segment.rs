@@ -5,7 +5,7 @@ use crate::lines::drawing::layers::Layer;
 use glam::{DVec2, DVec3};
 
 /// A segment of a line: it has one class, and is visible or hidden as a whole.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct LineSegment {
     /// Its class; if it has several, the first in the order of [`Class::ALL`].
     pub class: Class,
@@ -42,20 +42,7 @@ pub struct LineSegment {
 impl LineSegment {
     /// A visible line of the first object, with nothing else known of it.
     pub(in crate::lines) fn new(class: Class, ends_px: [DVec2; 2], ends_world: [DVec3; 2]) -> Self {
-        Self {
-            class,
-            is_visible: true,
-            is_outline: false,
-            background: [false; 2],
-            is_covered: false,
-            ends_px,
-            ends_world,
-            edge: None,
-            angle_degrees: None,
-            object: 0,
-            part: 0,
-            look: 0,
-        }
+        Self { class, is_visible: true, ends_px, ends_world, ..Self::default() }
     }
 
     /// The layer that draws it.

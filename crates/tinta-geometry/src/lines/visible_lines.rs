@@ -13,7 +13,7 @@ use serde::Serialize;
 use std::borrow::Cow;
 
 /// The visible and hidden lines of a scene.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct VisibleLines {
     /// The picture's size, pixels.
     pub size: Size,
@@ -57,18 +57,7 @@ pub struct LineTimes {
 impl VisibleLines {
     /// Returns no lines in a picture of this size.
     pub fn none(size: Size) -> Self {
-        Self {
-            size,
-            segments: Vec::new(),
-            labels: Vec::new(),
-            parts: Vec::new(),
-            looks: Vec::new(),
-            edges: ClassCounts::default(),
-            covered_triangles: 0,
-            changes: None,
-            px_per_mm: None,
-            times: LineTimes::default(),
-        }
+        Self { size, ..Self::default() }
     }
 
     /// The settings of a drawing for lines of a style, by its number in `looks`.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub const NONE: u32 = u32::MAX;
 
 /// A triangle mesh with shared positions.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
     /// The user's name for the model: a path or `builtin:…`.
     pub name: String,
@@ -133,21 +133,11 @@ impl Mesh {
             name: "a triangle".to_owned(),
             positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
             file_vertices: vec![0, 1, 2],
-            position_colors: Vec::new(),
             triangles: vec![[0, 1, 2]],
             normals: vec![Vec3::Z],
             triangle_normals: vec![[0; 3]],
-            texture_coordinates: Vec::new(),
-            triangle_texture_coordinates: Vec::new(),
-            materials: Vec::new(),
-            triangle_materials: Vec::new(),
-            file_faces: Vec::new(),
-            parts: Vec::new(),
-            triangle_parts: Vec::new(),
-            marked: Vec::new(),
             weld: WELD,
-            curves: Curves::default(),
-            defects: Defects::default(),
+            ..Self::default()
         }
     }
 

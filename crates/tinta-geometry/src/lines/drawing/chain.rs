@@ -12,7 +12,7 @@ use glam::DVec2;
 use std::cmp::Ordering;
 
 /// Segments drawn as one line.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct LinePath {
     /// Their class; an outline's segments may have several, of which this is one.
     pub class: Class,
@@ -35,16 +35,7 @@ pub struct LinePath {
 impl LinePath {
     /// A stroke of a tone: it consists of no segments, so its class and object mean nothing.
     pub(in crate::lines) fn of_stroke(points_px: Vec<DVec2>) -> Self {
-        Self {
-            class: Class::Silhouette,
-            is_visible: true,
-            is_outline: false,
-            object: 0,
-            look: 0,
-            points_px,
-            is_closed: false,
-            segments: Vec::new(),
-        }
+        Self { is_visible: true, points_px, ..Self::default() }
     }
 
     pub(in crate::lines) fn layer(&self) -> Layer {

@@ -187,13 +187,8 @@ impl DrawnLayer {
         let pattern = match layer {
             Layer::Visible(Class::Centre) | Layer::Hidden(Class::Centre) => CHAIN,
             Layer::Visible(Class::Point) | Layer::Hidden(Class::Point) => &[],
-            Layer::Hidden(_) if settings.hidden == Hidden::Dashed => {
-                if is_on_paper {
-                    DASHED_ON_PAPER
-                } else {
-                    DASHED
-                }
-            }
+            Layer::Hidden(_) if settings.hidden == Hidden::Dashed && is_on_paper => DASHED_ON_PAPER,
+            Layer::Hidden(_) if settings.hidden == Hidden::Dashed => DASHED,
             Layer::Visible(_) | Layer::Outline if is_of_ghost && is_on_paper => DOUBLE_CHAIN,
             _ => &[],
         };

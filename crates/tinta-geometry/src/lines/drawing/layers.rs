@@ -96,14 +96,9 @@ const HIDDEN: &str = "hidden-";
 const HATCH: &str = "hatch";
 
 impl Name {
+    /// Its place among all.
     fn index(self) -> usize {
-        match self {
-            Self::Class(class) => class as usize,
-            Self::Outline => CLASSES,
-            Self::Hidden => CLASSES + 1,
-            Self::HiddenClass(class) => CLASSES + 2 + class as usize,
-            Self::Hatch => NAMES - 1,
-        }
+        Self::all().take_while(|name| *name != self).count()
     }
 
     fn all() -> impl Iterator<Item = Self> {

@@ -127,6 +127,7 @@ fn largest(is_marked: &[bool], width: usize) -> usize {
 }
 
 /// The light at the corners of an object's faces. Corners that share a position, a normal and the side that is seen are one.
+#[derive(Default)]
 struct LitCorners {
     /// Each corner's number.
     of_corners: Vec<[u32; 3]>,
@@ -167,14 +168,7 @@ impl LitCorners {
         let of_normals: Vec<f64> =
             mesh.normals.iter().map(|normal| space.direction(normal.as_dvec3()).dot(light)).collect();
         let places = places(object, space);
-        let mut lit = Self {
-            of_corners: vec![[0; 3]; mesh.triangles.len()],
-            light: Vec::new(),
-            added: Vec::new(),
-            is_back: Vec::new(),
-            areas: Vec::new(),
-            least: Vec::new(),
-        };
+        let mut lit = Self { of_corners: vec![[0; 3]; mesh.triangles.len()], ..Self::default() };
         // For each normal and side the position that it first comes with, and its number there.
         let mut firsts = vec![[NONE; 2]; 2 * mesh.normals.len()];
         let mut others: HashMap<[u32; 2], u32> = HashMap::new();

@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, HashMap};
 pub const SECTION: &str = "section";
 
 /// A mesh being cut: its old vertices and faces, and the new ones.
+#[derive(Default)]
 pub(super) struct Cutter {
     mesh: Mesh,
     /// For each position its distance in front of the plane.
@@ -72,11 +73,8 @@ impl Cutter {
             is_whole: (0..count).map(is_whole).collect(),
             mesh: mesh.clone(),
             sides,
-            on_edges: HashMap::new(),
-            normals_on_edges: HashMap::new(),
-            coordinates_on_edges: HashMap::new(),
-            faces: Vec::new(),
             keeps_front,
+            ..Self::default()
         }
     }
 
