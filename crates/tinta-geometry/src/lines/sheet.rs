@@ -59,9 +59,6 @@ const FRAME: f64 = 0.025;
 /// The least scale of the isometric view, as a share of the others'.
 const ISO: f64 = 0.5;
 
-/// Steps in which it grows to theirs.
-const ISO_STEPS: u32 = 100;
-
 /// Sides of a ring in the symbol of the projection.
 const SIDES: u32 = 48;
 
@@ -173,7 +170,7 @@ impl VisibleLines {
     /// Puts the sheet to the scale of its settings, or on paper to the largest round one that fits, and returns it.
     fn put_scale(&mut self, layout: &Layout, drawing: &DrawingSettings) -> Result<Option<String>> {
         let known = drawing.scale.or(layout.scale);
-        let scale = known.or_else(|| self.round_scale(layout.px_per_unit, drawing));
+        let scale = known.or_else(|| self.largest_scale(layout.px_per_unit, drawing).map(Scale::rounded));
         let to_scale = DrawingSettings { scale, ..drawing.clone() };
         self.put_to_scale(Some(layout.px_per_unit), &to_scale)?;
         Ok(scale.map(|scale| scale.text()))
@@ -258,7 +255,6 @@ pub(super) struct Layout {
     /// The upper left corner of all views, and the left end of the scale bar.
     origin_px: DVec2,
     bar_px: f64,
-    gap_px: f64,
     /// Widths of both columns, and heights of both rows from the top, pixels.
     columns: [f64; 2],
     rows: [f64; 2],
@@ -271,9 +267,8 @@ impl Layout {
         let front_row = usize::from(angle == ProjectionAngle::Third);
         let sheet_px = DVec2::new(f64::from(size.width), f64::from(size.height));
         let side = sheet_px.min_element();
-        let gap_px = GAP * side;
         let strip = if of_block.is_some() { STRIP_OF_BLOCK } else { STRIP };
-        let room = sheet_px - DVec2::splat(2.0 * BORDER * side + gap_px) - DVec2::Y * (strip * side);
+        let room = sheet_px - DVec2::splat((2.0 * BORDER + GAP) * side) - DVec2::Y * (strip * side);
         if room.min_element() < LEAST_PX {
             let problem = format!("four views do not fit a sheet of {size}; give a larger --size");
             return Err(Error::setting("sheet", problem));
@@ -296,9 +291,10 @@ impl Layout {
         let round = of_block.and_then(|drawing| on_round_scale(largest, frame, drawing));
         let (round, scale) = round.map_or((None, largest), |(round, scale)| (Some(round), scale));
         // The isometric view takes what the others leave.
-        let fits = |iso: &f64| px_per_unit(cells(*iso)) >= scale;
-        let steps = (0..=ISO_STEPS).map(|step| ISO + (1.0 - ISO) * f64::from(step) / f64::from(ISO_STEPS));
-        let iso = steps.filter(fits).fold(ISO, f64::max);
+        let (columns, rows) = cells(0.0);
+        let left = room / scale - DVec2::new(columns[0], rows[front_row]);
+        let fitting = views.iter().filter(|view| view.is_iso()).map(|view| (left / view.extent).min_element());
+        let iso = fitting.fold(1.0, f64::min).max(ISO);
         let (columns, rows) = cells(iso);
         let [columns, rows] = [columns, rows].map(|lengths| lengths.map(|length| length * scale));
         let origin_px =
@@ -306,17 +302,15 @@ impl Layout {
         // At the strip's lower edge, below the names of the views.
         let text_px = sheet_px.y - (BORDER + DIGIT) * side;
         let bar_px = if of_block.is_some() { BORDER * side } else { origin_px.x };
-        let (px_per_unit, iso_px_per_unit) = (scale, iso * scale);
         Ok(Self {
             scale: round,
-            px_per_unit,
-            iso_px_per_unit,
+            px_per_unit: scale,
+            iso_px_per_unit: iso * scale,
             sheet_px,
             side,
             text_px,
             origin_px,
             bar_px,
-            gap_px,
             columns,
             rows,
             front_row,
@@ -336,7 +330,7 @@ impl Layout {
 
     /// Width and height of all views together, pixels.
     fn views_px(&self) -> DVec2 {
-        DVec2::new(self.columns.iter().sum(), self.rows.iter().sum()) + self.gap_px
+        DVec2::new(self.columns.iter().sum(), self.rows.iter().sum()) + GAP * self.side
     }
 
     /// The middle of a view, pixels.
@@ -344,7 +338,7 @@ impl Layout {
         let row = if view.is_in_front_row { self.front_row } else { 1 - self.front_row };
         let middle = |number: usize, lengths: [f64; 2]| match number {
             0 => lengths[0] * 0.5,
-            _ => lengths[0] + lengths[1] * 0.5 + self.gap_px,
+            _ => lengths[0] + lengths[1] * 0.5 + GAP * self.side,
         };
         self.origin_px + DVec2::new(middle(view.column, self.columns), middle(row, self.rows))
     }
@@ -369,9 +363,9 @@ fn on_paper(size: Size, drawing: &DrawingSettings) -> Size {
 fn on_round_scale(largest: f64, frame_px: DVec2, drawing: &DrawingSettings) -> Option<(Scale, f64)> {
     let PageSize::Paper(paper) = drawing.page_size else { return None };
     let room_mm = DVec2::from(paper.sides_mm(frame_px)) - 2.0 * drawing.margin.0;
-    let px_per_unit = (frame_px / room_mm).max_element() * drawing.units.millimetres();
-    let scale = drawing.scale.unwrap_or_else(|| Scale::round_below(largest / px_per_unit));
-    Some((scale, scale.0 * px_per_unit)).filter(|(_, scale)| *scale <= largest)
+    let fitting = Scale::of_pixels(largest, (frame_px / room_mm).max_element(), drawing.units);
+    let scale = drawing.scale.unwrap_or_else(|| fitting.rounded());
+    (scale.0 <= fitting.0).then_some((scale, largest * (scale.0 / fitting.0)))
 }
 
 /// The corners of the boxes around all objects.
@@ -471,6 +465,20 @@ mod tests {
         let expected = strokes(&format!("{said} mm"), corner, height);
         let ends = expected.iter().flatten().zip(drawn[3..].iter().flatten());
         assert!(ends.into_iter().all(|(expected, drawn)| expected.distance(*drawn) < 1e-6), "{said}");
+    }
+
+    #[test]
+    fn the_isometric_view_takes_all_that_the_others_leave() {
+        for angle in ProjectionAngle::ALL.map(|(_, angle)| angle) {
+            let (_, layout, views, _) = found(angle);
+            let (iso, side) = (layout.px_per_unit(&views[3]), layout.side);
+            let borders = DVec2::splat(2.0 * BORDER * side) + DVec2::Y * (STRIP * side);
+            let left = layout.sheet_px - borders - layout.views_px();
+            assert!(left.min_element() > -1e-9 && iso <= layout.px_per_unit && iso >= ISO * layout.px_per_unit);
+            let cell = DVec2::new(layout.columns[1], layout.rows[1 - layout.front_row]) + left;
+            let is_too_large = (views[3].extent * (iso * 1.001)).cmpgt(cell).any();
+            assert!(is_too_large || iso == layout.px_per_unit, "{angle}: {iso} of {}", layout.px_per_unit);
+        }
     }
 
     #[test]

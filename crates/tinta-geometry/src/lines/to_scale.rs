@@ -22,8 +22,8 @@ impl VisibleLines {
             return Err(Error::value("scale", scale.text(), problem));
         };
         let Some(largest) = self.largest_scale(px_per_unit, drawing) else { return Ok(()) };
-        if scale.0 > largest * (1.0 + 1e-9) {
-            let round = Scale::round_below(largest).text();
+        if scale.0 > largest.0 * (1.0 + 1e-9) {
+            let round = largest.rounded().text();
             let problem = format!("the drawing does not fit its paper; the largest round scale that does is {round}");
             return Err(Error::value("scale", scale.text(), problem));
         }
@@ -31,16 +31,11 @@ impl VisibleLines {
         Ok(())
     }
 
-    /// The largest round scale at which the drawing fits its paper; `None` without paper.
-    pub(in crate::lines) fn round_scale(&self, px_per_unit: f64, drawing: &DrawingSettings) -> Option<Scale> {
-        self.largest_scale(px_per_unit, drawing).map(Scale::round_below)
-    }
-
     /// The scale at which the drawing fills its paper up to the margins; `None` without paper.
-    fn largest_scale(&self, px_per_unit: f64, drawing: &DrawingSettings) -> Option<f64> {
+    pub(in crate::lines) fn largest_scale(&self, px_per_unit: f64, drawing: &DrawingSettings) -> Option<Scale> {
         let filling =
             page(self, None, drawing).units.px_per_mm.filter(|_| matches!(drawing.page_size, PageSize::Paper(_)));
-        filling.map(|px_per_mm| px_per_unit / (px_per_mm * drawing.units.millimetres()))
+        filling.map(|px_per_mm| Scale::of_pixels(px_per_unit, px_per_mm, drawing.units))
     }
 }
 

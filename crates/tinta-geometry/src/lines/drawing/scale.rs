@@ -44,9 +44,14 @@ impl Scale {
         millimetres / (self.0 * unit.millimetres())
     }
 
-    /// The largest of 1, 2 and 5 times a power of ten that is no larger than a ratio above 0: the scales of ISO 5455.
-    pub(in crate::lines) fn round_below(ratio: f64) -> Self {
-        Self(round_below(ratio))
+    /// The scale at which a unit of the model has so many pixels, on paper that has so many a millimetre.
+    pub(in crate::lines) fn of_pixels(px_per_unit: f64, px_per_mm: f64, unit: ModelUnit) -> Self {
+        Self(px_per_unit / (px_per_mm * unit.millimetres()))
+    }
+
+    /// The largest scale of ISO 5455 that is no larger: 1, 2 or 5 times a power of ten.
+    pub(in crate::lines) fn rounded(self) -> Self {
+        Self(round_below(self.0))
     }
 }
 
