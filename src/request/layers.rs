@@ -188,8 +188,10 @@ impl Request {
         let given = given.flat_map(Options::keys).map(String::as_str);
         let has_no_effect = |option: &&str| !is_of_lines(option) && !request.is_of_surfaces(option);
         let remark = ignored_remark(given.clone().filter(has_no_effect), &[style.name()]);
-        let of_parts = request.part_remark().filter(|_| given.clone().any(|option| option == "part"));
-        let remarks = remark.into_iter().chain(of_parts).collect();
+        let is_given = |name: &str| given.clone().any(|option| option == name);
+        let of_parts = request.part_remark().filter(|_| is_given("part"));
+        let of_title = request.title_remark().filter(|_| is_given("title"));
+        let remarks = remark.into_iter().chain(of_parts).chain(of_title).collect();
         Ok((request, remarks))
     }
 
@@ -248,6 +250,14 @@ impl Request {
             _ => return None,
         };
         Some(format!("--part: {remark}"))
+    }
+
+    /// The remark about a title on paper without a title block.
+    fn title_remark(&self) -> Option<String> {
+        let has = |option: &str| self.options.contains_key(option);
+        let remark =
+            "--title: the file has it, and the paper does not show it; --sheet third draws it in a title block";
+        (has("page") && !has("sheet")).then(|| remark.to_owned())
     }
 
     /// Like [`Request::from_layers`], for options alone.

@@ -121,6 +121,7 @@ impl VisibleLines {
         }
         let scene = &Scene { size: on_paper(scene.size, drawing), ..scene.clone() };
         let layout = Layout::new(&views, scene.size, angle, title.map(|_| drawing))?;
+        let title = title.map(|title| layout.lettered(title)).transpose()?;
         let settings = LineSettings { counts_changes: false, ..settings.clone() };
         let mut sheet = Self::none(scene.size);
         for view in &views {
@@ -144,7 +145,7 @@ impl VisibleLines {
         let scale = sheet.put_scale(&layout, drawing)?.map(|scale| format!("SCALE {scale}"));
         let digit = DIGIT * layout.side;
         match title {
-            Some(title) => sheet.put_block(&layout, (angle, drawing), title, scale.as_deref())?,
+            Some(title) => sheet.put_block(&layout, (angle, drawing), &title, scale.as_deref()),
             None => {
                 let right = layout.origin_px.x + layout.views_px().x;
                 sheet.put_symbol(DVec2::new(right, layout.text_px + 0.5 * digit), digit, angle);
@@ -478,6 +479,19 @@ mod tests {
             let cell = DVec2::new(layout.columns[1], layout.rows[1 - layout.front_row]) + left;
             let is_too_large = (views[3].extent * (iso * 1.001)).cmpgt(cell).any();
             assert!(is_too_large || iso == layout.px_per_unit, "{angle}: {iso} of {}", layout.px_per_unit);
+        }
+    }
+
+    #[test]
+    fn a_title_is_refused_before_any_line_is_found() {
+        let progress = Progress::default();
+        progress.cancel();
+        let drawing = DrawingSettings::default();
+        for (title, problem) in [("Größe", "no sign 'Ö'"), (&*"long ".repeat(30), "too long"), ("A", "cancelled")] {
+            let asked = (ProjectionAngle::First, &drawing, Some(title));
+            let scene = scene(Size { width: 900, height: 600 });
+            let refused = VisibleLines::on_sheet(&scene, &LineSettings::default(), asked, &progress).unwrap_err();
+            assert!(refused.to_string().contains(problem), "{title}: {refused}");
         }
     }
 

@@ -16,19 +16,19 @@ const BLOCK: f64 = 0.55;
 /// Where the cells of the lower row end, as shares of the block's width.
 const CELLS: [f64; 3] = [0.4, 0.55, 0.8];
 
-impl VisibleLines {
-    /// Adds the title block: the title, and below it scale, unit, projection and size of the paper.
-    pub(super) fn put_block(
-        &mut self,
-        layout: &Layout,
-        (angle, drawing): (ProjectionAngle, &DrawingSettings),
-        title: &str,
-        scale: Option<&str>,
-    ) -> Result<()> {
-        let [_, high] = layout.frame();
-        let (row, width) = (ROW * layout.side, BLOCK * layout.sheet_px.x);
-        let low = high - DVec2::new(width, 2.0 * row);
-        let (height, pad) = (NAME * layout.side, (ROW - NAME) * 0.5 * layout.side);
+impl Layout {
+    /// The width of the title block, the height of its letters, and the room around them, pixels.
+    fn block(&self) -> (f64, f64, f64) {
+        (BLOCK * self.sheet_px.x, NAME * self.side, (ROW - NAME) * 0.5 * self.side)
+    }
+
+    /// A title as its field holds it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] for a letter that has no sign, and for a title too long for its field.
+    pub(super) fn lettered(&self, title: &str) -> Result<String> {
+        let (width, height, pad) = self.block();
         let room = (width - 2.0 * pad) / height;
         let lettered = title.to_uppercase();
         if let Some(letter) = unknown_letter(&lettered) {
@@ -41,6 +41,23 @@ impl VisibleLines {
             let problem = format!("it is too long for its field, which holds some {} letters", fits.saturating_sub(1));
             return Err(Error::value("title", title, problem));
         }
+        Ok(lettered)
+    }
+}
+
+impl VisibleLines {
+    /// Adds the title block: the lettered title, and below it scale, unit, projection and size of the paper.
+    pub(super) fn put_block(
+        &mut self,
+        layout: &Layout,
+        (angle, drawing): (ProjectionAngle, &DrawingSettings),
+        title: &str,
+        scale: Option<&str>,
+    ) {
+        let [_, high] = layout.frame();
+        let (width, height, pad) = layout.block();
+        let row = ROW * layout.side;
+        let low = high - DVec2::new(width, 2.0 * row);
         let below = low + DVec2::Y * row;
         self.put_strokes(rectangle([low, high]));
         self.put_strokes(vec![[below, below + DVec2::X * width]]);
@@ -52,7 +69,7 @@ impl VisibleLines {
         };
         let paper = paper.split('-').next().unwrap_or_default();
         let texts = [
-            (low, width, &*lettered),
+            (low, width, title),
             (below, ends[0].x - below.x, scale.unwrap_or("NOT TO SCALE")),
             (ends[0], ends[1].x - ends[0].x, &drawing.units.text()),
             (ends[2], high.x - ends[2].x, paper),
@@ -62,6 +79,5 @@ impl VisibleLines {
             self.put_strokes(strokes(text, corner + pad, height));
         }
         self.put_symbol(DVec2::new(ends[2].x - pad, below.y + 0.5 * row), height, angle);
-        Ok(())
     }
 }
