@@ -4,11 +4,11 @@
 
 use super::emptiness::reason;
 use super::{Resolved, Wanted};
-use crate::edges::SilhouetteRule;
+use crate::edges::{Class, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::lines::{
-    DrawingContent, DrawingFormat, DrawingSettings, Hidden, Length, LinePath, LineSettings, PageSize, Progress, Raster,
-    Sight, Strokes, VisibleLines, chain, raster_of_paths, strokes_of_paths,
+    DrawingContent, DrawingFormat, DrawingSettings, Hidden, Length, LinePath, LineSegment, LineSettings, PageSize,
+    Progress, Raster, Sight, Strokes, VisibleLines, chain, raster_of_paths, strokes_of_paths,
 };
 use crate::output::TextTarget;
 use crate::picture::{Note, Picture, Target};
@@ -207,6 +207,11 @@ impl Resolved {
         if fills && self.request.options.contains_key("height") {
             remarks
                 .push("--height does not set the scale, as the drawing fills its paper; --scale 1:1 does".to_owned());
+        }
+        let is_centre = |segment: &LineSegment| segment.class == Class::Centre;
+        if contents.asks_for(Class::Centre) && !lines.segments.iter().any(is_centre) {
+            remarks
+                .push("--classes centre: these models have no cylinder, cone or sphere to draw an axis of".to_owned());
         }
         let mut areas = contents.areas(sight, &lines, progress)?;
         remarks.extend(contents.remarks(scene));

@@ -5,6 +5,7 @@ use super::far_light::{FarLight, unit};
 use super::flat_colors::in_flat_colors;
 use super::surfaces::of_averaged_normals;
 use super::{Cartoon, Ink, LineWidth, Mrt, Style, Tones};
+use crate::edges::{Class, ClassSet};
 use crate::error::{Error, Result};
 use crate::lines::{
     Areas, DrawingSettings, FillGroup, Hidden, Joined, LineSettings, Progress, ProjectionAngle, Regions, Sight,
@@ -244,6 +245,11 @@ impl Contents {
         }
         self.lines.as_ref().map_or(Ok(()), |lines| lines.parts.check(&self.drawing))?;
         self.drawing.check()
+    }
+
+    /// Whether these lines are asked for by their own name.
+    pub(crate) fn asks_for(&self, class: Class) -> bool {
+        self.lines.as_ref().is_some_and(|lines| lines.classes != ClassSet::ALL && lines.classes.contains(class))
     }
 
     /// Whether strokes stand for tones.
