@@ -362,7 +362,7 @@ const MISTAKES: [(&str, &str); 118] = [
     ("render triangle.obj -o out.svg --section X:3", "invalid value 'X:3' for '--section <PLANE>': did you mean x=3?"),
     (
         "render triangle.obj -o out.svg --section w=3",
-        "invalid value 'w=3' for '--section <PLANE>': write an axis, x, y or z, and where it is cut, such as x=12, or a normal and a number, such as 1,1,0=5; see --help",
+        "invalid value 'w=3' for '--section <PLANE>': write an axis, x, y or z, and where it is cut, such as x=12, or a normal and a number, such as 1,1,0=5; for a half-section give --section twice; see --help",
     ),
     ("batch typo.jsonl -o out", "typo.jsonl: line 1: model: - is standard input, which jobs lack; name a file"),
     ("batch none.jsonl -o out", "none.jsonl: there is no such file; check the name"),

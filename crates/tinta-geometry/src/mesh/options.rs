@@ -138,8 +138,8 @@ impl LoadOptions {
                 "section",
                 "PLANE",
                 "",
-                "Cut away all beyond a plane, such as x=12 or 1,1,0=5, in the axes of the model's file, or all beyond each of several planes; cut \
-                 faces are hatched, and the part section",
+                "Cut away all beyond a plane, such as x=12 or 1,1,0=5, in the axes of the model's file; given twice, what lies \
+                 beyond both, for a half-section; cut faces are hatched, and the part section",
                 |load: &mut Self| &mut load.section,
             )
             .said("nothing is cut away")

@@ -79,6 +79,10 @@ impl Value for SectionPlanes {
 /// Spacing of a cut's hatching where none is given, as a share of the cut model's diagonal.
 const SPACING: f64 = 1.0 / 60.0;
 
+/// How a plane is written.
+const USAGE: &str = "write an axis, x, y or z, and where it is cut, such as x=12, or a normal and a number, such as 1,1,0=5; for a \
+                     half-section give --section twice";
+
 impl Value for SectionPlane {
     fn kind() -> Kind {
         Kind::Text { offered: &["x=0", "y=0", "z=0"], example: "x=0" }
@@ -92,13 +96,7 @@ impl Value for SectionPlane {
     }
 
     fn parse(text: &str) -> std::result::Result<Self, Problem> {
-        let problem = || match meant(text) {
-            Some(meant) => format!("did you mean {meant}?"),
-            None => {
-                "write an axis, x, y or z, and where it is cut, such as x=12, or a normal and a number, such as 1,1,0=5"
-                    .to_owned()
-            }
-        };
+        let problem = || meant(text).map_or_else(|| USAGE.to_owned(), |meant| format!("did you mean {meant}?"));
         let (is_of_file, text) = text.strip_prefix(Self::OF_FILE).map_or((false, text), |text| (true, text));
         let (normal, offset) = text.split_once('=').ok_or_else(problem)?;
         let axis = AXES.iter().find(|(name, _)| *name == normal.trim());
