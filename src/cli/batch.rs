@@ -182,10 +182,17 @@ struct Running {
 }
 
 impl Running {
-    /// Counts a job, records it unless its picture tells all, and reports the reason for the first few failures.
-    fn note(&mut self, job: &Job, outcome: Outcome, is_told: bool) -> Result<()> {
+    /// Counts a job, records it unless its picture tells all, and reports the reason for the first few failures. A full disk is the
+    /// run's error, not the job's: every later job would fail too. The job is not recorded; the next run does it.
+    fn note(&mut self, job: &Job, folder: &Path, outcome: Outcome, is_told: bool) -> Result<()> {
         match &outcome.error {
             None => self.done += 1,
+            Some(Failure { kind, problem }) if kind == DISK_FULL => {
+                let problem = problem.trim_end_matches(" and continue with --resume");
+                let problem = format!("{problem}; then give the same command again");
+                let of_job = Error::output(format!("{}: {}", folder.display(), job.id), problem);
+                return Err(of_job.because(&std::io::ErrorKind::StorageFull.into()));
+            }
             Some(_) => self.failed += 1,
         }
         if let Some(Failure { problem, .. }) = outcome.error.as_ref().filter(|_| self.failed <= REMARKS) {
@@ -222,13 +229,12 @@ fn carry_out(
             });
             let mut run = lock();
             let noted = ended.and_then(|(outcome, is_told)| match outcome.error.as_ref() {
-                Some(error) if error.kind == DISK_FULL => Err(full_disk(job, folder, &error.problem)),
                 // Perhaps it was another program's fault, as where memory ran out.
                 Some(error) if error.kind == CRASH => {
                     run.crashed.push(job.clone());
                     Ok(())
                 }
-                _ => run.note(job, outcome, is_told),
+                _ => run.note(job, folder, outcome, is_told),
             });
             progress.step();
             if let Err(error) = noted {
@@ -245,11 +251,8 @@ fn carry_out(
         }
         let (_, mut outcome) = WorkerProcess::start(folder, 1, cores)?.carry_out(&job);
         outcome.tries += 1;
-        if let Some(error) = outcome.error.as_ref().filter(|error| error.kind == DISK_FULL) {
-            return Err(full_disk(&job, folder, &error.problem));
-        }
         let is_told = tells_all(&job, folder, &outcome, program);
-        run.note(&job, outcome, is_told)?;
+        run.note(&job, folder, outcome, is_told)?;
     }
     run.stop.take().map_or(Ok(run), Err)
 }
@@ -270,13 +273,6 @@ fn on_threads(count: usize, work: impl Fn() + Copy + Send) {
 fn tells_all(job: &Job, folder: &Path, outcome: &Outcome, program: &Program) -> bool {
     let is_silent = outcome.error.is_none() && outcome.remarks.is_empty() && outcome.printed.is_none();
     is_silent && told(job, folder, program) == Some(true)
-}
-
-/// A full disk is the run's error, not the job's: every later job would fail too. The job is not recorded; the next run does it.
-fn full_disk(job: &Job, folder: &Path, problem: &str) -> Error {
-    let problem = problem.trim_end_matches(" and continue with --resume");
-    Error::output(format!("{}: {}", folder.display(), job.id), format!("{problem}; then give the same command again"))
-        .because(&std::io::ErrorKind::StorageFull.into())
 }
 
 /// [`Error::kind`] of [`Error::File`].

@@ -1,10 +1,11 @@
 //! Reading the models a command is given: from files, built-in, or from standard input.
 
 use super::standard_input;
+use std::path::Path;
 use std::sync::Arc;
-use tinta::mesh::{Loaded, load, read_as};
+use tinta::mesh::{Loaded, load, read_as, refuse_address};
 use tinta::request::{ModelCache, Session};
-use tinta::{Backend, LoadOptions, Mesh, Renderer, Result};
+use tinta::{Backend, Error, LoadOptions, Mesh, Renderer, Result};
 
 /// Reads a model: a file, a built-in one, or standard input.
 pub(super) fn read(model: &str, options: &LoadOptions) -> Result<Loaded> {
@@ -12,6 +13,15 @@ pub(super) fn read(model: &str, options: &LoadOptions) -> Result<Loaded> {
         standard_input::DASH => read_as(&standard_input::model()?, standard_input::NAME, options),
         path => load(path, options),
     }
+}
+
+/// Refuses a model whose file is missing; a broken one is for its reader.
+pub(super) fn refuse_missing(model: &str) -> Result<()> {
+    if model.starts_with("builtin:") || Path::new(model).exists() {
+        return Ok(());
+    }
+    refuse_address(model)?;
+    Err(Error::model(model, "there is no such file; check the name"))
 }
 
 fn say(remark: &str) {

@@ -1,10 +1,10 @@
 //! `tinta view`: models in a window.
 
+use super::models::refuse_missing;
 use super::options::{Below, Chosen, NamedLook, PresetFile, Selection};
 use super::standard_input;
 use super::{Call, Command, Verdict, given};
-use std::path::{Path, PathBuf};
-use tinta::mesh::refuse_address;
+use std::path::PathBuf;
 use tinta::preset::Named;
 use tinta::request::Request;
 use tinta::settings::{HasSettings, Setting};
@@ -90,13 +90,8 @@ pub(super) fn run(arguments: &Arguments, call: &Call<'_>) -> Result<()> {
             "the window reads its models again; save it as a file and name that",
         ));
     }
-    // The window reports a broken file; a missing file is refused before the window opens.
-    let is_missing = |model: &&String| !model.starts_with("builtin:") && !Path::new(model).exists();
-    if let Some(path) = arguments.models.iter().find(is_missing) {
-        refuse_address(path)?;
-        let problem = "there is no such file; check the name".to_owned();
-        return Err(Error::model(path.clone(), problem));
-    }
+    // The window reports a broken file.
+    arguments.models.iter().try_for_each(|model| refuse_missing(model))?;
     let below = Below {
         look: arguments.look.look,
         preset: arguments.preset.preset.as_deref(),

@@ -222,6 +222,8 @@ fn lists_and_folders_that_are_wrong_are_refused_before_any_work() {
     refuse(&[b"{\"id\":\"a\",\"x\":".as_slice(), &[b'['; 60_000]].concat(), &["line 1: this is not a job"]);
     refuse(&[0, 255, 10, 7], &["line 1: "]);
     refused_in_one_line(&["batch", "no-such.jsonl", "-o", &out], &["no-such.jsonl: there is no such file"]);
+    refused_in_one_line(&["batch", "nothing*.stl", "-o", &out], &["nothing*.stl: there is no such file"]);
+    assert!(!Path::new(&out).exists());
     for slice in ["0/8", "9/8", "x"] {
         refused_in_one_line(&["batch", "jobs.jsonl", "-o", &out, "--slice", slice], &["--slice"]);
     }

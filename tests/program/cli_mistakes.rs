@@ -27,7 +27,7 @@ const FILES: [(&str, &str); 16] = [
 ];
 
 /// Command lines and their errors.
-const MISTAKES: [(&str, &str); 118] = [
+const MISTAKES: [(&str, &str); 119] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
     ("render triangle.obj", "--output is missing; name the picture to write: -o triangle.png; see --help"),
@@ -364,6 +364,7 @@ const MISTAKES: [(&str, &str); 118] = [
         "render triangle.obj -o out.svg --section w=3",
         "invalid value 'w=3' for '--section <PLANE>': write an axis, x, y or z, and where it is cut, such as x=12, or a normal and a number, such as 1,1,0=5; for a half-section give --section twice; see --help",
     ),
+    ("batch nothing*.stl -o out", "nothing*.stl: there is no such file; check the name"),
     ("batch typo.jsonl -o out", "typo.jsonl: line 1: model: - is standard input, which jobs lack; name a file"),
     ("batch none.jsonl -o out", "none.jsonl: there is no such file; check the name"),
     ("again notes.txt", "notes.txt: this is neither PNG nor SVG, and other files carry no recipe"),

@@ -1,5 +1,6 @@
 //! A list of jobs that draw each model into its own file, with the same options.
 
+use super::super::models::refuse_missing;
 use super::super::options::{CameraFile, Chosen, NamedLook, OfRequest, PresetFile};
 use super::super::{Program, standard_input};
 use super::JobOptions;
@@ -45,6 +46,8 @@ impl Drawing {
     /// The list for models and folders of models, and the folder of its outputs.
     pub(super) fn list(&self, inputs: &[String], output: &str, program: &Program) -> Result<(List, PathBuf)> {
         let (folder, pattern) = places(output)?;
+        // A missing file fails alone; where no file is there, perhaps a pattern matches none.
+        inputs.iter().map(|input| refuse_missing(input)).reduce(Result::or).transpose()?;
         let (mut text, mut named) = (String::new(), HashMap::new());
         for model in inputs.iter().map(models).collect::<Result<Vec<_>>>()?.concat() {
             let file = pattern.replace(NAME, name(&model));

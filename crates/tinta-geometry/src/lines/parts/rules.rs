@@ -8,6 +8,7 @@ use crate::error::Result;
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::parts::style::{PartRole, PartStyle};
 use crate::mesh::Pattern;
+use crate::scene::Color;
 use crate::settings::{HasSettings, Kind, OptionValue, Options, Problem, Value};
 
 /// Rules for parts, the earlier ones below the later ones.
@@ -90,6 +91,10 @@ impl PartRule {
                 return Err(
                     format!("{pattern}: a part has no setting {name}; {}", meant_or(name, &names, &otherwise)).into()
                 );
+            }
+            if name == PartStyle::ROLE && Color::parse(value).is_ok() {
+                let problem = format!("{pattern}: say color={value} for its lines, fill={value} for its surface");
+                return Err(problem.into());
             }
             table
                 .check(name, value)
@@ -177,6 +182,7 @@ mod tests {
             ("bolt*: wobble=1", "a part has no setting wobble; choose color, fill, line-width"),
             ("bolt*: ghostt", "bolt*: ghostt: did you mean ghost?"),
             ("bolt*: color=redd", "a colour is a CSS name"),
+            ("bolt*: red", "bolt*: say color=red for its lines, fill=red for its surface"),
             ("bolt*: ghost, solid", "bolt*: as comes twice"),
             ("bolt*: classes=creases", "did you mean crease?"),
             ("bolt*: crease-angle=200", "between 0 and 180"),
