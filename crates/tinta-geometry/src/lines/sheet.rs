@@ -12,6 +12,7 @@ use crate::lines::drawing::scale::round_below;
 use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::sheet_text::{strokes, width_of};
 use crate::lines::{Label, LineSegment, LineSettings, PartStyle, Progress, VisibleLines};
+use crate::mesh::NONE;
 use crate::scene::{Scene, Size};
 use crate::settings::Value;
 use glam::{BVec3, DMat3, DVec2, DVec3};
@@ -227,7 +228,7 @@ impl VisibleLines {
 
     pub(super) fn put_strokes(&mut self, strokes: Vec<[DVec2; 2]>) {
         let look = self.looks.len() as u32 - 1;
-        let stroke = |ends| LineSegment { look, ..LineSegment::new(Class::Curve, ends, [DVec3::ZERO; 2]) };
+        let stroke = |ends| LineSegment { look, part: NONE, ..LineSegment::new(Class::Curve, ends, [DVec3::ZERO; 2]) };
         self.segments.extend(strokes.into_iter().map(stroke));
     }
 }

@@ -5,6 +5,7 @@ pub(super) mod dxf;
 pub(super) mod pdf;
 #[cfg(feature = "pdf")]
 mod pdf_font;
+mod part_groups;
 pub(super) mod raster;
 pub(super) mod strokes;
 pub(super) mod svg;

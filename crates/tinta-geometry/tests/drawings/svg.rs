@@ -5,8 +5,9 @@ use crate::support::rendered::rendered;
 use glam::DVec2;
 use resvg::{tiny_skia, usvg};
 use roxmltree::{Document, Node};
+use std::collections::BTreeSet;
 use tinta::edges::Class;
-use tinta::lines::{Hidden, Length, LineSegment, PageSize, raster, svg};
+use tinta::lines::{Hidden, Length, LineSegment, PageSize, ScenePart, raster, svg};
 use tinta::{Background, Color, DrawingSettings, VisibleLines};
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
@@ -37,7 +38,7 @@ pub fn names(text: &str) -> Vec<String> {
 pub fn data(text: &str, layer: &str) -> Vec<String> {
     let document = Document::parse(text).unwrap();
     let layer = layers(&document).into_iter().find(|node| node.attribute("id") == Some(layer)).unwrap();
-    let paths = layer.children().filter(|node| node.has_tag_name("path"));
+    let paths = layer.descendants().filter(|node| node.has_tag_name("path"));
     paths.map(|path| path.attribute("d").unwrap().to_owned()).collect()
 }
 
@@ -98,6 +99,56 @@ fn layers_are_groups_by_class_and_visibility_with_the_hidden_ones_below() {
     assert!(document.descendants().all(|node| !node.has_tag_name("image")));
     let without = svg(&drawing(), &DrawingSettings::default()).unwrap();
     assert_eq!(names(&without), ["visible-intersection", "visible-crease", "visible-silhouette"]);
+}
+
+#[test]
+fn each_of_several_parts_is_a_group_with_an_id_and_a_title_and_the_picture_stays() {
+    let mut whole = drawing();
+    (0..).zip(&mut whole.segments).for_each(|(number, segment)| segment.part = number % 3);
+    let settings = DrawingSettings { hidden: Hidden::Ghost, ..DrawingSettings::default() };
+    let of_pen = DrawingSettings { is_for_pen: true, ..settings.clone() };
+    let (plain, plain_of_pen) = (svg(&whole, &settings).unwrap(), svg(&whole, &of_pen).unwrap());
+    let parted = |parts: [[&str; 2]; 3]| {
+        let part =
+            |[model, name]: [&str; 2]| ScenePart { model: model.into(), name: name.into(), ..Default::default() };
+        VisibleLines { parts: parts.map(part).to_vec(), ..whole.clone() }
+    };
+    for alone in [[["a", ""], ["a", ""], ["a", ""]], [["a", ""], ["a", "bolt"], ["a", "section"]]] {
+        assert_eq!(svg(&parted(alone), &settings).unwrap(), plain, "one part has nothing beside it");
+    }
+    let bolts = [["a", ""], ["a", "bolt <1>"], ["a", "bolt_x0020_1"]];
+    for (parts, names) in [
+        (bolts, &["bolt <1>", "bolt_x0020_1"][..]),
+        ([["a.stl", ""], ["b.stl", ""], ["b.stl", "pin"]], &["a.stl", "b.stl", "b.stl pin"]),
+    ] {
+        let text = svg(&parted(parts), &settings).unwrap();
+        assert_eq!(svg(&parted(parts), &of_pen).unwrap(), plain_of_pen, "a pen's way is the shortest");
+        let document = Document::parse(&text).unwrap();
+        let nodes = || document.descendants();
+        let ids: Vec<&str> = nodes().filter_map(|node| node.attribute("id")).collect();
+        assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len(), "{ids:?}");
+        let is_in_name = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
+        assert!(ids.iter().all(|id| id.starts_with(char::is_alphabetic) && id.chars().all(is_in_name)), "{ids:?}");
+        let groups: Vec<Node<'_, '_>> = nodes().filter(|node| node.has_attribute("data-part")).collect();
+        assert_eq!(
+            groups.iter().filter_map(|group| group.attribute("data-part")).collect::<BTreeSet<_>>(),
+            names.iter().copied().collect()
+        );
+        for group in groups {
+            let title = group.first_element_child().unwrap();
+            assert_eq!((title.tag_name().name(), title.text()), ("title", group.attribute("data-part")));
+            let layer = group.parent_element().and_then(|layer| layer.attribute("id")).unwrap();
+            assert!(group.attribute("id").unwrap().starts_with(&format!("{layer}_")));
+        }
+        let [ours, theirs] = [&text, &plain].map(|text| rendered(text, 2.0));
+        // Two round ends in place of a round corner have another smooth edge.
+        let far: Vec<u8> =
+            ours.data().iter().zip(theirs.data()).map(|(a, b)| a.abs_diff(*b)).filter(|by| *by > 8).collect();
+        assert!(far.len() < 40 && far.iter().all(|by| *by < 64), "{far:?}");
+    }
+    // The ring is split where its part changes, and no stroke is lost or drawn twice.
+    let text = svg(&parted(bolts), &settings).unwrap();
+    assert_eq!(data(&text, "visible-silhouette"), ["M100 10L100 70", "M100 70L20 70", "M20 70L20 10 100 10"]);
 }
 
 #[test]

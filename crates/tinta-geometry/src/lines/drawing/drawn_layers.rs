@@ -39,7 +39,7 @@ const DOUBLE_CHAIN: &[f64] = &[23.0, 4.0, 0.5, 4.0, 0.5, 4.0];
 const PEN_WIDTH: f64 = 1.0 / 800.0;
 
 pub(in crate::lines) struct Drawing<'a> {
-    pub segments: &'a [LineSegment],
+    pub lines: &'a VisibleLines,
     pub settings: &'a DrawingSettings,
     pub page: Page,
     /// Non-empty layers, from the lowest to the highest.
@@ -135,7 +135,7 @@ impl<'a> Drawing<'a> {
         let mut labels = drawn_labels(&lines.labels, settings, page.units);
         let texts = areas.into_iter().flat_map(|areas| &areas.keys).flat_map(|key| &key.texts);
         labels.extend(texts.map(|text| text.drawn(height_px(page.units))));
-        Ok(Self { segments: &lines.segments, settings, page, layers, labels })
+        Ok(Self { lines, settings, page, layers, labels })
     }
 }
 

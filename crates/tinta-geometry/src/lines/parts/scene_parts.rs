@@ -13,6 +13,8 @@ use std::sync::Arc;
 /// The triangles of a model that share a part of its file and a material.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct ScenePart {
+    /// The model's name.
+    pub model: String,
     /// The part's name in the file; empty without one.
     pub name: String,
     /// The material's name in the file; empty without one.
@@ -200,5 +202,6 @@ impl SceneParts {
 fn names(mesh: &Mesh, [part, material]: [u32; 2]) -> ScenePart {
     let name = mesh.parts.get(part as usize).map(|part| part.name.clone());
     let material = mesh.materials.get(material as usize).map(|material| material.name.clone());
-    ScenePart { name: name.unwrap_or_default(), material: material.unwrap_or_default(), look: 0 }
+    let (name, material) = (name.unwrap_or_default(), material.unwrap_or_default());
+    ScenePart { model: mesh.name.clone(), name, material, look: 0 }
 }

@@ -20,6 +20,7 @@ use crate::lines::drawing::settings::DrawingSettings;
 use crate::lines::drawing::taper::outline;
 use crate::lines::drawing::text::{curve_data, decimal, hexadecimal, number, path_data};
 use crate::lines::regions::Surface;
+use crate::lines::write::part_groups::{by_part, in_id, names};
 use crate::markup::escaped;
 use crate::markup::recipe_element;
 use crate::mesh::NONE;
@@ -51,6 +52,8 @@ pub fn svg_of_paths(
     settings: &DrawingSettings,
 ) -> Result<String> {
     let drawing = Drawing::new(lines, paths, areas, settings)?;
+    // A pen goes the shortest way, whatever the parts.
+    let names = if settings.is_for_pen { Vec::new() } else { names(&lines.parts) };
     let mut out = String::new();
     begin(&drawing, &mut out);
     for as_one in areas.map_or(&[][..], |areas| &areas.fills).chunk_by(|one, next| one.opacity == next.opacity) {
@@ -63,7 +66,7 @@ pub fn svg_of_paths(
         out.push_str(if is_clear { "</g>\n" } else { "" });
     }
     for layer in &drawing.layers {
-        write_layer(&drawing, layer, &mut out);
+        write_layer(&drawing, layer, &names, &mut out);
     }
     areas.into_iter().flat_map(|areas| &areas.keys).for_each(|key| write_key(key, &mut out));
     write_labels(&drawing, &mut out);
@@ -171,16 +174,14 @@ fn write_fills(group: &FillGroup, out: &mut String) {
     );
     for fill in &group.fills {
         let color = hexadecimal(fill.color);
-        if fill.loops.is_empty() {
-            let _ = writeln!(out, r#"<path fill="none" stroke="{color}" d="{}"/>"#, data(&fill.trap, false));
-            continue;
-        }
         let Surface { tone, face, .. } = fill.surface;
-        out.push_str("<path ");
-        for (name, number) in [("tone", tone.map(u32::from)), ("face", face)] {
-            let _ = number.map_or(Ok(()), |number| write!(out, r#"data-{name}="{number}" "#));
+        if !fill.loops.is_empty() {
+            out.push_str("<path ");
+            for (name, number) in [("tone", tone.map(u32::from)), ("face", face)] {
+                let _ = number.map_or(Ok(()), |number| write!(out, r#"data-{name}="{number}" "#));
+            }
+            let _ = writeln!(out, r#"fill="{color}" d="{}"/>"#, data(&fill.loops, true));
         }
-        let _ = writeln!(out, r#"fill="{color}" d="{}"/>"#, data(&fill.loops, true));
         if !fill.trap.is_empty() {
             let _ = writeln!(out, r#"<path fill="none" stroke="{color}" d="{}"/>"#, data(&fill.trap, false));
         }
@@ -188,11 +189,17 @@ fn write_fills(group: &FillGroup, out: &mut String) {
     out.push_str("</g>\n");
 }
 
-fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, out: &mut String) {
+/// Writes a layer; in it each named part is a group with its name.
+fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, names: &[String], out: &mut String) {
     out.push_str(&layer_tag(drawn));
-    let [_, name] = drawn.layer.words();
-    for path in &drawn.paths {
-        write_path(drawing, name, path, out);
+    let [_, class] = drawn.layer.words();
+    for (part, paths) in by_part(drawing, drawn, names) {
+        if !part.is_empty() {
+            let (layer, id, name) = (drawn.id(), in_id(part), escaped(part));
+            let _ = writeln!(out, "<g id=\"{layer}_{id}\" data-part=\"{name}\">\n<title>{name}</title>");
+        }
+        paths.iter().for_each(|path| write_path(drawing, class, path, out));
+        out.push_str(if part.is_empty() { "" } else { "</g>\n" });
     }
     if !drawn.tips.is_empty() {
         let outlines = drawn.tips.iter().map(|tip| path_data(&outline(tip, drawn.width_px), true, false));
@@ -243,16 +250,10 @@ pub(super) fn path_data_of(drawing: &Drawing<'_>, path: &LinePath) -> String {
 
 /// Class, object, and for each segment of the path its mesh edge and angle, or `-`.
 fn write_provenance(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut String) {
-    let _ = write!(out, r#" data-class="{class}" data-object="{}" data-edges=""#, path.object);
-    let pieces = || path.segments.iter().map(|piece| &drawing.segments[*piece]);
-    for (index, piece) in pieces().enumerate() {
-        out.push_str(if index > 0 { " " } else { "" });
-        out.push_str(&piece.edge.map_or_else(|| "-".to_owned(), |[a, b]| format!("{a}-{b}")));
-    }
-    out.push_str(r#"" data-angles=""#);
-    for (index, piece) in pieces().enumerate() {
-        out.push_str(if index > 0 { " " } else { "" });
-        out.push_str(&piece.angle_degrees.map_or_else(|| "-".to_owned(), number));
-    }
-    out.push('"');
+    let known = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
+    let pieces = || path.segments.iter().map(|piece| &drawing.lines.segments[*piece]);
+    let edges: Vec<String> = pieces().map(|piece| known(piece.edge.map(|[a, b]| format!("{a}-{b}")))).collect();
+    let angles: Vec<String> = pieces().map(|piece| known(piece.angle_degrees.map(number))).collect();
+    let (object, edges, angles) = (path.object, edges.join(" "), angles.join(" "));
+    let _ = write!(out, r#" data-class="{class}" data-object="{object}" data-edges="{edges}" data-angles="{angles}""#);
 }
