@@ -1,6 +1,7 @@
 //! Reads models on a separate thread; the window stays responsive.
 
 use crate::error::Result;
+use crate::lines::PartRules;
 use crate::mesh::{LoadOptions, LoadStage, Mesh, load_watched};
 use crate::request::Request;
 use crate::window::threads::report::{LoadedModels, Report, Reporter, Stage};
@@ -31,12 +32,17 @@ impl Loader {
     /// # Errors
     ///
     /// When the thread cannot be started.
-    pub(in crate::window) fn start(&self, models: Vec<String>, options: LoadOptions) -> std::io::Result<()> {
+    pub(in crate::window) fn start(
+        &self,
+        models: Vec<String>,
+        options: LoadOptions,
+        rules: PartRules,
+    ) -> std::io::Result<()> {
         let number = self.last.fetch_add(1, Ordering::Relaxed) + 1;
         let reporter = self.reporter.clone();
         let work = move || {
             let stage = |stage: Stage| reporter.say(Report::Stage(number, stage));
-            match scene_of(&models, &options, &stage) {
+            match scene_of(&models, (&options, &rules), &stage) {
                 Err(error) => reporter.say(Report::NotLoaded(number, error)),
                 Ok(loaded) => reporter.say(Report::Loaded(number, Box::new(loaded))),
             }
@@ -48,8 +54,13 @@ impl Loader {
 /// Steps of reading a model.
 const STEPS_A_MODEL: usize = 4;
 
-/// Reads models, puts them together, and reports progress.
-fn scene_of(models: &[String], options: &LoadOptions, stage: &dyn Fn(Stage)) -> Result<LoadedModels> {
+/// Reads models with their parts whole or filled as rules say, puts them together, and reports progress.
+fn scene_of(
+    models: &[String],
+    (options, rules): (&LoadOptions, &PartRules),
+    stage: &dyn Fn(Stage),
+) -> Result<LoadedModels> {
+    let read = LoadOptions { uncut: rules.uncut(), ..options.clone() };
     let (mut meshes, mut remarks): (Vec<Arc<Mesh>>, Vec<String>) = Default::default();
     let mut files: Vec<PathBuf> =
         models.iter().filter(|model| !model.starts_with("builtin:")).map(PathBuf::from).collect();
@@ -57,7 +68,7 @@ fn scene_of(models: &[String], options: &LoadOptions, stage: &dyn Fn(Stage)) -> 
     for (index, model) in models.iter().enumerate() {
         let size = std::fs::metadata(model).map_or(String::new(), |file| format!(", {}", size_text(file.len())));
         let which = if models.len() > 1 { format!(" ({} of {})", index + 1, models.len()) } else { String::new() };
-        let loaded = load_watched(model, options, &|step| {
+        let loaded = load_watched(model, &read, &|step| {
             let (done, doing) = match step {
                 LoadStage::Reading => (0, "reading"),
                 LoadStage::Parsing => (1, "understanding"),
@@ -74,7 +85,7 @@ fn scene_of(models: &[String], options: &LoadOptions, stage: &dyn Fn(Stage)) -> 
     let triangles: usize = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
     let text = format!("preparing {triangles} triangles for drawing");
     stage(Stage { text, share: (steps - 1.0) / steps });
-    let scene = Request::default().placed(meshes)?;
+    let scene = Request::default().placed(meshes)?.with_fills(rules);
     scene.make_arrays();
     Ok(LoadedModels { models: models.to_vec(), options: options.clone(), files, scene: Arc::new(scene), remarks })
 }
@@ -89,6 +100,8 @@ fn size_text(bytes: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::SectionPlanes;
+    use crate::settings::Value;
     use std::cell::RefCell;
 
     #[test]
@@ -98,11 +111,26 @@ mod tests {
         std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
         let stages = RefCell::new(Vec::new());
         let models = [file, "builtin:ant".to_owned()];
-        let loaded = scene_of(&models, &LoadOptions::default(), &|stage| stages.borrow_mut().push(stage)).unwrap();
+        let as_read = (&LoadOptions::default(), &PartRules::default());
+        let loaded = scene_of(&models, as_read, &|stage| stages.borrow_mut().push(stage)).unwrap();
         assert_eq!(loaded.scene.objects.len(), 2);
         let shares: Vec<f32> = stages.borrow().iter().map(|stage| (stage.share * 9.0).round()).collect();
         // A built-in model is neither read from a disk nor understood.
         assert_eq!(shares, [0.0, 1.0, 2.0, 3.0, 6.0, 8.0]);
         assert!(stages.borrow()[1].text.contains("understanding") && stages.borrow()[1].text.contains("(1 of 2)"));
+    }
+
+    #[test]
+    fn parts_are_whole_and_filled_as_rules_say() {
+        let cut = LoadOptions { section: Some(SectionPlanes::parse("z=0").unwrap()), ..LoadOptions::default() };
+        let read = |rules: &str| {
+            let models = ["builtin:plates".to_owned()];
+            let scene = scene_of(&models, (&cut, &PartRules::parse(rules).unwrap()), &|_| ()).unwrap().scene;
+            let mesh = &scene.objects[0].mesh;
+            (mesh.extent(), mesh.materials.iter().filter(|material| material.is_fill).count())
+        };
+        let (cut, whole) = (read("none"), read("pin*: uncut; *: fill=red"));
+        assert!(whole.0.1.z > cut.0.1.z, "{cut:?} {whole:?}");
+        assert!(cut.1 == 0 && whole.1 > 0, "{cut:?} {whole:?}");
     }
 }

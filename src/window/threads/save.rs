@@ -3,7 +3,7 @@
 use crate::animation::{AnimationTarget, AnimationWriter};
 use crate::error::Result;
 use crate::gl::{Backend, ContextInfo};
-use crate::lines::{DrawingFormat, Progress, Raster, raster_of_strokes};
+use crate::lines::{DrawingFormat, PartRules, Progress, Raster, raster_of_strokes};
 use crate::mesh::LoadOptions;
 use crate::output::TextTarget;
 use crate::picture::{Picture, Target};
@@ -12,7 +12,7 @@ use crate::recipe::{Driver, FileRecord};
 use crate::renderer::Renderer;
 use crate::request::{OptionLayer, Request, Wanted};
 use crate::scene::SceneSettings;
-use crate::settings::HasSettings;
+use crate::settings::{HasSettings, Value as _};
 use crate::shell;
 use crate::styles::Below;
 use crate::window::threads::job::Job;
@@ -74,6 +74,12 @@ fn request(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Sa
         _ => style_options(state, side)?,
     };
     state.add_lines_over(side, &mut options)?;
+    // Every picture shows what rules say of surfaces.
+    let PartRules(mut rules) = state.line_style().lines.parts;
+    rules.retain(|rule| rule.style.is_of_surface());
+    if !rules.is_empty() {
+        options.entry("part".to_owned()).or_insert_with(|| OptionValue::text(PartRules(rules).text()));
+    }
     if save == Save::Turn {
         options.insert("turntable".to_owned(), OptionValue::text(TURN.0.to_string()));
     }

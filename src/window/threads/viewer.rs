@@ -420,7 +420,8 @@ impl Viewer {
     fn open(&mut self, models: Vec<String>) {
         self.loads_going_on += 1;
         self.stage = Some(Stage { text: "starting to read".to_owned(), share: 0.0 });
-        if let Err(error) = self.loader.start(models, self.state.load.clone()) {
+        let rules = self.state.line_style().lines.parts;
+        if let Err(error) = self.loader.start(models, self.state.load.clone(), rules) {
             self.loads_going_on -= 1;
             self.stage = None;
             self.problem =
