@@ -149,7 +149,7 @@ pub fn in_folder(folder: &Path) -> HashMap<String, String> {
 /// # Errors
 ///
 /// [`Error::Setting`] that names the folder.
-pub fn check_folder(folder: &str) -> Result<()> {
+pub(crate) fn check_folder(folder: &str) -> Result<()> {
     let refused = |problem: String| Err(Error::value("glsl", folder, problem));
     if !Path::new(folder).is_dir() {
         return refused("there is no such folder; check the name".to_owned());

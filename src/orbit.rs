@@ -75,7 +75,7 @@ impl Orbit {
     }
 
     /// Whether the whole scene is fitted into the picture.
-    pub fn is_fitted(&self) -> bool {
+    pub(crate) fn is_fitted(&self) -> bool {
         self.zoom == 1.0 && self.pan == [0.0; 2]
     }
 

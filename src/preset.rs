@@ -33,7 +33,7 @@ use std::path::Path;
 use toml::de::{DeArray, DeTable, DeValue};
 
 /// The longest preset read, bytes: some hundred times the size of all options.
-pub const LARGEST_BYTES: u64 = 64 << 10;
+pub(crate) const LARGEST_BYTES: u64 = 64 << 10;
 
 /// How the names of presets that ship begin.
 pub const PREFIX: &str = "paper:";

@@ -39,7 +39,7 @@ use std::path::{Path, PathBuf};
 pub const KEYWORD: &str = "tinta-recipe";
 
 /// The longest recipe written or read, bytes of JSON.
-pub const LARGEST_BYTES: usize = 256 << 10;
+pub(crate) const LARGEST_BYTES: usize = 256 << 10;
 
 /// Options that a recipe alone cannot grant, and their purposes.
 const NOT_GRANTED: [(&str, &str); 2] =

@@ -186,7 +186,7 @@ impl Renderer {
     /// # Errors
     ///
     /// [`Error::ContextLost`] where a context was lost.
-    pub fn choose_context(&mut self, scene: &Scene, plan: &Plan) -> Result<()> {
+    pub(crate) fn choose_context(&mut self, scene: &Scene, plan: &Plan) -> Result<()> {
         let surface = scene.size.times(plan.supersample);
         self.used = 0;
         self.drawer().resources.refuse_if_lost("drawing")?;

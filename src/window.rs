@@ -41,8 +41,7 @@ pub use threads::line_measure::{Darkness, DrawInk, LineMeasure, LineScore, Score
 pub use threads::report::Stage;
 pub use threads::viewer::{Viewer, ViewerOptions};
 pub use values::buffer::{Buffer, buffers};
-pub use values::compose::composed;
-pub use values::controls::SCENE_SETTINGS;
+pub(crate) use values::controls::SCENE_SETTINGS;
 pub use values::event::{Effect, Layout, Save, Side, ViewerEvent};
 pub use values::line_style::LinesShown;
 pub use values::state::{Content, Pane, ViewerState};

@@ -5,6 +5,7 @@
 //! palette for each frame would make tones flicker.
 
 use super::quantize::{Histogram, Mix, Packed, choose, distance, mix};
+use crate::picture::Picture;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
@@ -49,8 +50,8 @@ impl Palette {
         self.is_exact = true;
     }
 
-    /// Adapts the palette to these RGBA pixels; those with alpha 0 are ignored.
-    pub(super) fn fit(&mut self, pixels: &[u8]) {
+    /// Adapts the palette to a picture; pixels with alpha 0 are ignored.
+    pub(super) fn fit(&mut self, Picture { size, pixels }: &Picture) {
         let histogram = histogram(pixels);
         let room = 256 - usize::from(self.transparent);
         let new = histogram.iter().filter(|(color, _)| !self.known.contains_key(color)).count();
@@ -62,7 +63,7 @@ impl Palette {
         } else if self.is_exact || self.known.len() + new > MOST_KNOWN || !self.serves(&histogram) {
             self.clear();
             self.is_exact = false;
-            self.colors.extend(choose(&histogram, room));
+            self.colors.extend(choose(pixels, size.width as usize, &histogram, room));
             self.add_mixed(&histogram);
             self.error = self.mean_error(&histogram);
         }

@@ -1,6 +1,7 @@
-//! Chooses the 256 colours that best replace thousands: flat tones exactly, then boxes cut where colours vary most (after
-//! Heckbert's median cut, 1982), then moved to the means of their colours (Lloyd). Crates for this bring large dependencies or
-//! shift flat tones.
+//! Chooses the 256 colours that best replace thousands: flat tones exactly, the others by NeuQuant (Dekker 1994).
+
+use gif::Frame;
+use std::cmp::Reverse;
 
 /// A colour as one number, red in the high byte.
 pub(super) type Packed = u32;
@@ -25,8 +26,8 @@ const FLAT_SHARE: f64 = 1.0 / 512.0;
 /// … but no more than this share of the palette.
 const FLAT_ENTRIES: f64 = 0.5;
 
-/// Rounds that move entries to the means of their colours.
-const ROUNDS: usize = 3;
+/// NeuQuant learns from every so many-th pixel.
+const STEP: i32 = 10;
 
 fn channels(color: Packed) -> [i32; 3] {
     let [_, red, green, blue] = color.to_be_bytes();
@@ -41,95 +42,31 @@ pub(super) fn distance(a: Packed, b: Packed) -> f32 {
     sum as f32 / 3.0
 }
 
-/// Returns at most `room` colours for a picture that has more.
-pub(super) fn choose(histogram: &Histogram, room: usize) -> Vec<Packed> {
-    let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
-    let mut by_count = histogram.clone();
-    by_count.sort_unstable_by_key(|(color, count)| (std::cmp::Reverse(*count), *color));
-    let flat_room = (room as f64 * FLAT_ENTRIES) as usize;
-    let flat_count = by_count.iter().take(flat_room).take_while(|(_, n)| f64::from(*n) >= pixels * FLAT_SHARE).count();
-    let others = by_count.split_off(flat_count);
-    let flat: Vec<Packed> = by_count.iter().map(|(color, _)| *color).collect();
-    let mut colors: Vec<Packed> = flat.iter().copied().chain(cut(others.clone(), room - flat_count)).collect();
-    for _ in 0..ROUNDS {
-        move_to_means(&mut colors, flat.len(), &others);
+/// Returns at most `room` colours for a picture of RGBA pixels of this width that has more.
+pub(super) fn choose(pixels: &[u8], width: usize, histogram: &Histogram, room: usize) -> Vec<Packed> {
+    let count: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
+    let mut flat = histogram.clone();
+    flat.retain(|(_, of_color)| f64::from(*of_color) >= count * FLAT_SHARE);
+    flat.sort_unstable_by_key(|(color, of_color)| (Reverse(*of_color), *color));
+    flat.truncate((room as f64 * FLAT_ENTRIES) as usize);
+    let height = pixels.len() / 4 / width;
+    let learnt = Frame::from_rgba_speed(width as u16, height as u16, &mut pixels.to_vec(), STEP).palette;
+    let mut others: Vec<Packed> = learnt
+        .unwrap_or_default()
+        .chunks_exact(3)
+        .map(|color| u32::from_be_bytes([0, color[0], color[1], color[2]]))
+        .collect();
+    // Each flat tone takes the place of the entry that it is nearest to.
+    for (color, _) in &flat {
+        others.swap_remove(nearest(*color, &others));
     }
+    while flat.len() + others.len() > room {
+        others.pop();
+    }
+    let mut colors: Vec<Packed> = flat.into_iter().map(|(color, _)| color).chain(others).collect();
     colors.sort_unstable();
     colors.dedup();
     colors
-}
-
-/// Colours of a part of the colour space.
-struct Part {
-    colors: Histogram,
-    channel: usize,
-    mean: f64,
-    /// Weighted sum of square differences from the mean along that channel.
-    spread: f64,
-}
-
-impl Part {
-    fn new(colors: Histogram) -> Self {
-        let pixels: f64 = colors.iter().map(|(_, count)| f64::from(*count)).sum();
-        let along = |channel: usize| {
-            let sum = |power: i32| -> f64 {
-                colors.iter().map(|(c, count)| f64::from(channels(*c)[channel]).powi(power) * f64::from(*count)).sum()
-            };
-            let mean = sum(1) / pixels;
-            (channel, mean, (sum(2) - mean * mean * pixels) * f64::from(WEIGHTS[channel]))
-        };
-        let widest =
-            [1, 2].map(along).into_iter().fold(along(0), |best, next| if next.2 > best.2 { next } else { best });
-        let (channel, mean, spread) = widest;
-        Self { colors, channel, mean, spread }
-    }
-
-    fn mean_color(&self) -> Packed {
-        let pixels: f64 = self.colors.iter().map(|(_, count)| f64::from(*count)).sum();
-        let mean = |channel: usize| {
-            let sum: f64 = self.colors.iter().map(|(c, n)| f64::from(channels(*c)[channel]) * f64::from(*n)).sum();
-            (sum / pixels).round() as u8
-        };
-        u32::from_be_bytes([0, mean(0), mean(1), mean(2)])
-    }
-}
-
-/// Cuts colours into this many parts, always the part that varies most, and returns their means.
-fn cut(colors: Histogram, count: usize) -> Vec<Packed> {
-    if colors.is_empty() || count == 0 {
-        return Vec::new();
-    }
-    let mut parts = vec![Part::new(colors)];
-    while parts.len() < count {
-        let widest = (0..parts.len()).max_by(|a, b| parts[*a].spread.total_cmp(&parts[*b].spread));
-        let Some(widest) = widest.filter(|widest| parts[*widest].colors.len() > 1) else { break };
-        let part = parts.swap_remove(widest);
-        let (low, high): (Histogram, Histogram) =
-            part.colors.iter().partition(|(color, _)| f64::from(channels(*color)[part.channel]) <= part.mean);
-        if low.is_empty() || high.is_empty() {
-            // Rounding put the mean outside, so the part cannot be cut.
-            parts.push(Part { spread: 0.0, ..part });
-            break;
-        }
-        parts.push(Part::new(low));
-        parts.push(Part::new(high));
-    }
-    parts.iter().map(Part::mean_color).collect()
-}
-
-/// Moves all entries except the first, fixed ones to the mean of their nearest colours.
-fn move_to_means(colors: &mut [Packed], fixed: usize, histogram: &Histogram) {
-    let mut sums = vec![[0.0f64; 4]; colors.len()];
-    for (color, count) in histogram {
-        let sum = &mut sums[nearest(*color, colors)];
-        let count = f64::from(*count);
-        channels(*color).iter().zip(sum.iter_mut()).for_each(|(value, sum)| *sum += f64::from(*value) * count);
-        sum[3] += count;
-    }
-    for (color, [red, green, blue, count]) in colors.iter_mut().zip(sums).skip(fixed).filter(|(_, sum)| sum[3] > 0.0) {
-        let [red, green, blue] = [red, green, blue].map(|sum| (sum / count).round() as u8);
-        *color = u32::from_be_bytes([0, red, green, blue]);
-    }
 }
 
 fn nearest(color: Packed, colors: &[Packed]) -> usize {

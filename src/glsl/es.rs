@@ -59,7 +59,7 @@ impl Piece {
 type Name = (&'static str, &'static str, &'static str);
 
 /// Inputs that the fixed-function pipeline gives shaders for a whole draw.
-pub const UNIFORMS: [Name; 4] = [
+pub(crate) const UNIFORMS: [Name; 4] = [
     ("gl_ModelViewMatrix", "mat4", "tinta_ModelViewMatrix"),
     ("gl_ProjectionMatrix", "mat4", "tinta_ProjectionMatrix"),
     ("gl_ModelViewProjectionMatrix", "mat4", "tinta_ModelViewProjectionMatrix"),
@@ -67,7 +67,7 @@ pub const UNIFORMS: [Name; 4] = [
 ];
 
 /// Inputs that it gives vertex shaders for each vertex, in the order of their locations.
-pub const ATTRIBUTES: [Name; 5] = [
+pub(crate) const ATTRIBUTES: [Name; 5] = [
     ("gl_Vertex", "vec4", "tinta_Vertex"),
     ("gl_Normal", "vec3", "tinta_Normal"),
     ("gl_Color", "vec4", "tinta_Color"),

@@ -212,7 +212,7 @@ impl SceneSettings {
 }
 
 /// The default colour of models without one: a light, warm clay that shows all three tones.
-pub const DEFAULT_COLOR: Color = Color([0.93, 0.74, 0.52]);
+pub(crate) const DEFAULT_COLOR: Color = Color([0.93, 0.74, 0.52]);
 
 /// Gap between copies on the grid, as a share of the models' largest extent.
 const COPY_GAP: f64 = 0.15;

@@ -13,12 +13,12 @@ pub fn cores() -> usize {
 }
 
 /// Returns the number of threads worth starting for this many faces.
-pub fn threads_for(faces: usize) -> usize {
+pub(crate) fn threads_for(faces: usize) -> usize {
     cores().min(faces / FACES_WORTH_A_THREAD).max(1)
 }
 
 /// Returns the number of threads worth starting for this many simple items, such as points.
-pub fn threads_for_items(count: usize) -> usize {
+pub(crate) fn threads_for_items(count: usize) -> usize {
     const ITEMS_WORTH_A_THREAD: usize = 20_000;
     cores().min(count / ITEMS_WORTH_A_THREAD).max(1)
 }
@@ -81,7 +81,7 @@ fn on_threads(threads: usize, work: impl Fn() + Copy + Send) {
 }
 
 /// Does `work` for each piece of `0..count`, one thread per piece, and returns the results in order.
-pub fn in_parallel<T: Send>(count: usize, threads: usize, work: impl Fn(std::ops::Range<usize>) -> T + Sync) -> Vec<T> {
+pub(crate) fn in_parallel<T: Send>(count: usize, threads: usize, work: impl Fn(std::ops::Range<usize>) -> T + Sync) -> Vec<T> {
     let mut pieces = ranges(count, threads);
     let Some(last) = pieces.pop() else { return Vec::new() };
     let work = &work;
@@ -131,7 +131,7 @@ pub fn listed<T: Send>(
 
 /// Does `work` for pieces of `length` of `0..count` and returns the results in order. Each thread takes the next piece when it
 /// finishes one, which suits pieces of very different cost.
-pub fn in_chunks<T: Send + Sync>(
+pub(crate) fn in_chunks<T: Send + Sync>(
     count: usize,
     length: usize,
     threads: usize,
@@ -141,7 +141,7 @@ pub fn in_chunks<T: Send + Sync>(
 }
 
 /// Like [`in_chunks`], but takes pieces from all over the range, so the finished part always represents the rest.
-pub fn spread_chunks<T: Send + Sync>(
+pub(crate) fn spread_chunks<T: Send + Sync>(
     count: usize,
     length: usize,
     threads: usize,

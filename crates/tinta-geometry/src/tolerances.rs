@@ -10,7 +10,7 @@ pub const WELD: f64 = 1e-7;
 
 /// Largest distance between open edges that count as a crack, a share of the model's bounding-box diagonal: less than a tenth
 /// of a pixel of a picture a thousand wide, and far more than welding closes.
-pub const CRACK: f64 = 1e-4;
+pub(crate) const CRACK: f64 = 1e-4;
 
 /// Distance from a section's plane within which a vertex lies on it, a share of the bounding-box diagonal: a hundred thousand
 /// roundings of f64, and far less than a picture shows.
@@ -26,7 +26,7 @@ pub(crate) const SWEEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
 pub(crate) const LARGEST_COORDINATE: f64 = 1e60;
 
 /// Smallest and largest scene radius drawn, file units: fourth powers of lengths stay finite f64 numbers and above 0.
-pub const SCENE_RADIUS: std::ops::RangeInclusive<f64> = 1e-60..=2e60;
+pub(crate) const SCENE_RADIUS: std::ops::RangeInclusive<f64> = 1e-60..=2e60;
 
 /// Distance between eye and target, as a share of their coordinates, below which they count as the same point.
 pub(crate) const SAME_POINT: f64 = 1e-12;
@@ -81,7 +81,7 @@ pub const ROW_EDGE: f64 = 1e-9;
 
 /// Largest rounding error of the cosine between two equal unit normals: without it a crease angle of 0 would make creases of
 /// flat surfaces.
-pub const PARALLEL_COSINE: f64 = 8.0 * f64::EPSILON;
+pub(crate) const PARALLEL_COSINE: f64 = 8.0 * f64::EPSILON;
 
 /// Largest error that a file's six digits cause in the cosine between neighbouring faces of a twelve-sided prism. That angle is
 /// the crease angle of drawings.
@@ -89,7 +89,7 @@ pub const CREASE_DIGITS: f64 = 1e-5;
 
 /// Largest error of a coordinate with six printed digits, as a share of the model's bounding-box diagonal: corners of one
 /// polygon may lie that far from its plane, and from a straight side that they divide.
-pub const PRINTED_DIGITS: f64 = 5e-6;
+pub(crate) const PRINTED_DIGITS: f64 = 5e-6;
 
 /// Distance between a point and a face below which they touch, as a share of the shorter of the face's longest side and the
 /// line's length. A face that touches a line neither hides it nor passes through its neighbour. Models that stand on one
@@ -98,7 +98,7 @@ pub const CONTACT: f64 = 1e-5;
 
 /// Distance between a point and the image of a line, as a share of the picture's larger side, below which the point lies on the
 /// line. A line exactly behind a nearer rim is then hidden on one side only, whatever the last digit.
-pub const TIE: f64 = 2e-11;
+pub(crate) const TIE: f64 = 2e-11;
 
 /// Distance between the images of two lines, as a share of the picture's larger side, below which the lines overlap. Both are
 /// cut where one ends or where they are equally near, and only the nearer stays visible. An unnecessary cut costs a ray; a
@@ -112,7 +112,7 @@ pub const BESIDE: f64 = 1e-4;
 
 /// Distance along an intersection of faces from its end, as a share of the picture's larger side. A face that hides the
 /// intersection beyond this distance hides it up to the end. Twenty times [`TOUCH`], and at 512 x 512 a fifth of [`JOINED_PX`].
-pub const TIP: f64 = 2e-6;
+pub(crate) const TIP: f64 = 2e-6;
 
 /// Largest angle that rounding turns a line's image by, radians, and much more: lines whose directions differ more do not overlap.
 pub(crate) const TURNED: f64 = 1e-6;
@@ -155,7 +155,7 @@ pub(crate) const ACROSS: f64 = 1e-9;
 
 /// Largest distance between a drawn line and a point it leaves out, pixels: one step of an SVG's numbers, which have three
 /// decimals.
-pub const STRAIGHT_PX: f64 = 1e-3;
+pub(crate) const STRAIGHT_PX: f64 = 1e-3;
 
 /// Distance of a point beyond the picture or between the planes, as a share of its distance from the eye, above which f32
 /// matrices agree with f64: some hundred of f32's last places.
@@ -203,7 +203,7 @@ pub(crate) const BASE_MARGIN: f64 = 0.02;
 
 /// Distance between an end of a line and another line below which they touch in a drawing, pixels: some steps of an SVG's
 /// numbers.
-pub const JOINED_PX: f64 = 5e-3;
+pub(crate) const JOINED_PX: f64 = 5e-3;
 
 /// Area of a triangle, as a share of its longest side's square, below which its corners carry no information about the surface:
 /// a file's six digits can give a triangle of no area this much.

@@ -39,9 +39,9 @@ pub struct Value {
 
 impl Type {
     /// The type of no value.
-    pub const VOID: Self = Self::vector(Base::Void, 1);
+    pub(crate) const VOID: Self = Self::vector(Base::Void, 1);
     /// bool
-    pub const BOOL: Self = Self::vector(Base::Bool, 1);
+    pub(crate) const BOOL: Self = Self::vector(Base::Bool, 1);
     /// int
     pub const INT: Self = Self::vector(Base::Int, 1);
     /// float
@@ -77,7 +77,7 @@ impl Type {
     }
 
     /// Whether it is one number.
-    pub fn is_scalar(self) -> bool {
+    pub(crate) fn is_scalar(self) -> bool {
         self.count() == 1
     }
 
@@ -163,7 +163,7 @@ impl Value {
 
     /// Returns the same numbers as another base: bools become 0 or 1, floats lose their fraction as ints.
     #[must_use]
-    pub fn as_base(mut self, base: Base) -> Self {
+    pub(crate) fn as_base(mut self, base: Base) -> Self {
         self.of.base = base;
         match base {
             Base::Bool => self.map(|number| f64::from(u8::from(number != 0.0))),

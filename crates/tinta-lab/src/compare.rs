@@ -209,11 +209,11 @@ impl Agreement {
 }
 
 /// Ink of both drawings: dark grey. Colour-blind eyes can distinguish the three colours (Okabe and Ito).
-pub const BOTH_COLOR: [u8; 3] = [60, 60, 60];
+pub(crate) const BOTH_COLOR: [u8; 3] = [60, 60, 60];
 /// Ink that only the left drawing has: vermilion.
-pub const LEFT_COLOR: [u8; 3] = [213, 94, 0];
+pub(crate) const LEFT_COLOR: [u8; 3] = [213, 94, 0];
 /// Ink that only the right drawing has: blue.
-pub const RIGHT_COLOR: [u8; 3] = [0, 114, 178];
+pub(crate) const RIGHT_COLOR: [u8; 3] = [0, 114, 178];
 
 #[cfg(test)]
 mod tests {

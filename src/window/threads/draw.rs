@@ -220,7 +220,7 @@ impl Drawer {
     /// # Errors
     ///
     /// As [`Renderer::render`].
-    pub fn measure_cost(&mut self, job: &Job, measure: Option<LineMeasure>) -> Result<(Scene, Vec<Cost>)> {
+    pub(crate) fn measure_cost(&mut self, job: &Job, measure: Option<LineMeasure>) -> Result<(Scene, Vec<Cost>)> {
         let scene = job.scene()?;
         let mut costs = Vec::new();
         for (side, style, show) in &job.drawings {

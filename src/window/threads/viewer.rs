@@ -192,7 +192,7 @@ impl Viewer {
     /// # Errors
     ///
     /// The error that keeps the drawing thread from drawing at all.
-    pub fn take_reports(&mut self) -> Result<bool> {
+    pub(crate) fn take_reports(&mut self) -> Result<bool> {
         let mut is_news = false;
         while let Ok(report) = self.reports.try_recv() {
             self.take(report);

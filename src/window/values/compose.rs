@@ -9,7 +9,7 @@ use crate::window::values::state::{Content, ViewerState};
 const GAP: [u8; 4] = [128, 128, 128, 255];
 
 /// Returns the drawing area as shown; `None` until every visible side has a picture.
-pub fn composed(state: &ViewerState, picture: impl Fn(Side) -> Option<Picture>) -> Option<Picture> {
+pub(crate) fn composed(state: &ViewerState, picture: impl Fn(Side) -> Option<Picture>) -> Option<Picture> {
     let panes = state.panes();
     let parts: Vec<(u32, Picture)> = panes
         .iter()

@@ -13,7 +13,7 @@ use crate::styles::{Style, StyleName};
 use crate::window::values::line_style::LINE_SETTINGS;
 
 /// The settings of the scene that a window shows and sets: the others are the models' or the mouse's.
-pub const SCENE_SETTINGS: [&str; 8] =
+pub(crate) const SCENE_SETTINGS: [&str; 8] =
     ["view", "fov", "parallel", "framing", "background", "color", "bare-color", "surface"];
 
 /// The settings for reading models that a window offers; the others are for untrusted files.

@@ -169,7 +169,7 @@ impl ViewerState {
     }
 
     /// The style of exact lines: of a side that shows them alone, or else of those over pictures.
-    pub fn line_style(&self) -> LineStyle {
+    pub(crate) fn line_style(&self) -> LineStyle {
         let alone = self.sides().iter().find_map(|side| self.style(*side).lines());
         alone.or_else(|| self.style_of_lines().lines()).unwrap_or_default()
     }
@@ -204,7 +204,7 @@ impl ViewerState {
     }
 
     /// Sets a style's settings on both sides, for when it is chosen.
-    pub fn prepare_style(&mut self, style: &Style) {
+    pub(crate) fn prepare_style(&mut self, style: &Style) {
         for side in &mut self.styles {
             side[style.style_name() as usize] = style.clone();
         }
@@ -268,7 +268,7 @@ impl ViewerState {
     }
 
     /// Applies scene settings; of the camera the view, the projection and the target.
-    pub fn put_scene(&mut self, scene: SceneSettings) {
+    pub(crate) fn put_scene(&mut self, scene: SceneSettings) {
         let CameraSettings { view, parallel, fov_y_degrees, .. } = scene.camera;
         if view != self.orbit.view {
             self.orbit.look_from(view);

@@ -125,7 +125,7 @@ fn meant(text: &str) -> Option<String> {
 
 impl SectionPlane {
     /// How the text of a plane begins whose axes are the file's.
-    pub const OF_FILE: &str = "file:";
+    pub(crate) const OF_FILE: &str = "file:";
 
     /// The same plane in world space, into which a file's axes are turned so.
     pub(super) fn in_world(&self, turn: impl Fn(DVec3) -> DVec3) -> Self {

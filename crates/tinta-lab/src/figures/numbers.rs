@@ -118,20 +118,20 @@ pub struct BackgroundRow {
 
 impl BackgroundRow {
     /// How much more frames a second two passes without the square give than three passes, percent.
-    pub fn gain_percent(&self) -> Interval {
+    pub(crate) fn gain_percent(&self) -> Interval {
         gain_percent(&self.two_pass_without, &self.three_pass)
     }
 }
 
 impl Numbers {
     /// How much more frames a second the article's filter gives than the one it replaces, percent.
-    pub fn filter_gain_percent(&self) -> Option<Interval> {
+    pub(crate) fn filter_gain_percent(&self) -> Option<Interval> {
         let of = |filter| self.filters.iter().find(|row| row.filter == filter);
         Some(gain_percent(&of(Filter::Laplacian4)?.series, &of(Filter::Laplacian8)?.series))
     }
 
     /// How much more frames a second two passes give than three, percent, in each scene and number of tones.
-    pub fn gains_of_two(&self) -> Vec<Interval> {
+    pub(crate) fn gains_of_two(&self) -> Vec<Interval> {
         let of_two = self.frames.iter().filter(|row| row.passes == 2);
         let gain = |row: &FrameRow| {
             let three = self.curve(row.tones, 3).find(|other| other.triangles == row.triangles)?;

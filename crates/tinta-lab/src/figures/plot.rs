@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use tinta::error::{Error, Result};
 
 /// Width and height of a plot, its own units.
-pub const PLOT_SIZE: (u32, u32) = (460, 380);
+pub(crate) const PLOT_SIZE: (u32, u32) = (460, 380);
 
 const TWO_PASSES: RGBColor = RGBColor(200, 60, 30);
 const THREE_PASSES: RGBColor = RGBColor(30, 90, 170);

@@ -23,7 +23,7 @@ pub struct Series {
 
 impl Series {
     /// Frames per second, by the median.
-    pub fn frames_per_second(&self) -> f64 {
+    pub(crate) fn frames_per_second(&self) -> f64 {
         1e3 / self.median_ms
     }
 
@@ -36,7 +36,7 @@ impl Series {
 
 /// A number measured in every turn: its median and quartiles.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Interval {
+pub(crate) struct Interval {
     /// The median.
     pub middle: f64,
     /// Lower and upper quartile.

@@ -38,7 +38,7 @@ impl Variant {
     }
 
     /// The first article's passes without its clamped normals, 8-bit depth and faint borders.
-    pub fn mended_three_pass() -> Self {
+    pub(crate) fn mended_three_pass() -> Self {
         let border = Border { detection_factor: 1.0, slope_threshold: true, ..Border::default() };
         let cartoon = Cartoon { border: Some(border), map_encoding: MapEncoding::Float, ..Cartoon::default() };
         Self::new(
@@ -48,13 +48,13 @@ impl Variant {
     }
 
     /// Dachsbacher's lines with silhouettes by exact arithmetic.
-    pub fn exact_inking() -> Self {
+    pub(crate) fn exact_inking() -> Self {
         let inking = Inking { silhouette: SilhouetteRule::Exact, ..Inking::default() };
         Self::new("inking --silhouette exact", Style::Inking(inking))
     }
 
     /// Charcoal without the text's flaws.
-    pub fn mended_charcoal() -> Self {
+    pub(crate) fn mended_charcoal() -> Self {
         let charcoal = Charcoal { improve: Improvements::ALL, ..Charcoal::default() };
         Self::new("charcoal --improve all", Style::Charcoal(charcoal))
     }

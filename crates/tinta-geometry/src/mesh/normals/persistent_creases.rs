@@ -10,8 +10,10 @@ use super::curved::{Edge, Faces, curved};
 use super::incidence::Incidence;
 use super::patches::{Neighbours, gathered};
 use crate::disjoint_sets::DisjointSets;
+use crate::mesh::bounds;
 use crate::threads::{filled, in_parallel, threads_for};
 use glam::DVec3;
+use std::collections::HashMap;
 
 /// How far a chain must reach to last, in shares of the diagonal of the model's box: farther than single edges of the scans and low
 /// models looked at, less far than the edges of their shortest chamfers.
@@ -110,8 +112,7 @@ impl PersistentCreases {
             own_areas.iter().zip(&several).map(|(area, several)| if *several { *area } else { 0.0 }).sum();
         let is_figure = in_flat < MOST_FLAT * own_areas.iter().sum::<f64>();
         let cos_smooth = if is_figure { cos_smooth.min(COS_OF_FIGURES) } else { cos_smooth };
-        let mut whole = Span::NONE;
-        positions.iter().for_each(|position| whole.take(*position));
+        let diagonal = diagonal_of(positions);
         let faces = Faces { positions, triangles, normals: given, areas: &own_areas };
         let mut flat_counts = vec![0; triangles.len()];
         flat.iter().for_each(|face| flat_counts[*face as usize] += 1);
@@ -135,15 +136,16 @@ impl PersistentCreases {
             let is_end = edge.ends.iter().any(|end| counts[*end as usize] == 1);
             may_be_chance[chains.root(edge.ends[0]) as usize] |= is_end || cosine(edge) > COS_OF_PARTS;
         }
-        let mut boxes = vec![Span::NONE; positions.len()];
+        let mut of_chains: HashMap<u32, Vec<DVec3>> = HashMap::new();
         for edge in &sharp {
-            let chain = chains.root(edge.ends[0]) as usize;
-            edge.ends.iter().for_each(|end| boxes[chain].take(positions[*end as usize]));
+            let of_chain = of_chains.entry(chains.root(edge.ends[0])).or_default();
+            of_chain.extend(edge.ends.map(|end| positions[end as usize]));
         }
+        let reaches: HashMap<u32, f64> = of_chains.iter().map(|(chain, ends)| (*chain, diagonal_of(ends))).collect();
         let (mut vertices, mut borders) = (vec![false; positions.len()], vec![false; positions.len()]);
         for edge in &sharp {
-            let chain = chains.root(edge.ends[0]) as usize;
-            let lasts = !may_be_chance[chain] || boxes[chain].diagonal() >= LEAST_REACH * whole.diagonal();
+            let chain = chains.root(edge.ends[0]);
+            let lasts = !may_be_chance[chain as usize] || reaches[&chain] >= LEAST_REACH * diagonal;
             let is_border = is_border(edge);
             for end in edge.ends {
                 vertices[end as usize] = lasts;
@@ -152,25 +154,12 @@ impl PersistentCreases {
         }
         let is_curved =
             if is_figure { vec![true; triangles.len()] } else { curved(&faces, &found, incidence, cos_smooth) };
-        Self { vertices, borders, areas, own_areas, is_curved, diagonal: whole.diagonal(), cos_smooth }
+        Self { vertices, borders, areas, own_areas, is_curved, diagonal, cos_smooth }
     }
 }
 
-/// A box around points.
-#[derive(Clone, Copy)]
-struct Span {
-    low: DVec3,
-    high: DVec3,
-}
-
-impl Span {
-    const NONE: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
-
-    fn take(&mut self, point: DVec3) {
-        (self.low, self.high) = (self.low.min(point), self.high.max(point));
-    }
-
-    fn diagonal(&self) -> f64 {
-        (self.high - self.low).length()
-    }
+/// The diagonal of the box around points.
+fn diagonal_of(points: &[DVec3]) -> f64 {
+    let (low, high) = bounds(points);
+    (high - low).length()
 }

@@ -101,7 +101,7 @@ pub struct Drawing {
 
 impl Drawing {
     /// Whether its size follows from a backend's limit.
-    pub fn is_of_largest(&self) -> bool {
+    pub(crate) fn is_of_largest(&self) -> bool {
         self.size.width.max(self.size.height) >= LARGEST
     }
 }
