@@ -6,8 +6,7 @@
 
 use super::quantize::{Histogram, Mix, Packed, choose, distance, mix};
 use crate::picture::Picture;
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
+use rustc_hash::FxHashMap;
 
 /// The index of the transparent colour in pictures with holes. It is the first, so added colours do not move it.
 pub(super) const TRANSPARENT: u8 = 0;
@@ -17,7 +16,7 @@ pub(super) struct Palette {
     /// The table, including the transparent entry.
     colors: Vec<Packed>,
     /// All colours found while this table was in use.
-    known: HashMap<Packed, Mix, BuildHasherDefault<ColorHasher>>,
+    known: FxHashMap<Packed, Mix>,
     is_exact: bool,
     /// Mean square error of the picture that the table was made for.
     error: f64,
@@ -37,7 +36,7 @@ const MOST_KNOWN: usize = 1 << 20;
 
 impl Palette {
     pub(super) fn new(transparent: bool) -> Self {
-        let mut palette = Self { transparent, colors: vec![], known: HashMap::default(), is_exact: true, error: 0.0 };
+        let mut palette = Self { transparent, colors: vec![], known: FxHashMap::default(), is_exact: true, error: 0.0 };
         palette.clear();
         palette
     }
@@ -136,7 +135,7 @@ fn packed(pixel: &[u8]) -> Packed {
 
 /// Returns the colours in order, with the number of pixels of each.
 fn histogram(pixels: &[u8]) -> Histogram {
-    let mut counts: HashMap<Packed, u32, BuildHasherDefault<ColorHasher>> = HashMap::default();
+    let mut counts: FxHashMap<Packed, u32> = FxHashMap::default();
     let (mut color, mut run) = (0, 0);
     for pixel in pixels.chunks_exact(4).filter(|pixel| pixel[3] > 0) {
         let next = packed(pixel);
@@ -158,23 +157,4 @@ fn histogram(pixels: &[u8]) -> Histogram {
 /// Bayer's ordered pattern of 8 x 8 pixels: each number from 0 to 63 once.
 fn threshold(x: u32, y: u32) -> u8 {
     (0..3).fold(0, |sum, bit| (sum << 2) | ((((x ^ y) >> bit & 1) << 1 | (y >> bit & 1)) as u8))
-}
-
-/// Hashes colours. The standard hash resists attacks but would take longer than the rest of the encoder.
-#[derive(Default)]
-struct ColorHasher(u64);
-
-impl Hasher for ColorHasher {
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|byte| self.write_u32(u32::from(*byte)));
-    }
-
-    fn write_u32(&mut self, number: u32) {
-        let mixed = (self.0 ^ u64::from(number)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        self.0 = mixed ^ (mixed >> 32);
-    }
-
-    fn finish(&self) -> u64 {
-        self.0
-    }
 }

@@ -48,3 +48,35 @@ pub use driver::{attempts, witnesses};
 pub use info::{ContextInfo, is_software};
 #[cfg(any(target_os = "macos", test))]
 pub(in crate::gl) use surface_framebuffer::SurfaceFramebuffer;
+
+use super::Gl;
+use crate::error::Error;
+use crate::scene::Size;
+use std::rc::Rc;
+
+impl Context {
+    /// Whether surfaces of this size are within its limits.
+    pub(crate) fn draws(&self, surface: Size) -> bool {
+        let limit = self.info().largest_picture;
+        surface.width <= limit.width && surface.height <= limit.height
+    }
+
+    pub(crate) fn info(&self) -> &ContextInfo {
+        &self.gl.info
+    }
+
+    pub(crate) fn gl(&self) -> &Rc<Gl> {
+        &self.gl
+    }
+
+    /// The error for a surface of this size, where the largest is another.
+    fn too_large(&self, size: Size, limit: Size) -> Error {
+        Error::PictureTooLarge {
+            width: size.width,
+            height: size.height,
+            limit_width: limit.width,
+            limit_height: limit.height,
+            renderer: self.info().renderer.clone(),
+        }
+    }
+}

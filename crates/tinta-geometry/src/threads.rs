@@ -81,7 +81,11 @@ fn on_threads(threads: usize, work: impl Fn() + Copy + Send) {
 }
 
 /// Does `work` for each piece of `0..count`, one thread per piece, and returns the results in order.
-pub(crate) fn in_parallel<T: Send>(count: usize, threads: usize, work: impl Fn(std::ops::Range<usize>) -> T + Sync) -> Vec<T> {
+pub(crate) fn in_parallel<T: Send>(
+    count: usize,
+    threads: usize,
+    work: impl Fn(std::ops::Range<usize>) -> T + Sync,
+) -> Vec<T> {
     let mut pieces = ranges(count, threads);
     let Some(last) = pieces.pop() else { return Vec::new() };
     let work = &work;

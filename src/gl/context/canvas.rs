@@ -19,7 +19,7 @@ const UNMASKED_RENDERER: u32 = 0x9246;
 /// A canvas and its context.
 pub(crate) struct Context {
     canvas: HtmlCanvasElement,
-    gl: Rc<Gl>,
+    pub(super) gl: Rc<Gl>,
 }
 
 /// A canvas's context is always current.
@@ -74,32 +74,10 @@ impl Context {
         Ok(Self { canvas, gl: Rc::new(gl) })
     }
 
-    /// Whether surfaces of this size are within its limits.
-    pub(crate) fn draws(&self, surface: Size) -> bool {
-        let limit = self.info().largest_picture;
-        surface.width <= limit.width && surface.height <= limit.height
-    }
-
-    pub(crate) fn info(&self) -> &ContextInfo {
-        &self.gl.info
-    }
-
-    pub(crate) fn gl(&self) -> &Rc<Gl> {
-        &self.gl
-    }
-
     /// Resizes the canvas; an error if the size exceeds the context's limits.
     pub(crate) fn resize(&mut self, size: Size) -> Result<()> {
-        let limit = self.info().largest_picture;
-        let too_large = |limit: Size| Error::PictureTooLarge {
-            width: size.width,
-            height: size.height,
-            limit_width: limit.width,
-            limit_height: limit.height,
-            renderer: self.info().renderer.clone(),
-        };
         if !self.draws(size) {
-            return Err(too_large(limit));
+            return Err(self.too_large(size, self.info().largest_picture));
         }
         self.canvas.set_width(size.width);
         self.canvas.set_height(size.height);
@@ -107,7 +85,7 @@ impl Context {
         let [width, height] = self.gl.legacy.surface();
         match (width, height) == (size.width, size.height) || self.gl.legacy.is_lost() {
             true => Ok(()),
-            false => Err(too_large(Size { width, height })),
+            false => Err(self.too_large(size, Size { width, height })),
         }
     }
 

@@ -13,7 +13,7 @@ use super::platform::{NotCurrent, Platform};
 use super::surfaceless;
 #[cfg(windows)]
 use super::wgl;
-use super::{Attempt, Backend, ContextInfo, Outcome, osmesa};
+use super::{Attempt, Backend, Outcome, osmesa};
 use crate::error::{Error, Result};
 use crate::scene::Size;
 use std::mem::ManuallyDrop;
@@ -28,7 +28,7 @@ const NO_VERSION: (u8, u8) = (9, 9);
 /// A context with its loaded functions; current on this thread only from [`Context::enter`] until its guard is dropped.
 pub(crate) struct Context {
     platform: ManuallyDrop<Box<dyn Platform>>,
-    gl: Rc<Gl>,
+    pub(super) gl: Rc<Gl>,
     faults: Option<Rc<Faults>>,
     /// Shared with the contexts of the same screen; `None` for those of hardware, which can all work at once.
     lock: Option<&'static ContextLock>,
@@ -183,12 +183,6 @@ impl Context {
         largest
     }
 
-    /// Whether surfaces of this size are within its limits.
-    pub(crate) fn draws(&self, surface: Size) -> bool {
-        let limit = self.info().largest_picture;
-        surface.width <= limit.width && surface.height <= limit.height
-    }
-
     pub(super) fn load(
         platform: Box<dyn Platform>,
         backend: &'static str,
@@ -211,25 +205,10 @@ impl Context {
         self.lock.map(ContextLock::lock)
     }
 
-    pub(crate) fn info(&self) -> &ContextInfo {
-        &self.gl.info
-    }
-
-    pub(crate) fn gl(&self) -> &Rc<Gl> {
-        &self.gl
-    }
-
     /// Resizes the surface; an error if the size exceeds the context's limits.
     pub(crate) fn resize(&mut self, size: Size) -> Result<()> {
-        let limit = self.info().largest_picture;
         if !self.draws(size) {
-            return Err(Error::PictureTooLarge {
-                width: size.width,
-                height: size.height,
-                limit_width: limit.width,
-                limit_height: limit.height,
-                renderer: self.info().renderer.clone(),
-            });
+            return Err(self.too_large(size, self.info().largest_picture));
         }
         let failed = |reason: String| Error::gl(format!("making a surface of {size} pixels"), reason);
         let guard = self.lock_context();

@@ -11,6 +11,7 @@ use std::sync::{Arc, OnceLock};
 
 /// A scene with the faces that its camera sees, what speeds up the search among them, and their intersections. Each is made when it is
 /// first asked for.
+#[expect(missing_debug_implementations, reason = "nobody prints a hierarchy")]
 pub struct Sight<'a> {
     /// The scene.
     pub scene: &'a Scene,
@@ -68,11 +69,5 @@ impl<'a> Sight<'a> {
             true => self.intersections.get_or_init(|| Arc::new(found())).clone(),
             false => Arc::new(found()),
         }
-    }
-}
-
-impl std::fmt::Debug for Sight<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Sight").field("scene", self.scene).finish_non_exhaustive()
     }
 }
