@@ -125,11 +125,8 @@ fn below_strokes(Color(color): Color) -> Color {
 }
 
 /// Finds something of a scene in flat colours, by the sight of the scene that it was made from where it is the same.
-fn in_sight<T>(flat: &Cow<'_, Scene>, sight: &Sight<'_>, find: impl FnOnce(&Sight<'_>) -> Result<T>) -> Result<T> {
-    match flat {
-        Cow::Borrowed(_) => find(sight),
-        Cow::Owned(flat) => find(&Sight::of(flat)),
-    }
+fn in_sight<T>(flat: &Scene, sight: &Sight<'_>, find: impl FnOnce(&Sight<'_>) -> Result<T>) -> Result<T> {
+    if std::ptr::eq(flat, sight.scene) { find(sight) } else { find(&Sight::of(flat)) }
 }
 
 /// The least luminance of an area with strokes on it.
