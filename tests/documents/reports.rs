@@ -25,3 +25,11 @@ fn every_report_names_a_test_that_is_there() {
         assert!(is_there, "{file} has no test {function}");
     }
 }
+
+#[test]
+fn the_claims_are_a_record_with_its_date_and_no_command() {
+    let page = std::fs::read_to_string(root().join("docs/texts/claims.md")).unwrap();
+    assert!(page.contains("measured on 2026-11-26"));
+    let commands: Vec<&str> = page.lines().filter(|line| line.starts_with("    ")).collect();
+    assert!(commands.is_empty(), "the code that ran them is gone: {commands:?}");
+}
