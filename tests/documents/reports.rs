@@ -27,6 +27,23 @@ fn every_report_names_a_test_that_is_there() {
 }
 
 #[test]
+fn the_league_begins_with_figures_of_its_rows() {
+    let page = std::fs::read_to_string(root().join("docs/results/league.md")).unwrap();
+    let start = page.split("\n## ").next().unwrap();
+    for program in ["(tinta lines, nothing left out: the reference)", "Blender Line Art", "tinta lines"] {
+        let row = page.lines().find_map(|line| line.strip_prefix(&format!("| {program} |"))).expect(program);
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let (f1, seconds) = (cells[1], format!("{} s", cells[7]));
+        assert!(start.contains(f1) && start.contains(&seconds), "{program}: {f1} in {seconds}");
+    }
+    // 26 views of 2,000 points each, of each model in the table of the truth.
+    let truth = page.split("<!-- truth: begin -->").nth(1).unwrap();
+    let models = truth.lines().filter(|line| line.starts_with("| ") && line.contains('%')).count() - 1;
+    let points = format!("{},000", models * 26 * 2);
+    assert!(start.contains(&points), "{points} points");
+}
+
+#[test]
 fn the_claims_are_a_record_with_its_date_and_no_command() {
     let page = std::fs::read_to_string(root().join("docs/texts/claims.md")).unwrap();
     assert!(page.contains("measured on 2026-11-26"));
