@@ -68,7 +68,7 @@ fn one_model(settings: &Settings, model: &str, folder: &Path) -> Value {
         }
     };
     println!("\n{model}: {} triangles, 512x512", mesh.triangles.len());
-    let names = ["tinta, lines", "tinta, process to SVG", "Freestyle, lines", "Freestyle, process to PNG"];
+    let names = ["tinta, lines", "tinta, process to SVG of lines", "Freestyle, lines", "Freestyle, process to PNG"];
     let mut series = names.map(Series::new);
     let mut stages: Vec<[f64; 3]> = Vec::new();
     let svg = folder.join("lines.svg");
@@ -77,7 +77,7 @@ fn one_model(settings: &Settings, model: &str, folder: &Path) -> Value {
         series[0].times.push(milliseconds);
         stages.push([times.topology_ms, times.silhouette_ms, times.visibility_ms]);
         let mut tinta = Command::new(env!("CARGO_BIN_EXE_tinta"));
-        series[1].times.push(process_ms(tinta.args(["render", model, "-o"]).arg(&svg)).0);
+        series[1].times.push(process_ms(tinta.args(["render", model, "--style", "lines", "-o"]).arg(&svg)).0);
         if let Some(python) = &settings.blender_python {
             let mut command = Command::new(python);
             command.arg(peer("blender_freestyle.py")).args([model, "512", "512"]);
@@ -138,7 +138,8 @@ fn peer(name: &str) -> PathBuf {
 /// The process's peak memory, by GNU time.
 fn peak_memory_kib(model: &str, svg: &Path) -> Option<f64> {
     let mut command = Command::new("/usr/bin/time");
-    command.args(["-f", "%M", env!("CARGO_BIN_EXE_tinta"), "render", model, "-o"]).arg(svg);
+    command.args(["-f", "%M", env!("CARGO_BIN_EXE_tinta"), "render", model, "--style", "lines", "-o"]);
+    command.arg(svg);
     let output = command.output().ok()?;
     String::from_utf8_lossy(&output.stderr).lines().last()?.trim().parse().ok()
 }

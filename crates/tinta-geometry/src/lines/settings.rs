@@ -13,7 +13,7 @@ pub struct LineSettings {
     /// Classes of lines. Default: all except form lines, which belong to a smooth surface, and texture and normal
     /// seams, which belong to the model's data.
     pub classes: ClassSet,
-    /// Angle between two faces above which their edge is a crease. Default 30 degrees; a larger angle finds fewer
+    /// Angle between two faces from which their edge is a crease. Default 30 degrees; a larger angle finds fewer
     /// lines.
     pub crease_angle: CreaseAngle,
     /// Whether to draw only lasting creases: closed ones and long ones that stand out from the edges around them, and those at the
