@@ -7,6 +7,7 @@ use crate::settings::{Kind, Problem, Value};
 use std::str::FromStr;
 
 /// A share of the picture's height. Default 1/256, 2 pixels of 512: half the width of the published borders, and their shift of one.
+/// At least a pixel: half of a pen of two, which cannot be judged finer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineTolerance(f64);
 
@@ -16,7 +17,7 @@ impl LineTolerance {
 
     /// Returns the same in pixels of a picture.
     pub fn px(self, size: Size) -> f64 {
-        self.0 * f64::from(size.height)
+        (self.0 * f64::from(size.height)).max(1.0)
     }
 }
 
@@ -71,6 +72,7 @@ mod tests {
             assert_eq!(LineTolerance::parse(&tolerance.text()).ok(), Some(tolerance), "{text}");
         }
         assert_eq!(LineTolerance::default().text(), "1/256");
+        assert_eq!(LineTolerance::default().px(Size { width: 128, height: 128 }), 1.0, "half a pen of two pixels");
         for wrong in ["0", "-1/256", "2", "1/0", "1/", "nan", "inf", "0/0", "1/31", "2 px", ""] {
             assert!(LineTolerance::parse(wrong).is_err(), "{wrong}");
         }

@@ -1,6 +1,6 @@
 //! `tinta measure` as a user meets it.
 
-use crate::program::{done, refused_in_one_line, tinta};
+use crate::program::{answer, done, refused_in_one_line, tinta};
 use crate::support::Folder;
 use tinta_lab::measure::Row;
 
@@ -43,7 +43,7 @@ fn a_run_leaves_rows_a_table_plots_and_a_page() {
     let style = |name: &str| rows.iter().find(|row| row.style == name && row.is_faithful).unwrap();
     for row in &rows {
         assert_eq!((row.size, row.time.frames_ms.len()), ([64, 64], 2));
-        assert!(row.time.median_ms > 0.0 && row.time.passes.is_empty() == (row.style == "print"));
+        assert!(row.time.median_ms > 0.0 && row.time.passes.is_empty() == ["print", "lines"].contains(&&*row.style));
         assert_eq!(row.time.processor_ms.len(), 2);
         // Each row can be quoted.
         assert!(row.conditions.date.len() == 10 && !row.gl_version.is_empty(), "{:?}", row.conditions);
@@ -51,6 +51,8 @@ fn a_run_leaves_rows_a_table_plots_and_a_page() {
     let own: Vec<&str> = rows.iter().filter(|row| row.has_own_reference).map(|row| row.style.as_str()).collect();
     assert!(own.contains(&"print") && own.contains(&"inking") && !own.contains(&"ink"), "{own:?}");
     let print = rows.iter().find(|row| row.style == "print").unwrap();
+    let ceiling = rows.iter().find(|row| row.style == "lines").unwrap();
+    assert_eq!(ceiling.options, "--style lines --crease-angle 66.42182 --min-length 0");
     assert!(print.is_pruned && print.lines.as_ref().unwrap().f1 > 0.98, "{:?}", print.lines);
     assert!(style("phong").lines.is_none() && style("charcoal").lines.is_none());
     assert!(style("three-pass").tones.is_some() && style("inking").tones.is_none());
@@ -58,6 +60,31 @@ fn a_run_leaves_rows_a_table_plots_and_a_page() {
     let exact = rows.iter().find(|row| row.options == "--style inking --silhouette exact").unwrap();
     assert!(exact.lines.as_ref().unwrap().f1 > 0.95);
     assert!(std::path::Path::new(&format!("{out}/errors/builtin-open-box-64x64-three-pass.png")).is_file());
+}
+
+#[test]
+fn a_style_has_one_f1_in_measure_and_judge_and_the_exact_lines_are_the_ceiling_of_every_size() {
+    let folder = Folder::new();
+    let out = folder.path("sizes");
+    let measure = ["measure", "builtin:open-box", "-o", &out, "--quick", "--frames", "1", "--size", "64,128"];
+    done(&[&measure[..], &["--styles", "three-pass,inking"]].concat());
+    let f1 = |row: &Row| row.lines.as_ref().unwrap().f1;
+    for side in [64, 128] {
+        let rows: Vec<Row> = rows(&out).into_iter().filter(|row| row.size == [side; 2]).collect();
+        let ceiling = rows.iter().find(|row| row.style == "lines").unwrap();
+        assert!(f1(ceiling) > 0.9, "{side}: {}", f1(ceiling));
+        for row in rows.iter().filter(|row| row.is_faithful) {
+            let path = folder.path("drawing.png");
+            let (style, size) = (format!("--style={}", row.style), side.to_string());
+            done(&["render", "builtin:open-box", "-o", &path, &style, "--show", "borders", "--size", &size]);
+            let judged = answer(&["judge", &path, "--model", "builtin:open-box", "--json"]);
+            let judged = judged["lines"]["f1"].as_f64().unwrap();
+            assert!((judged - f1(row)).abs() < 1e-9, "{} at {side}: {judged} and {}", row.style, f1(row));
+            assert!(f1(row) <= f1(ceiling) + 0.01, "{} at {side}: {}, exact {}", row.style, f1(row), f1(ceiling));
+        }
+    }
+    let plot = std::fs::read_to_string(format!("{out}/plot-lines.svg")).unwrap();
+    assert!(plot.contains("ceiling: the exact lines themselves"));
 }
 
 #[test]

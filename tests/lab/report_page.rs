@@ -51,7 +51,7 @@ const CHECK: &str = r##"
       }).map((word) => word[0]);
     }),
     rows: shown("#rows tbody tr").length, plots: shown(".plot svg").length,
-    headers: shown("#rows th").length, time: sorted("Time, ms"), model: sorted("Model"), f1: sorted("Lines F1"),
+    headers: shown("#rows th").length, time: sorted("Clock, ms"), model: sorted("Model"), f1: sorted("Lines F1"),
   };
   choose("choose-model", "fandisk.obj");
   choose("choose-style", "inking");

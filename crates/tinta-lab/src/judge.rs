@@ -47,7 +47,6 @@ use serde::{Deserialize, Serialize};
 use tinta::error::{Error, Result};
 use tinta::lines::LineSegment;
 use tinta::pixel::LineTolerance;
-use tinta::scene::Size;
 
 /// How a drawing is judged.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -56,13 +55,6 @@ pub struct JudgeSettings {
     pub tolerance: LineTolerance,
     /// Whether to try a small shift, another scale and a mirror image first. Default no.
     pub fits: bool,
-}
-
-impl JudgeSettings {
-    /// The tolerance in pixels of a drawing: at least one, because a small drawing of others is no finer.
-    pub(crate) fn tolerance_px(&self, size: Size) -> f64 {
-        self.tolerance.px(size).max(1.0)
-    }
 }
 
 /// How well a drawing's lines are those of its scene.
@@ -128,7 +120,7 @@ const NEAR_PX: f64 = 2.0;
 ///
 /// [`Error::Setting`] for ink of another size than the reference.
 pub fn judge(ink: &Ink, reference: &Reference, settings: &JudgeSettings) -> Result<Judgement> {
-    let tolerance_px = settings.tolerance_px(reference.size);
+    let tolerance_px = settings.tolerance.px(reference.size);
     if ink.size != reference.size {
         let problem =
             format!("the drawing has {} px and the scene {} px; give the drawing's", ink.size, reference.size);

@@ -28,6 +28,7 @@ mod svg_canvas;
 pub use columns::{Column, columns};
 pub use convergence::{Curve, curves};
 pub use frame::Shape;
+pub(crate) use html::counted;
 pub use html::html;
 pub use info::{ReportInfo, ReportPicture};
 pub use log::{RowLog, read_rows, rows_of_bytes};

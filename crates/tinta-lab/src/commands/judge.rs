@@ -1,9 +1,8 @@
 //! `tinta judge`: any program's drawing of a model against the model's exact lines.
 
-use super::measure::errors::{error_page, known_picture};
+use super::measure::results::Results;
 use crate::judge::{Entry, InkColor, JudgeSettings, Judgement, OneToOne, drawing, judge};
-use crate::measure::{INK_FROM, Ink, MeasureSettings, Reference, Row, error_picture};
-use crate::report::{ReportInfo, ReportPicture, RowLog};
+use crate::measure::{INK_FROM, Ink, MeasureSettings, Reference, error_picture};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -108,9 +107,6 @@ struct Record<'a> {
     judgement: &'a Judgement,
 }
 
-/// Files that are written into the folder, pictures of plots and errors aside.
-const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
-
 /// Judges the drawings; exit code 1 if one looks like something other than lines of this view.
 pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -> Result<Verdict> {
     let mut verdict = Verdict::Good;
@@ -125,7 +121,7 @@ pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -
     let below = Below { camera, ..Below::default() };
     let (request, _) = arguments.subject.request(std::slice::from_ref(&arguments.model), &below)?;
     let meshes = load_meshes(&request.models, &request.read)?;
-    let mut folder = Folder::open(arguments, &request, &names)?;
+    let mut results = results(arguments, &request, &names)?;
     let mut subject: Option<Subject> = None;
     for (index, (name, picture)) in names.iter().zip(&drawings).enumerate() {
         if subject.as_ref().is_none_or(|subject| subject.scene.size != picture.size) {
@@ -153,7 +149,7 @@ pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -
             }
             verdict = Verdict::Different;
         }
-        if let Some(folder) = &mut folder {
+        if let Some(results) = &mut results {
             let entry = Entry {
                 name: name.clone(),
                 model: arguments.model.clone(),
@@ -161,57 +157,26 @@ pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -
                 seconds: arguments.seconds.get(index).copied().unwrap_or_default(),
             };
             let errors = match &judgement.fit {
-                Some(fit) => error_picture(&ink, &reference.moved(|px| fit.apply(px)), settings.tolerance_px(ink.size)),
-                None => error_picture(&ink, reference, settings.tolerance_px(ink.size)),
+                Some(fit) => error_picture(&ink, &reference.moved(|px| fit.apply(px)), settings.tolerance.px(ink.size)),
+                None => error_picture(&ink, reference, settings.tolerance.px(ink.size)),
             };
-            folder.add(entry.row(scene, &judgement), [picture, &errors])?;
+            results.add(entry.row(scene, &judgement), [picture, &errors])?;
         }
     }
-    if let Some(folder) = folder {
-        folder.report(command)?;
+    if let Some(results) = results {
+        tinta::cli::say(&format!("tinta: {}", results.report(command)?));
     }
     Ok(verdict)
 }
 
-/// The folder of a report, which keeps what was judged before.
-struct Folder<'a> {
-    path: &'a Path,
-    log: RowLog,
-    rows: Vec<Row>,
-    pictures: Vec<ReportPicture>,
-}
-
-impl<'a> Folder<'a> {
-    /// Opens the folder that the arguments name, if they name one; drawings of these names replace those of before.
-    fn open(arguments: &'a Arguments, request: &Request, names: &[String]) -> Result<Option<Self>> {
-        let Some(path) = arguments.output.as_deref() else { return Ok(None) };
-        let files: Vec<&str> = arguments.camera.camera.as_deref().and_then(Path::to_str).into_iter().collect();
-        Inputs::new(&request.models, &request.options, &files).keep_in(path, WRITTEN)?;
-        tinta::cli::make_folder(path)?;
-        let (log, rows) = RowLog::resume(path)?;
-        let stays = |row: &&Row| !names.contains(&row.style) || row.model != arguments.model;
-        let pictures = rows.iter().filter(stays).filter_map(|row| known_picture(path, row)).collect();
-        Ok(Some(Self { path, log, rows, pictures }))
-    }
-
-    fn add(&mut self, row: Row, pictures: [&Picture; 2]) -> Result<()> {
-        self.log.append(&row)?;
-        self.pictures.push(error_page(self.path, &row, pictures)?);
-        self.rows.push(row);
-        Ok(())
-    }
-
-    fn report(self, command: &str) -> Result<()> {
-        let info = ReportInfo {
-            command: command.to_owned(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            notes: Vec::new(),
-            pictures: self.pictures,
-        };
-        crate::report::write(self.path, &self.rows, &info)?;
-        tinta::cli::say(&format!("tinta: {}", self.path.join("report.html").display()));
-        Ok(())
-    }
+/// The report's folder that the arguments name, if they name one; drawings of these names replace those of before.
+fn results<'a>(arguments: &'a Arguments, request: &Request, names: &[String]) -> Result<Option<Results<'a>>> {
+    let Some(path) = arguments.output.as_deref() else { return Ok(None) };
+    let files: Vec<&str> = arguments.camera.camera.as_deref().and_then(Path::to_str).into_iter().collect();
+    Inputs::new(&request.models, &request.options, &files).keep_in(path, super::measure::WRITTEN)?;
+    let mut results = Results::open(path, true)?;
+    results.show_known(|row| !names.contains(&row.style) || row.model != arguments.model);
+    Ok(Some(results))
 }
 
 /// A scene of a drawing's size and its lines.

@@ -1,10 +1,10 @@
 //! `tinta measure`: every style's error against its run time, on the user's own models and machine.
 
-pub(super) mod errors;
+mod errors;
 mod groups;
 mod look;
 mod measuring;
-mod results;
+pub(super) mod results;
 mod settings;
 mod words;
 
@@ -125,13 +125,13 @@ impl Arguments {
 }
 
 /// Files that a measurement writes, the pictures of its plots and errors aside.
-const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
+pub(super) const WRITTEN: [&str; 3] = ["results.jsonl", "results.csv", "report.html"];
 
 /// Measures; `command` is the command line stated in the report.
 pub(super) fn run(arguments: &Arguments, command: &str, session: &mut Session) -> Result<()> {
     arguments.check()?;
     if !arguments.merge.is_empty() {
-        return Results::merged(&arguments.merge, &arguments.output, arguments.is_job)?.report(command);
+        return Results::merged(&arguments.merge, &arguments.output, arguments.is_job)?.report(command).and_then(shown);
     }
     let (preset, camera) = (arguments.preset.preset.as_deref(), arguments.camera.camera.as_deref());
     let below = Below { camera, ..Below::default() };
@@ -207,5 +207,10 @@ fn measured(
     if results.is_empty() {
         return Err(Error::setting("styles", "none of these settings can be drawn with these models; choose others"));
     }
-    results.report(command)
+    results.report(command).and_then(shown)
+}
+
+/// Prints the path of the report.
+fn shown(path: String) -> Result<()> {
+    tinta::cli::print(&format!("{path}\n"))
 }

@@ -1,7 +1,7 @@
 //! One measured setting: error and time together, as a line of `results.jsonl`.
 
 use super::Conditions;
-use super::frames::{FrameTimes, quartiles};
+use super::frames::FrameTimes;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use tinta::renderer::median;
@@ -150,8 +150,6 @@ pub struct RunTime {
     pub processor_ms: Vec<f64>,
     /// The median of the frames.
     pub median_ms: f64,
-    /// Their lower and upper quartile.
-    pub quartiles_ms: [f64; 2],
     /// Each pass.
     pub passes: Vec<PassRow>,
 }
@@ -161,8 +159,7 @@ impl RunTime {
     pub(crate) fn new([load_ms, edges_ms, plan_ms]: [f64; 3], frames: FrameTimes, passes: Vec<PassRow>) -> Self {
         let FrameTimes { frames_ms, processor_ms } = frames;
         let median_ms = median(frames_ms.clone()).unwrap_or_default();
-        let quartiles_ms = quartiles(&frames_ms);
-        Self { load_ms, edges_ms, plan_ms, frames_ms, processor_ms, median_ms, quartiles_ms, passes }
+        Self { load_ms, edges_ms, plan_ms, frames_ms, processor_ms, median_ms, passes }
     }
 }
 

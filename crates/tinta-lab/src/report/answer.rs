@@ -15,10 +15,10 @@ pub(super) fn answer(lines: &Points) -> Option<String> {
     let of_size = |size: &[u32; 2]| {
         let points: Vec<&Point> = lines.points.iter().filter(|point| point.size == *size).collect();
         let place = if sizes.len() > 1 { format!("At {}×{}: ", size[0], size[1]) } else { String::new() };
-        let text = best(&points, lines.models.len())?;
+        let text = best(&points, lines)?;
         let others: Vec<&Point> = points.iter().copied().filter(|point| !point.has_own_reference).collect();
         let other = match text.contains(OWN_MARK) {
-            true => best(&others, lines.models.len()).map(|best| format!(" {OWN} {best}")),
+            true => best(&others, lines).map(|best| format!(" {OWN} {best}")),
             false => None,
         };
         Some(place + &text + &other.unwrap_or_default())
@@ -40,8 +40,9 @@ pub(super) fn budgets(lines: &Points) -> Vec<(&Point, String)> {
         };
         let place = format!("{}×{}", point.size[0], point.size[1]);
         format!(
-            "{place}, for {} ms a frame (quartiles {fast} to {slow}): {}, F1 {}{spread}",
+            "{place}, for {} ms a frame by {} (quartiles {fast} to {slow}): {}, F1 {}{spread}",
             short(point.time_ms),
+            lines.clock.name(),
             point.name,
             f1(point),
         )
@@ -59,14 +60,16 @@ fn f1(point: &Point) -> String {
 }
 
 /// The answer at one size.
-fn best(points: &[&Point], models: usize) -> Option<String> {
+fn best(points: &[&Point], lines: &Points) -> Option<String> {
     let best = points.iter().map(|point| point.error).min_by(f64::total_cmp)?;
     // A little more, because two rounded numbers differ by rounding.
     let good: Vec<&Point> = points.iter().copied().filter(|point| point.error - best <= EQUALLY_GOOD + 1e-12).collect();
     let fastest = good.iter().copied().min_by(|a, b| a.time_ms.total_cmp(&b.time_ms))?;
+    let models = lines.models.len();
     let mean = if models > 1 { format!(", means over {models} models") } else { String::new() };
     let numbers = |point: &Point| format!("F1 {} in {} ms a frame", f1(point), short(point.time_ms));
-    let mut text = format!("The best lines for the least time: {} ({}{mean}).", fastest.name, numbers(fastest));
+    let (name, clock) = (&fastest.name, lines.clock.name());
+    let mut text = format!("The best lines for the least time: {name} ({} by {clock}{mean}).", numbers(fastest));
     let noisy = good.iter().filter(|point| **point != fastest && point.is_as_fast_as(fastest));
     let names: Vec<&str> = noisy.map(|point| point.name.as_str()).collect();
     if !names.is_empty() {
@@ -82,6 +85,7 @@ fn best(points: &[&Point], models: usize) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::settings::Clock;
     use super::*;
 
     fn point(name: &str, is_faithful: bool, time_ms: f64, f1: f64) -> Point {
@@ -105,7 +109,7 @@ mod tests {
 
     fn of(points: &[Point], models: usize) -> Option<String> {
         let models = (0..models).map(|number| number.to_string()).collect();
-        answer(&Points { points: points.to_vec(), models, left_out: 0 })
+        answer(&Points { points: points.to_vec(), models, left_out: 0, clock: Clock::Wall })
     }
 
     #[test]
@@ -118,16 +122,16 @@ mod tests {
         ];
         assert_eq!(
             of(&points, 9).unwrap(),
-            "The best lines for the least time: inking: exact (F1 0.994 in 3.50 ms a frame, means over 9 models). \
+            "The best lines for the least time: inking: exact (F1 0.994 in 3.50 ms a frame by the clock, means over 9 models). \
              As published, inking has F1 0.959 in 3.62 ms a frame."
         );
         points[2].error = 1.0 - 0.9941;
-        assert!(of(&points, 1).unwrap().contains("inking: exact, thin (F1 0.994 in 3.10 ms a frame). As"));
+        assert!(of(&points, 1).unwrap().contains("inking: exact, thin (F1 0.994 in 3.10 ms a frame by the clock). As"));
         points[3] = point("inking", true, 2.0, 0.996);
         assert!(
             of(&points, 1)
                 .unwrap()
-                .ends_with("inking (F1 0.996 in 2.00 ms a frame). These are the published settings.")
+                .ends_with("inking (F1 0.996 in 2.00 ms a frame by the clock). These are the published settings.")
         );
         assert!(!of(&points[..1], 1).unwrap().contains("ublished"));
         assert_eq!(of(&[], 0), None);
@@ -139,7 +143,8 @@ mod tests {
             vec![point("ink", true, 8.4, 0.9996), point("mrt", false, 8.5, 0.9990), point("mrt", true, 9.9, 0.9)];
         let answer = of(&points, 1).unwrap();
         assert!(
-            answer.contains("ink (F1 0.99960 in 8.40 ms a frame). As good and, within noise, as fast: mrt."),
+            answer
+                .contains("ink (F1 0.99960 in 8.40 ms a frame by the clock). As good and, within noise, as fast: mrt."),
             "{answer}"
         );
         points[1].time_ms = 9.0;

@@ -1,6 +1,6 @@
 //! The columns of the reports: one list for `results.csv`, the page's table and the meaning of each.
 
-use crate::measure::{LineError, Row, ToneError, quartiles};
+use crate::measure::{LineError, Row, RunTime, ToneError, quartiles};
 use std::borrow::Cow;
 use tinta::edges::Class;
 use tinta::renderer::median;
@@ -36,18 +36,20 @@ pub(super) enum Value {
 
 enum Source {
     Row(fn(&Row) -> Value),
+    Time(fn(&RunTime) -> Option<f64>),
     Lines(fn(&LineError) -> Option<f64>),
     Tones(fn(&ToneError) -> Option<f64>),
     /// Recall of this class of lines.
     Class(&'static str),
 }
 
-use Source::{Lines, Tones};
+use Source::{Lines, Time, Tones};
 
 impl Column {
     pub(super) fn value(&self, row: &Row) -> Value {
         let number = match self.source {
             Source::Row(value) => return value(row),
+            Time(value) => value(&row.time),
             Source::Lines(value) => row.lines.as_ref().and_then(value),
             Source::Tones(value) => row.tones.as_ref().and_then(value),
             Source::Class(class) => row.lines.as_ref().and_then(|lines| lines.recall_of_class.get(class).copied()),
@@ -141,46 +143,28 @@ fn setting_columns() -> Vec<Column> {
 
 fn time_columns() -> Vec<Column> {
     vec![
-        main("median_ms", "Time, ms", 2, Source::Row(|row| Value::Number(row.time.median_ms))).says(
+        main("median_ms", "Clock, ms", 2, Time(|time| Some(time.median_ms))).says(
             "Median time of a frame, milliseconds of the clock, reading the picture back included; lower is better.",
         ),
-        column(
-            "lower_quartile_ms",
-            "Lower quartile, ms",
-            2,
-            Source::Row(|row| Value::Number(row.time.quartiles_ms[0])),
-        )
-        .says("A quarter of the frames took no longer, milliseconds."),
-        column(
-            "upper_quartile_ms",
-            "Upper quartile, ms",
-            2,
-            Source::Row(|row| Value::Number(row.time.quartiles_ms[1])),
-        )
-        .says("Three quarters of the frames took no longer, milliseconds."),
-        column("frames", "Frames", 0, Source::Row(|row| Value::Number(row.time.frames_ms.len() as f64)))
+        column("lower_quartile_ms", "Clock, 25 %, ms", 2, Time(|time| quartile(&time.frames_ms, 0)))
+            .says("A quarter of the frames took no longer, milliseconds."),
+        column("upper_quartile_ms", "Clock, 75 %, ms", 2, Time(|time| quartile(&time.frames_ms, 1)))
+            .says("Three quarters of the frames took no longer, milliseconds."),
+        column("frames", "Frames", 0, Time(|time| Some(time.frames_ms.len() as f64)))
             .says("Frames measured after warm-up; the time of each stands in results.jsonl."),
-        column("processor_ms", "Processor, ms", 2, Source::Row(|row| processor(row, median)))
-            .says("Median processor time of a frame, all threads, milliseconds; empty where a device draws."),
-        column(
-            "processor_lower_quartile_ms",
-            "Processor, lower quartile, ms",
-            2,
-            Source::Row(|row| processor(row, |times| Some(quartiles(&times)[0]))),
-        )
-        .says("A quarter of the frames took no more processor time, milliseconds."),
-        column(
-            "processor_upper_quartile_ms",
-            "Processor, upper quartile, ms",
-            2,
-            Source::Row(|row| processor(row, |times| Some(quartiles(&times)[1]))),
-        )
-        .says("Three quarters of the frames took no more processor time, milliseconds."),
-        column("load_ms", "Load, ms", 2, Source::Row(|row| Value::Number(row.time.load_ms)))
+        main("processor_ms", "Processor, ms", 2, Time(|time| median(time.processor_ms.clone()))).says(
+            "Median processor time of a frame, all threads, milliseconds; plots and answers take it where all rows of a \
+             machine have it. Empty where a device draws.",
+        ),
+        column("processor_lower_quartile_ms", "Processor, 25 %, ms", 2, Time(|time| quartile(&time.processor_ms, 0)))
+            .says("A quarter of the frames took no more processor time, milliseconds."),
+        column("processor_upper_quartile_ms", "Processor, 75 %, ms", 2, Time(|time| quartile(&time.processor_ms, 1)))
+            .says("Three quarters of the frames took no more processor time, milliseconds."),
+        column("load_ms", "Load, ms", 2, Time(|time| Some(time.load_ms)))
             .says("Reading the model, milliseconds."),
-        column("edges_ms", "Edges, ms", 2, Source::Row(|row| Value::Number(row.time.edges_ms)))
+        column("edges_ms", "Edges, ms", 2, Time(|time| Some(time.edges_ms)))
             .says("Finding the model's edges, milliseconds; 0 for a style that needs none."),
-        column("plan_ms", "Plan, ms", 3, Source::Row(|row| Value::Number(row.time.plan_ms)))
+        column("plan_ms", "Plan, ms", 3, Time(|time| Some(time.plan_ms)))
             .says("Making the plan, milliseconds."),
         column("passes", "Passes, ms", 0, Source::Row(passes)).says(
             "Median time of each pass by the clock and, after a slash, by the GPU's timer where it has one, \
@@ -189,10 +173,9 @@ fn time_columns() -> Vec<Column> {
     ]
 }
 
-/// A figure of the frames' processor times.
-fn processor(row: &Row, figure: impl Fn(Vec<f64>) -> Option<f64>) -> Value {
-    let times = Some(row.time.processor_ms.clone()).filter(|times| !times.is_empty());
-    times.and_then(figure).map_or(Value::Missing, Value::Number)
+/// The lower (0) or upper quartile of the frames' times, which some rows lack.
+fn quartile(times: &[f64], which: usize) -> Option<f64> {
+    (!times.is_empty()).then(|| quartiles(times)[which])
 }
 
 fn passes(row: &Row) -> Value {

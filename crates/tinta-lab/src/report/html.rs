@@ -10,7 +10,7 @@ use super::frame::Shape;
 use super::info::ReportInfo;
 use super::plot::{plot, subtitle};
 use super::ratios::ratios;
-use super::settings::{Machine, Measure, Point, Points, machines, model_names, models, points};
+use super::settings::{Clock, Machine, Measure, Point, Points, machines, model_names, models, points};
 use crate::measure::{Against, Row};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -49,7 +49,7 @@ pub fn html(rows: &[Row], info: &ReportInfo) -> Result<String> {
 }
 
 /// "1 model", "3 models".
-fn counted(count: usize, what: &str) -> String {
+pub(crate) fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
@@ -249,7 +249,8 @@ fn machine_table(machines: &[Machine<'_>]) -> String {
     if machines.len() < 2 {
         return String::new();
     }
-    let times: Vec<String> = machines.iter().map(|machine| format!("{}, ms", machine.name)).collect();
+    let time = |machine: &Machine<'_>| format!("{}, ms by {}", machine.name, Clock::of(&machine.rows).name());
+    let times: Vec<String> = machines.iter().map(time).collect();
     let factors: Vec<String> =
         machines[1..].iter().map(|machine| format!("{}, times the first", machine.name)).collect();
     let head = |title, meaning, is_number| Head { title, meaning, is_number, is_main: true };
@@ -365,7 +366,7 @@ fn row_table(rows: &[Row], machines: &[Machine<'_>]) -> String {
 fn run(rows: &[Row], info: &ReportInfo, machines: &[Machine<'_>]) -> String {
     let mut entries: Vec<(String, String)> =
         vec![("Command".to_owned(), format!("<code>{}</code>", escaped(&info.command)))];
-    entries.push(("Version".to_owned(), format!("tinta {}", escaped(&info.version))));
+    entries.push(("Version".to_owned(), format!("tinta {}", env!("CARGO_PKG_VERSION"))));
     for machine in machines {
         let renderers = machine.rows.iter().map(|row| row.renderer.as_str()).filter(|renderer| *renderer != "none");
         let renderers: BTreeSet<&str> = renderers.filter(|renderer| !machine.name.ends_with(renderer)).collect();
@@ -381,7 +382,6 @@ fn run(rows: &[Row], info: &ReportInfo, machines: &[Machine<'_>]) -> String {
         let facts = [processor, &format!("OpenGL {gl_version}"), &format!("commit {commit}")];
         entries.push(("Processor, driver, commit".to_owned(), escaped(&facts.join("; "))));
     }
-    entries.extend(info.notes.iter().map(|(name, value)| (escaped(name), escaped(value))));
     let models = distinct(rows, |row| &row.model).into_iter().map(escaped).collect::<Vec<_>>().join(", ");
     entries.push(("Models".to_owned(), models));
     entries.push((

@@ -5,10 +5,6 @@
 pub struct ReportInfo {
     /// The command that made it, as typed.
     pub command: String,
-    /// tinta's version.
-    pub version: String,
-    /// Facts about the machine: a name and a value each, such as "Processor".
-    pub notes: Vec<(String, String)>,
     /// Pictures of the errors, in the order shown.
     pub pictures: Vec<ReportPicture>,
 }

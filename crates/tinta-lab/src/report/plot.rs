@@ -12,17 +12,20 @@ use crate::measure::{LineError, Row};
 use plotters::style::RGBColor;
 use std::collections::{BTreeMap, BTreeSet};
 use tinta::error::Result;
+use tinta::styles::StyleName;
 
 /// Quartiles, and curves over picture sizes.
 const BAR: RGBColor = RGBColor(205, 205, 205);
 const CURVE: RGBColor = RGBColor(130, 130, 130);
+/// The exact lines' own curve.
+const CEILING: RGBColor = RGBColor(200, 60, 40);
 
 /// Names with more characters get a number instead.
 const LONGEST_LABEL: usize = 46;
 
 /// The plot's subject: the models and the machine.
 pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
-    let Points { points, models, left_out } = points(&machine.rows, measure);
+    let Points { points, models, left_out, .. } = points(&machine.rows, measure);
     let names = model_names(models.iter().map(String::as_str));
     let models: Vec<String> = models.iter().map(|model| names[model.as_str()].clone()).collect();
     let what = match &models[..] {
@@ -56,7 +59,7 @@ pub(super) fn subtitle(machine: &Machine<'_>, measure: Measure) -> String {
 ///
 /// [`tinta::Error::File`] should the drawing fail.
 pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> Result<Option<String>> {
-    let points = &points.points;
+    let Points { points, clock, .. } = points;
     if points.is_empty() {
         return Ok(None);
     }
@@ -77,7 +80,7 @@ pub fn plot(points: &Points, measure: Measure, shape: Shape, subtitle: &str) -> 
 
     let mut svg = String::new();
     let canvas = SvgCanvas::new(&mut svg, layout.width as u32, bottom.ceil() as u32)?;
-    let axes = [format!("↑ {}", measure.axis()), "time of a frame, ms (median) →".to_owned()];
+    let axes = [format!("↑ {}", measure.axis()), format!("time of a frame by {}, ms (median) →", clock.name())];
     layout.name(&canvas, &inner, measure.title(), &subtitle_lines, &axes)?;
     grid(&canvas, &marked.axes, &marked.scale, &inner, &layout)?;
     marked.draw(&canvas)?;
@@ -133,7 +136,8 @@ impl<'a> Marked<'a> {
             canvas.line(&[(*x, least), (*x, most)], BAR, 1)?;
         }
         for curve in curves(points) {
-            canvas.line(&curve.iter().map(|index| middles[*index]).collect::<Vec<_>>(), CURVE, 1)?;
+            let color = if is_ceiling(&points[curve[0]]) { CEILING } else { CURVE };
+            canvas.line(&curve.iter().map(|index| middles[*index]).collect::<Vec<_>>(), color, 1)?;
         }
         steps.iter().try_for_each(|steps| canvas.line(steps, MIDDLE, 2))?;
         // Hollow marks first, to put the published settings above them.
@@ -144,6 +148,11 @@ impl<'a> Marked<'a> {
         }
         Ok(())
     }
+}
+
+/// Whether it draws the exact lines themselves: no lines by their pen score more.
+fn is_ceiling(point: &Point) -> bool {
+    point.style == StyleName::Lines.name() && point.has_own_reference
 }
 
 fn described(point: &Point) -> String {
@@ -284,8 +293,12 @@ fn legend(points: &[Point], layout: &Layout) -> Vec<Item> {
         items.push((Mark::Style(styles[0].to_owned(), false), "hollow: not the published settings".to_owned()));
     }
     items.push((Mark::Line(BAR), "quartiles: of a frame's time, and of the models' errors".to_owned()));
-    if !curves(points).is_empty() {
+    let curves = curves(points);
+    if !curves.is_empty() {
         items.push((Mark::Line(CURVE), "a setting at several sizes or values".to_owned()));
+    }
+    if curves.iter().any(|curve| is_ceiling(&points[curve[0]])) {
+        items.push((Mark::Line(CEILING), "ceiling: the exact lines themselves, by the same pen".to_owned()));
     }
     items.push((Mark::Front, "Pareto front of a size: no setting is both faster and closer".to_owned()));
     let mut left = MARGIN;

@@ -1,6 +1,6 @@
 //! Several machines: how much longer each takes for the same setting.
 
-use super::settings::{Machine, setting_key, short_names};
+use super::settings::{Clock, Machine, setting_key, short_names};
 use crate::measure::Row;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,7 +10,7 @@ pub(super) struct Ratio {
     pub(super) name: String,
     /// Models measured on every machine that has the setting.
     pub(super) models: usize,
-    /// Geometric mean over those models of the median time, milliseconds; `None` if not measured.
+    /// Geometric mean over those models of the median time by the machine's [`Clock`], milliseconds; `None` if not measured.
     pub(super) times_ms: Vec<Option<f64>>,
 }
 
@@ -28,13 +28,14 @@ pub(super) fn ratios(machines: &[Machine<'_>]) -> Vec<Ratio> {
     let mut order = Vec::new();
     let mut times: BTreeMap<_, Vec<BTreeMap<&str, f64>>> = BTreeMap::new();
     for (number, machine) in machines.iter().enumerate() {
+        let clock = Clock::of(&machine.rows);
         for row in machine.rows.iter().filter(|row| row.time.median_ms > 0.0) {
             let key = setting_key(row);
             let of_setting = times.entry(key).or_insert_with(|| {
                 order.push(key);
                 vec![BTreeMap::new(); machines.len()]
             });
-            of_setting[number].insert(&row.model, row.time.median_ms);
+            of_setting[number].insert(&row.model, clock.times_of(row)[1]);
         }
     }
     let ratio = |key| {

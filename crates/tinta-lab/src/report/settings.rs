@@ -2,6 +2,7 @@
 
 use crate::measure::{Row, quartiles};
 use std::collections::{BTreeMap, BTreeSet};
+use tinta::renderer::median;
 
 /// The quantity that a plot shows against time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,13 +51,34 @@ impl Measure {
     }
 }
 
-/// Lower quartile, median, upper quartile of a row's frames, milliseconds; one number where it was measured once.
-fn times_of(row: &Row) -> [f64; 3] {
-    let time = &row.time;
-    match time.quartiles_ms {
-        // A row of an older version lacks quartiles.
-        [low, high] if low > 0.0 => [low, time.median_ms, high],
-        _ => [time.median_ms; 3],
+/// What the time of a frame is in a plot, a sentence and a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Clock {
+    /// Processor time of all threads, where a program draws: the load of other programs hardly changes it.
+    Processor,
+    /// The clock's time, where a device draws.
+    Wall,
+}
+
+impl Clock {
+    /// Processor time if all of these rows, which are one machine's, have it: the two cannot be compared.
+    pub(super) fn of(rows: &[&Row]) -> Self {
+        if rows.iter().all(|row| !row.time.processor_ms.is_empty()) { Self::Processor } else { Self::Wall }
+    }
+
+    /// Follows "by".
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Processor => "processor time",
+            Self::Wall => "the clock",
+        }
+    }
+
+    /// Lower quartile, median, upper quartile of a row's frames, milliseconds; one number where it was measured once.
+    pub(super) fn times_of(self, row: &Row) -> [f64; 3] {
+        let frames = if self == Self::Processor { &row.time.processor_ms } else { &row.time.frames_ms };
+        let [low, high] = quartiles(frames);
+        median(frames.clone()).map_or([row.time.median_ms; 3], |middle| [low, middle, high])
     }
 }
 
@@ -137,7 +159,7 @@ pub struct Point {
     pub curves: [String; 2],
     /// Width and height of the picture.
     pub size: [u32; 2],
-    /// Geometric mean over models of the time, milliseconds; of frames the median.
+    /// Geometric mean over models of the time by [`Points::clock`], milliseconds; of frames the median.
     pub time_ms: f64,
     /// The same of the lower and upper quartiles of the frames.
     pub times_ms: [f64; 2],
@@ -166,15 +188,15 @@ pub struct Points {
     pub models: Vec<String>,
     /// Settings not measured on all of them, which a mean would compare unfairly.
     pub left_out: usize,
+    /// What their times are.
+    pub(super) clock: Clock,
 }
 
 /// A point for each setting of these rows, which are one machine's: the setting's mean over the models most settings share.
 pub fn points(rows: &[&Row], measure: Measure) -> Points {
-    let rows: Vec<&Row> = rows
-        .iter()
-        .copied()
-        .filter(|row| measure.error(row).is_some_and(f64::is_finite) && times_of(row)[1] > 0.0)
-        .collect();
+    let is_measured = |row: &&Row| measure.error(row).is_some_and(f64::is_finite) && row.time.median_ms > 0.0;
+    let rows: Vec<&Row> = rows.iter().copied().filter(is_measured).collect();
+    let clock = Clock::of(&rows);
     // If a setting was measured twice on a model, the last row counts.
     let mut by_setting: BTreeMap<SettingKey<'_>, BTreeMap<&str, &Row>> = BTreeMap::new();
     let mut order = Vec::new();
@@ -198,7 +220,7 @@ pub fn points(rows: &[&Row], measure: Measure) -> Points {
         let (Some(first), true) = (of_models.first(), of_models.len() == shared.len()) else { continue };
         let count = of_models.len() as f64;
         let [low, middle, high] =
-            [0, 1, 2].map(|at: usize| (of_models.iter().map(|row| times_of(row)[at].ln()).sum::<f64>() / count).exp());
+            [0, 1, 2].map(|at| (of_models.iter().map(|row| clock.times_of(row)[at].ln()).sum::<f64>() / count).exp());
         let errors: Vec<f64> = of_models.iter().filter_map(|row| measure.error(row)).collect();
         let error = errors.iter().sum::<f64>() / count;
         let size = first.size;
@@ -227,7 +249,7 @@ pub fn points(rows: &[&Row], measure: Measure) -> Points {
     }
     let left_out = order.len() - points.len();
     let models = models(&rows).into_iter().filter(|model| shared.contains(model)).map(str::to_owned).collect();
-    Points { points, models, left_out }
+    Points { points, models, left_out, clock }
 }
 
 /// The key of a setting on a machine.

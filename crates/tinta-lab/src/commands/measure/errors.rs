@@ -47,7 +47,7 @@ fn shortened(name: String) -> String {
 }
 
 /// Writes a drawing and the picture of its errors and hands them over for the page.
-pub(in crate::commands) fn error_page(folder: &Path, row: &Row, pictures: [&Picture; 2]) -> Result<ReportPicture> {
+pub(super) fn error_page(folder: &Path, row: &Row, pictures: [&Picture; 2]) -> Result<ReportPicture> {
     make_folder(&folder.join("errors"))?;
     let paths = [DRAWING, ERRORS].map(|end| path(folder, row, end));
     for (path, picture) in paths.iter().zip(pictures) {
@@ -58,7 +58,7 @@ pub(in crate::commands) fn error_page(folder: &Path, row: &Row, pictures: [&Pict
 }
 
 /// The pictures of a row for the page, if that of its errors is there.
-pub(in crate::commands) fn known_picture(folder: &Path, row: &Row) -> Option<ReportPicture> {
+pub(super) fn known_picture(folder: &Path, row: &Row) -> Option<ReportPicture> {
     let png = std::fs::read(path(folder, row, ERRORS)).ok()?;
     let drawing = Picture::read_png(&path(folder, row, DRAWING)).ok();
     let drawing = drawing.and_then(|drawing| drawing.small_png(MOST_BYTES));

@@ -1,11 +1,13 @@
-//! A look that draws exact lines, measured as `tinta render` draws it.
+//! A look or a style that draws exact lines, measured as `tinta render` draws it.
 
 use crate::measure::{FrameTimes, Ink, MeasureSettings, Measured, Row, RunTime, Subject, error_picture};
 use tinta::lines::{DrawingFormat, Progress};
 use tinta::request::{DrawingFile, Request, Resolved, Wanted};
+use tinta::styles::Below;
 use tinta::{Error, Picture, Renderer, Result};
 
-/// Measures a look that draws exact lines over a picture, as `tinta render` draws it: a frame finds the lines and prunes the plan.
+/// Measures a look that draws exact lines over a picture, or style lines, as `tinta render` draws it: a frame finds the lines and
+/// prunes the plan.
 /// Its row bears the look's name instead of a style's; `options` are the row's.
 ///
 /// # Errors
@@ -20,10 +22,12 @@ pub(super) fn measure_look(
 ) -> Result<Measured> {
     let resolved = request.still(subject.scene.clone(), false)?;
     let ink = Ink::on_white(&exact_lines(&resolved)?);
-    let drawing = resolved.picture(renderer)?;
+    let has_passes = matches!(resolved.contents.below, Below::Passes(_));
+    let draw = |renderer: &mut Renderer| if has_passes { resolved.picture(renderer) } else { exact_lines(&resolved) };
+    let drawing = draw(renderer)?;
     let mut times = FrameTimes::default();
     for _ in 0..how.frames {
-        times.add_work(|| resolved.picture(renderer).map(drop))?;
+        times.add_work(|| draw(renderer).map(drop))?;
     }
     if !renderer.context().is_software() {
         times.processor_ms.clear();

@@ -1,8 +1,9 @@
 //! Measures a group: references once, then the settings in turns, and the exact lines by their rules.
 
+use super::errors::is_shown;
 use super::groups::{Group, KINDS};
 use super::look::measure_look;
-use super::results::Results;
+use super::results::{Results, is_of};
 use super::settings::{HowMeasured, settings, smooth_inking, varied};
 use crate::measure::{
     Against, MeasureSettings, MeasureStep, MeasuredStyle, Subject, line_options, measure, measure_lines, turns,
@@ -13,7 +14,7 @@ use tinta::edges::SilhouetteRule;
 use tinta::preset::LOOKS;
 use tinta::recipe::{option_word, option_words};
 use tinta::request::{OptionLayer, Request};
-use tinta::settings::{HasSettings, Kind, Options};
+use tinta::settings::{HasSettings, Kind, OptionValue, Options};
 use tinta::{LoadOptions, Renderer, Result, SceneSettings, Style};
 
 /// Timed frames of a setting.
@@ -32,8 +33,8 @@ pub(super) struct Measuring {
     pub(super) against: Against,
     /// The options that every row of the run has.
     of_scene: String,
-    /// The default look as users call it, and its row's options.
-    look: Option<(Request, String)>,
+    /// What draws exact lines: the default look, and the reference itself, the ceiling of every size; each with its row's options.
+    exact: Vec<(&'static str, Request, String)>,
 }
 
 impl Measuring {
@@ -64,8 +65,12 @@ impl Measuring {
         }
         settings.iter_mut().for_each(|setting| setting.options.push_str(&of_scene));
         let has_look = against == Against::Lines && asked.vary.is_none() && asked.styles.is_empty();
-        let look = has_look.then(|| look(request)).transpose()?;
-        Ok(Self { settings, how, against, of_scene, look })
+        let has_ceiling = has_look || (against == Against::Lines && asked.sizes.len() > 1);
+        let look = has_look.then(|| exact(request, OptionLayer::Look(LOOKS[0]), &[("look", LOOKS[0].name)]));
+        let given = CEILING.map(|(name, value)| (name.to_owned(), OptionValue::text(value)));
+        let ceiling = has_ceiling.then(|| exact(request, OptionLayer::Given(given.into()), &CEILING));
+        let exact = look.into_iter().chain(ceiling).collect::<Result<_>>()?;
+        Ok(Self { settings, how, against, of_scene, exact })
     }
 
     /// Measures the group of this number, except settings already in the results.
@@ -83,13 +88,15 @@ impl Measuring {
             Some(surface) => Subject::of_surface(&group.model, group.scene, surface, group.load_ms)?,
         };
         progress.step(reference);
-        results.show_known(&subject, &self.how.machine);
-        let is_known = |options: &str| results.of(&subject, &self.how.machine).any(|row| row.options == options);
+        results.show_known(|row| is_of(row, &subject, &self.how.machine) && is_shown(row));
+        let is_known = |options: &str| {
+            results.rows.iter().any(|row| is_of(row, &subject, &self.how.machine) && row.options == options)
+        };
         let left: Vec<MeasuredStyle> =
             self.settings.iter().filter(|setting| !is_known(&setting.options)).cloned().collect();
         let rules = self.rules().into_iter().filter(|(_, options)| !is_known(options));
         let rules: Vec<(SilhouetteRule, String)> = rules.collect();
-        let look = self.look.as_ref().filter(|(_, options)| !is_known(options));
+        let exact = self.exact.iter().filter(|(.., options)| !is_known(options)).collect::<Vec<_>>();
         progress.skip(errors, self.settings.len() - left.len());
         progress.skip(turn, (self.settings.len() - left.len()) * turns(self.how.frames));
         // Settings take turns in groups: rows reach the disk soon and an interruption costs little.
@@ -100,8 +107,8 @@ impl Measuring {
             left_out.iter().for_each(|reason| say(&format!("tinta: {reason}")));
             measured.into_iter().try_for_each(|measured| results.keep(measured))?;
         }
-        if let Some((request, options)) = look {
-            results.keep(measure_look(renderer, &subject, (LOOKS[0].name, request), options.clone(), &self.how)?)?;
+        for (name, request, options) in exact {
+            results.keep(measure_look(renderer, &subject, (*name, request), options.clone(), &self.how)?)?;
         }
         for (rule, options) in rules {
             results.keep(measure_lines(&subject, rule, options, FRAMES_OF_LINES, &self.how)?)?;
@@ -119,16 +126,24 @@ impl Measuring {
     }
 }
 
-/// The default look, with the options that draw it in the measured view.
-fn look(measured: &Request) -> Result<(Request, String)> {
-    let (request, _) = Request::from_layers(&[OptionLayer::Look(LOOKS[0])])?;
+/// The options of the reference itself, drawn by the pen of two pixels.
+const CEILING: [(&str, &str); 3] = [("style", "lines"), ("crease-angle", "66.42182"), ("min-length", "0")];
+
+/// A drawing of exact lines: its row's name, and the options that draw it in the measured view; the first gives the name.
+fn exact(
+    measured: &Request,
+    layer: OptionLayer,
+    own: &[(&str, &'static str)],
+) -> Result<(&'static str, Request, String)> {
+    let (request, _) = Request::from_layers(&[layer])?;
     let mut options = SceneSettings::table().options(&measured.scene, &request.scene)?;
     options.extend(LoadOptions::table().options(&measured.read, &request.read)?);
     // Each row names its size.
     options.remove("size");
-    let words = options.iter().flat_map(|(name, value)| option_words(name, value));
-    let text = words.fold(format!("--look {}", LOOKS[0].name), |text, word| text + " " + &tinta::shell::quoted(&word));
-    Ok((request, text))
+    let own_words = own.iter().flat_map(|(name, value)| [format!("--{name}"), (*value).to_owned()]);
+    let words = own_words.chain(options.iter().flat_map(|(name, value)| option_words(name, value)));
+    let text = words.map(|word| tinta::shell::quoted(&word)).collect::<Vec<_>>().join(" ");
+    Ok((own[0].1, request, text))
 }
 
 /// The user's options of camera and model, which are needed to draw a row again.

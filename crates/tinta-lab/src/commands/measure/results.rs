@@ -7,21 +7,26 @@ use crate::report::{ReportInfo, ReportPicture, RowLog, read_rows};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use tinta::cli::make_folder;
-use tinta::cli::print;
 use tinta::record::ROWS_FILE;
-use tinta::{Error, Result, Size, StyleName};
+use tinta::{Error, Picture, Result, Size, StyleName};
 
 /// The rows of a folder so far, and the pictures that its report shows.
-pub(super) struct Results<'a> {
+pub(in crate::commands) struct Results<'a> {
     folder: &'a Path,
     log: RowLog,
-    rows: Vec<Row>,
+    pub(super) rows: Vec<Row>,
     pictures: Vec<ReportPicture>,
+}
+
+/// Whether a row is of a subject on a machine.
+pub(super) fn is_of(row: &Row, subject: &Subject, machine: &str) -> bool {
+    let Size { width, height } = subject.scene.size;
+    row.machine == machine && row.model == subject.model && row.size == [width, height]
 }
 
 impl<'a> Results<'a> {
     /// Starts without rows, or with those of an earlier run; creates the folder if missing.
-    pub(super) fn open(folder: &'a Path, is_resumed: bool) -> Result<Self> {
+    pub(in crate::commands) fn open(folder: &'a Path, is_resumed: bool) -> Result<Self> {
         make_folder(folder)?;
         let (log, rows) = match is_resumed {
             true => RowLog::resume(folder)?,
@@ -69,27 +74,26 @@ impl<'a> Results<'a> {
         self.rows.is_empty()
     }
 
-    /// The rows of a subject on a machine.
-    pub(super) fn of<'r>(&'r self, subject: &'r Subject, machine: &'r str) -> impl Iterator<Item = &'r Row> {
-        let Size { width, height } = subject.scene.size;
-        self.rows
-            .iter()
-            .filter(move |row| row.machine == machine && row.model == subject.model && row.size == [width, height])
-    }
-
-    /// Shows the pictures of a subject's rows from an earlier run.
-    pub(super) fn show_known(&mut self, subject: &Subject, machine: &str) {
-        let shown = self.of(subject, machine).filter(|row| is_shown(row));
-        let pictures: Vec<ReportPicture> = shown.filter_map(|row| known_picture(self.folder, row)).collect();
-        self.pictures.extend(pictures);
+    /// Shows the pictures of these rows from an earlier run.
+    pub(in crate::commands) fn show_known(&mut self, has_picture: impl Fn(&Row) -> bool) {
+        let shown = self.rows.iter().filter(|row| has_picture(row));
+        self.pictures.extend(shown.filter_map(|row| known_picture(self.folder, row)));
     }
 
     /// Writes a row, and its picture if it is shown.
     pub(super) fn keep(&mut self, Measured { row, drawing, error_picture }: Measured) -> Result<()> {
-        self.log.append(&row)?;
         if let Some(picture) = error_picture.filter(|_| is_shown(&row)) {
-            self.pictures.push(error_page(self.folder, &row, [&drawing, &picture])?);
+            return self.add(row, [&drawing, &picture]);
         }
+        self.log.append(&row)?;
+        self.rows.push(row);
+        Ok(())
+    }
+
+    /// Writes a row and its drawing and errors.
+    pub(in crate::commands) fn add(&mut self, row: Row, pictures: [&Picture; 2]) -> Result<()> {
+        self.log.append(&row)?;
+        self.pictures.push(error_page(self.folder, &row, pictures)?);
         self.rows.push(row);
         Ok(())
     }
@@ -122,15 +126,10 @@ impl<'a> Results<'a> {
         }
     }
 
-    /// Writes the report, and prints its path; `command` is the command line stated in it.
-    pub(super) fn report(self, command: &str) -> Result<()> {
-        let info = ReportInfo {
-            command: command.to_owned(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            notes: Vec::new(),
-            pictures: self.pictures,
-        };
+    /// Writes the report and returns its path; `command` is the command line stated in it.
+    pub(in crate::commands) fn report(self, command: &str) -> Result<String> {
+        let info = ReportInfo { command: command.to_owned(), pictures: self.pictures };
         crate::report::write(self.folder, &self.rows, &info)?;
-        print(&format!("{}\n", self.folder.join("report.html").display()))
+        Ok(self.folder.join("report.html").display().to_string())
     }
 }

@@ -1,11 +1,7 @@
 //! Counts and times in words.
 
+pub(super) use crate::report::counted;
 use std::time::Duration;
-
-/// "1 model", "3 models".
-pub(super) fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
 
 /// Seconds up to a minute and a half, then minutes.
 pub(super) fn in_words(time: Duration) -> String {
