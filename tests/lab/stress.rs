@@ -84,6 +84,13 @@ fn pictures_of_a_few_cases_are_compared_between_backends_and_against_the_whole_p
     check_compared(few());
 }
 
+#[test]
+fn the_default_look_draws_the_exact_lines_of_a_few_cases() {
+    let looks = few().cases.iter().filter(|row| row.style == "print");
+    let scores: Vec<f64> = looks.filter_map(|row| row.figures.get("f1").copied()).collect();
+    assert!(scores.len() >= 3 && scores.iter().all(|f1| *f1 > 0.98), "{scores:?}");
+}
+
 fn check_jitter(summary: &Summary, least_rows: usize, least_flips: f64) {
     let (mut flipped, mut edges_rows) = (0.0, 0);
     for row in summary.cases.iter().filter(|row| row.figures.contains_key("edges_flipped")) {
@@ -203,16 +210,16 @@ fn the_command_writes_its_rows_and_says_how_it_went() {
     };
     let (code, out, _) = run(&["-o", "out", "--only", "T-junctions"]);
     assert_eq!(code, Some(0), "{out}");
-    assert!(out.starts_with("1 cases, 24 pictures and refusals: 24 as they must be, 0 not"), "{out}");
+    assert!(out.starts_with("1 cases, 26 pictures and refusals: 26 as they must be, 0 not"), "{out}");
     let json: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(folder.path().join("out/stress.json")).unwrap()).unwrap();
     let rows = json["cases"].as_array().unwrap();
-    assert_eq!(rows.len(), 24);
+    assert_eq!(rows.len(), 26);
     for key in ["name", "group", "style", "backend", "verdict", "expected", "figures"] {
         rows.iter().for_each(|row| assert!(!row[key].is_null(), "{key}"));
     }
     let table = std::fs::read_to_string(folder.path().join("out/stress.md")).unwrap();
-    assert_eq!(table.lines().filter(|line| line.contains("T-junctions")).count(), 24);
+    assert_eq!(table.lines().filter(|line| line.contains("T-junctions")).count(), 26);
     let (code, _, message) = run(&["-o", "out", "--only", "no such case"]);
     assert_eq!(code, Some(2));
     assert!(message.contains("--only no such case: no case has this in its name"), "{message}");

@@ -6,22 +6,35 @@ use super::jitter::{Flips, Popped, flips, jittered};
 use super::outcome::Outcome;
 use super::variants::Variant;
 use crate::compare::InkMask;
-use crate::measure::{Ink, shading_of};
+use crate::measure::{Ink, LineError, shading_of};
 use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
 use tinta::camera::CameraSettings;
 use tinta::error::{Error, Result};
+use tinta::lines::Progress;
+use tinta::mesh::LoadOptions;
 use tinta::picture::Picture;
-use tinta::plan::prune::prune;
+use tinta::plan::prune::{Pruned, prune};
+use tinta::preset::LOOKS;
 use tinta::renderer::Renderer;
-use tinta::request::empty_remark;
+use tinta::request::{OptionLayer, Request, empty_remark};
 use tinta::scene::{Scene, SceneSettings, Size};
 use tinta::styles::Show;
 
 /// Steps of a turn, and the number of steps of a full turn: each is one degree in sixty.
 const STEPS: usize = 60;
 const STEPS_AROUND: u32 = 360 * 60;
+
+/// The figures of what pops by a jitter, and by a step of a turn.
+const OF_JITTER: [&str; 4] = ["jitter_ink", "jitter_lines", "jitter_shades", "jitter_exact_shades"];
+const OF_TURN: [&str; 4] = ["turn_ink", "turn_lines", "turn_shades", "turn_exact_shades"];
+
+/// Distance within which ink and line count as the same.
+const TOLERANCE_PX: f64 = 2.0;
+
+/// Least length of lines that judge a look, pixels: what is shorter is hardly there.
+const LEAST_LINES_PX: f64 = 50.0;
 
 /// A drawing's scene with its exact results, once for all styles.
 pub(super) struct Subject {
@@ -35,16 +48,13 @@ pub(super) struct Subject {
     figures: Figures,
 }
 
-/// The results for a picture of one style by one backend.
-pub(super) struct CasePicture {
-    pub picture: Picture,
-    pub figures: Figures,
-}
+/// A picture of one style by one backend, and its results.
+type Drawn = (Picture, Figures);
 
 impl Subject {
     /// Builds the scene for a backend's largest picture, and studies it.
     pub(super) fn new(drawing: &Drawing, largest: Size, folder: &Path) -> Result<Self> {
-        let scene = scene(drawing, largest, folder)?;
+        let scene = scene(drawing, largest, folder, &LoadOptions::default())?;
         let mut subject = Self {
             figures: Figures::from([
                 ("non_finite", non_finite(&scene) as f64),
@@ -78,7 +88,7 @@ impl Subject {
             }
         }
         if let Some(twin) = &drawing.twin {
-            subject.twin = Some(self::scene(twin, largest, folder)?);
+            subject.twin = Some(self::scene(twin, largest, folder, &LoadOptions::default())?);
         }
         subject.figures.extend(subject.twin_lines()?);
         Ok(subject)
@@ -91,7 +101,7 @@ impl Subject {
     }
 
     /// Draws it in a style; `is_first` for the backend that also measures the effect of a jitter or a turn.
-    pub(super) fn draw(&self, renderer: &mut Renderer, variant: &Variant, is_first: bool) -> Result<CasePicture> {
+    pub(super) fn draw(&self, renderer: &mut Renderer, variant: &Variant, is_first: bool) -> Result<Drawn> {
         let style = &variant.style;
         let plan = style.plan(&self.scene, Show::Final)?;
         let pruning = renderer.pruning();
@@ -114,7 +124,29 @@ impl Subject {
         if is_first {
             self.study(renderer, variant, &mut figures)?;
         }
-        Ok(CasePicture { picture, figures })
+        Ok((picture, figures))
+    }
+
+    /// Draws the default look, as `tinta render` does: its lines must be the exact ones.
+    fn draw_look(&self, drawing: &Drawing, folder: &Path, renderer: &mut Renderer, is_first: bool) -> Result<Drawn> {
+        let (request, _) = Request::from_layers(&[OptionLayer::Look(LOOKS[0])])?;
+        let scene = scene(drawing, renderer.context().largest_picture, folder, &request.read)?;
+        let look = request.still(scene, false)?;
+        let (published, Pruned { plan, .. }) = look.plans(renderer)?;
+        let around = look.around(&Progress::default())?;
+        let picture = around.drawn(&look.scene, &plan, renderer)?;
+        let full = around.drawn(&look.scene, &published, renderer)?;
+        let empty_said = empty_remark(&look.scene, &published, Some(&around), &picture, renderer)?.is_some();
+        let mut figures = self.figures.clone();
+        figures.insert("silently_empty", f64::from(covered_px(&picture) == 0.0 && !empty_said));
+        figures.insert("pruned_differing_px", differing_px(&picture, &full));
+        let exact = self.exact.as_ref().filter(|(exact, ..)| is_first && exact.reference.length_px() > LEAST_LINES_PX);
+        if let Some((exact, ..)) = exact {
+            let alone = around.lines_alone(&plan, look.scene.size);
+            let darkness = alone.pixels.chunks_exact(4).map(|pixel| pixel[3]).collect();
+            figures.extend(found(&Ink { size: alone.size, darkness }.error(&exact.reference, TOLERANCE_PX)));
+        }
+        Ok((picture, figures))
     }
 
     fn study(&self, renderer: &mut Renderer, variant: &Variant, figures: &mut Figures) -> Result<()> {
@@ -124,29 +156,29 @@ impl Subject {
             figures.insert("edges_flipped_unexplained", flips.unexplained as f64);
             let before = Shown::of(renderer, &exact.scene, variant)?;
             if let Some(ink) = before.ink.as_ref().filter(|_| variant.style.has_lines()) {
-                let error = ink.error(&exact.reference, 2.0);
-                figures.extend([
-                    ("ink_px", ink.mask().count() as f64),
-                    ("recall", error.recall),
-                    ("precision", error.precision),
-                ]);
-                figures.insert("f1", error.f1);
+                figures.insert("ink_px", ink.mask().count() as f64);
+                figures.extend(found(&ink.error(&exact.reference, TOLERANCE_PX)));
             }
             let after = Shown::of(renderer, &moved.scene, variant)?;
-            note("jitter", &Popped::of([exact, moved], variant, [&before, &after])?, figures);
+            note(OF_JITTER, &Popped::of([exact, moved], variant, [&before, &after])?, figures);
         }
         if let Some((first, others)) = self.turn.split_first() {
-            let mut sum = Sums::default();
+            let mut steps = Vec::new();
             let (mut exact, mut shown) = (first, Shown::of(renderer, &first.scene, variant)?);
             for next in others {
                 let after = Shown::of(renderer, &next.scene, variant)?;
-                sum.add(&Popped::of([exact, next], variant, [&shown, &after])?);
+                steps.push(Popped::of([exact, next], variant, [&shown, &after])?);
                 (exact, shown) = (next, after);
             }
-            note("turn", &sum.mean(), figures);
+            note(OF_TURN, &mean(&steps), figures);
         }
         Ok(())
     }
+}
+
+/// Its figures.
+fn found(error: &LineError) -> [(&'static str, f64); 3] {
+    [("recall", error.recall), ("precision", error.precision), ("f1", error.f1)]
 }
 
 /// A style's lines and its shading, separately.
@@ -175,50 +207,25 @@ impl Popped {
     }
 }
 
-/// Means over the steps of a turn.
-#[derive(Default)]
-struct Sums {
-    ink: Option<[f64; 2]>,
-    shades: Option<[f64; 2]>,
-    steps: f64,
-}
-
-impl Sums {
-    fn add(&mut self, step: &Popped) {
-        let sum = |sum: &mut Option<[f64; 2]>, more: Option<[f64; 2]>| {
-            if let Some([drawn, exact]) = more {
-                let [all_drawn, all_exact] = sum.unwrap_or_default();
-                *sum = Some([all_drawn + drawn, all_exact + exact]);
-            }
-        };
-        sum(&mut self.ink, step.ink);
-        sum(&mut self.shades, step.shades);
-        self.steps += 1.0;
-    }
-
-    fn mean(&self) -> Popped {
-        let mean = |sum: Option<[f64; 2]>| sum.map(|sum| sum.map(|sum| sum / self.steps.max(1.0)));
-        Popped { ink: mean(self.ink), shades: mean(self.shades) }
-    }
+/// The means over the steps of a turn.
+fn mean(steps: &[Popped]) -> Popped {
+    let mean = |of: fn(&Popped) -> Option<[f64; 2]>| {
+        let all: Vec<[f64; 2]> = steps.iter().filter_map(of).collect();
+        let share = |which: usize| all.iter().map(|both| both[which]).sum::<f64>() / steps.len() as f64;
+        (!all.is_empty()).then(|| [0, 1].map(share))
+    };
+    Popped { ink: mean(|step| step.ink), shades: mean(|step| step.shades) }
 }
 
 /// Writes the popped ink into the figures: of the drawing, and of the exact scene.
-fn note(what: &'static str, popped: &Popped, figures: &mut Figures) {
-    let names = match what {
-        "jitter" => ["jitter_ink", "jitter_lines", "jitter_shades", "jitter_exact_shades"],
-        _ => ["turn_ink", "turn_lines", "turn_shades", "turn_exact_shades"],
-    };
-    if let Some([drawn, exact]) = popped.ink {
-        figures.extend([(names[0], drawn), (names[1], exact)]);
-    }
-    if let Some([drawn, exact]) = popped.shades {
-        figures.extend([(names[2], drawn), (names[3], exact)]);
-    }
+fn note(names: [&'static str; 4], popped: &Popped, figures: &mut Figures) {
+    figures.extend(names[..2].iter().copied().zip(popped.ink.into_iter().flatten()));
+    figures.extend(names[2..].iter().copied().zip(popped.shades.into_iter().flatten()));
 }
 
 /// The scene of a drawing; sizes that stand for a backend's largest become it.
-fn scene(drawing: &Drawing, largest: Size, folder: &Path) -> Result<Scene> {
-    let mesh = drawing.shape.mesh(drawing.scale, drawing.offset, folder)?;
+fn scene(drawing: &Drawing, largest: Size, folder: &Path, options: &LoadOptions) -> Result<Scene> {
+    let mesh = drawing.shape.mesh(drawing.scale, drawing.offset, folder, options)?;
     let place = |point: DVec3| point * drawing.scale + drawing.offset;
     let of_matrix = |matrix| {
         CameraSettings::of_clip_from_world(&matrix).map_err(|error| Error::value("camera", "matrix", error.to_string()))
@@ -244,7 +251,7 @@ pub(super) fn outcomes(
     drawing: &Drawing,
     renderers: &mut [(&'static str, Renderer)],
     folder: &Path,
-    mut report: impl FnMut(&Variant, &'static str, Outcome),
+    mut report: impl FnMut(&str, &'static str, Outcome),
 ) {
     // All backends draw the same scene, except cases with each backend's largest size.
     let mut subjects: Vec<(Size, std::result::Result<Subject, tinta::Error>)> = Vec::new();
@@ -254,7 +261,7 @@ pub(super) fn outcomes(
             subjects.push((largest, Subject::new(drawing, largest, folder)));
         }
     }
-    for variant in &drawing.variants {
+    let mut draw_by_all = |name: &str, draw: &dyn Fn(&Subject, &mut Renderer, bool) -> Result<Drawn>| {
         let mut first: Option<Picture> = None;
         for (index, (backend, renderer)) in renderers.iter_mut().enumerate() {
             let largest = renderer.context().largest_picture;
@@ -262,18 +269,26 @@ pub(super) fn outcomes(
             let Some((_, subject)) = subject else { continue };
             let outcome = match subject {
                 Err(error) => Outcome::refused(error),
-                Ok(subject) => match subject.draw(renderer, variant, index == 0) {
+                Ok(subject) => match draw(subject, renderer, index == 0) {
                     Err(error) => Outcome::refused(&error),
-                    Ok(mut drawn) => {
-                        if let Some(first) = first.as_ref().filter(|first| first.size == drawn.picture.size) {
-                            drawn.figures.insert("backends_differing_px", differing_px(first, &drawn.picture));
+                    Ok((picture, mut figures)) => {
+                        if let Some(first) = first.as_ref().filter(|first| first.size == picture.size) {
+                            figures.insert("backends_differing_px", differing_px(first, &picture));
                         }
-                        first.get_or_insert(drawn.picture);
-                        Outcome::Rendered(drawn.figures)
+                        first.get_or_insert(picture);
+                        Outcome::Rendered(figures)
                     }
                 },
             };
-            report(variant, backend, outcome);
+            report(name, backend, outcome);
         }
+    };
+    for variant in &drawing.variants {
+        draw_by_all(&variant.name, &|subject, renderer, is_first| subject.draw(renderer, variant, is_first));
+    }
+    if drawing.draws_look() {
+        draw_by_all(LOOKS[0].name, &|subject, renderer, is_first| {
+            subject.draw_look(drawing, folder, renderer, is_first)
+        });
     }
 }

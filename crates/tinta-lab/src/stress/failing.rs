@@ -8,6 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 use tinta::error::{Error, Result};
 use tinta::gl::{Backend, Fault};
+use tinta::mesh::LoadOptions;
 use tinta::renderer::Renderer;
 use tinta::scene::{Scene, SceneSettings, Size};
 
@@ -30,7 +31,7 @@ pub(super) fn outcome(backend: Backend, fault: Fault, variant: &Variant, sound: 
 }
 
 fn scene() -> Result<Scene> {
-    let mesh = Shape::Cube.mesh(1.0, DVec3::ZERO, Path::new(""))?;
+    let mesh = Shape::Cube.mesh(1.0, DVec3::ZERO, Path::new(""), &LoadOptions::default())?;
     let size = Size { width: 64, height: 64 };
     Scene::new(vec![Arc::new(mesh)], &SceneSettings { size, ..SceneSettings::default() })
 }

@@ -190,7 +190,7 @@ mod tests {
     use tinta::scene::SceneSettings;
 
     fn scene(shape: Shape, camera: CameraSettings) -> Scene {
-        let mesh = shape.mesh(1.0, DVec3::ZERO, Path::new("")).unwrap();
+        let mesh = shape.mesh(1.0, DVec3::ZERO, Path::new(""), &Default::default()).unwrap();
         Scene::new(vec![Arc::new(mesh)], &SceneSettings { camera, ..SceneSettings::default() }).unwrap()
     }
 

@@ -175,6 +175,7 @@ fn row(case: &Case, style: &str, backend: &'static str, outcome: Outcome) -> Row
             faults.push(format!("{name} is {value}, not between {least} and {most}"));
         }
     }
+    let is_known = case.checks.iter().any(|check| figures.contains_key(check.figure));
     let remark = if faults.is_empty() { sentence } else { Some(faults.join("; ")) };
     Row {
         name: case.name.clone(),
@@ -183,7 +184,7 @@ fn row(case: &Case, style: &str, backend: &'static str, outcome: Outcome) -> Row
         backend,
         verdict,
         expected: case.expected.text(),
-        kind: case.kind(),
+        kind: case.kind(is_known),
         answer: case.answer,
         passed: faults.is_empty(),
         remark,
@@ -297,8 +298,8 @@ impl Worker<'_> {
             }
             match &case.work {
                 Work::Draw(drawing) => {
-                    drawing::outcomes(drawing, &mut self.renderers, self.folder, |variant, backend, outcome| {
-                        rows.push(row(case, &variant.name, backend, outcome));
+                    drawing::outcomes(drawing, &mut self.renderers, self.folder, |style, backend, outcome| {
+                        rows.push(row(case, style, backend, outcome));
                     });
                 }
                 Work::Read(name, content) => {

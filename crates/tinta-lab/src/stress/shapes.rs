@@ -81,20 +81,20 @@ impl Shape {
     /// # Errors
     ///
     /// The errors of a file with the same triangles.
-    pub fn mesh(self, scale: f64, offset: DVec3, folder: &Path) -> Result<Mesh> {
+    pub fn mesh(self, scale: f64, offset: DVec3, folder: &Path, options: &LoadOptions) -> Result<Mesh> {
         let (positions, triangles) = match self {
             Self::Builtin(name) if scale == 1.0 && offset == DVec3::ZERO => {
-                return Ok(load(name, &LoadOptions::default())?.mesh);
+                return Ok(load(name, options)?.mesh);
             }
-            Self::Written(written) => return written.mesh(folder),
+            Self::Written(written) => return written.mesh(folder, options),
             Self::Builtin(name) => {
-                let mesh = load(name, &LoadOptions::default())?.mesh;
+                let mesh = load(name, options)?.mesh;
                 (mesh.positions, mesh.triangles)
             }
             other => other.triangles(),
         };
         let positions = positions.into_iter().map(|point| point * scale + offset).collect();
-        Mesh::of_triangles("a stiff case", positions, &triangles, &LoadOptions::default())
+        Mesh::of_triangles("a stiff case", positions, &triangles, options)
     }
 
     fn triangles(self) -> Triangles {
@@ -318,7 +318,7 @@ mod tests {
     use tinta::edges::{EdgeList, Incidence};
 
     fn mesh(shape: Shape) -> Mesh {
-        shape.mesh(1.0, DVec3::ZERO, Path::new("")).unwrap()
+        shape.mesh(1.0, DVec3::ZERO, Path::new(""), &LoadOptions::default()).unwrap()
     }
 
     /// Boundary, inner, reversed and non-manifold edges.
@@ -363,7 +363,8 @@ mod tests {
 
     #[test]
     fn what_is_nothing_is_refused_and_what_is_bad_is_left_out() {
-        let refused = |shape: Shape| shape.mesh(1.0, DVec3::ZERO, Path::new("")).unwrap_err().kind();
+        let options = LoadOptions::default();
+        let refused = |shape: Shape| shape.mesh(1.0, DVec3::ZERO, Path::new(""), &options).unwrap_err().kind();
         assert_eq!([Shape::Nothing, Shape::Point, Shape::Line].map(refused), ["model"; 3]);
         assert_eq!(mesh(Shape::BadVertex(f64::NAN)).triangles.len(), 12);
         assert_eq!(mesh(Shape::Duplicates).defects.duplicate_triangles, 24);

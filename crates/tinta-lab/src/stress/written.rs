@@ -22,14 +22,14 @@ const CUBE_FACES: [[u32; 4]; 6] = [[4, 3, 2, 1], [5, 6, 7, 8], [1, 2, 6, 5], [2,
 
 impl Written {
     /// Writes the shape into a folder of its own below this one, which stays because pictures are read when they are drawn.
-    pub(super) fn mesh(self, folder: &Path) -> Result<Mesh> {
+    pub(super) fn mesh(self, folder: &Path, options: &LoadOptions) -> Result<Mesh> {
         let own = tempfile::tempdir_in(folder)
             .map_err(|error| Error::output(folder, format!("no folder in it ({error})")))?;
         let folder = &own.keep();
         match self {
-            Self::Normals(length) => read(folder, &cube(length)),
-            Self::Coordinates(times) => square(folder, times, Size { width: 16, height: 16 }),
-            Self::Skin(width, height) => square(folder, Some(1.0), Size { width, height }),
+            Self::Normals(length) => read(folder, &cube(length), options),
+            Self::Coordinates(times) => square(folder, times, Size { width: 16, height: 16 }, options),
+            Self::Skin(width, height) => square(folder, Some(1.0), Size { width, height }, options),
         }
     }
 }
@@ -42,7 +42,7 @@ fn cube(length: Option<f64>) -> String {
     format!("{CUBE}{}{faces}", normal.clone().unwrap_or_default())
 }
 
-fn square(folder: &Path, times: Option<f64>, size: Size) -> Result<Mesh> {
+fn square(folder: &Path, times: Option<f64>, size: Size, options: &LoadOptions) -> Result<Mesh> {
     let chequer = |index: usize| match (index % size.width as usize / 2 + index / size.width as usize / 2) % 2 {
         0 => [210, 180, 120, 255],
         _ => [90, 60, 40, 255],
@@ -55,7 +55,7 @@ fn square(folder: &Path, times: Option<f64>, size: Size) -> Result<Mesh> {
         None => (String::new(), "1 2 3 4"),
     };
     let text = format!("mtllib skin.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n{far}usemtl skin\nf {face}\n");
-    read(folder, &text)
+    read(folder, &text, options)
 }
 
 fn write(folder: &Path, name: &str, text: &str) -> Result<()> {
@@ -63,7 +63,7 @@ fn write(folder: &Path, name: &str, text: &str) -> Result<()> {
     std::fs::write(&path, text).map_err(|error| Error::output(&path, format!("it cannot be written ({error})")))
 }
 
-fn read(folder: &Path, text: &str) -> Result<Mesh> {
+fn read(folder: &Path, text: &str, options: &LoadOptions) -> Result<Mesh> {
     write(folder, "shape.obj", text)?;
-    Ok(load(&folder.join("shape.obj").to_string_lossy(), &LoadOptions::default())?.mesh)
+    Ok(load(&folder.join("shape.obj").to_string_lossy(), options)?.mesh)
 }

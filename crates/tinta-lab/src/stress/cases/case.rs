@@ -104,6 +104,11 @@ impl Drawing {
     pub(crate) fn is_of_largest(&self) -> bool {
         self.size.width.max(self.size.height) >= LARGEST
     }
+
+    /// Whether the default look draws it, too: where all styles do.
+    pub(in crate::stress) fn draws_look(&self) -> bool {
+        self.variants == Variant::all()
+    }
 }
 
 /// A side in pixels; replaces the placeholders for the largest side, and for one pixel more.
@@ -193,13 +198,14 @@ impl Case {
         Self { is_degraded: true, ..self }
     }
 
-    /// The kind of its right answer.
-    pub fn kind(&self) -> &'static str {
+    /// The kind of its right answer for a row; `is_known`: whether one of the row's figures has an answer.
+    pub fn kind(&self, is_known: bool) -> &'static str {
         match self.expected {
             Expected::Refused { .. } => "refused",
             Expected::Either(_) => "holds or is refused",
             Expected::Rendered if self.is_degraded => "degrades as computed",
-            Expected::Rendered => "holds",
+            Expected::Rendered if is_known => "holds",
+            Expected::Rendered => "drawn, and the same everywhere",
         }
     }
 
