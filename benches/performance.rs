@@ -7,12 +7,15 @@
 #[path = "report/growth.rs"]
 mod growth;
 mod report;
+#[path = "report/search.rs"]
+mod search;
 #[path = "report/sphere.rs"]
 mod sphere;
 
 use glam::{DVec3, Vec2, Vec3};
 use growth::{Curve, plot};
 use report::{Series, print_table, write_record};
+use search::only;
 use serde_json::{Value, json};
 use sphere::bumpy_sphere;
 use std::collections::BTreeSet;
@@ -22,16 +25,16 @@ use std::time::Instant;
 use tinta::culling::DrawnFaces;
 use tinta::mesh::Part;
 use tinta::plan::prune::{Rule, prune};
-use tinta::plan::{Depth, Draw, Faces, Geometry, Paint, Pass, Plan, Step};
+use tinta::plan::{Draw, Faces, Geometry, Paint, Pass, Plan, Step};
 use tinta::renderer::milliseconds_since;
 use tinta::styles::{Cartoon, Mrt};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, load};
 
 const USAGE: &str =
-    "cargo bench --bench performance -- [--rounds N] [--largest N] [--only saved|sizes|triangles|pixels]
+    "cargo bench --bench performance -- [--rounds N] [--largest N] [--only saved|search|sizes|triangles|pixels]
   --rounds N     interleaved rounds (default 21)
   --largest N    triangles of the largest mesh (default 4000000)
-  --only PART    one of the four tables";
+  --only PART    one of the five tables";
 
 struct Settings {
     rounds: usize,
@@ -64,6 +67,10 @@ fn main() {
     let mut record = json!({ "gl": renderer.context() });
     if is_wanted("saved") {
         record["saved"] = saved(&mut renderer, settings.rounds);
+    }
+    if is_wanted("search") {
+        let scenes = scenes().map(|(name, scene)| (name, turned(&scene, 0.0))).collect::<Vec<_>>();
+        record["search"] = search::ratios(&mut renderer, &scenes, settings.rounds);
     }
     if is_wanted("sizes") {
         record["sizes"] = by_sizes(&mut renderer, settings.rounds);
@@ -111,12 +118,7 @@ impl Contestant {
             }
             Self::Ceiling(style) => {
                 made = prune(&style.plan(scene, Show::Final).expect("a plan"), scene, &pruning).plan;
-                let steps = made.passes.iter_mut().flat_map(|pass| &mut pass.steps);
-                for draw in steps.filter_map(|step| if let Step::Draw(draw) = step { Some(draw) } else { None }) {
-                    if matches!(draw.geometry, Geometry::Objects(_)) && draw.depth == Depth::TestAndWrite {
-                        draw.faces.clone_from(&owners);
-                    }
-                }
+                owners.iter().for_each(|owners| drop(only(&mut made, owners)));
                 &made
             }
             Self::Limit(plan) => plan,
@@ -200,9 +202,8 @@ fn rows(series: &[Series]) -> Value {
     series.iter().map(|one| json!({ "name": one.name, "ms": one.times })).collect()
 }
 
-/// Styles in full and pruned over a turn: the bust filling the picture, gear and open box on about a quarter of it, and the files of
-/// TINTA_MODELS.
-fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
+/// The bust filling the picture, gear and open box on about a quarter of it, and the files of TINTA_MODELS.
+fn scenes() -> impl Iterator<Item = (String, Scene)> {
     let fitted = |model: &str| {
         let mesh = Arc::new(load(model, &LoadOptions::default()).expect("a model").mesh);
         Scene::new(vec![mesh], &SceneSettings::default()).expect("a scene")
@@ -212,7 +213,7 @@ fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
         scene.camera.eye = scene.camera.target + (scene.camera.eye - scene.camera.target) * times;
         scene
     };
-    let scenes = [
+    let built_in = [
         ("the bust, fitted", fitted("builtin:bust")),
         ("the gear, on a quarter of the picture", from_afar("builtin:gear", 1.85)),
         ("the open box, on a quarter of the picture", from_afar("builtin:open-box", 1.85)),
@@ -221,10 +222,14 @@ fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
     let mut files: Vec<String> = files.map(|file| file.path().to_string_lossy().into_owned()).collect();
     files.retain(|file| file.ends_with(".obj"));
     files.sort();
-    let scenes: Vec<(&str, Scene)> =
-        scenes.into_iter().chain(files.iter().map(|file| (file.as_str(), fitted(file)))).collect();
-    let tables = scenes.iter().map(|(name, scene)| {
-        let view = turned(scene, 0.0);
+    let built_in = built_in.map(|(name, scene)| (name.to_owned(), scene));
+    built_in.into_iter().chain(files.into_iter().map(move |file| (file.clone(), fitted(&file))))
+}
+
+/// Styles in full and pruned over a turn.
+fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
+    let tables = scenes().map(|(name, scene)| {
+        let view = turned(&scene, 0.0);
         let extent = view.extent_px(view.objects.iter(), view.size).map_or(0, |extent| extent.pixel_count());
         println!(
             "\n{name}: {} triangles, their box covers {} % of {}",
@@ -241,7 +246,7 @@ fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
                     (name.to_owned(), Contestant::Pruned(Style::named(style))),
                     (format!("{name}, the faces that own a pixel"), Contestant::Ceiling(Style::named(style))),
                 ];
-                let series = race(renderer, scene, &contestants, rounds);
+                let series = race(renderer, &scene, &contestants, rounds);
                 let [full_ms, pruned, ceiling] = [0, 1, 2].map(|number| series[number].median());
                 println!(
                     "  {full:<24}{full_ms:>9.2} ms{pruned:>9.2} ms pruned: {:.2} x, at most {:.2} x",

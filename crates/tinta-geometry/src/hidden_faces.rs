@@ -35,11 +35,11 @@ const ROUNDING: f32 = 1e-6;
 /// The most pixels that the boxes of faces may hold on average. Where faces are long and thin, looking at all costs more than drawing.
 const MOST_PIXELS: usize = 4000;
 
-/// How long a driver on the processor takes to draw a face and each pixel of its box, the search to look at them on one thread, and
-/// to start more threads, nanoseconds: measured on llvmpipe, two cores.
-const DRAWING_NS: [usize; 2] = [100, 3];
-const SEARCHING_NS: [usize; 2] = [80, 2];
-const STARTING_NS: usize = 300_000;
+/// One thread looks at five faces while a driver on the processor draws four; starting threads takes it as long as looking at so many
+/// faces more. `cargo bench --bench performance -- --only search` measures the ratio.
+const SEARCHED: usize = 5;
+const DRAWN: usize = 4;
+const STARTING: usize = 3_750;
 
 /// The centres of a row that are computed together.
 const GROUP: usize = 4;
@@ -50,7 +50,7 @@ fn threads(faces: usize, pixels: usize) -> usize {
 }
 
 /// Returns for each object the faces that may own a pixel, `None` where all may. A face that reaches the near or the far plane stays,
-/// and all do where faces are long and thin. And whether drawing them alone saves more time than the search cost.
+/// and all do where faces are long and thin. And whether so many go that the search is worth it: by counts alone.
 ///
 /// `surface` is the size drawn into, pixels (the picture's times its supersampling); GL places vertices to 2^-`subpixel_bits` of a
 /// pixel, pushes faces back by `polygon_offset` (glPolygonOffset's factor and units), and draws the objects `draws` times.
@@ -62,21 +62,14 @@ pub fn faces_not_hidden(
     draws: usize,
 ) -> (Vec<Option<DrawnFaces>>, bool) {
     let view = View::of(scene, surface, subpixel_bits, polygon_offset);
-    let found = view.and_then(|view| view.find(scene));
-    let Some(Found { lists, seen_ns, all_ns, search_ns }) = found else {
+    let Some(lists) = view.and_then(|view| view.find(scene)) else {
         return (vec![None; scene.objects.len()], true);
     };
-    let threads = threads(scene.triangle_count(), 0);
-    let starting_ns = if threads > 1 { STARTING_NS } else { 0 };
-    (lists, (all_ns - seen_ns) * draws >= search_ns / threads + starting_ns)
-}
-
-/// The faces to draw, and the times of drawing them, of drawing all, and of the search on one thread.
-struct Found {
-    lists: Vec<Option<DrawnFaces>>,
-    seen_ns: usize,
-    all_ns: usize,
-    search_ns: usize,
+    let left_out: usize = lists.iter().flatten().map(|drawn| drawn.left_out).sum();
+    let faces = scene.triangle_count();
+    let threads = threads(faces, 0);
+    let searched = faces / threads + if threads > 1 { STARTING } else { 0 };
+    (lists, left_out * draws * SEARCHED >= searched * DRAWN)
 }
 
 /// A view of a scene in the driver's coordinates.
@@ -153,7 +146,7 @@ impl View {
         Some(Self { size, half, moved, polygon_offset, clip_from_view: scene.clip_from_view() })
     }
 
-    fn find(&self, scene: &Scene) -> Option<Found> {
+    fn find(&self, scene: &Scene) -> Option<Vec<Option<DrawnFaces>>> {
         // An offset towards the eye may bring a face before its corners.
         if self.polygon_offset.iter().any(|offset| *offset < 0.0) {
             return None;
@@ -167,8 +160,6 @@ impl View {
         let all = scene.triangle_count();
         let pixels: usize = objects.iter().flat_map(|object| &object.faces).map(Face::pixels).sum();
         let depths = self.depths(&objects, threads(all, pixels));
-        let [all_ns, search_ns] = [DRAWING_NS, SEARCHING_NS].map(|[face, pixel]| all * face + pixels * pixel);
-        let mut seen_ns = 0;
         let lists = scene.objects.iter().zip(&objects).map(|(object, ObjectFaces { indices, places, faces })| {
             let may_be_seen = filled(faces.len(), threads(all, pixels), false, |index| {
                 let face = &faces[index];
@@ -177,12 +168,11 @@ impl View {
             let mut is_hidden = vec![true; indices.len() / 3];
             for (face, _) in faces.iter().zip(may_be_seen).filter(|(_, may_be_seen)| *may_be_seen) {
                 is_hidden[face.number as usize] = false;
-                seen_ns += DRAWING_NS[0] + face.pixels() * DRAWING_NS[1];
             }
             let left_out = is_hidden.iter().filter(|is_hidden| **is_hidden).count();
             (left_out > 0).then(|| without(scene.arrays(object), &is_hidden, left_out))
         });
-        Some(Found { lists: lists.collect(), seen_ns, all_ns, search_ns })
+        Some(lists.collect())
     }
 
     /// The faces that may cover the centre of a pixel; `None` where they are long and thin.
