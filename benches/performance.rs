@@ -118,7 +118,9 @@ impl Contestant {
             }
             Self::Ceiling(style) => {
                 made = prune(&style.plan(scene, Show::Final).expect("a plan"), scene, &pruning).plan;
-                owners.iter().for_each(|owners| drop(only(&mut made, owners)));
+                owners.iter().for_each(|owners| {
+                    only(&mut made, owners);
+                });
                 &made
             }
             Self::Limit(plan) => plan,

@@ -1,4 +1,4 @@
-//! The ratio by which the search for hidden faces decides (`SEARCHED` and `DRAWN` in `hidden_faces.rs`): how many faces one thread
+//! The ratio that decides about the search for hidden faces (`SEARCHED` and `DRAWN` in `hidden_faces.rs`): how many faces one thread
 //! looks at while the driver draws one. By processor time, which the load of other programs hardly changes.
 
 use serde_json::{Value, json};

@@ -33,21 +33,11 @@ fn in_words(error: EncodingError) -> String {
 
 impl GifEncoder {
     pub(super) fn new(size: Size, transparent: bool, delay_ms: u16) -> Encoded<Self> {
-        let encoder = || {
-            let mut encoder = Encoder::new(Vec::new(), size.width as u16, size.height as u16, &[])?;
-            encoder.set_repeat(Repeat::Infinite)?;
-            Ok(encoder)
-        };
+        let [width, height] = [size.width, size.height].map(|side| side as u16);
+        let mut encoder = Encoder::new(Vec::new(), width, height, &[]).map_err(in_words)?;
+        encoder.set_repeat(Repeat::Infinite).map_err(in_words)?;
         let palette = Palette::new(transparent);
-        Ok(Self {
-            encoder: encoder().map_err(in_words)?,
-            size,
-            transparent,
-            delay_ms,
-            frames: 0,
-            palette,
-            before: vec![],
-        })
+        Ok(Self { encoder, size, transparent, delay_ms, frames: 0, palette, before: vec![] })
     }
 
     /// Stores the changes since the previous picture, or the whole visible picture if new holes appear.

@@ -36,17 +36,13 @@ const MOST_KNOWN: usize = 1 << 20;
 
 impl Palette {
     pub(super) fn new(transparent: bool) -> Self {
-        let mut palette = Self { transparent, colors: vec![], known: FxHashMap::default(), is_exact: true, error: 0.0 };
-        palette.clear();
-        palette
+        let colors = vec![0; usize::from(transparent)];
+        Self { transparent, colors, known: FxHashMap::default(), is_exact: true, error: 0.0 }
     }
 
     /// Forgets all colours except the transparent entry.
     fn clear(&mut self) {
-        self.known.clear();
-        self.colors.clear();
-        self.colors.extend(self.transparent.then_some(0));
-        self.is_exact = true;
+        *self = Self::new(self.transparent);
     }
 
     /// Adapts the palette to a picture; pixels with alpha 0 are ignored.

@@ -194,11 +194,11 @@ impl Resolved {
         let (scene, contents) = (&self.scene, &self.contents);
         let drawing = &contents.drawing;
         let keeps_short = wanted.short && drawing.min_length.is_none();
-        let drawn_long = DrawingSettings { min_length: Some(Length::Px(0.0)), ..drawing.clone() };
-        let lines = match keeps_short {
-            true if wanted.all => lines,
-            true => Arc::new(lines.without_specks_with_progress(&drawn_long, progress)?),
-            false => Arc::new(lines.without_specks_with_progress(drawing, progress)?),
+        let min_length = if keeps_short { Some(Length::Px(0.0)) } else { drawing.min_length };
+        let of_specks = DrawingSettings { min_length, ..drawing.clone() };
+        let lines = match keeps_short && wanted.all {
+            true => lines,
+            false => Arc::new(lines.without_specks_with_progress(&of_specks, progress)?),
         };
         let mut remarks = scene.crack_remarks();
         remarks.extend(scene.far_remark());

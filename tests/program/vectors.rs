@@ -15,7 +15,8 @@ use tinta::{
 /// The areas of a style as SVG.
 fn areas(scene: &Scene, style: &Style) -> String {
     let lines = VisibleLines::none(scene.size);
-    let areas = style.vectors(scene.size).unwrap().areas(scene, &lines, &Progress::default()).unwrap().unwrap();
+    let areas =
+        style.vectors(scene.size).unwrap().areas(&Sight::of(scene), &lines, &Progress::default()).unwrap().unwrap();
     svg_of(scene, areas.drawn)
 }
 
@@ -154,7 +155,7 @@ fn outlines_of_objects_are_masks() {
     let style = LineStyle { areas: Some(Joined::Object), is_of_areas_alone: true, ..LineStyle::default() };
     let vectors = Style::Lines(style).vectors(scene.size).unwrap();
     let lines = VisibleLines::none(scene.size);
-    let fills = vectors.areas(&scene, &lines, &Progress::default()).unwrap().unwrap().drawn.fills;
+    let fills = vectors.areas(&Sight::of(&scene), &lines, &Progress::default()).unwrap().unwrap().drawn.fills;
     assert_eq!(fills.iter().map(|group| group.object).collect::<Vec<_>>(), [0, 1, 2, 3]);
     let bytes = |Color(color): Color| color.map(|channel| (channel * 255.0).round() as u8);
     let colors: Vec<[u8; 3]> = fills.iter().map(|group| bytes(group.fills[0].color)).collect();

@@ -154,7 +154,7 @@ impl VisibleLines {
         Self::in_sight(&Sight::of(scene), settings, progress)
     }
 
-    /// Like [`VisibleLines::with_progress`], for a scene whose areas are found, too.
+    /// Like [`VisibleLines::with_progress`]; shares its work with the areas of the sight.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! What lines, areas and strokes of one view share.
+//! The faces, search and intersections that lines, areas and strokes of one view share.
 
 use crate::lines::eye::face_pair::Piercing;
 use crate::lines::eye::faces::Faces;
@@ -45,7 +45,7 @@ impl<'a> Sight<'a> {
         Self { scene, faces: OnceLock::new(), search: OnceLock::new(), intersections: OnceLock::new() }
     }
 
-    /// The scene's faces as they are given.
+    /// The faces of the scene without repairs.
     pub(in crate::lines) fn faces(&self, space: &Space) -> Arc<Faces> {
         self.faces.get_or_init(|| Arc::new(Faces::of(space, self.scene))).clone()
     }

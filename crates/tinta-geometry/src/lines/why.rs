@@ -162,7 +162,7 @@ impl WhyPiece {
     }
 }
 
-/// A scene's lines with the names of what they belong to.
+/// A scene's lines with the names of their objects and parts.
 struct Explained<'a> {
     lines: &'a LineIndex<'a>,
     input: &'a LineInput<'a>,

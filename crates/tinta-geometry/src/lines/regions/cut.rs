@@ -38,7 +38,7 @@ impl Regions {
     }
 }
 
-/// Cuts a view along borders; joins what has the same label.
+/// Cuts a view along borders; joins cells with the same label.
 pub(super) fn cut<T: Copy + PartialEq + Send + Sync>(
     view: &View,
     borders: Vec<Segment>,

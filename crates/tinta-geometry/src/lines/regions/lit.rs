@@ -276,7 +276,7 @@ impl LitCorners {
         let mut is_small = vec![false; self.light.len()];
         for face in &patches.mixed {
             let corners = self.of_corners[*face as usize];
-            // What was moved across since is mixed no more.
+            // Faces moved across since are mixed no more.
             if corners.iter().all(|corner| is_in(*corner)) {
                 continue;
             }

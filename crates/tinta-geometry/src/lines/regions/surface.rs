@@ -1,4 +1,4 @@
-//! Regions joined by what they show: faces of the file, materials, objects.
+//! Regions joined by their faces of the file, materials or objects.
 
 use super::region::{Regions, SeenFace};
 use super::tones::TonedSurface;
