@@ -43,7 +43,7 @@ impl GifEncoder {
     /// Stores the changes since the previous picture, or the whole visible picture if new holes appear.
     pub(super) fn add(&mut self, picture: Picture) -> Encoded<()> {
         let picture = if self.transparent { with_hard_edges(picture) } else { picture.opaque() };
-        self.palette.fit(&picture);
+        self.palette.fit(&picture.pixels);
         let part = if self.transparent {
             Rectangle::around(self.size, |index| picture.pixels[index * 4 + 3] > 0)
         } else if self.before.is_empty() {

@@ -5,8 +5,7 @@
 //! palette for each frame would make tones flicker.
 
 use super::quantize::{Histogram, Mix, Packed, choose, distance, mix};
-use crate::picture::Picture;
-use rustc_hash::FxHashMap;
+use std::collections::HashMap;
 
 /// The index of the transparent colour in pictures with holes. It is the first, so added colours do not move it.
 pub(super) const TRANSPARENT: u8 = 0;
@@ -16,7 +15,7 @@ pub(super) struct Palette {
     /// The table, including the transparent entry.
     colors: Vec<Packed>,
     /// All colours found while this table was in use.
-    known: FxHashMap<Packed, Mix>,
+    known: HashMap<Packed, Mix>,
     is_exact: bool,
     /// Mean square error of the picture that the table was made for.
     error: f64,
@@ -37,7 +36,7 @@ const MOST_KNOWN: usize = 1 << 20;
 impl Palette {
     pub(super) fn new(transparent: bool) -> Self {
         let colors = vec![0; usize::from(transparent)];
-        Self { transparent, colors, known: FxHashMap::default(), is_exact: true, error: 0.0 }
+        Self { transparent, colors, known: HashMap::default(), is_exact: true, error: 0.0 }
     }
 
     /// Forgets all colours except the transparent entry.
@@ -45,8 +44,8 @@ impl Palette {
         *self = Self::new(self.transparent);
     }
 
-    /// Adapts the palette to a picture; pixels with alpha 0 are ignored.
-    pub(super) fn fit(&mut self, Picture { size, pixels }: &Picture) {
+    /// Adapts the palette to these RGBA pixels; those with alpha 0 are ignored.
+    pub(super) fn fit(&mut self, pixels: &[u8]) {
         let histogram = histogram(pixels);
         let room = 256 - usize::from(self.transparent);
         let new = histogram.iter().filter(|(color, _)| !self.known.contains_key(color)).count();
@@ -58,7 +57,7 @@ impl Palette {
         } else if self.is_exact || self.known.len() + new > MOST_KNOWN || !self.serves(&histogram) {
             self.clear();
             self.is_exact = false;
-            self.colors.extend(choose(pixels, size.width as usize, &histogram, room));
+            self.colors.extend(choose(&histogram, room));
             self.add_mixed(&histogram);
             self.error = self.mean_error(&histogram);
         }
@@ -131,23 +130,10 @@ fn packed(pixel: &[u8]) -> Packed {
 
 /// Returns the colours in order, with the number of pixels of each.
 fn histogram(pixels: &[u8]) -> Histogram {
-    let mut counts: FxHashMap<Packed, u32> = FxHashMap::default();
-    let (mut color, mut run) = (0, 0);
-    for pixel in pixels.chunks_exact(4).filter(|pixel| pixel[3] > 0) {
-        let next = packed(pixel);
-        if next != color && run > 0 {
-            *counts.entry(color).or_default() += run;
-            run = 0;
-        }
-        color = next;
-        run += 1;
-    }
-    if run > 0 {
-        *counts.entry(color).or_default() += run;
-    }
-    let mut histogram: Histogram = counts.into_iter().collect();
-    histogram.sort_unstable();
-    histogram
+    let kept = pixels.chunks_exact(4).filter(|pixel| pixel[3] > 0);
+    let mut colors: Vec<Packed> = kept.map(packed).collect();
+    colors.sort_unstable();
+    colors.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u32)).collect()
 }
 
 /// Bayer's ordered pattern of 8 x 8 pixels: each number from 0 to 63 once.

@@ -1,7 +1,5 @@
-//! Chooses the 256 colours that best replace thousands: flat tones exactly, the others by NeuQuant (Dekker 1994).
-
-use gif::Frame;
-use std::cmp::Reverse;
+//! Chooses the 256 colours that best replace thousands: flat tones exactly, then colours at equal distances along Morton's curve through
+//! the colour space (1966), moved to the means of their neighbours (Lloyd). Crates for this bring large dependencies or shift flat tones.
 
 /// A colour as one number, red in the high byte.
 pub(super) type Packed = u32;
@@ -26,8 +24,8 @@ const FLAT_SHARE: f64 = 1.0 / 512.0;
 /// … but no more than this share of the palette.
 const FLAT_ENTRIES: f64 = 0.5;
 
-/// NeuQuant learns from every so many-th pixel.
-const STEP: i32 = 10;
+/// Rounds that move entries to the means of their colours.
+const ROUNDS: usize = 3;
 
 fn channels(color: Packed) -> [i32; 3] {
     let [_, red, green, blue] = color.to_be_bytes();
@@ -42,42 +40,61 @@ pub(super) fn distance(a: Packed, b: Packed) -> f32 {
     sum as f32 / 3.0
 }
 
-/// Returns at most `room` colours for a picture of RGBA pixels of this width that has more.
-pub(super) fn choose(pixels: &[u8], width: usize, histogram: &Histogram, room: usize) -> Vec<Packed> {
-    let count: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
-    let mut flat = histogram.clone();
-    flat.retain(|(_, of_color)| f64::from(*of_color) >= count * FLAT_SHARE);
-    flat.sort_unstable_by_key(|(color, of_color)| (Reverse(*of_color), *color));
-    flat.truncate((room as f64 * FLAT_ENTRIES) as usize);
-    let height = pixels.len() / 4 / width;
-    let learnt = Frame::from_rgba_speed(width as u16, height as u16, &mut pixels.to_vec(), STEP).palette;
-    let mut others: Vec<Packed> = learnt
-        .unwrap_or_default()
-        .chunks_exact(3)
-        .map(|color| u32::from_be_bytes([0, color[0], color[1], color[2]]))
-        .collect();
-    // Each flat tone takes the place of the entry that it is nearest to.
-    for (color, _) in &flat {
-        others.swap_remove(nearest(*color, &others));
+/// Returns at most `room` colours for a picture that has more.
+pub(super) fn choose(histogram: &Histogram, room: usize) -> Vec<Packed> {
+    let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
+    let mut by_count = histogram.clone();
+    by_count.sort_unstable_by_key(|(color, count)| (std::cmp::Reverse(*count), *color));
+    let flat_room = (room as f64 * FLAT_ENTRIES) as usize;
+    let flat_count = by_count.iter().take(flat_room).take_while(|(_, n)| f64::from(*n) >= pixels * FLAT_SHARE).count();
+    let others = by_count.split_off(flat_count);
+    let mut colors: Vec<Packed> = by_count.iter().map(|(color, _)| *color).collect();
+    colors.extend(spread(others.clone(), room - flat_count));
+    for _ in 0..ROUNDS {
+        move_to_means(&mut colors, flat_count, &others);
     }
-    while flat.len() + others.len() > room {
-        others.pop();
-    }
-    let mut colors: Vec<Packed> = flat.into_iter().map(|(color, _)| color).chain(others).collect();
     colors.sort_unstable();
     colors.dedup();
     colors
 }
 
-fn nearest(color: Packed, colors: &[Packed]) -> usize {
-    let mut best = (0, f32::INFINITY);
-    for (index, entry) in colors.iter().enumerate() {
-        let distance = distance(color, *entry);
-        if distance < best.1 {
-            best = (index, distance);
+/// Returns so many colours of a histogram, with equal numbers of pixels between them along Morton's curve.
+fn spread(mut histogram: Histogram, wanted: usize) -> Vec<Packed> {
+    let place = |color: Packed| {
+        let bits =
+            |bit: u32| channels(color).map(|channel| channel >> bit & 1).into_iter().fold(0, |all, bit| all << 1 | bit);
+        (0..8).rev().fold(0, |place, bit| place << 3 | bits(bit))
+    };
+    histogram.sort_unstable_by_key(|(color, _)| place(*color));
+    let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
+    let (mut passed, mut colors) = (0.0, Vec::new());
+    for (color, count) in histogram {
+        passed += f64::from(count);
+        if passed * wanted as f64 >= (colors.len() as f64 + 0.5) * pixels {
+            colors.push(color);
         }
     }
-    best.0
+    colors
+}
+
+/// Moves all entries except the first, fixed ones to the mean of their nearest colours.
+fn move_to_means(colors: &mut [Packed], fixed: usize, histogram: &Histogram) {
+    let mut sums = vec![[0.0f64; 4]; colors.len()];
+    for (color, count) in histogram {
+        let sum = &mut sums[nearest(*color, colors)];
+        let count = f64::from(*count);
+        channels(*color).iter().zip(sum.iter_mut()).for_each(|(value, sum)| *sum += f64::from(*value) * count);
+        sum[3] += count;
+    }
+    for (color, [red, green, blue, count]) in colors.iter_mut().zip(sums).skip(fixed).filter(|(_, sum)| sum[3] > 0.0) {
+        let [red, green, blue] = [red, green, blue].map(|sum| (sum / count).round() as u8);
+        *color = u32::from_be_bytes([0, red, green, blue]);
+    }
+}
+
+fn nearest(color: Packed, colors: &[Packed]) -> usize {
+    let distances = colors.iter().map(|entry| distance(color, *entry)).enumerate();
+    distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(index, _)| index)
 }
 
 /// Returns two entries, at `first_color` or later, and their shares; their mix is nearest to a colour without being rough.
