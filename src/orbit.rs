@@ -9,7 +9,6 @@
 //! let mut orbit = Orbit::default();
 //! orbit.turn(0.25, 0.0);
 //! assert_eq!(orbit.view.azimuth_degrees, -15.0);
-//! assert!(orbit.is_fitted(), "nothing was moved or zoomed");
 //! ```
 
 use crate::camera::{Camera, CameraSettings, Projection, View};

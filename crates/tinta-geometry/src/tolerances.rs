@@ -1,8 +1,8 @@
 //! Tolerances, each with its unit and its reason.
 //!
 //! ```
-//! // The cosine of the angle between equal normals, rounded, still counts as parallel.
-//! assert!(1.0 - tinta_geometry::tolerances::PARALLEL_COSINE < 1.0);
+//! // Two coordinates of an f32 file that differ in their last place become one.
+//! assert!(tinta_geometry::tolerances::WELD >= f64::from(f32::EPSILON) / 2.0);
 //! ```
 
 /// Default of `--weld`, a share of the model's bounding-box diagonal: one unit in the last place of an f32 file.
