@@ -133,6 +133,10 @@ const MISTAKES: [(&str, &str); 119] = [
         "invalid value 'flatt' for '--normals <WHERE>': did you mean flat?",
     ),
     (
+        "render triangle.obj -o out.png --section x=0 --section section-hatch=nan",
+        "--section section-hatch=NaN: the spacing is a length, 0 or more",
+    ),
+    (
         "render triangle.obj -o out.png --normals smooth-angle=400",
         "--normals smooth-angle=400: the angle is between 0 and 180 degrees",
     ),

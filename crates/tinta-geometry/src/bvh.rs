@@ -29,8 +29,9 @@ impl Box3 {
 
     /// Returns the box between two corners, rounded outwards.
     pub(crate) fn new(low: DVec3, high: DVec3) -> Self {
-        let down = |x: f64| clamped(x).next_down();
-        let up = |x: f64| clamped(x).next_up();
+        // Where numbers overflow, nobody knows the corner, and the box is everywhere.
+        let down = |x: f64| clamped(x, -FARTHEST).next_down();
+        let up = |x: f64| clamped(x, FARTHEST).next_up();
         Self(Aabb {
             min: Vec3A::new(down(low.x), down(low.y), down(low.z)),
             max: Vec3A::new(up(high.x), up(high.y), up(high.z)),
@@ -53,10 +54,12 @@ impl Boundable for Box3 {
     }
 }
 
-/// Limits a coordinate to a range wide enough for any search, whose squares are finite.
-fn clamped(x: f64) -> f32 {
-    const FARTHEST: f64 = 1e15;
-    x.clamp(-FARTHEST, FARTHEST) as f32
+/// Wide enough for any search, with finite squares.
+const FARTHEST: f64 = 1e15;
+
+/// Limits a coordinate, or takes another if it is no number.
+fn clamped(x: f64, other: f64) -> f32 {
+    (if x.is_nan() { other } else { x.clamp(-FARTHEST, FARTHEST) }) as f32
 }
 
 /// Numbered things with a box each, in a hierarchy of boxes.

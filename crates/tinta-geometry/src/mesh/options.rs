@@ -264,24 +264,17 @@ impl LoadStage {
 
 /// Rejects invalid options.
 pub(super) fn check(options: &LoadOptions) -> Result<()> {
-    if !(0.0..=LARGEST_WELD).contains(&options.weld) {
-        return Err(Error::value(
-            "weld",
-            options.weld,
-            format!("the tolerance is a share of the model's size from 0 to {LARGEST_WELD}"),
-        ));
-    }
-    if !(0.0..=180.0).contains(&options.smooth_angle_degrees) {
-        return Err(Error::value(
-            "smooth-angle",
-            options.smooth_angle_degrees,
-            "the angle is between 0 and 180 degrees",
-        ));
-    }
-    if !(0.0..=LARGEST_REACH).contains(&options.normal_reach) {
-        let problem = format!("the reach is a share of the model's size from 0 to {LARGEST_REACH}");
-        return Err(Error::value("reach", options.normal_reach, problem));
-    }
+    let within = |name: &'static str, value: f64, most: f64, problem: String| match (0.0..=most).contains(&value) {
+        true => Ok(()),
+        false => Err(Error::value(name, value, problem)),
+    };
+    let share = |of: &str, most: f64| format!("the {of} is a share of the model's size from 0 to {most}");
+    within("weld", options.weld, LARGEST_WELD, share("tolerance", LARGEST_WELD))?;
+    within("reach", options.normal_reach, LARGEST_REACH, share("reach", LARGEST_REACH))?;
+    let angle = "the angle is between 0 and 180 degrees";
+    within("smooth-angle", options.smooth_angle_degrees, 180.0, angle.to_owned())?;
+    let spacing = options.section_hatch.unwrap_or_default();
+    within("section-hatch", spacing, f64::MAX, "the spacing is a length, 0 or more".to_owned())?;
     options.skin.as_deref().map_or(Ok(()), check_skin)
 }
 

@@ -327,6 +327,39 @@ fn tones_of_a_ball_are_those_that_rays_find() {
 }
 
 #[test]
+fn tones_of_surfaces_in_one_place_are_those_that_rays_find() {
+    let mesh = icosphere(3);
+    let normals: Vec<_> = mesh.positions.iter().map(|position| position.normalize().as_vec3()).collect();
+    let ball = tinta::Mesh { normals, triangle_normals: mesh.triangles.clone(), ..mesh };
+    let count = ball.positions.len() as u32;
+    let mut doubled = ball.clone();
+    let reversed: Vec<[u32; 3]> = ball.triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
+    doubled.normals.extend(ball.normals.iter().map(|normal| -*normal));
+    // Each triangle, then the same from behind.
+    doubled.triangles = ball.triangles.iter().zip(&reversed).flat_map(|(front, back)| [*front, *back]).collect();
+    let behind = |triangle: &[u32; 3]| triangle.map(|normal| normal + count);
+    doubled.triangle_normals =
+        ball.triangles.iter().zip(&reversed).flat_map(|(front, back)| [*front, behind(back)]).collect();
+    for meshes in [vec![ball.clone(), ball], vec![doubled]] {
+        judge(&check_tones("in one place", &Scene::new(meshes, &SceneSettings::default()).unwrap()));
+    }
+}
+
+#[test]
+fn numbers_that_overflow_end_in_no_panic() {
+    for exponent in (14..=300).step_by(11) {
+        let far = 10f64.powi(exponent);
+        let corners = vec![DVec3::new(far, 0.0, 0.0), DVec3::new(far, 1.0, 0.0), DVec3::new(far, 0.0, 1.0)];
+        let mesh = mesh(corners, vec![[0, 1, 2]]);
+        let mesh = tinta::Mesh { normals: vec![glam::Vec3::X], triangle_normals: vec![[0; 3]], ..mesh };
+        let Ok(scene) = Scene::new([mesh], &SceneSettings::default()) else { continue };
+        let lines = tinta::LineSettings { finds_outline: true, ..tinta::LineSettings::default() };
+        drop(VisibleLines::of(&scene, &lines));
+        rules().iter().for_each(|rule| drop(Regions::toned(&Sight::of(&scene), rule, &Progress::default())));
+    }
+}
+
+#[test]
 fn tones_of_public_models_are_those_that_rays_find() {
     let mut all = Checked::default();
     let models = public_meshes(&["cow.obj", "teapot.obj", "suzanne.obj"]);

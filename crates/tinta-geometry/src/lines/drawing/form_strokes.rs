@@ -105,7 +105,10 @@ fn cuts(view: &View, spacing_px: f64) -> Option<Vec<Cut>> {
     let planes: Vec<FormPlanes> =
         scene.objects.iter().map(|object| FormPlanes::of(&object.mesh, scene.edges(object).list())).collect();
     let mut cuts = Vec::new();
-    for place in 0..faces.triangles.len() as u32 {
+    // Of strokes in one place the first one stays: that of the face that is seen.
+    let mut places: Vec<u32> = (0..faces.triangles.len() as u32).collect();
+    places.sort_unstable_by_key(|place| faces.numbers[*place as usize]);
+    for place in places {
         let SeenFace { object, face } = view.face(place);
         let (planes, mesh) = (&planes[object as usize], &scene.objects[object as usize].mesh);
         let number = planes.of_faces[face as usize];

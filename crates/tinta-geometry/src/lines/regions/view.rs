@@ -109,6 +109,8 @@ impl<'a> View<'a> {
         let near_cuts = self.input.near_plane_features().map(|cut| Feature { class: Some(BORDER), ..cut });
         let mut lines: Vec<Line> = crossings.chain(near_cuts).map(|feature| (feature, 0)).collect();
         lines.extend(inside.into_iter().chain(self.far_cuts()).map(|(place, ends)| self.within(place, ends)));
+        // Of lines in one place the first one stays: that of the face that is seen.
+        lines.sort_by_key(|(_, lowest)| *lowest);
         lines.extend(self.edges(is_border));
         Ok(self.drawn(&self.decided(lines, &found, progress)?))
     }
