@@ -41,6 +41,7 @@ pub use threads::line_measure::{Darkness, DrawInk, LineMeasure, LineScore, Score
 pub use threads::report::Stage;
 pub use threads::viewer::{Viewer, ViewerOptions};
 pub use values::buffer::{Buffer, buffers};
+#[cfg(feature = "cli")]
 pub(crate) use values::controls::SCENE_SETTINGS;
 pub use values::event::{Effect, Layout, Save, Side, ViewerEvent};
 pub use values::line_style::LinesShown;
