@@ -14,7 +14,7 @@
 mod answer;
 mod columns;
 mod convergence;
-mod html;
+pub(crate) mod html;
 mod frame;
 mod info;
 mod labels;
@@ -28,7 +28,6 @@ mod svg_canvas;
 pub use columns::{Column, columns};
 pub use convergence::{Curve, curves};
 pub use frame::Shape;
-pub(crate) use html::counted;
 pub use html::html;
 pub use info::{ReportInfo, ReportPicture};
 pub use log::{RowLog, read_rows, rows_of_bytes};

@@ -1,6 +1,6 @@
 //! Counts and times in words.
 
-pub(super) use crate::report::counted;
+pub(super) use crate::report::html::counted;
 use std::time::Duration;
 
 /// Seconds up to a minute and a half, then minutes.
