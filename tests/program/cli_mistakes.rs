@@ -27,7 +27,7 @@ const FILES: [(&str, &str); 16] = [
 ];
 
 /// Command lines and their errors.
-const MISTAKES: [(&str, &str); 119] = [
+const MISTAKES: [(&str, &str); 120] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
     ("render triangle.obj", "--output is missing; name the picture to write: -o triangle.png; see --help"),
