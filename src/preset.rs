@@ -53,7 +53,7 @@ impl Preset {
     ///
     /// # Errors
     ///
-    /// [`Error::File`] when it is missing, not a regular file, longer than [`LARGEST_BYTES`], or no flat table of TOML; for
+    /// [`Error::File`] when it is missing, not a regular file, longer than `LARGEST_BYTES`, or no flat table of TOML; for
     /// an unknown name with those there are.
     pub fn read(name: &str) -> Result<Self> {
         if let Some(short) = name.strip_prefix(PREFIX) {

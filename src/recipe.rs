@@ -193,7 +193,7 @@ impl Recipe {
         Some(format!("its recipe has --{name}, {what}; give that option yourself"))
     }
 
-    /// The recipe as ASCII JSON on one line; `None` when it is longer than [`LARGEST_BYTES`].
+    /// The recipe as ASCII JSON on one line; `None` when it is longer than `LARGEST_BYTES`.
     pub fn json(&self) -> Option<String> {
         let text = serde_json::to_string(self).ok()?;
         let mut ascii = String::with_capacity(text.len());

@@ -2,7 +2,7 @@
 //!
 //! In: the text of a shader in `glsl/`. Out: the same program for a browser, in pieces that show the changes. The
 //! fixed-function pipeline's variables in 1.20 (matrices, the vertex's attributes, its colours) become uniforms, attributes and
-//! varyings with the names in [`UNIFORMS`] and [`ATTRIBUTES`].
+//! varyings with the names in `UNIFORMS` and `ATTRIBUTES`.
 //!
 //! Rewriting words suffices: only the whole numbers that are floats need a type, and their statement shows it. The existing GLSL
 //! parsers lose comments, which the page shows beside the program.

@@ -126,7 +126,7 @@ impl Request {
     ///
     /// # Errors
     ///
-    /// [`Error::Setting`] for a folder without shaders, and those of [`glsl::check_folder`].
+    /// [`Error::Setting`] for a folder without shaders, and those of `glsl::check_folder`.
     pub fn shaders(&self) -> Result<HashMap<String, String>> {
         let Some(folder) = &self.glsl else { return Ok(HashMap::new()) };
         glsl::check_folder(folder)?;
@@ -254,7 +254,7 @@ impl Resolved {
     ///
     /// # Errors
     ///
-    /// Those of [`Resolved::plan`] and [`Renderer::choose_context`].
+    /// Those of [`Resolved::plan`] and `Renderer::choose_context`.
     pub fn plans(&self, renderer: &mut Renderer) -> Result<(Plan, Pruned)> {
         let published = self.plan()?;
         let pruned = self.pruned(&published, renderer)?;

@@ -118,7 +118,7 @@ pub struct SceneSettings {
     pub background: Background,
     /// One colour for everything, in place of the model's. Default none.
     pub color: Option<Color>,
-    /// The colour where the model has none. Default [`DEFAULT_COLOR`].
+    /// The colour where the model has none. Default `DEFAULT_COLOR`.
     pub bare_color: Color,
     /// The look of surfaces. Default plain, as in the pictures of the three texts.
     pub surface: Surface,
@@ -230,7 +230,7 @@ impl Scene {
     /// # Errors
     ///
     /// [`Error::Setting`] for a scene that cannot be drawn: no mesh, no copy, no pixel or too many, an impossible
-    /// camera, planes too far apart for depth to order faces, or coordinates beyond [`SCENE_RADIUS`].
+    /// camera, planes too far apart for depth to order faces, or coordinates beyond `SCENE_RADIUS`.
     pub fn new(meshes: impl IntoIterator<Item: Into<Arc<Mesh>>>, settings: &SceneSettings) -> Result<Self> {
         let meshes: Vec<Arc<Mesh>> = meshes.into_iter().map(Into::into).collect();
         if meshes.is_empty() || !(1..=LARGEST_COPIES).contains(&settings.copies) {

@@ -5,7 +5,7 @@ use crate::mesh::{Mesh, weld};
 use crate::tolerances::CRACK;
 use glam::DVec3;
 
-/// Returns the number of open edges with another one whose ends are both within [`CRACK`] of the model's size of theirs.
+/// Returns the number of open edges with another one whose ends are both within `CRACK` of the model's size of theirs.
 ///
 /// Each such edge after the first of a place counts: a crack of one edge's length is 1.
 pub fn cracks(mesh: &Mesh, edges: &EdgeList) -> usize {

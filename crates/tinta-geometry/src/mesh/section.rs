@@ -37,7 +37,7 @@ pub struct SectionPlane {
     /// The product of its points with the normal, file units.
     pub offset: f64,
     /// Whether its axes are those of the model's file as read, and its cut is hatched; otherwise it is in world space. Its text then
-    /// begins with [`SectionPlane::OF_FILE`].
+    /// begins with `SectionPlane::OF_FILE`.
     pub is_of_file: bool,
 }
 

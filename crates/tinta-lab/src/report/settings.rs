@@ -159,7 +159,7 @@ pub struct Point {
     pub curves: [String; 2],
     /// Width and height of the picture.
     pub size: [u32; 2],
-    /// Geometric mean over models of the time by [`Points::clock`], milliseconds; of frames the median.
+    /// Geometric mean over models of the time by `Points::clock`, milliseconds; of frames the median.
     pub time_ms: f64,
     /// The same of the lower and upper quartiles of the frames.
     pub times_ms: [f64; 2],
