@@ -200,8 +200,8 @@ def test_every_setting_of_the_tables_is_taken_and_told(tinta):
 
 
 def test_the_packages_program_draws_a_batch(tmp_path):
-    (tmp_path / "jobs.jsonl").write_text('{"model": "builtin:gear"}\n{"model": "builtin:open-box"}\n')
-    words = [sys.executable, "-m", "tinta_npr", "batch", "jobs.jsonl", "-o", "drawn", "--size", "64", "--jobs", "2"]
+    models = ["builtin:gear", "builtin:open-box"]
+    words = [sys.executable, "-m", "tinta_npr", "batch", *models, "-o", "drawn", "--size", "64", "--jobs", "2"]
     done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert len(list((tmp_path / "drawn").glob("*.png"))) == 2
