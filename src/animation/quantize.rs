@@ -1,5 +1,5 @@
-//! Chooses the 256 colours that best replace thousands: flat tones exactly, then colours at equal distances along Morton's curve through
-//! the colour space (1966), moved to the means of their neighbours (Lloyd). Crates for this bring large dependencies or shift flat tones.
+//! Chooses the 256 colours that best replace thousands: flat tones exactly, then one after the other the colour that is served worst,
+//! moved to the means of their neighbours (Lloyd). Crates for this bring large dependencies or shift flat tones.
 
 /// A colour as one number, red in the high byte.
 pub(super) type Packed = u32;
@@ -49,7 +49,7 @@ pub(super) fn choose(histogram: &Histogram, room: usize) -> Vec<Packed> {
     let flat_count = by_count.iter().take(flat_room).take_while(|(_, n)| f64::from(*n) >= pixels * FLAT_SHARE).count();
     let others = by_count.split_off(flat_count);
     let mut colors: Vec<Packed> = by_count.iter().map(|(color, _)| *color).collect();
-    colors.extend(spread(others.clone(), room - flat_count));
+    fill(&mut colors, &others, room);
     for _ in 0..ROUNDS {
         move_to_means(&mut colors, flat_count, &others);
     }
@@ -58,23 +58,23 @@ pub(super) fn choose(histogram: &Histogram, room: usize) -> Vec<Packed> {
     colors
 }
 
-/// Returns so many colours of a histogram, with equal numbers of pixels between them along Morton's curve.
-fn spread(mut histogram: Histogram, wanted: usize) -> Vec<Packed> {
-    let place = |color: Packed| {
-        let bits =
-            |bit: u32| channels(color).map(|channel| channel >> bit & 1).into_iter().fold(0, |all, bit| all << 1 | bit);
-        (0..8).rev().fold(0, |place, bit| place << 3 | bits(bit))
-    };
-    histogram.sort_unstable_by_key(|(color, _)| place(*color));
-    let pixels: f64 = histogram.iter().map(|(_, count)| f64::from(*count)).sum();
-    let (mut passed, mut colors) = (0.0, Vec::new());
-    for (color, count) in histogram {
-        passed += f64::from(count);
-        if passed * wanted as f64 >= (colors.len() as f64 + 0.5) * pixels {
-            colors.push(color);
+/// Adds colours of a histogram up to so many: each time the one whose pixels the others serve worst.
+fn fill(colors: &mut Vec<Packed>, histogram: &Histogram, room: usize) {
+    let mut errors = vec![f32::INFINITY; histogram.len()];
+    let mut known = 0;
+    while known < room {
+        for added in &colors[known..] {
+            errors
+                .iter_mut()
+                .zip(histogram)
+                .for_each(|(error, (color, _))| *error = error.min(distance(*color, *added)));
         }
+        known = colors.len();
+        let weight = |index: usize| errors[index] * histogram[index].1 as f32;
+        let worst = (0..histogram.len()).max_by(|a, b| weight(*a).total_cmp(&weight(*b)));
+        let Some(worst) = worst.filter(|worst| known < room && errors[*worst] > 0.0) else { return };
+        colors.push(histogram[worst].0);
     }
-    colors
 }
 
 /// Moves all entries except the first, fixed ones to the mean of their nearest colours.
