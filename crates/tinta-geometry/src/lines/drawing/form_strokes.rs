@@ -68,7 +68,7 @@ pub(super) fn form_strokes(
     progress: &Progress,
 ) -> Result<Option<Vec<Vec<DVec2>>>> {
     let view = View::of(sight, STROKES, progress)?;
-    let Some(cuts) = cuts(&view, spacing_px) else { return Ok(None) };
+    let Some(cuts) = cuts(&view, rule, spacing_px) else { return Ok(None) };
     let faces = &view.input.faces;
     let inside = cuts.iter().map(|cut| (cut.place, cut.weights.map(|weights| at(faces.corners(cut.place), weights))));
     let visible = view.visible(inside, progress)?;
@@ -96,8 +96,8 @@ fn at(corners: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     corners.iter().zip(weights).map(|(corner, weight)| *corner * weight).sum()
 }
 
-/// Cuts the faces in the picture by their planes; `None` for too many cuts.
-fn cuts(view: &View, spacing_px: f64) -> Option<Vec<Cut>> {
+/// Cuts the faces in the picture by their planes, as many as their darkest tone has strokes of; `None` for too many cuts.
+fn cuts(view: &View, rule: &ToneRule, spacing_px: f64) -> Option<Vec<Cut>> {
     let LineInput { scene, space, faces, .. } = &view.input;
     let px_per_unit = space.px_per_unit((scene.camera.eye - scene.centre).length());
     let steps = (scene.radius * px_per_unit / spacing_px).log2() * STEPS;
@@ -109,7 +109,7 @@ fn cuts(view: &View, spacing_px: f64) -> Option<Vec<Cut>> {
     let mut places: Vec<u32> = (0..faces.triangles.len() as u32).collect();
     places.sort_unstable_by_key(|place| faces.numbers[*place as usize]);
     for place in places {
-        let SeenFace { object, face } = view.face(place);
+        let seen @ SeenFace { object, face } = view.face(place);
         let (planes, mesh) = (&planes[object as usize], &scene.objects[object as usize].mesh);
         let number = planes.of_faces[face as usize];
         let normal = planes.normals[number as usize] / distance;
@@ -119,9 +119,13 @@ fn cuts(view: &View, spacing_px: f64) -> Option<Vec<Cut>> {
         if numbers.iter().all(|number| number.ceil() == numbers[0].ceil()) || is_edge_on() {
             continue;
         }
+        let tone = rule.least_tone(&rule.lights(view, seen));
+        if tone == rule.brightest() {
+            continue;
+        }
         let corners = faces.corners(place);
         let step = step(space, corners, space.direction(normal), spacing_px);
-        for (row, weights) in rows(numbers, step)? {
+        for (row, weights) in rows(numbers, step << tone)? {
             let image = Image::of(space, weights.map(|weights| at(corners, weights)));
             if image.is_some_and(|image| image.inside(space.size, 0.0).is_some()) {
                 cuts.push(Cut { place, plane: (object, number, row), step, weights });

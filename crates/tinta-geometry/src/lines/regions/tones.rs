@@ -183,10 +183,20 @@ impl ToneRule {
         match lights {
             Lights::Near(corners) if self.specular(corners, weights) > 0.0 => 2,
             Lights::Near(corners) => u8::from(self.diffuse(corners, weights) >= 0.0),
-            Lights::Far(corners) => {
-                let light = mixed(corners, weights, |light| *light);
-                self.thresholds.iter().map(|threshold| u8::from(light >= *threshold)).sum()
-            }
+            Lights::Far(corners) => self.tone_of(mixed(corners, weights, |light| *light)),
+        }
+    }
+
+    /// The tone of a far light.
+    fn tone_of(&self, light: f64) -> u8 {
+        self.thresholds.iter().map(|threshold| u8::from(light >= *threshold)).sum()
+    }
+
+    /// A tone that no place of a face is darker than: its darkest under a far light, which is linear there.
+    pub(in crate::lines) fn least_tone(&self, lights: &Lights) -> u8 {
+        match lights {
+            Lights::Near(_) => 0,
+            Lights::Far(corners) => corners.map(|light| self.tone_of(light)).into_iter().min().unwrap_or(0),
         }
     }
 
