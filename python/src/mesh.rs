@@ -448,7 +448,7 @@ pub(crate) fn drawable(py: Python<'_>, meshes: Vec<Py<Mesh>>, request: &Request)
     let request = request.clone();
     let work = move || {
         let resolved = resolved(&meshes, &request, false)?;
-        resolved.scene.make_arrays();
+        resolved.lit().make_arrays();
         Ok(resolved)
     };
     done(py, || (), work)

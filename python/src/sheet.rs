@@ -27,8 +27,8 @@ pub(crate) struct View<'py> {
 }
 
 /// A key: rectangles as left, top, right, bottom, red, green, blue; texts with their place, the share of the width that is to the left of
-/// it, and how far below it the base line lies, in heights of letters.
-type GivenKey = (Vec<[f64; 7]>, Vec<(String, [f64; 4])>);
+/// it, how far below it the base line lies in heights of letters, that height in those of labels, red, green, blue.
+type GivenKey = (Vec<[f64; 7]>, Vec<(String, [f64; 8])>);
 
 /// What a sheet takes of a view's areas.
 struct Fills {
@@ -123,12 +123,13 @@ fn key((boxes, texts): GivenKey) -> Key {
         let corners = [DVec2::new(left, top), DVec2::new(right, bottom)];
         (corners, Color([red, green, blue].map(|part| part as f32)))
     };
-    let text = |(text, [x, y, left, below]): (String, [f64; 4])| KeyText {
+    let text = |(text, [x, y, left, below, size, red, green, blue]): (String, [f64; 8])| KeyText {
         text,
         at_px: DVec2::new(x, y),
         left,
         below,
-        color: Color([0.0; 3]),
+        size,
+        color: Color([red, green, blue].map(|part| part as f32)),
     };
     Key { boxes: boxes.into_iter().map(rectangle).collect(), texts: texts.into_iter().map(text).collect() }
 }

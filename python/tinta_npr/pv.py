@@ -17,6 +17,12 @@ __all__ = ["export_svg", "lines"]
 #: The height of letters in pixels, and in millimetres where the drawing has a width on paper.
 _LETTER, _LETTER_MM = 12, 3.53
 
+#: The width of a digit of DejaVu Sans, in heights of letters.
+_DIGIT = 0.64
+
+#: The height of a text's letters, in those of labels, and its colour: as labels have them.
+_PLAIN_FONT = [1.0, 0.0, 0.0, 0.0]
+
 
 def lines(plotter, *, look=None, preset=None, **settings):
     """Find the lines of all surfaces, curves and points that a plotter shows, as its camera sees them.
@@ -57,7 +63,7 @@ def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None,
     ----------
     plotter, look, preset, **settings
         As in `lines`: ``hidden="dashed"``, ``look="technical"``, ``crease_angle=40`` … Subplots are written at their places; into
-        .json the active one. An .svg or .pdf has the plotter's texts and legends, too, with letters of one size.
+        .json the active one. An .svg or .pdf has the plotter's texts and legends, too; labels of points have letters of one size.
     fill : bool
         Whether to fill the surfaces below the lines: each face in one colour, the actor's or that of its scalar by the actor's
         lookup table, without light. A face with scalars at its points has the colour of their mean. What is opaque shows through
@@ -97,7 +103,7 @@ def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None,
         of_window = own[2] - own[0], own[3] - own[1]
         if ending != "png":
             keys += [_key(bar, box, letter) for bar in _bars(plotter, renderer)] if fill else []
-            keys += [_key_of_text(actor, box, of_window, letter) for actor in _texts(renderer)]
+            keys += [_key_of_text(actor, box, of_window, letter, plotter.theme) for actor in _texts(renderer)]
         count += len(shown.surfaces) + len(free)
     content = _native.sheet(ending, tuple(whole), views, keys, title)
     _written(file, path, content if background is None else _filled_picture(content, views, background))
@@ -473,8 +479,7 @@ def _key(bar, box, letter):
     many = bar.GetNumberOfLabels()
     numbers = value(np.linspace(low, high, many) if many > 1 and low < high else np.full(min(many, 1), low))
     labels = annotated or [(number, _number(bar.GetLabelFormat(), number)) for number in numbers]
-    # A digit of DejaVu Sans is 0.64 letters wide.
-    longest = 0.64 * letter * max((len(label) for _, label in labels), default=0)
+    longest = _DIGIT * letter * max((len(label) for _, label in labels), default=0)
     if is_upright:
         thickness = max(letter, 0.375 * width)
         # Numbers that would be cut off at the picture's end move it.
@@ -496,12 +501,12 @@ def _key(bar, box, letter):
     boxes = [[*frame, 0, 0, 0]]
     # Each step reaches to the end, so that no gap is between two.
     boxes += [[*box_of(step / count, 1), *color] for step, color in enumerate(colors)]
-    texts = [title] if title[0] else []
+    texts = [(title[0], title[1] + _PLAIN_FONT)] if title[0] else []
     for number, label in labels:
         share = float((scale(number) - low) / (high - low)) if high > low else 0.5
         line, at = tick(*place(share))
         boxes.append([*line, 0, 0, 0])
-        texts.append((label, at))
+        texts.append((label, at + _PLAIN_FONT))
     return boxes, texts
 
 
@@ -515,25 +520,34 @@ def _texts(renderer):
 _CORNERS = [(0, 1), (1, 1), (0, 0), (1, 0), (0.5, 1), (1, 0.5), (0, 0.5), (0.5, 0)]
 
 
-def _key_of_text(actor, box, of_viewport, letter):
-    """A text or a legend in a subplot's box as rectangles and texts; its letters have one height, as those of scalar bars.
+def _key_of_text(actor, box, of_viewport, letter, theme):
+    """A text or a legend in a subplot's box as rectangles and texts; a legend's letters are as high as those of scalar bars.
     `of_viewport` is the width and height of the subplot in the plotter's window."""
     left, top, right, bottom = box
     if actor.IsA("vtkLegendBoxActor"):
         return _key_of_legend(actor, box, letter)
+    # Corners choose their letters' height by the room that the window has.
+    of_labels, prop = letter, actor.GetTextProperty()
+    if actor.IsA("vtkTextActor"):
+        letter = prop.GetFontSize() * (right - left) / of_viewport[0]
+    # The theme's colour suits its background, which is not drawn.
+    color = prop.GetColor() if prop.GetColor() != theme.font.color.float_rgb else (0, 0, 0)
+    font = [letter / of_labels, *color]
     texts, gap = [], 0.5 * letter
     if actor.IsA("vtkTextActor"):
         x, y, _ = actor.GetPositionCoordinate().GetValue()
         is_share = "Normalized" in actor.GetPositionCoordinate().GetCoordinateSystemAsString()
         width, height = (1, 1) if is_share else of_viewport
         lines = [line for line in actor.GetInput().split("\n") if line]
-        x, y = left + x / width * (right - left), bottom - y / height * (bottom - top)
-        return [], [(line, [x, y - 1.3 * letter * (len(lines) - 1 - row), 0.0, -0.2]) for row, line in enumerate(lines)]
+        # It stands above its place, beside it or below, and to the right of it or around it or to the left.
+        below, across = prop.GetVerticalJustification() / 2, prop.GetJustification() / 2
+        x, y = left + x / width * (right - left), bottom - y / height * (bottom - top) + 1.3 * letter * below * len(lines)
+        return [], [(line, [x, y - 1.3 * letter * (len(lines) - 1 - row), across, -0.2] + font) for row, line in enumerate(lines)]
     for (across, down), text in zip(_CORNERS, map(actor.GetText, range(8))):
         lines = [line for line in (text or "").split("\n") if line]
         x = left + gap + across * (right - left - 2 * gap)
         first = top + gap + down * (bottom - top - 2 * gap - 1.3 * letter * len(lines))
-        texts += [(line, [x, first + 1.3 * letter * row, float(across), 1.0]) for row, line in enumerate(lines)]
+        texts += [(line, [x, first + 1.3 * letter * row, float(across), 1.0] + font) for row, line in enumerate(lines)]
     return [], texts
 
 
@@ -542,7 +556,7 @@ def _key_of_legend(legend, box, letter):
     left, top, right, bottom = box
     (x, y), (_, height) = legend.GetPosition(), legend.GetPosition2()
     entries = [(legend.GetEntryString(number), legend.GetEntryColor(number)) for number in range(legend.GetNumberOfEntries())]
-    longest = 0.64 * letter * max((len(text) for text, _ in entries), default=0)
+    longest = _DIGIT * letter * max((len(text) for text, _ in entries), default=0)
     # A text that would be cut off at the picture's end moves it.
     x = min(left + x * (right - left), right - 2 * letter - longest)
     y = bottom - (y + height) * (bottom - top)
@@ -550,7 +564,7 @@ def _key_of_legend(legend, box, letter):
     for number, (text, color) in enumerate(entries):
         upper = y + 1.5 * letter * number
         boxes += [[x - 1, upper - 1, x + letter + 1, upper + letter + 1, 0, 0, 0], [x, upper, x + letter, upper + letter, *color]]
-        texts.append((text, [x + 1.5 * letter, upper + letter / 2, 0.0, 0.35]))
+        texts.append((text, [x + 1.5 * letter, upper + letter / 2, 0.0, 0.35] + _PLAIN_FONT))
     return boxes, texts
 
 

@@ -24,10 +24,12 @@ pub(in crate::lines) struct DrawnLabel<'a> {
     pub at_px: DVec2,
     /// The share of its width that lies to the left of that point.
     pub left: f64,
+    /// Of its letters.
+    pub height_px: f64,
     pub color: Color,
 }
 
-/// The height of all labels' letters, pixels.
+/// The height of labels' letters, pixels.
 pub(in crate::lines) fn height_px(units: Units) -> f64 {
     units.px_per_mm.map_or(HEIGHT_PX, |px| px * HEIGHT_MM)
 }
@@ -43,7 +45,7 @@ pub(in crate::lines) fn drawn_labels<'a>(
         let layer = Layer::of(Class::Point, label.is_visible, false);
         let right = settings.width_px(layer, units) * 0.5 + GAP * height;
         let at_px = label.px + DVec2::new(right, BASELINE * height);
-        DrawnLabel { text: &label.text, at_px, left: 0.0, color: settings.color(layer) }
+        DrawnLabel { text: &label.text, at_px, left: 0.0, height_px: height, color: settings.color(layer) }
     };
     labels.iter().filter(|label| settings.draws(label.is_visible) && !label.text.is_empty()).map(drawn).collect()
 }

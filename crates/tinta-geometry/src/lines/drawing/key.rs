@@ -24,15 +24,18 @@ pub struct KeyText {
     pub left: f64,
     /// How far its base line lies below its place, in heights of letters.
     pub below: f64,
+    /// The height of its letters, in those of labels.
+    pub size: f64,
     /// Its colour.
     pub color: Color,
 }
 
 impl KeyText {
-    /// The text as drawings have it, with letters of this height.
-    pub(super) fn drawn(&self, height_px: f64) -> DrawnLabel<'_> {
+    /// The text as drawings have it whose labels have letters of this height.
+    pub(super) fn drawn(&self, of_labels_px: f64) -> DrawnLabel<'_> {
+        let height_px = self.size * of_labels_px;
         let at_px = self.at_px + DVec2::Y * (self.below * height_px);
-        DrawnLabel { text: &self.text, at_px, left: self.left, color: self.color }
+        DrawnLabel { text: &self.text, at_px, left: self.left, height_px, color: self.color }
     }
 }
 
@@ -52,12 +55,12 @@ mod tests {
             let fills = vec![Fill { surface, color: Color([1.0, 0.0, 0.0]), loops, trap: Vec::new() }];
             FillGroup { opacity, ..FillGroup::of(object, crate::mesh::NONE, fills) }
         };
-        let text = |left: f64, below: f64| {
+        let text = |left: f64, below: f64, size: f64| {
             let (text, at_px) = ("Height".to_owned(), DVec2::new(50.0, 20.0));
-            KeyText { text, at_px, left, below, color: Color([0.0; 3]) }
+            KeyText { text, at_px, left, below, size, color: Color([0.0; 3]) }
         };
         let boxes = vec![([DVec2::new(10.0, 2.0), DVec2::new(30.0, 8.0)], Color([0.0, 0.0, 1.0]))];
-        let keys = vec![Key { boxes, texts: vec![text(0.0, 0.0), text(0.5, 1.0), text(1.0, -0.5)] }];
+        let keys = vec![Key { boxes, texts: vec![text(0.0, 0.0, 1.0), text(0.5, 1.0, 1.0), text(1.0, -0.5, 2.0)] }];
         let fills = vec![group(0, 1.0), group(1, 0.5), group(2, 0.5), group(3, 0.25)];
         Areas { fills, keys, ..Areas::default() }
     }
@@ -73,7 +76,7 @@ mod tests {
         assert!(order[5] < at(r##"<rect x="10" y="2" width="20" height="6" fill="#0000ff"/>"##));
         at(r##"<text x="50" y="20" fill="#000000">Height</text>"##);
         at(r##"<text x="50" y="32" text-anchor="middle" fill="#000000">Height</text>"##);
-        at(r##"<text x="50" y="14" text-anchor="end" fill="#000000">Height</text>"##);
+        at(r##"<text x="50" y="8" text-anchor="end" font-size="24" fill="#000000">Height</text>"##);
         assert_eq!(svg.matches("<g").count(), svg.matches("</g>").count());
     }
 
@@ -89,8 +92,8 @@ mod tests {
         for state in ["/ca 0.5", "/ca 0.25"] {
             assert_eq!(pdf.matches(state).count(), 1, "{state}");
         }
-        // "Height" is 6770 / 2048 ems of 12 pixels wide.
-        for place in ["50 20 Tm", "30.166016 32 Tm", "10.332031 14 Tm"] {
+        // "Height" is 6770 / 2048 ems of 12 pixels wide, and of 24.
+        for place in ["12 Tf", "50 20 Tm", "30.166016 32 Tm", "24 Tf", "-29.335938 8 Tm"] {
             assert!(pdf.contains(place), "{place} in {pdf}");
         }
     }

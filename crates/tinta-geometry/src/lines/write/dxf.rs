@@ -9,7 +9,6 @@ use crate::error::Result;
 use crate::lines::VisibleLines;
 use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
-use crate::lines::drawing::drawn_labels::height_px;
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer};
 use crate::lines::drawing::page::{PAGE_DECIMALS, Page};
 use crate::lines::drawing::settings::DrawingSettings;
@@ -76,11 +75,11 @@ pub(crate) fn dxf_of_paths(
             out.polyline(name, &polyline.points_px, polyline.is_closed);
         }
     }
-    let height = out.length(height_px(drawing.page.units));
     for label in &drawing.labels {
         out.pair(0, "TEXT");
         out.pair(8, LABELS);
         out.point(label.at_px);
+        let height = out.length(label.height_px);
         out.pair(40, &height);
         out.pair(1, in_ascii(label.text));
     }

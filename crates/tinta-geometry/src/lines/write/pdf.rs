@@ -10,7 +10,6 @@ use crate::lines::VisibleLines;
 use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::{Step, fitted};
-use crate::lines::drawing::drawn_labels::height_px;
 use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
 use crate::lines::drawing::fills::{Fill, FillGroup, TRAP_PX};
 use crate::lines::drawing::settings::{DrawingSettings, mixed};
@@ -54,18 +53,18 @@ pub(crate) fn pdf_of_paths(
                        --width-mm, --dpi or --size";
         return Err(Error::setting("page", problem));
     }
-    let height = height_px(drawing.page.units);
     let mut font = LabelFont::new()?;
     let mut labels = Vec::new();
     for label in &drawing.labels {
         let (glyphs, ems) = font.encoded(label.text)?;
-        labels.push((glyphs, label.at_px - DVec2::X * (label.left * ems * height), label.color));
+        let at_px = label.at_px - DVec2::X * (label.left * ems * label.height_px);
+        labels.push((glyphs, at_px, label.height_px, label.color));
     }
     written(&drawing, areas, &labels, &font, scale)
 }
 
-/// A text's glyphs, the left end of its base line in pixels, its colour.
-type Text = (Vec<u8>, DVec2, Color);
+/// A text's glyphs, the left end of its base line and the height of its letters in pixels, its colour.
+type Text = (Vec<u8>, DVec2, f64, Color);
 
 /// The name of the labels' font on the page.
 const FONT_NAME: &[u8] = b"F1";
@@ -217,8 +216,9 @@ fn written_content(
         content.set_fill_rgb(*red, *green, *blue).rect(x, y, width, height).fill_nonzero();
     }
     if !labels.is_empty() {
-        content.begin_text().set_font(Name(FONT_NAME), height_px(page.units) as f32);
-        for (text, at, Color([red, green, blue])) in labels {
+        content.begin_text();
+        for (text, at, height, Color([red, green, blue])) in labels {
+            content.set_font(Name(FONT_NAME), *height as f32);
             // Pixels have y down, letters up.
             content.set_fill_rgb(*red, *green, *blue).set_text_matrix([1.0, 0.0, 0.0, -1.0, at.x as f32, at.y as f32]);
             content.show(Str(text));

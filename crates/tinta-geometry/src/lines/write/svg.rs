@@ -89,7 +89,8 @@ fn write_labels(drawing: &Drawing<'_>, out: &mut String) {
     if drawing.labels.is_empty() {
         return;
     }
-    let height = number(height_px(drawing.page.units));
+    let usual = height_px(drawing.page.units);
+    let height = number(usual);
     let _ = writeln!(
         out,
         r#"<g id="labels" inkscape:groupmode="layer" inkscape:label="labels" font-family="sans-serif" font-size="{height}">"#
@@ -102,7 +103,9 @@ fn write_labels(drawing: &Drawing<'_>, out: &mut String) {
             left if left < 1.0 => r#" text-anchor="middle""#,
             _ => r#" text-anchor="end""#,
         };
-        let _ = writeln!(out, r#"<text x="{x}" y="{y}"{anchor} fill="{fill}">{text}</text>"#);
+        let own = Some(label.height_px).filter(|height| *height != usual).map(number);
+        let size = own.map(|height| format!(r#" font-size="{height}""#)).unwrap_or_default();
+        let _ = writeln!(out, r#"<text x="{x}" y="{y}"{anchor}{size} fill="{fill}">{text}</text>"#);
     }
     out.push_str("</g>\n");
 }
