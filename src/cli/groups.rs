@@ -126,8 +126,8 @@ pub(super) fn in_groups(sentence: &str) -> String {
         let setting = Request::table().settings.iter().find(|setting| is_option && setting.name == name)?;
         let group = setting.group?;
         let word = rest.strip_prefix([' ', '=']).and_then(|rest| rest.split([' ', ';', ':', ')', ']']).next());
-        // At the beginning stands the value that is wrong.
-        let is_wrong = |word: &str| ["", "tinta: "].contains(&before) && word != "and";
+        // At the beginning stands the value that is wrong, before what is wrong with it.
+        let is_wrong = |word: &str| ["", "tinta: "].contains(&before) && rest[1 + word.len()..].starts_with(':');
         let is_value = |word: &&str| {
             let is_plain = !matches!(setting.kind, Kind::Flag | Kind::File) && !word.is_empty();
             is_plain && (is_wrong(word) || Request::table().check(name, word.trim_end_matches(',')).is_ok())
@@ -174,6 +174,7 @@ mod tests {
         for (plain, said) in [
             ("--margin 3km: give a length", "--page margin=3km: give a length"),
             ("--margin: give a length", "--page margin: give a length"),
+            ("--tone-light has no effect on lines", "--light tone-light has no effect on lines"),
             ("--near and --far: they are equal", "--clip near and --clip far: they are equal"),
             ("leave out --transparent, or --tones 2", "leave out --background transparent, or --tones 2"),
             ("a -- b --no-such", "a -- b --no-such"),
