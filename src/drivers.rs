@@ -26,7 +26,8 @@ use crate::picture::Picture;
 use crate::renderer::Renderer;
 use crate::scene::{Scene, SceneSettings, Size};
 use crate::styles::{Style, StyleName};
-pub use known::{KNOWN, KnownFault};
+pub(crate) use known::KNOWN;
+pub use known::KnownFault;
 use serde::Serialize;
 use std::sync::Arc;
 

@@ -36,11 +36,13 @@ mod tolerance;
 mod triangles;
 mod verdict;
 
-pub use explainer::{Explainer, PixelStep, is_background};
+pub(crate) use explainer::is_background;
+pub use explainer::{Explainer, PixelStep};
 pub use explanation::{Explanation, around, tap};
 pub use fragment::{Corner, Fragment};
 pub use listing::{LineState, ListedLine};
 pub use recomputation::{Filtering, Recomputation};
 pub use tinta_glsl::{Base, Comparison, Event, Mistake, Precision, Sample, Texel, Type, Value, What};
 pub use tolerance::LineTolerance;
-pub use verdict::{AgainstLines, Flip, INK_FROM, Verdict, against_lines, flips};
+pub(crate) use verdict::against_lines;
+pub use verdict::{AgainstLines, Flip, INK_FROM, Verdict, flips};

@@ -22,7 +22,7 @@ pub struct KnownFault {
 }
 
 /// All that are known.
-pub const KNOWN: [KnownFault; 7] = [
+pub(crate) const KNOWN: [KnownFault; 7] = [
     KnownFault {
         name: "two contexts of one screen crash when they work at once",
         first_seen: "Mesa 22.3.6, llvmpipe",

@@ -255,7 +255,7 @@ fn all_steps(plan: &Plan) -> impl Iterator<Item = (&Pass, &Step)> {
 }
 
 /// Whether nothing but background is drawn at a pixel: no object covers it, and steps that read earlier ones leave it unchanged.
-pub fn is_background(steps: &[PixelStep]) -> bool {
+pub(crate) fn is_background(steps: &[PixelStep]) -> bool {
     let is_still = |step: &PixelStep| {
         step.fragments.iter().all(|fragment| fragment.object.is_none())
             && (!step.reads_buffers || step.fragments.is_empty() || step.before.is_empty() || step.before == step.drawn)

@@ -63,7 +63,7 @@ const DECIDING: [(&str, [f64; 3]); 3] =
 
 /// Compares a pixel, counted from the lower left, with the scene's visible lines. `values` are those of the steps of a plan that draws
 /// the style's lines alone ([`Show::Borders`]).
-pub fn against_lines(scene: &Scene, values: &[StepValues], lines: &VisibleLines, at: [u32; 2]) -> AgainstLines {
+pub(crate) fn against_lines(scene: &Scene, values: &[StepValues], lines: &VisibleLines, at: [u32; 2]) -> AgainstLines {
     let middle = DVec2::new(f64::from(at[0]) + 0.5, f64::from(scene.size.height - 1 - at[1]) + 0.5);
     let nearest = lines
         .segments
@@ -85,7 +85,7 @@ pub fn against_lines(scene: &Scene, values: &[StepValues], lines: &VisibleLines,
     AgainstLines { verdict, darkness: drawn, class, distance_px, flips: Vec::new() }
 }
 
-/// Finds the smallest changes of the style's settings that turn a pixel's ink over. `plan` and `values` as in [`against_lines`].
+/// Finds the smallest changes of the style's settings that turn a pixel's ink over. `values` are those of the plan's steps around the pixel.
 ///
 /// # Errors
 ///
