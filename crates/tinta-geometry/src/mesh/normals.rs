@@ -21,7 +21,6 @@ use crate::tolerances::CANCELLED_NORMALS;
 use average::average;
 use glam::{DVec3, Vec3};
 pub(super) use incidence::Incidence;
-use incidence::angle_at;
 use persistent_creases::PersistentCreases;
 
 /// The angles at which normals are split.
@@ -60,7 +59,7 @@ pub(super) fn fill_missing(
         // Also weighted by the angle: a face then counts the same however it is cut into triangles.
         Some(lasting) => {
             let face = corner as usize / 3;
-            face_normals[face] * (lasting.areas[face] * angle_at(positions, triangles, corner))
+            face_normals[face] * (lasting.areas[face] * lasting.angles[corner as usize])
         }
     };
     let half = |cos: f64| ((1.0 + cos) * 0.5).max(0.0).sqrt();

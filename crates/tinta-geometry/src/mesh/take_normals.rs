@@ -65,7 +65,7 @@ impl Mesh {
             file_normals = &[];
         }
         self.take_from_file(file_normals, options);
-        if options.normals == Normals::Lasting {
+        if options.normals == Normals::Lasting && !self.normals.is_empty() {
             self.turn_inward(face_normals);
         }
         self.compute_missing(face_normals, splitting, options.normals != Normals::File);
@@ -133,6 +133,9 @@ impl Mesh {
     /// Counts how far the file's normals lean from the faces.
     fn leaning(&self, file_normals: &[Vec3], face_normals: &[DVec3], options: &LoadOptions) -> Leaning {
         let mut leaning = Leaning::default();
+        if file_normals.is_empty() {
+            return leaning;
+        }
         for (triangle, (corners, face)) in self.triangles.iter().zip(self.triangle_normals.iter().zip(face_normals)) {
             let normals = corners.iter().filter_map(|corner| file_normals.get(*corner as usize)?.try_normalize());
             let [a, b, c] = triangle.map(|position| self.positions[position as usize]);

@@ -85,7 +85,7 @@ impl FacePlane {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
         let (normal_length, weld) = (normal.length(), faces.weld(numbers[0]));
-        let longest = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared()).sqrt();
+        let longest = longest_side(corners);
         Self { place, numbers, corners, normal, normal_length, longest, weld, loose: 0.0 }
     }
 
@@ -105,15 +105,20 @@ impl FacePlane {
             return None;
         }
         let own = shared.map(|[_, j]| j);
-        let raw = self.raw_distances(faces.corners(other));
+        let corners = faces.corners(other);
+        let raw = self.raw_distances(corners);
         let all = |holds: &dyn Fn(f64) -> bool| (0..3).all(|index| own == Some(index) || holds(raw[index]));
         if all(&|distance| distance > self.loose) || all(&|distance| distance < -self.loose) {
             return None;
         }
-        let other = Self::new(space, faces, other);
-        let contact = self.contact(space, &other);
+        let contact = space.contact(self.longest.min(longest_side(corners)), self.weld.min(faces.weld(numbers[0])));
         // A face no higher than the contact distance is a line and has no plane, but may still pass through a face.
         let is_needle = |face_plane: &Self| face_plane.normal_length <= contact * face_plane.longest;
+        // One that lies in this face's plane, needle or not, has no line in common with it.
+        if !is_needle(self) && raw.iter().all(|distance| distance.abs() <= contact * self.normal_length) {
+            return None;
+        }
+        let other = Self::new(space, faces, other);
         match (is_needle(self), is_needle(&other)) {
             (true, true) => return None,
             (true, false) => return self.needle_through(faces, &other, contact),
@@ -225,6 +230,11 @@ impl Sides {
         let touches = edge.iter().all(|corner| distances[*corner] == 0.0);
         touches.then(|| Self { distances: distances.map(|distance| -distance.abs()), edge: Some(edge) })
     }
+}
+
+/// The length of a face's longest side.
+fn longest_side([a, b, c]: [DVec3; 3]) -> f64 {
+    (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared()).sqrt()
 }
 
 /// Whether the ends of an edge are nearer to the line through another than a distance.

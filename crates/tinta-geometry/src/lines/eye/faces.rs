@@ -72,11 +72,11 @@ impl Faces {
         let sorted = SortedFaces::of(space, meshes, &objects, &positions);
         let (tree, order) = BoxTree::new(&sorted.boxes);
         let numbers: Vec<u32> = order.iter().map(|index| sorted.numbers[*index as usize]).collect();
-        let triangle = |number: &u32| {
-            let (object, face) = in_object(&objects, *number);
+        let triangle = |place: usize| {
+            let (object, face) = in_object(&objects, numbers[place]);
             meshes[object].1.triangles[face as usize].map(|corner| corner + objects[object].first_position)
         };
-        let triangles: Vec<[u32; 3]> = numbers.iter().map(triangle).collect();
+        let triangles = filled(numbers.len(), threads_for_items(numbers.len()), [0; 3], triangle);
         let is_cut = |place: &u32| sorted.cut_by_near.binary_search(&numbers[*place as usize]).is_ok();
         let cut_by_near =
             if sorted.cut_by_near.is_empty() { Vec::new() } else { (0..numbers.len() as u32).filter(is_cut).collect() };

@@ -6,7 +6,7 @@
 //! full turn (its Gaussian curvature); on a plane, a cylinder or a cone they do. A patch is curved if most of its area lies at
 //! such vertices.
 
-use super::incidence::{Incidence, angle_at};
+use super::incidence::Incidence;
 use crate::disjoint_sets::DisjointSets;
 use crate::threads::{filled, in_parallel, threads_for};
 use glam::DVec3;
@@ -17,12 +17,12 @@ use std::ops::Range;
 /// 0.1, on a cylinder only the rounding of a file's digits.
 const BENDS: f64 = 0.01;
 
-/// A surface's triangles with their unit normals and areas.
+/// A surface's triangles with their unit normals, areas, and angles at their corners.
 pub(super) struct Faces<'a> {
-    pub positions: &'a [DVec3],
     pub triangles: &'a [[u32; 3]],
     pub normals: &'a [DVec3],
     pub areas: &'a [f64],
+    pub angles: &'a [f64],
 }
 
 /// An edge of two faces.
@@ -33,7 +33,7 @@ pub(super) struct Edge {
 
 /// Returns for each triangle whether it lies in a curved patch; `edges` are those of two triangles, each once, in several lists.
 pub(super) fn curved(faces: &Faces<'_>, edges: &[Vec<Edge>], incidence: &Incidence, cos_smooth: f64) -> Vec<bool> {
-    let (count, vertices) = (faces.triangles.len(), faces.positions.len());
+    let (count, vertices) = (faces.triangles.len(), incidence.vertices());
     let turn = |edge: &Edge| {
         let [normal, other] = edge.faces.map(|face| faces.normals[face as usize]);
         let cosine = normal.dot(other);
@@ -54,7 +54,7 @@ pub(super) fn curved(faces: &Faces<'_>, edges: &[Vec<Edge>], incidence: &Inciden
     // Where there are as many such edges as triangles neither a sharp edge nor the surface's end is.
     let bends = filled(vertices, threads_for(count), false, |vertex| {
         let corners = incidence.corners(vertex);
-        let angle = || corners.iter().map(|corner| angle_at(faces.positions, faces.triangles, *corner)).sum::<f64>();
+        let angle = || corners.iter().map(|corner| faces.angles[*corner as usize]).sum::<f64>();
         corners.len() == at_vertex[vertex] && (TAU - angle()).abs() > BENDS * turns[vertex] * turns[vertex]
     });
     let mut areas = vec![[0.0; 2]; count];

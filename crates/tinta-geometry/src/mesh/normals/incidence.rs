@@ -28,6 +28,11 @@ impl Incidence {
         Self { starts, corners }
     }
 
+    /// How many vertices there are.
+    pub(super) fn vertices(&self) -> usize {
+        self.starts.len() - 1
+    }
+
     /// The corners at some vertices, one after the other.
     pub(super) fn corners_of(&self, vertices: &Range<usize>) -> &[u32] {
         &self.corners[self.starts[vertices.start] as usize..self.starts[vertices.end] as usize]

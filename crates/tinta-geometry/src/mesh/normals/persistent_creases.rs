@@ -7,11 +7,11 @@
 //! flat.
 
 use super::curved::{Edge, Faces, curved};
-use super::incidence::Incidence;
+use super::incidence::{Incidence, angle_at};
 use super::patches::{Neighbours, gathered};
 use crate::disjoint_sets::DisjointSets;
 use crate::mesh::bounds;
-use crate::threads::{filled, in_parallel, threads_for};
+use crate::threads::{both, filled, in_parallel, threads_for};
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -47,6 +47,8 @@ pub(super) struct PersistentCreases {
     pub borders: Vec<bool>,
     /// For each triangle the area of its flat face, in units of the model's own.
     pub areas: Vec<f64>,
+    /// For each corner its face's angle, radians.
+    pub angles: Vec<f64>,
     /// Each triangle's own area.
     pub own_areas: Vec<f64>,
     /// For each triangle whether its facets stand for a surface that bends both ways.
@@ -89,21 +91,24 @@ impl PersistentCreases {
             let [face, other] = edge.faces.map(|face| given[face as usize]);
             face.dot(other)
         };
-        let neighbours = Neighbours::new(triangles.len(), edges().map(|edge| edge.faces));
         let corners = |face: usize| triangles[face].map(|vertex| positions[vertex as usize]);
         let threads = threads_for(triangles.len());
         let own_areas = filled(triangles.len(), threads, 0.0, |face| {
             let [a, b, c] = corners(face);
             (b - a).cross(c - a).length() * 0.5
         });
-        let (flat, flat_areas) = gathered(
-            &neighbours,
-            triangles.len(),
-            |first| own_areas[first as usize],
-            |_, face, other, _| {
+        let gather = || {
+            let neighbours = Neighbours::new(triangles.len(), edges().map(|edge| edge.faces));
+            let begins = |first: u32| own_areas[first as usize];
+            let joins = |_, face: u32, other: u32, _| {
                 (given[face as usize].dot(given[other as usize]) > FLAT).then(|| own_areas[other as usize])
-            },
-        );
+            };
+            let gathered = gathered(&neighbours, triangles.len(), begins, joins);
+            (neighbours, gathered)
+        };
+        let angle = |corner: usize| angle_at(positions, triangles, corner as u32);
+        let measure = || filled(triangles.len() * 3, threads, 0.0, angle);
+        let ((neighbours, (flat, flat_areas)), angles) = both(gather, measure);
         let areas: Vec<f64> = flat.iter().map(|face| flat_areas[*face as usize]).collect();
         let several = filled(triangles.len(), threads, false, |face| {
             neighbours.of(face).iter().any(|other| flat[*other as usize] == flat[face])
@@ -113,7 +118,7 @@ impl PersistentCreases {
         let is_figure = in_flat < MOST_FLAT * own_areas.iter().sum::<f64>();
         let cos_smooth = if is_figure { cos_smooth.min(COS_OF_FIGURES) } else { cos_smooth };
         let diagonal = diagonal_of(positions);
-        let faces = Faces { positions, triangles, normals: given, areas: &own_areas };
+        let faces = Faces { triangles, normals: given, areas: &own_areas, angles: &angles };
         let mut flat_counts = vec![0; triangles.len()];
         flat.iter().for_each(|face| flat_counts[*face as usize] += 1);
         let is_border = |edge: &Edge| {
@@ -154,7 +159,7 @@ impl PersistentCreases {
         }
         let is_curved =
             if is_figure { vec![true; triangles.len()] } else { curved(&faces, &found, incidence, cos_smooth) };
-        Self { vertices, borders, areas, own_areas, is_curved, diagonal, cos_smooth }
+        Self { vertices, borders, areas, angles, own_areas, is_curved, diagonal, cos_smooth }
     }
 }
 
