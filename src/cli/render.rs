@@ -217,7 +217,7 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
     let progress = Progress::default();
     let drawn = watched::watched(&progress, None, || request.picture(session, &progress))?;
     let DrawnPicture { resolved, files, published, picture, .. } = &drawn;
-    let scene = &resolved.scene;
+    let scene = resolved.lit();
     drawn.remarks.iter().for_each(|remark| super::say(&format!("tinta: {remark}")));
     // Known only now.
     pictures_of(scene).keep(output)?;
@@ -245,7 +245,7 @@ fn tell(rendering: &Rendering<'_>, drawn: DrawnPicture, renderer: &mut Renderer)
     let Rendering { request, run, .. } = *rendering;
     let DrawnPicture { resolved, published, plan, omissions, kept, remarks, times: first, .. } = drawn;
     let Times { load_ms, stages, arrays_ms, plan_ms, lines_ms, context_ms, warm_up_ms, first_frame_ms } = first;
-    let scene = &resolved.scene;
+    let scene = resolved.lit();
     let frames = run.frames.unwrap_or(u32::from(run.explain)) as usize;
     let timed = match frames {
         0 => None,

@@ -80,8 +80,8 @@ impl Resolved {
             _ => style,
         };
         match ground {
-            Ground::None => style.plan(&self.scene, *show),
-            Ground::Shadow => style.plan(&Scene { background: Background::Transparent, ..self.scene.clone() }, *show),
+            Ground::None => style.plan(self.lit(), *show),
+            Ground::Shadow => style.plan(&Scene { background: Background::Transparent, ..self.lit().clone() }, *show),
         }
     }
 }

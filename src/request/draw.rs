@@ -14,6 +14,7 @@ use crate::plan::Plan;
 use crate::plan::prune::{Kept, Omission, Pruned, prune};
 use crate::renderer::{Renderer, milliseconds_since};
 use crate::styles::{Below, is_of_vectors};
+use crate::threads::both;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -236,15 +237,18 @@ impl Request {
     fn planned(&self, cache: &ModelCache, submission: crate::plan::Submission, progress: &Progress) -> Result<Planned> {
         let ReadModels { meshes, files, stages, ms: load_ms } = self.models(cache)?;
         let resolved = self.resolve(meshes, false)?;
-        let start = Instant::now();
-        resolved.scene.make_arrays();
-        let arrays_ms = milliseconds_since(start);
-        let start = Instant::now();
-        let published = Plan { submission, ..resolved.plan()? };
-        let plan_ms = milliseconds_since(start);
-        let around = resolved.around(progress)?;
+        let passes = || -> Result<(Plan, Times)> {
+            let start = Instant::now();
+            resolved.lit().make_arrays();
+            let arrays_ms = milliseconds_since(start);
+            let start = Instant::now();
+            let published = Plan { submission, ..resolved.plan()? };
+            Ok((published, Times { arrays_ms, plan_ms: milliseconds_since(start), ..Times::default() }))
+        };
+        let (around, planned) = both(|| resolved.around(progress), passes);
+        let (around, (published, times)) = (around?, planned?);
         progress.begin(Phase::Drawing, 0);
-        let times = Times { load_ms, stages, arrays_ms, plan_ms, lines_ms: around.found_ms, ..Times::default() };
+        let times = Times { load_ms, stages, lines_ms: around.found_ms, ..times };
         Ok(Planned { resolved, files, published, around, times })
     }
 }
@@ -263,9 +267,9 @@ impl Resolved {
 
     /// Prunes a plan of everything that cannot change the picture.
     fn pruned(&self, published: &Plan, renderer: &mut Renderer) -> Result<Pruned> {
-        renderer.choose_context(&self.scene, published)?;
+        renderer.choose_context(self.lit(), published)?;
         Ok(match self.request.pruning.pruning(renderer) {
-            Some(pruning) => prune(published, &self.scene, &pruning),
+            Some(pruning) => prune(published, self.lit(), &pruning),
             None => Pruned { plan: published.clone(), omissions: Vec::new(), kept: Vec::new() },
         })
     }
@@ -277,7 +281,7 @@ impl Resolved {
     /// Those of [`Resolved::plans`], [`Resolved::around`] and [`Renderer::draw`].
     pub fn picture(&self, renderer: &mut Renderer) -> Result<Picture> {
         let (_, Pruned { plan, .. }) = self.plans(renderer)?;
-        self.around(&Progress::default())?.drawn(&self.scene, &plan, renderer)
+        self.around(&Progress::default())?.drawn(self.lit(), &plan, renderer)
     }
 
     /// Draws a plan, pruned of everything that cannot change the picture, between the ground and exact lines.
@@ -292,10 +296,10 @@ impl Resolved {
         times.plan_ms = milliseconds_since(start);
         let mut remarks = self.picture_remarks(&plan, renderer);
         let start = Instant::now();
-        let mut picture = renderer.draw(&self.scene, &plan)?;
+        let mut picture = renderer.draw(self.lit(), &plan)?;
         times.first_frame_ms = milliseconds_since(start);
         around.put(&plan, &mut picture);
-        remarks.extend(empty_remark(&self.scene, &published, Some(&around), &picture, renderer)?);
+        remarks.extend(empty_remark(self.lit(), &published, Some(&around), &picture, renderer)?);
         let files = Vec::new();
         Ok(DrawnPicture { resolved: self, files, published, plan, omissions, kept, remarks, around, picture, times })
     }

@@ -16,6 +16,7 @@ use crate::recipe::Recipe;
 use crate::record::{drawing_json, px_per_unit};
 use crate::scene::{Scene, Unseen};
 use crate::styles::{Below, Contents, ViewAreas};
+use crate::threads::both;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -213,7 +214,7 @@ impl Resolved {
             remarks
                 .push("--classes centre: these models have no cylinder, cone or sphere to draw an axis of".to_owned());
         }
-        let mut areas = contents.areas(sight, &lines, progress)?;
+        let mut areas = contents.areas(&sight.of_same_faces(self.lit()), &lines, progress)?;
         remarks.extend(contents.remarks(scene));
         if let Some(areas) = areas.as_mut().filter(|_| !drawing.is_for_pen) {
             self.add_shadow(&mut areas.drawn, progress)?;
@@ -232,6 +233,14 @@ impl Resolved {
     /// Those of [`Resolved::all_lines`] and [`Resolved::drawing`].
     pub fn drawn_lines(&self, wanted: Wanted, progress: &Progress) -> Result<DrawnLines> {
         let sight = Sight::of(&self.scene);
-        self.drawing(&sight, Arc::new(self.all_lines(&sight, wanted, progress)?), wanted, progress)
+        // The light takes one thread, and the lines leave one free at times.
+        let has_tones = matches!(self.contents.below, Below::Tones(..));
+        let (lines, ()) = both(
+            || self.all_lines(&sight, wanted, progress),
+            || {
+                has_tones.then(|| self.lit());
+            },
+        );
+        self.drawing(&sight, Arc::new(lines?), wanted, progress)
     }
 }

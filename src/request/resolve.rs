@@ -8,14 +8,14 @@ use super::{Ground, Request};
 use crate::camera::View;
 use crate::edges::Class;
 use crate::error::Result;
-use crate::lines::{DrawingSettings, LineSettings, PartRules, ground_light, lit_scene};
+use crate::lines::{DrawingSettings, LineSettings, PartRules, SeenNormals, ground_light};
 use crate::mesh::{LoadOptions, Mesh, Normals};
 use crate::scene::{Scene, SceneSettings};
 use crate::settings::{HasSettings, OptionValue, Options, Value as _};
-use crate::styles::{Below, Contents, FarLight, Show};
+use crate::styles::{Below, Contents, FarLight, Show, Style};
 use glam::DVec3;
 use std::borrow::Cow;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Distance of the strokes on a cut of a drawing to scale, millimetres on paper.
 const HATCHING_MM: f64 = 2.5;
@@ -35,6 +35,18 @@ pub struct Resolved {
     pub scene: Scene,
     /// The contents of the drawing.
     pub contents: Contents,
+    /// The light of a still picture's tones.
+    light: Option<Arc<StillLight>>,
+}
+
+/// A light, and the scene as it shows it.
+#[derive(Debug)]
+struct StillLight {
+    seen: SeenNormals,
+    towards: [f32; 3],
+    thresholds: [f64; 2],
+    /// Made when it is first asked for.
+    lit: OnceLock<Scene>,
 }
 
 impl Request {
@@ -98,8 +110,13 @@ impl Request {
         let reads_none = |lines: &LineSettings| {
             !lines.creases_by_normals && !lines.classes.contains(Class::Normal) && lines.parts == PartRules::default()
         };
-        if self.style.lines().is_some_and(|style| reads_none(&style.lines)) {
-            read.to_mut().normals = Normals::Flat;
+        match &self.style {
+            // One a position: GL's vertices are shared.
+            Style::Inking(inking) if !inking.reads_normals() => read.to_mut().normals = Normals::Dachsbacher,
+            style if style.lines().is_some_and(|style| reads_none(&style.lines)) => {
+                read.to_mut().normals = Normals::Flat;
+            }
+            _ => {}
         }
         Ok(read)
     }
@@ -147,14 +164,15 @@ impl Request {
     /// # Errors
     ///
     /// Those of [`Request::contents`].
-    pub fn still(&self, mut scene: Scene, as_vectors: bool) -> Result<Resolved> {
+    pub fn still(&self, scene: Scene, as_vectors: bool) -> Result<Resolved> {
         let mut request = self.clone();
-        if let Some((light, thresholds)) = self.style.far_tones() {
-            let chosen;
-            (scene, chosen) = lit_scene(scene, light.known(), thresholds.map(f64::from));
-            request.put_light(|_, _| chosen);
-        }
-        Ok(Resolved { contents: request.contents(as_vectors)?, request, scene })
+        let light = self.style.far_tones().map(|(light, thresholds)| {
+            let (seen, thresholds) = (SeenNormals::of(&scene), thresholds.map(f64::from));
+            let towards = light.known().unwrap_or_else(|| seen.best_light(thresholds));
+            request.put_light(|_, _| towards);
+            Arc::new(StillLight { seen, towards, thresholds, lit: OnceLock::new() })
+        });
+        Ok(Resolved { contents: request.contents(as_vectors)?, request, scene, light })
     }
 
     /// Resolves a view of a turning scene, with this light of its tones or one chosen for it: all patches stay.
@@ -165,7 +183,7 @@ impl Request {
     pub fn moving(&self, scene: Scene, light: Option<[f32; 3]>, as_vectors: bool) -> Result<Resolved> {
         let mut request = self.clone();
         request.put_light(|chosen, thresholds| light.unwrap_or_else(|| chosen.towards(&scene, thresholds)));
-        Ok(Resolved { contents: request.contents(as_vectors)?, request, scene })
+        Ok(Resolved { contents: request.contents(as_vectors)?, request, scene, light: None })
     }
 
     /// Resolves pictures of an animation, which share the first one's light.
@@ -242,7 +260,14 @@ impl Resolved {
         // Without a style among them they are of lines all the same.
         let named = options.clone().into_iter().chain([("style".to_owned(), style)]).collect();
         let request = Request { models, title, options, ..Request::from_given(&named)? };
-        Ok(Self { contents: request.contents(true)?, request, scene: self.scene.clone() })
+        Ok(Self { contents: request.contents(true)?, request, scene: self.scene.clone(), light: self.light.clone() })
+    }
+
+    /// The scene as its tones show it: in a still picture without patches too small to draw. Its normals are others, so lines are found
+    /// in the scene itself.
+    pub fn lit(&self) -> &Scene {
+        let lit = |light: &StillLight| light.seen.lit(&self.scene, light.towards, light.thresholds);
+        self.light.as_ref().map_or(&self.scene, |light| light.lit.get_or_init(|| lit(light)))
     }
 
     /// The light of the tones that was chosen or given, eye space.
@@ -254,7 +279,7 @@ impl Resolved {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::request::{ModelCache, OptionLayer};
+    use crate::request::{ModelCache, OptionLayer, Wanted};
     use crate::styles::StyleName;
 
     fn request(light: &str) -> Request {
@@ -278,7 +303,7 @@ mod tests {
         let again = request(light);
         let second = again.resolve(meshes(&again), false).unwrap();
         assert_eq!(second.request.options, again.options);
-        assert_eq!(first.scene.objects[0].mesh.normals, second.scene.objects[0].mesh.normals);
+        assert_eq!(first.lit().objects[0].mesh.normals, second.lit().objects[0].mesh.normals);
         assert_eq!(first.plan().unwrap().passes, second.plan().unwrap().passes);
     }
 
@@ -292,6 +317,24 @@ mod tests {
         assert_eq!(normals("crease", "none"), Normals::Flat);
         assert_eq!(normals("crease,normal", "none"), Normals::Lasting);
         assert_eq!(normals("crease", "*: classes=normal"), Normals::Lasting);
+    }
+
+    #[test]
+    fn the_light_moves_no_line() {
+        let found = |light: &str, silhouette: &str| {
+            let mut asked = request(light);
+            let more = [("look", "print"), ("tone-light", light), ("classes", "all"), ("silhouette", silhouette)];
+            let options = more.map(|(name, value)| (name.to_owned(), OptionValue::text(value)));
+            asked = Request::from_given(&options.into_iter().collect()).unwrap().with_models(asked.models);
+            let resolved = asked.resolve(meshes(&asked), true).unwrap();
+            let drawn = resolved.drawn_lines(Wanted::default(), &crate::lines::Progress::default()).unwrap();
+            assert!(!Arc::ptr_eq(&resolved.lit().objects[0].mesh, &resolved.scene.objects[0].mesh), "patches go");
+            drawn.lines.segments.iter().map(|segment| (segment.class, segment.ends_px)).collect::<Vec<_>>()
+        };
+        for silhouette in ["exact", "smooth"] {
+            let [front, side] = ["0,0,1", "-1,1,0.2"].map(|light| found(light, silhouette));
+            assert!(front.len() > 100 && front == side, "{silhouette}: {} and {} lines", front.len(), side.len());
+        }
     }
 
     #[test]

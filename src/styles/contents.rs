@@ -124,11 +124,6 @@ fn below_strokes(Color(color): Color) -> Color {
     Color(color.map(|channel| channel + (1.0 - channel) * missing))
 }
 
-/// Finds something of a scene in flat colours, by the sight of the scene that it was made from where it is the same.
-fn in_sight<T>(flat: &Scene, sight: &Sight<'_>, find: impl FnOnce(&Sight<'_>) -> Result<T>) -> Result<T> {
-    if std::ptr::eq(flat, sight.scene) { find(sight) } else { find(&Sight::of(flat)) }
-}
-
 /// The least luminance of an area with strokes on it.
 const LEAST_LUMINANCE: f32 = 0.5;
 
@@ -150,7 +145,7 @@ impl Contents {
             Below::Tones(tones, light) => self.areas_of_tone((tones, *light), sight, lines, progress).map(Some),
             Below::Joined(joined) => {
                 let flat = if *joined == Joined::Material { in_flat_colors(scene)? } else { Cow::Borrowed(scene) };
-                let regions = whole(in_sight(&flat, sight, |sight| Regions::joined_by(sight, *joined, progress))?)?;
+                let regions = whole(Regions::joined_by(&sight.of_same_faces(&flat), *joined, progress)?)?;
                 let fills =
                     painted(&regions, self.lines.is_some(), |number| joined_color(&flat, &regions, number, *joined));
                 let drawn = Areas { fills: named(&flat, fills), ..Areas::around(&regions) };
@@ -176,7 +171,7 @@ impl Contents {
         tones.check()?;
         let rule = tone_rule(scene, tones, light);
         let flat = if self.drawing.is_for_pen { Cow::Borrowed(scene) } else { in_flat_colors(scene)? };
-        let regions = whole(in_sight(&flat, sight, |sight| Regions::toned(sight, &rule, progress))?)?;
+        let regions = whole(Regions::toned(&sight.of_same_faces(&flat), &rule, progress)?)?;
         let color = |TonedSurface { object, material, tone }| {
             let Color(color) = own_color(&flat, object, material);
             Color(color.map(|channel| channel * tones.levels[usize::from(tone)]))

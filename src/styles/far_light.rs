@@ -1,7 +1,7 @@
 //! A light so far away that it has a direction alone.
 
 use crate::error::{Error, Result};
-use crate::lines::chosen_light;
+use crate::lines::SeenNormals;
 use crate::scene::Scene;
 use crate::settings::{Kind, Problem, Value};
 use glam::DVec3;
@@ -18,7 +18,7 @@ pub enum FarLight {
 impl FarLight {
     /// Its direction for a scene, of any length.
     pub(crate) fn towards(self, scene: &Scene, thresholds: [f32; 2]) -> [f32; 3] {
-        self.known().unwrap_or_else(|| chosen_light(scene, thresholds.map(f64::from)))
+        self.known().unwrap_or_else(|| SeenNormals::of(scene).best_light(thresholds.map(f64::from)))
     }
 
     /// Its direction, unless it is chosen for a view.

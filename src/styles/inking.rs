@@ -229,6 +229,11 @@ const POINT_WIDTHS: f32 = 2.0;
 const WIDEST_LINE: f32 = 16_384.0;
 
 impl Inking {
+    /// Whether a step reads normals.
+    pub(crate) fn reads_normals(&self) -> bool {
+        self.paint != PaintMode::None || self.is_inked && self.classes.contains(Class::Normal)
+    }
+
     /// Paint, then ink.
     pub(super) fn plan(&self, scene: &Scene, show: Show) -> Result<Plan> {
         self.check(scene, show)?;

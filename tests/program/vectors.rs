@@ -4,7 +4,9 @@ use crate::program::done;
 use crate::rendered::rendered;
 use crate::support::{BACKENDS, public_meshes, renderer, scene_with};
 use std::sync::Arc;
-use tinta::lines::{Areas, FillGroup, Joined, Progress, Regions, Sight, first_hits, lit_scene, painted, svg_of_paths};
+use tinta::lines::{
+    Areas, FillGroup, Joined, Progress, Regions, SeenNormals, Sight, first_hits, painted, svg_of_paths,
+};
 use tinta::mesh::Normals;
 use tinta::styles::{Cartoon, FarLight, Ink, LineStyle, Tones};
 use tinta::{
@@ -122,7 +124,8 @@ fn areas_and_pixels_are_the_same_where_normals_are_averaged_and_patches_flattene
     let settings = SceneSettings { camera, ..SceneSettings::default() };
     for model in ["builtin:bust", "builtin:soldier", "builtin:gear"] {
         let scene = Scene::new([load(model, &options).unwrap().mesh], &settings).unwrap();
-        check(model, &lit_scene(scene, None, [0.2, 0.56]).0, &tones_alone()[4..]);
+        let (seen, thresholds) = (SeenNormals::of(&scene), [0.2, 0.56]);
+        check(model, &seen.lit(&scene, seen.best_light(thresholds), thresholds), &tones_alone()[4..]);
     }
 }
 

@@ -85,7 +85,7 @@ impl Pane {
             self.lines_ms = around.found_ms;
         }
         let (_, pruned) = view.plans(&mut self.renderer).map_err(said)?;
-        let picture = around.drawn(&view.scene, &pruned.plan, &mut self.renderer).map_err(said)?;
+        let picture = around.drawn(view.lit(), &pruned.plan, &mut self.renderer).map_err(said)?;
         let width = picture.size.width;
         self.drawn = Some(picture);
         Ok(width)
@@ -144,8 +144,8 @@ impl Pane {
     /// Those of [`Pane::draw`].
     pub fn ink(&mut self, options: &str) -> Result<Option<Vec<u8>>, JsError> {
         let request = asked(StyleName::ThreePass, options)?;
-        let Resolved { scene, request, .. } = self.still(&request)?;
-        Ok(Ink::of_style(&mut self.renderer, &scene, &request.style).map_err(said)?.map(|ink| ink.darkness))
+        let view = self.still(&request)?;
+        Ok(Ink::of_style(&mut self.renderer, view.lit(), &view.request.style).map_err(said)?.map(|ink| ink.darkness))
     }
 
     /// Why a pixel of the drawing, right and down from its upper left corner, has its colour: each pass with each statement of its
@@ -156,13 +156,13 @@ impl Pane {
     /// Those of [`Pane::draw`], and for background.
     pub fn why(&mut self, options: &str, x: f64, y: f64) -> Result<String, JsError> {
         let request = asked(StyleName::ThreePass, options)?;
-        let Resolved { scene, request, .. } = self.still(&request)?;
-        let mut style = request.style;
-        let is_supersampled = style.plan(&scene, Show::Final).map_err(said)?.supersample > 1;
+        let view = self.still(&request)?;
+        let mut style = view.request.style.clone();
+        let is_supersampled = style.plan(view.lit(), Show::Final).map_err(said)?.supersample > 1;
         if is_supersampled && let Some(setting) = Style::table().find(&style, "supersample") {
             setting.set(&mut style, "1").map_err(said)?;
         }
-        let why = Explanation::of(&style, &scene, &mut self.renderer, DVec2::new(x, y)).map_err(said)?;
+        let why = Explanation::of(&style, view.lit(), &mut self.renderer, DVec2::new(x, y)).map_err(said)?;
         Ok(format!("{}{why}", if is_supersampled { "As drawn once, without “Supersample”:\n" } else { "" }))
     }
 

@@ -87,8 +87,8 @@ pub use parts::style::{PartRole, PartStyle};
 pub use progress::{Phase, Progress};
 #[doc(hidden)]
 pub use regions::{
-    Joined, LIGHTS, Region, Regions, SeenFace, Surface, ToneLight, ToneRule, TonedSurface, chosen_light, ground_light,
-    ground_shadow, lit_scene,
+    Joined, LIGHTS, Region, Regions, SeenFace, SeenNormals, Surface, ToneLight, ToneRule, TonedSurface, ground_light,
+    ground_shadow,
 };
 pub use segment::LineSegment;
 pub use settings::LineSettings;

@@ -81,7 +81,7 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
     let (mut remarks, mut empty) = (Vec::new(), Vec::new());
     for (number, view) in views.iter().enumerate() {
         let frame = Instant::now();
-        let scene = &view.scene;
+        let scene = view.lit();
         let (published, Pruned { mut plan, .. }) = view.plans(renderer)?;
         plan.submission = run.submission;
         if number == 0 {

@@ -206,13 +206,13 @@ impl Drawer {
             self.read_back = None;
             let view = self.resolved(&job.view, &job.view.scene()?, &job.style, Show::Final)?;
             let plan = view.plan()?;
-            let values = self.renderer.step_values(&view.scene, &plan, around(at, view.scene.size, REACH_PX))?;
+            let values = self.renderer.step_values(view.lit(), &plan, around(at, view.scene.size, REACH_PX))?;
             self.read_back = Some(ReadBack { job: job.clone(), view, plan, values });
         }
         let Some(ReadBack { view, plan, values, .. }) = &self.read_back else {
             return Err(Error::gl("explaining a pixel", "nothing was read back"));
         };
-        Explanation::of_values(&view.request.style, &view.scene, (plan, values), &self.renderer, job.pixel)
+        Explanation::of_values(&view.request.style, view.lit(), (plan, values), &self.renderer, job.pixel)
     }
 
     /// Times a job's pictures and their passes, and draws the lines of final pictures alone.
@@ -226,7 +226,7 @@ impl Drawer {
         for (side, style, show) in &job.drawings {
             let view = self.resolved(job, &scene, style, *show)?;
             let (_, pruned) = view.plans(&mut self.renderer)?;
-            let passes = self.renderer.time_passes(&view.scene, &pruned.plan, TIMED_FRAMES)?;
+            let passes = self.renderer.time_passes(view.lit(), &pruned.plan, TIMED_FRAMES)?;
             let frame = |_| {
                 let start = Instant::now();
                 view.picture(&mut self.renderer).map(|_| milliseconds_since(start))

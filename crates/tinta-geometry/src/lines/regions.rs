@@ -40,8 +40,9 @@ mod tones;
 mod view;
 
 pub use ground::{ground_light, ground_shadow};
-pub use lit::{LIGHTS, chosen_light, lit_scene};
+pub use lit::LIGHTS;
 pub use region::{Region, Regions, SeenFace};
+pub use seen_normals::SeenNormals;
 pub use surface::{Joined, Surface};
 pub use tones::{ToneLight, ToneRule, TonedSurface};
 pub(in crate::lines) use view::View;

@@ -45,6 +45,12 @@ impl<'a> Sight<'a> {
         Self { scene, faces: OnceLock::new(), search: OnceLock::new(), intersections: OnceLock::new() }
     }
 
+    /// Returns the sight of a scene with the same faces, whose normals and colours may be others.
+    pub fn of_same_faces<'b>(&self, scene: &'b Scene) -> Sight<'b> {
+        let Self { faces, search, intersections, .. } = self;
+        Sight { scene, faces: faces.clone(), search: search.clone(), intersections: intersections.clone() }
+    }
+
     /// The faces of the scene without repairs.
     pub(in crate::lines) fn faces(&self, space: &Space) -> Arc<Faces> {
         self.faces.get_or_init(|| Arc::new(Faces::of(space, self.scene))).clone()

@@ -5,7 +5,7 @@ use crate::support::lines::view;
 use crate::support::shapes::icosphere;
 use glam::DVec3;
 use tinta::camera::Framing;
-use tinta::lines::{Progress, Regions, Sight, ToneLight, ToneRule, TonedSurface, lit_scene};
+use tinta::lines::{Progress, Regions, SeenNormals, Sight, ToneLight, ToneRule, TonedSurface};
 use tinta::{CameraSettings, Mesh, Scene, SceneSettings, Size};
 
 const THRESHOLDS: [f64; 2] = [0.2, 0.56];
@@ -24,6 +24,11 @@ fn seen_all<const N: usize>(meshes: [Mesh; N], name: &str) -> Scene {
 fn toned(scene: &Scene, light: [f64; 3]) -> Regions<Option<TonedSurface>> {
     let rule = ToneRule { light: ToneLight::Far(DVec3::from_array(light).normalize()), thresholds: THRESHOLDS };
     Regions::toned(&Sight::of(scene), &rule, &Progress::default()).unwrap()
+}
+
+/// The scene as a light shows it.
+fn lit(scene: &Scene, light: [f32; 3]) -> Scene {
+    SeenNormals::of(scene).lit(scene, light, THRESHOLDS)
 }
 
 /// The shares of the three tones in what is seen.
@@ -99,7 +104,7 @@ fn a_dent_too_small_to_draw_has_the_tone_around_it_and_a_larger_one_keeps_its_ow
         let scene = seen(mesh, "0,0");
         let light = [-0.4f32, 1.0, 1.2];
         let before = toned(&scene, light.map(f64::from));
-        let lit = lit_scene(scene.clone(), Some(light), THRESHOLDS).0;
+        let lit = lit(&scene, light);
         let after = toned(&lit, light.map(f64::from));
         let count =
             |regions: &Regions<Option<TonedSurface>>| regions.regions.iter().filter(|it| it.seen.is_some()).count();
@@ -120,7 +125,7 @@ fn no_patch_of_a_tone_is_left_that_is_smaller_than_a_five_hundredth_of_a_rough_s
         let areas = regions.regions.iter().filter(|it| it.seen.is_some()).map(|it| it.area_px);
         (areas.clone().fold(f64::INFINITY, f64::min) / areas.clone().sum::<f64>(), areas.count())
     };
-    let (before, after) = (smallest(&scene), smallest(&lit_scene(scene.clone(), Some(light), THRESHOLDS).0));
+    let (before, after) = (smallest(&scene), smallest(&lit(&scene, light)));
     // A share is counted in the pixels of a small picture.
     assert!(before.0 < 0.0015 && after.0 > 0.0015 && after.1 > 3, "{before:?}, {after:?}");
 }
@@ -137,7 +142,7 @@ fn a_flat_face_keeps_its_tone_however_small_it_is() {
     mesh.normals = vec![glam::Vec3::Z, glam::Vec3::new(0.0, 1.0, 0.2).normalize()];
     mesh.triangle_normals = vec![[0; 3], [0; 3], [1; 3], [1; 3]];
     let light = [0.0f32, 1.0, 0.5];
-    let scene = lit_scene(seen(mesh.clone(), "0,0"), Some(light), THRESHOLDS).0;
+    let scene = lit(&seen(mesh.clone(), "0,0"), light);
     assert_eq!(scene.objects[0].mesh.normals, mesh.normals);
     assert_eq!(toned(&scene, light.map(f64::from)).regions.iter().filter(|it| it.seen.is_some()).count(), 2);
 }
@@ -148,7 +153,7 @@ fn a_small_round_part_keeps_the_tones_that_are_a_large_part_of_it() {
     let small = Mesh { positions: round.positions.iter().map(|p| 0.025 * *p + DVec3::Z * 0.5).collect(), ..round };
     let light = [-1.0f32, 0.3, 0.6];
     let scene = seen_all([sheet(1, |_, _| 0.0), small.clone()], "0,0");
-    let lit = lit_scene(scene.clone(), Some(light), THRESHOLDS).0;
+    let lit = lit(&scene, light);
     let light = light.map(f64::from);
     assert_eq!(shares(&toned(&lit, light)), shares(&toned(&scene, light)));
 }
@@ -158,7 +163,7 @@ fn a_small_round_part_keeps_the_tones_that_are_a_large_part_of_it() {
 fn light_keeps_away_from_thresholds_at_corners_where_no_border_of_tones_is() {
     let mesh = sheet(120, |x, y| 0.08 * (9.0 * x).sin() * (7.0 * y).cos());
     let light = [-0.5f32, 0.65, 0.6];
-    let lit = lit_scene(seen(mesh, "0,0"), Some(light), THRESHOLDS).0;
+    let lit = lit(&seen(mesh, "0,0"), light);
     let mesh = &lit.objects[0].mesh;
     let light = glam::Vec3::from_array(light).normalize();
     let lights: Vec<f64> = mesh.normals.iter().map(|normal| f64::from(normal.dot(light))).collect();
@@ -215,9 +220,10 @@ fn the_side_that_is_seen_is_lit_from_the_front_from_behind_and_with_a_twin() {
 #[test]
 fn the_light_that_is_chosen_leaves_about_a_fifth_of_a_ball_dark_from_above() {
     for view in ["0,0", "30,23", "200,-20"] {
-        let (scene, light) = lit_scene(seen(ball(1.0), view), None, THRESHOLDS);
+        let scene = seen(ball(1.0), view);
+        let light = SeenNormals::of(&scene).best_light(THRESHOLDS);
         assert!(light[1] > 0.0 && light[2] > 0.0, "{light:?}");
-        let [dark, ..] = shares(&toned(&scene, light.map(f64::from)));
+        let [dark, ..] = shares(&toned(&lit(&scene, light), light.map(f64::from)));
         assert!((0.12..=0.28).contains(&dark), "{dark} of {view}");
     }
 }

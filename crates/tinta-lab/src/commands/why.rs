@@ -122,13 +122,13 @@ fn subject(model: &str, given: &Options) -> Result<(Vec<String>, Vec<OptionLayer
 /// Explains a pixel of the request's style.
 fn explain(arguments: &Arguments, request: &Request, output: Option<Target>, session: &mut Session) -> Result<()> {
     let (resolved, renderer) = request.resolved_and_renderer(session)?;
-    let (scene, Contents { below, lines, .. }) = (&resolved.scene, &resolved.contents);
+    let (scene, Contents { below, lines, .. }) = (resolved.lit(), &resolved.contents);
     let tinta::styles::Below::Passes(style) = below else { return Ok(()) };
     if request.glsl.is_some() {
         let remarks = renderer.remarks(&resolved.plan()?);
         remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
     }
-    let near = lines.as_ref().map(|lines| nearest_line(scene, lines, arguments.place)).transpose()?;
+    let near = lines.as_ref().map(|lines| nearest_line(&resolved.scene, lines, arguments.place)).transpose()?;
     let line =
         near.map(|near| with_lines(&resolved, renderer, arguments.place).map(|with| (near, with))).transpose()?;
     let why = Explanation::of(style, scene, renderer, arguments.place);
@@ -163,7 +163,7 @@ fn explain(arguments: &Arguments, request: &Request, output: Option<Target>, ses
 
 /// What exact lines make of a pixel: its red, green and blue, and the share of it that they cover, 0 to 1.
 fn with_lines(resolved: &Resolved, renderer: &mut Renderer, place: DVec2) -> Result<([u8; 3], f64)> {
-    let scene = &resolved.scene;
+    let scene = resolved.lit();
     let [x, y] = [place.x, place.y].map(|at| at.floor() as i64);
     let (plan, _) = resolved.plans(renderer)?;
     let around = resolved.around(&Progress::default())?;

@@ -49,44 +49,40 @@ const LARGE_PART: f64 = 0.2;
 /// would be mixed.
 const CLEARANCE: f64 = 0.02;
 
-/// Returns the direction of the light that suits a scene best, in the eye's space, of any length. `thresholds` are the cosines at which
-/// the second and the third tone begin.
-pub fn chosen_light(scene: &Scene, thresholds: [f64; 2]) -> [f32; 3] {
-    best_light(&SeenNormals::of(scene), thresholds)
-}
+impl SeenNormals {
+    /// Returns the direction of the light that suits the view best, in the eye's space, of any length. `thresholds` are the cosines at
+    /// which the second and the third tone begin.
+    pub fn best_light(&self, thresholds: [f64; 2]) -> [f32; 3] {
+        let cost = |place: usize| cost(self, unit(LIGHTS[place]), thresholds) + LATER * place as f64;
+        let costs = filled(LIGHTS.len(), cores(), 0.0, cost);
+        let best = (0..LIGHTS.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b]));
+        LIGHTS[best.unwrap_or(0)]
+    }
 
-/// Returns the scene under a light, or under the one that suits it, without patches of a tone too small to draw; and that light.
-/// Objects that share a mesh keep it.
-pub fn lit_scene(scene: Scene, light: Option<[f32; 3]>, thresholds: [f64; 2]) -> (Scene, [f32; 3]) {
-    let seen = SeenNormals::of(&scene);
-    let towards = light.unwrap_or_else(|| best_light(&seen, thresholds));
-    let light = unit(towards);
-    let least = LEAST_PATCH * seen.samples.iter().flatten().count() as f64;
-    let space = Space::of(&scene);
-    let mut samples: Vec<Vec<Sample>> = vec![Vec::new(); scene.objects.len()];
-    seen.samples.iter().flatten().for_each(|sample| samples[sample.object as usize].push(*sample));
-    let is_shared = |mesh: &Arc<Mesh>| scene.objects.iter().filter(|other| Arc::ptr_eq(mesh, &other.mesh)).count() > 1;
-    let lit = |(object, samples): (&Object, Vec<Sample>)| {
-        if samples.is_empty() || is_shared(&object.mesh) {
-            return object.clone();
-        }
-        let mut corners = LitCorners::of(object, &space, light);
-        corners.find_surfaces(&samples, least);
-        for threshold in thresholds.into_iter().filter(|threshold| *threshold <= 1.0) {
-            corners.flatten(&samples, threshold);
-        }
-        thresholds.into_iter().for_each(|threshold| corners.clear_borderless(threshold, thresholds));
-        corners.applied(object, space.world_direction(light))
-    };
-    let objects = scene.objects.iter().zip(samples).map(lit).collect();
-    (Scene { objects, ..scene }, towards)
-}
-
-fn best_light(seen: &SeenNormals, thresholds: [f64; 2]) -> [f32; 3] {
-    let cost = |place: usize| cost(seen, unit(LIGHTS[place]), thresholds) + LATER * place as f64;
-    let costs = filled(LIGHTS.len(), cores(), 0.0, cost);
-    let best = (0..LIGHTS.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b]));
-    LIGHTS[best.unwrap_or(0)]
+    /// Returns the scene that was seen, as a light in this direction shows it: without patches of a tone too small to draw. Objects that
+    /// share a mesh keep it.
+    pub fn lit(&self, scene: &Scene, towards: [f32; 3], thresholds: [f64; 2]) -> Scene {
+        let light = unit(towards);
+        let least = LEAST_PATCH * self.samples.iter().flatten().count() as f64;
+        let space = Space::of(scene);
+        let mut samples: Vec<Vec<Sample>> = vec![Vec::new(); scene.objects.len()];
+        self.samples.iter().flatten().for_each(|sample| samples[sample.object as usize].push(*sample));
+        let is_shared =
+            |mesh: &Arc<Mesh>| scene.objects.iter().filter(|other| Arc::ptr_eq(mesh, &other.mesh)).count() > 1;
+        let lit = |(object, samples): (&Object, Vec<Sample>)| {
+            if samples.is_empty() || is_shared(&object.mesh) {
+                return object.clone();
+            }
+            let mut corners = LitCorners::of(object, &space, light);
+            corners.find_surfaces(&samples, least);
+            for threshold in thresholds.into_iter().filter(|threshold| *threshold <= 1.0) {
+                corners.flatten(&samples, threshold);
+            }
+            thresholds.into_iter().for_each(|threshold| corners.clear_borderless(threshold, thresholds));
+            corners.applied(object, space.world_direction(light))
+        };
+        Scene { objects: scene.objects.iter().zip(samples).map(lit).collect(), ..scene.clone() }
+    }
 }
 
 /// The unit vector in a direction.

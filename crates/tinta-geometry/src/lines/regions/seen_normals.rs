@@ -24,12 +24,13 @@ pub(super) struct Sample {
 }
 
 /// The picture.
-pub(super) struct SeenNormals {
-    pub width: usize,
+#[derive(Debug, Clone)]
+pub struct SeenNormals {
+    pub(super) width: usize,
     /// Each pixel's distance from the eye, as its key; row by row.
     keys: Vec<f64>,
     /// Row by row.
-    pub samples: Vec<Option<Sample>>,
+    pub(super) samples: Vec<Option<Sample>>,
 }
 
 /// The corner of a face: its place in the small picture, NaN before the near plane; its key, and its normal.
@@ -41,7 +42,8 @@ struct Corner {
 }
 
 impl SeenNormals {
-    pub(super) fn of(scene: &Scene) -> Self {
+    /// Draws a scene.
+    pub fn of(scene: &Scene) -> Self {
         let space = Space::of(scene);
         let size = (space.size * scale(&space)).ceil().max(DVec2::ONE);
         let [width, height] = size.to_array().map(|side| side as usize);
