@@ -66,7 +66,7 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 /// A requested drawing.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Request {
     /// The models, as the user named them. Default empty.
     pub models: Vec<String>,
@@ -95,7 +95,7 @@ pub struct Request {
     /// The options that the request was made from. Recipes and presets keep them.
     pub options: Options,
     /// Where options that come from a look or a file stand.
-    sources: BTreeMap<String, Source>,
+    pub(crate) sources: BTreeMap<String, Source>,
 }
 
 tinta_geometry::choices! {
@@ -111,8 +111,8 @@ tinta_geometry::choices! {
 }
 
 /// The source of an option.
-#[derive(Debug, Clone)]
-struct Source {
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Source {
     name: String,
     line: Option<u64>,
 }
@@ -327,12 +327,6 @@ impl Request {
     /// All settings at their defaults, in this style as published.
     pub fn of_style(style: StyleName) -> Self {
         Self { style: Style::named(style), ..Self::default() }
-    }
-
-    /// This picture of this style, of scenes that are there already.
-    #[cfg(feature = "window")]
-    pub(crate) fn of_picture(style: &Style, show: Show) -> Self {
-        Self { style: style.clone(), show, ..Self::default() }
     }
 
     /// With these models.

@@ -132,13 +132,14 @@ fn a_renderer_deletes_every_object_it_made() {
 
 #[cfg(feature = "window")]
 fn check_switches(at_once: usize, looks: usize) {
+    use tinta::request::Request;
     use tinta::window::{Drawer, Job, Orbit, Side};
     let _alone = ALONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     let mut drawer = Drawer::new(Backend::Egl).unwrap_or_else(|error| panic!("{error}"));
     let settings = SceneSettings { size: Size { width: 64, height: 64 }, ..SceneSettings::default() };
-    // Kept, as the viewer keeps each style's settings, with charcoal's textures in them.
+    // Kept, with charcoal's textures in them.
     let names = StyleName::of_passes().filter(|(_, name)| *name != StyleName::Sand);
-    let styles: Vec<Style> = names.map(|(_, name)| Style::named(name)).collect();
+    let requests: Vec<Request> = names.map(|(_, name)| Request::of_style(name)).collect();
     let mut switches = |count: usize| {
         let mut scene = None;
         for number in 0..count {
@@ -150,8 +151,9 @@ fn check_switches(at_once: usize, looks: usize) {
                 scene: scene.clone().unwrap(),
                 orbit: Orbit::default(),
                 settings: settings.clone(),
-                drawings: vec![(Side::Left, styles[number % styles.len()].clone(), Show::Final)],
-                lines_over: [None, None],
+                drawings: vec![(Side::Left, requests[number % requests.len()].clone())],
+                has_strokes: [false; 2],
+                found: [None, None],
                 is_coarse: false,
                 keeps_patches: false,
             };

@@ -12,7 +12,7 @@ use tinta::settings::{HasSettings, Setting};
 use tinta::window::{
     Buffer, Layout, Orbit, Replay, SCENE_SETTINGS, Side, ViewerEvent, ViewerOptions, ViewerState, WindowOptions, open,
 };
-use tinta::{Error, LoadOptions, Result, Size, Style, StyleName};
+use tinta::{Error, LoadOptions, Result, Size, Style};
 
 /// The command.
 pub(super) const COMMAND: Command = Command {
@@ -104,7 +104,6 @@ pub(super) fn run(arguments: &Arguments, call: &Call<'_>) -> Result<()> {
     let replay = arguments.replay.as_deref().map(Replay::read).transpose()?;
     let viewer = ViewerOptions {
         state: state(&request, arguments.right, arguments.coarse).map_err(|error| request.attributed(error))?,
-        load: request.read.clone(),
         backend: request.backend,
         shaders: request.glsl.clone().map(PathBuf::from),
         folder: arguments.folder.clone(),
@@ -120,21 +119,15 @@ pub(super) fn run(arguments: &Arguments, call: &Call<'_>) -> Result<()> {
 /// The first state.
 fn state(request: &Request, right: Option<Named>, is_coarse: bool) -> Result<ViewerState> {
     let mut state = ViewerState::new(request.models.clone(), Orbit::default());
-    state.put_scene(request.scene.clone());
-    let left = request.style.style_name();
     // Options apply to every style that has them, even one chosen later.
-    for (_, name) in StyleName::ALL {
-        match request.in_style(name) {
-            Ok(request) => state.prepare_style(&request.style),
-            Err(error) if name == left || right == Some(Named::Style(name)) => return Err(error),
-            Err(_) => state.prepare_style(&Style::named(name)),
-        }
-    }
-    state.update(ViewerEvent::Style(Side::Left, left.name().to_owned()));
-    state.update(ViewerEvent::Overlay(Side::Left, request.contents(false)?.lines_over().is_some()));
+    state.put_request(request);
+    request.contents(false)?;
     if let Some(right) = right {
         let named = match right {
-            Named::Style(style) => ViewerEvent::Style(Side::Right, style.name().to_owned()),
+            Named::Style(style) => {
+                request.in_style(style)?;
+                ViewerEvent::Style(Side::Right, style.name().to_owned())
+            }
             Named::Look(look) => ViewerEvent::Look(look.name.to_owned()),
         };
         for event in [
@@ -158,6 +151,7 @@ fn state(request: &Request, right: Option<Named>, is_coarse: bool) -> Result<Vie
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tinta::StyleName;
     use tinta::preset::{LOOKS, Look};
     use tinta::request::OptionLayer;
 

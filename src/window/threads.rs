@@ -7,7 +7,6 @@ pub(super) mod draw;
 pub(super) mod exact;
 pub(super) mod explain;
 pub(super) mod job;
-pub(super) mod line_job;
 pub(super) mod line_measure;
 pub(super) mod load;
 pub(super) mod render_threads;

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use tinta::settings::OptionValue;
 use tinta::window::{Layout, Side, Viewer, ViewerEvent, ViewerOptions, ViewerState};
-use tinta::{Backend, LoadOptions, Picture, Size, Style, StyleName, View};
+use tinta::{Backend, Picture, Size, Style, StyleName, View};
 
 /// A viewer of these models without a window, at rest.
 fn viewer(models: &[&str], backend: Backend, shaders: Option<&Path>) -> Viewer {
@@ -17,7 +17,6 @@ fn viewer(models: &[&str], backend: Backend, shaders: Option<&Path>) -> Viewer {
     state.update(ViewerEvent::Resize([160, 120]));
     let options = ViewerOptions {
         state,
-        load: LoadOptions::default(),
         backend,
         shaders: shaders.map(Path::to_path_buf),
         folder: std::env::temp_dir(),
@@ -89,6 +88,33 @@ fn the_viewers_picture_is_the_one_its_command_line_draws_byte_for_byte() {
             let difference = drawn.difference(&picture.opaque()).unwrap();
             assert_eq!(difference.pixels, 0, "step {number} on {name}: {command}");
         }
+    }
+}
+
+#[test]
+fn strokes_for_tones_and_lines_on_paper_are_those_of_the_command_line_and_tones_stay_while_the_model_turns() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("hatched.toml").display().to_string();
+    std::fs::write(&path, "style = \"ink\"\ntone-light = \"auto\"\nhatch = 3\nexact-lines = true\n").unwrap();
+    let mut viewer = viewer(&["builtin:gear"], Backend::Auto, None);
+    for (put, title) in
+        [(ViewerEvent::OpenPreset(path), "ink+lines"), (ViewerEvent::Look("sketch".to_owned()), "charcoal+lines")]
+    {
+        let picture = shown(&mut viewer, [put, ViewerEvent::Turn([0.1, 0.05])]);
+        assert!(viewer.state.title().contains(title), "{}", viewer.state.title());
+        let command = viewer.commands().remove(0).unwrap();
+        let drawn = by_command(&command, "auto");
+        assert_eq!(drawn.difference(&picture.opaque()).unwrap().pixels, 0, "{command}");
+        viewer.is_moving = true;
+        viewer.event(ViewerEvent::Turn([0.1, 0.0]));
+        viewer.ask();
+        while !viewer.is_asked() {
+            viewer.wait().unwrap();
+            viewer.ask();
+        }
+        viewer.is_moving = false;
+        viewer.rest().unwrap();
+        assert_eq!(viewer.problem, None);
     }
 }
 
@@ -256,7 +282,6 @@ fn files_saved_from_the_viewer_are_those_its_commands_write() {
 fn saving_viewer(model: &str, folder: &Path) -> Viewer {
     let options = ViewerOptions {
         state: ViewerState::new(vec![model.to_owned()], Default::default()),
-        load: LoadOptions::default(),
         backend: Backend::Auto,
         shaders: None,
         folder: folder.to_path_buf(),

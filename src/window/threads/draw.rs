@@ -5,15 +5,15 @@
 
 use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
-use crate::lines::{Progress, lay_strokes};
+use crate::lines::Progress;
+use crate::picture::Picture;
 use crate::pixel::{Explanation, around};
 use crate::plan::Plan;
 use crate::renderer::{Renderer, StepValues, median, milliseconds_since};
-use crate::request::{Request, Resolved, Wanted};
+use crate::request::{Request, Resolved};
 use crate::scene::{Rectangle, Scene};
-use crate::styles::{Show, Style, StyleName};
+use crate::styles::{Show, StyleName};
 use crate::window::threads::coarse;
-use crate::window::threads::exact;
 use crate::window::threads::explain::PixelJob;
 use crate::window::threads::job::{Cost, Drawing, Job};
 use crate::window::threads::line_measure::LineMeasure;
@@ -151,21 +151,28 @@ impl Drawer {
 
     fn draw_once(&mut self, job: &Job) -> Result<Vec<Drawing>> {
         let scene = job.scene()?;
-        let draw = |(side, style, show): &(Side, Style, Show)| {
-            let drawn = if job.is_coarse { &crate::styles::coarse(style) } else { style };
-            let view = self.resolved(job, &scene, drawn, *show)?;
+        let draw = |(side, request): &(Side, Request)| {
+            let mut request = request.clone();
+            if job.is_coarse {
+                request.style = crate::styles::coarse(&request.style);
+            }
+            let view = self.resolved(job, &scene, &request)?;
+            let around = match &job.found[*side as usize] {
+                None if job.has_strokes[*side as usize] => Some(Arc::new(view.around(&Progress::default())?)),
+                found => found.clone(),
+            };
             // The time is that of a frame, not of the driver's compiling and uploading before the first one.
-            if self.is_first(job, drawn.style_name(), *show) {
-                view.picture(&mut self.renderer)?;
+            if self.is_first(job, request.style.style_name(), request.show) {
+                self.passes(&view)?;
             }
             let start = Instant::now();
-            let mut picture = view.picture(&mut self.renderer)?;
+            let picture = match around {
+                Some(around) => {
+                    around.drawn(&view.scene, &view.plans(&mut self.renderer)?.1.plan, &mut self.renderer)?
+                }
+                None => self.passes(&view)?,
+            };
             let frame_ms = milliseconds_since(start);
-            if let Some(style) = &job.lines_over[*side as usize] {
-                let lines = exact::request(style).still(scene.clone(), true)?;
-                let drawn = lines.drawn_lines(Wanted::default(), &Progress::default())?;
-                lay_strokes(&drawn.strokes()?, picture.size, &mut picture.pixels);
-            }
             let picture = if job.is_coarse { coarse::enlarged(&picture, job.settings.size) } else { picture };
             Ok(Drawing { side: *side, picture, frame_ms })
         };
@@ -182,9 +189,15 @@ impl Drawer {
         is_first
     }
 
+    /// A view's picture without strokes.
+    fn passes(&mut self, view: &Resolved) -> Result<Picture> {
+        let (_, pruned) = view.plans(&mut self.renderer)?;
+        self.renderer.draw(&view.scene, &pruned.plan)
+    }
+
     /// A job's picture of a scene. While the view moves, its light stays.
-    fn resolved(&mut self, job: &Job, scene: &Scene, style: &Style, show: Show) -> Result<Resolved> {
-        let request = Request::of_picture(style, show);
+    fn resolved(&mut self, job: &Job, scene: &Scene, request: &Request) -> Result<Resolved> {
+        let request = job.request(request);
         let before = self.light.as_ref().filter(|(models, _)| Arc::ptr_eq(models, &job.scene)).map(|(_, light)| *light);
         let view = match job.keeps_patches {
             true => request.moving(scene.clone(), before, false)?,
@@ -202,9 +215,10 @@ impl Drawer {
     pub fn explain(&mut self, job: &PixelJob) -> Result<Explanation> {
         let height = job.view.settings.size.height;
         let at = [job.pixel[0], height - 1 - job.pixel[1]];
-        if !self.read_back.as_ref().is_some_and(|known| known.job.is_of_same_picture(job) && known.has(at)) {
+        let is_known = self.read_back.as_ref().is_some_and(|known| known.job.view.is_same(&job.view) && known.has(at));
+        if let (Some((_, request)), false) = (job.view.drawings.first(), is_known) {
             self.read_back = None;
-            let view = self.resolved(&job.view, &job.view.scene()?, &job.style, Show::Final)?;
+            let view = self.resolved(&job.view, &job.view.scene()?, request)?;
             let plan = view.plan()?;
             let values = self.renderer.step_values(view.lit(), &plan, around(at, view.scene.size, REACH_PX))?;
             self.read_back = Some(ReadBack { job: job.clone(), view, plan, values });
@@ -223,17 +237,19 @@ impl Drawer {
     pub(crate) fn measure_cost(&mut self, job: &Job, measure: Option<LineMeasure>) -> Result<(Scene, Vec<Cost>)> {
         let scene = job.scene()?;
         let mut costs = Vec::new();
-        for (side, style, show) in &job.drawings {
-            let view = self.resolved(job, &scene, style, *show)?;
+        for (side, request) in &job.drawings {
+            let view = self.resolved(job, &scene, request)?;
             let (_, pruned) = view.plans(&mut self.renderer)?;
             let passes = self.renderer.time_passes(view.lit(), &pruned.plan, TIMED_FRAMES)?;
             let frame = |_| {
                 let start = Instant::now();
-                view.picture(&mut self.renderer).map(|_| milliseconds_since(start))
+                self.passes(&view).map(|_| milliseconds_since(start))
             };
             let frames: Result<Vec<f64>> = (0..TIMED_FRAMES).map(frame).collect();
             let frame_ms = median(frames?).unwrap_or_default();
-            let ink = match measure.filter(|_| *show == Show::Final) {
+            let style = &request.style;
+            let has_own_lines = request.show == Show::Final && !view.contents.has_strokes();
+            let ink = match measure.filter(|_| has_own_lines) {
                 Some(measure) => (measure.ink)(&mut self.renderer, &scene, style)?,
                 None => None,
             };
@@ -295,14 +311,14 @@ mod tests {
         let mesh = Arc::new(load("builtin:open-box", &LoadOptions::default()).unwrap().mesh);
         let settings = SceneSettings { size: Size { width: 16, height: 16 }, ..SceneSettings::default() };
         let scene = || Arc::new(Scene::new(vec![mesh.clone()], &settings).unwrap());
-        let style = Style::named(StyleName::Phong);
-        let drawings = vec![(Side::Left, style.clone(), Show::Final)];
+        let drawings = vec![(Side::Left, Request::of_style(StyleName::Phong))];
         let job = Job {
             scene: scene(),
             orbit: Orbit::default(),
             settings: settings.clone(),
             drawings,
-            lines_over: [None, None],
+            has_strokes: [false; 2],
+            found: [None, None],
             is_coarse: false,
             keeps_patches: false,
         };

@@ -1,22 +1,45 @@
-//! Finds and paints the exact lines of the view on a separate thread.
+//! Finds the exact lines of the view, and strokes that stand for tones, on a separate thread.
 //!
-//! Takes a [`LineJob`], all values, and returns strokes to lay over a picture of the same view. It searches one view's lines at a
+//! Takes a [`Job`], all values, and returns what lies around its pictures, or lines alone as pictures. It searches one view at a
 //! time. If the view changes meanwhile, the search stops where only a picture of the same view can use the lines. Lines drawn
 //! alone are finished and shown, then the search for the newest view starts.
 
 use crate::error::Result;
-use crate::lines::Progress;
+use crate::lines::{Progress, Raster, raster_of_strokes};
+use crate::picture::Picture;
 use crate::renderer::milliseconds_since;
-use crate::request::{Request, Wanted};
-use crate::styles::{LineStyle, Show, Style};
-use crate::window::threads::line_job::{Found, LineJob};
+use crate::request::Request;
+use crate::styles::Style;
+use crate::window::threads::job::{Found, Job, Lines};
 use crate::window::threads::report::{Report, Reporter};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// The request of the command line's drawing of these lines.
-pub(in crate::window) fn request(style: &LineStyle) -> Request {
-    Request::of_picture(&Style::Lines(LineStyle { areas: None, ..style.clone() }), Show::Final)
+/// Finds the lines of a job.
+fn find(job: &Job, progress: &Progress) -> Result<Found> {
+    let (start, scene) = (Instant::now(), job.scene()?);
+    let mut lines: Vec<Lines> = Vec::new();
+    for (number, (_, drawing)) in job.drawings.iter().enumerate() {
+        // Two sides of the same lines need one search.
+        let known = job.drawings[..number].iter().position(|(_, other)| other == drawing);
+        lines.push(match known {
+            Some(known) => lines[known].clone(),
+            None => of_request(job.request(drawing), scene.clone(), progress)?,
+        });
+    }
+    Ok(Found { ms: milliseconds_since(start), lines, job: job.clone() })
+}
+
+fn of_request(mut request: Request, scene: crate::scene::Scene, progress: &Progress) -> Result<Lines> {
+    let Style::Lines(style) = &mut request.style else {
+        return Ok(Lines::Around(Arc::new(request.still(scene, false)?.around(progress)?)));
+    };
+    style.areas = None;
+    let view = request.still(scene, false)?;
+    // As in the file: a path that ends where a stroke does would restart its dashes.
+    let strokes = view.drawn_lines(Default::default(), progress)?.strokes()?;
+    let Raster { size, pixels } = raster_of_strokes(&strokes, view.scene.size, view.scene.background);
+    Ok(Lines::Alone(Picture { size, pixels }))
 }
 
 /// The lines of the view that is shown.
@@ -24,11 +47,9 @@ pub(in crate::window) fn request(style: &LineStyle) -> Request {
 pub struct ExactLines {
     found: Option<Found>,
     /// The current search.
-    finding: Option<(LineJob, Arc<Progress>)>,
+    finding: Option<(Job, Arc<Progress>)>,
     /// The lines that failed, and why.
-    refused: Option<(LineJob, String)>,
-    /// Counts the results.
-    pub number: u64,
+    refused: Option<(Job, String)>,
 }
 
 impl ExactLines {
@@ -43,7 +64,7 @@ impl ExactLines {
     }
 
     /// Whether these lines are found, being found, or failed.
-    pub(in crate::window) fn is_begun(&self, job: &LineJob) -> bool {
+    pub(in crate::window) fn is_begun(&self, job: &Job) -> bool {
         let found = self.found.as_ref().map(|found| &found.job);
         let finding = self.finding.as_ref().map(|(job, _)| job);
         let refused = self.refused.as_ref().map(|(job, _)| job);
@@ -57,8 +78,8 @@ impl ExactLines {
 
     /// Requests these lines, or none. `is_picture` means that they are shown alone, and that those of a previous view are useful
     /// too.
-    pub fn ask(&mut self, wanted: Option<LineJob>, is_picture: bool, reporter: &Reporter) {
-        let is_wanted = |job: &LineJob| wanted.as_ref().is_some_and(|wanted| wanted.is_same(job));
+    pub fn ask(&mut self, wanted: Option<Job>, is_picture: bool, reporter: &Reporter) {
+        let is_wanted = |job: &Job| wanted.as_ref().is_some_and(|wanted| wanted.is_same(job));
         if !self.refused.as_ref().is_some_and(|(job, _)| is_wanted(job)) {
             self.refused = None;
         }
@@ -75,18 +96,10 @@ impl ExactLines {
         }
     }
 
-    fn start(&mut self, job: LineJob, reporter: Reporter) {
+    fn start(&mut self, job: Job, reporter: Reporter) {
         let progress = Arc::new(Progress::default());
         self.finding = Some((job.clone(), progress.clone()));
-        let work = move || {
-            let start = Instant::now();
-            // As in the file: a path that ends where a stroke does would restart its dashes.
-            let strokes = job.view.scene().and_then(|scene| {
-                request(&job.style).still(scene, true)?.drawn_lines(Wanted::default(), &progress)?.strokes()
-            });
-            let found = strokes.map(|strokes| Found { ms: milliseconds_since(start), strokes, job });
-            reporter.say(Report::Lines(Box::new(found)));
-        };
+        let work = move || reporter.say(Report::Lines(Box::new(find(&job, &progress))));
         if let Err(error) = std::thread::Builder::new().name("lines".to_owned()).spawn(work) {
             let problem = format!("no thread to find lines on could be started ({error}); close other programs");
             self.refused = self.finding.take().map(|(job, _)| (job, problem));
@@ -97,10 +110,7 @@ impl ExactLines {
     pub fn take(&mut self, found: Result<Found>) {
         let Some((job, progress)) = self.finding.take() else { return };
         match found {
-            Ok(found) => {
-                self.found = Some(found);
-                self.number += 1;
-            }
+            Ok(found) => self.found = Some(found),
             Err(_) if progress.is_cancelled() => {}
             Err(error) => self.refused = Some((job, error.to_string())),
         }

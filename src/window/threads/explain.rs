@@ -2,28 +2,20 @@
 
 use crate::error::Result;
 use crate::pixel::Explanation;
-use crate::styles::Style;
 use crate::window::threads::job::Job;
 
 /// A pixel to explain.
 #[derive(Debug, Clone)]
 pub struct PixelJob {
-    /// The view.
+    /// The view with the side's drawing alone.
     pub view: Job,
-    /// The style of the side.
-    pub style: Style,
     /// Right and down from the upper left corner of its picture.
     pub pixel: [u32; 2],
 }
 
 impl PixelJob {
-    /// Whether it is of the same picture as another.
-    pub(in crate::window) fn is_of_same_picture(&self, other: &Self) -> bool {
-        self.style == other.style && self.view.is_of_same_picture(&other.view)
-    }
-
     fn is_same(&self, other: &Self) -> bool {
-        self.pixel == other.pixel && self.is_of_same_picture(other)
+        self.pixel == other.pixel && self.view.is_same(&other.view)
     }
 }
 

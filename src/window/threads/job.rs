@@ -5,8 +5,8 @@ use crate::error::Result;
 use crate::orbit::Orbit;
 use crate::picture::Picture;
 use crate::renderer::PassTime;
+use crate::request::{Around, Request};
 use crate::scene::{Scene, SceneSettings};
-use crate::styles::{LineStyle, Show, Style};
 use crate::window::threads::coarse;
 use crate::window::values::event::Side;
 use std::sync::Arc;
@@ -20,10 +20,12 @@ pub struct Job {
     pub orbit: Orbit,
     /// The rest of the scene's settings.
     pub settings: SceneSettings,
-    /// The style and picture to show for each visible side.
-    pub drawings: Vec<(Side, Style, Show)>,
-    /// The exact lines to draw at once over each side's picture.
-    pub lines_over: [Option<LineStyle>; 2],
+    /// What to show on each visible side; the scene is this job's.
+    pub drawings: Vec<(Side, Request)>,
+    /// Whether each side's picture has the strokes of its request, exact lines or those of tones.
+    pub has_strokes: [bool; 2],
+    /// Those found before; others are found with the picture.
+    pub found: [Option<Arc<Around>>; 2],
     /// Whether it may be coarser: the view is on its way to another.
     pub is_coarse: bool,
     /// Whether small patches of a tone stay: the view is on its way to another, and finding them takes time.
@@ -65,16 +67,26 @@ impl Job {
         Self { is_coarse: false, keeps_patches: false, ..self }
     }
 
+    /// The same view, whatever is drawn of it.
+    pub(in crate::window) fn of(&self, drawings: Vec<(Side, Request)>) -> Self {
+        Self { drawings, has_strokes: [false; 2], found: [None, None], ..self.clone().at_rest() }
+    }
+
     /// Whether it shows the same scene in the same view as another, whatever it draws.
     pub(in crate::window) fn is_of_same_picture(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene) && self.orbit == other.orbit && self.settings == other.settings
+    }
+
+    /// A request of it, in its scene.
+    pub(in crate::window) fn request(&self, request: &Request) -> Request {
+        Request { scene: self.settings.clone(), ..request.clone() }
     }
 
     /// Whether it would draw the same as another.
     pub fn is_same(&self, other: &Self) -> bool {
         self.is_of_same_picture(other)
             && self.drawings == other.drawings
-            && self.lines_over == other.lines_over
+            && self.has_strokes == other.has_strokes
             && (self.is_coarse, self.keeps_patches) == (other.is_coarse, other.keeps_patches)
     }
 
@@ -82,6 +94,34 @@ impl Job {
     pub(in crate::window) fn does_for(&self, other: &Self) -> bool {
         let is_coarse = self.is_coarse && other.is_coarse;
         self.is_same(&Self { is_coarse, keeps_patches: self.keeps_patches && other.keeps_patches, ..other.clone() })
+    }
+}
+
+/// What was found for a side.
+#[derive(Debug, Clone)]
+pub enum Lines {
+    /// Lines alone, as a picture.
+    Alone(Picture),
+    /// What lies around a picture of passes.
+    Around(Arc<Around>),
+}
+
+/// Lines that were found.
+#[derive(Debug)]
+pub struct Found {
+    /// The view, and what was searched for in it.
+    pub job: Job,
+    /// The lines of each of its drawings.
+    pub lines: Vec<Lines>,
+    /// Time taken, milliseconds.
+    pub ms: f64,
+}
+
+impl Found {
+    /// What was found for a side, and for which request.
+    pub(in crate::window) fn of_side(&self, side: Side) -> Option<(&Request, &Lines)> {
+        let place = self.job.drawings.iter().position(|(of, _)| *of == side)?;
+        Some((&self.job.drawings[place].1, &self.lines[place]))
     }
 }
 

@@ -14,7 +14,7 @@ use crate::request::{OptionLayer, Request, Wanted};
 use crate::scene::SceneSettings;
 use crate::settings::{HasSettings, Value as _};
 use crate::shell;
-use crate::styles::Below;
+use crate::styles::{Below, is_of_exact_lines};
 use crate::window::threads::job::Job;
 use crate::window::values::controls;
 use crate::window::values::event::{Save, Side};
@@ -69,13 +69,10 @@ pub(in crate::window) fn command(
 fn request(state: &ViewerState, job: &Job, surroundings: &Surroundings, save: Save, side: Side) -> Result<Request> {
     let mut scene = SceneSettings { camera: job.camera()?, ..job.settings.clone() }.to_options()?;
     scene.extend(surroundings.load.to_options()?);
-    let mut options = match save {
-        Save::Lines => state.style_of_drawing(side).to_options()?,
-        _ => style_options(state, side)?,
-    };
-    state.add_lines_over(side, &mut options)?;
+    let drawn = if save == Save::Lines { state.drawing(side) } else { state.drawn(side) };
+    let mut options = style_options(&drawn)?;
     // Every picture shows what rules say of surfaces.
-    let PartRules(mut rules) = state.line_style().lines.parts;
+    let PartRules(mut rules) = state.part_rules(side);
     rules.retain(|rule| rule.style.is_of_surface());
     if !rules.is_empty() {
         options.entry("part".to_owned()).or_insert_with(|| OptionValue::text(PartRules(rules).text()));
@@ -93,11 +90,14 @@ fn context(surroundings: &Surroundings) -> Option<Driver> {
     surroundings.context.as_deref().map(Driver::new)
 }
 
-/// The options of a side's picture.
-fn style_options(state: &ViewerState, side: Side) -> Result<Options> {
-    let (style, show) = state.buffer.drawn(state.style(side));
-    let mut options = style.to_options()?;
-    options.extend(show.to_options());
+/// The options of a request without scene and reading: of its style, of its picture, and of the strokes on that.
+fn style_options(request: &Request) -> Result<Options> {
+    let mut options = Request::table().options(request, &Request::of_style(request.style.style_name()))?;
+    options.insert("style".to_owned(), OptionValue::text(request.style.name()));
+    if request.contents(false)?.has_strokes() {
+        let of_lines = request.options.clone().into_iter().filter(|(name, _)| is_of_exact_lines(name));
+        options = of_lines.chain(options).collect();
+    }
     Ok(options)
 }
 
@@ -172,8 +172,7 @@ fn save_of(
             // Without the view: a preset is for any model.
             let mut options = controls::of_scene_in(&job.settings.to_options()?);
             options.remove("view");
-            options.extend(style_options(state, side)?);
-            state.add_lines_over(side, &mut options)?;
+            options.extend(style_options(&state.drawn(side))?);
             TextTarget::check(&name)?.write(&to_toml(&options, "Saved by tinta view."))?;
             let use_it = shell::quoted(&name);
             return Ok(format!("{name}; render, compare and measure take it: --preset {use_it}"));
@@ -192,8 +191,8 @@ fn turn(request: &Request, job: &Job, backend: Backend, name: &str) -> Result<()
     let mut writer = AnimationWriter::new(target, TURN.0, TURN.1)?;
     for view in request.turn(job.scene()?, TURN.0, false)? {
         writer.add(match view.contents.below {
-            Below::Passes(_) => view.picture(&mut renderer)?,
-            _ => {
+            Below::Passes(_) | Below::Tones(..) => view.picture(&mut renderer)?,
+            Below::Joined(_) | Below::Nothing => {
                 let strokes = view.drawn_lines(Wanted::default(), &Progress::default())?.strokes()?;
                 let Raster { size, pixels } = raster_of_strokes(&strokes, view.scene.size, view.scene.background);
                 Picture { size, pixels }
@@ -210,7 +209,7 @@ fn stem(state: &ViewerState, save: Save, side: Side) -> String {
     let model = Path::new(model).file_stem().map_or("model".into(), |stem| stem.to_string_lossy());
     let styles: Vec<String> = match save {
         Save::Picture => state.sides().iter().map(|side| state.drawn_name(*side)).collect(),
-        Save::Lines => vec![state.style_of_drawing(side).name().to_owned()],
+        Save::Lines => vec![state.drawing(side).style.name().to_owned()],
         Save::Turn => vec![state.drawn_name(side)],
         Save::Preset => vec![state.style(side).name().to_owned()],
     };

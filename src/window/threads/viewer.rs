@@ -6,16 +6,14 @@
 
 use crate::error::{Error, Result};
 use crate::gl::{Backend, ContextInfo};
-use crate::lines::lay_strokes;
-use crate::mesh::LoadOptions;
 use crate::picture::Picture;
-use crate::request::LINES_AT_ONCE_MS;
+use crate::request::{LINES_AT_ONCE_MS, Request};
 use crate::scene::Scene;
+use crate::styles::Show;
 use crate::window::threads::cost::Costs;
 use crate::window::threads::exact::ExactLines;
 use crate::window::threads::explain::{Explained, PixelJob};
-use crate::window::threads::job::{Drawing, Job};
-use crate::window::threads::line_job::LineJob;
+use crate::window::threads::job::{Drawing, Job, Lines};
 use crate::window::threads::line_measure::LineMeasure;
 use crate::window::threads::load::Loader;
 use crate::window::threads::render_threads::{Ended, RenderThreads};
@@ -37,8 +35,6 @@ use std::thread::JoinHandle;
 pub struct ViewerOptions {
     /// The first state; its models are read at once.
     pub state: ViewerState,
-    /// How models are read.
-    pub load: LoadOptions,
     /// The OpenGL backend for the pictures; the window has another.
     pub backend: Backend,
     /// A folder laid out like `glsl/` with the shaders to use, reloaded when they change.
@@ -71,11 +67,6 @@ pub struct Viewer {
     line_measure: Option<LineMeasure>,
     scene: Option<Arc<Scene>>,
     drawings: Vec<Drawing>,
-    /// Counts drawings.
-    drawings_number: u64,
-    /// The pictures of sides that show exact lines, and their inputs.
-    inked: [Option<Picture>; 2],
-    inked_of: Option<InkedOf>,
     /// Counts changes of the picture; a window compares it to know when to repaint.
     pub picture_number: u64,
     /// The job that the drawings are of.
@@ -95,14 +86,14 @@ pub struct Viewer {
     gone: Option<Error>,
 }
 
-/// The inputs of pictures with exact lines: the numbers of drawings and lines, and each side's [`LinesShown`].
-type InkedOf = (u64, u64, [LinesShown; 2]);
-
 impl std::fmt::Debug for Viewer {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         out.debug_struct("Viewer").field("state", &self.state).finish_non_exhaustive()
     }
 }
+
+/// The option of strokes that stand for tones.
+const HATCH: &str = "hatch";
 
 /// The message where the dialogue gave no file, as it does at once where the system has none.
 const NOTHING_CHOSEN: &str = "no file was chosen; if no dialogue appeared, type the path, or install zenity";
@@ -125,7 +116,7 @@ impl Viewer {
         let watched = watch::start(options.shaders.clone(), reporter.clone()).map_err(no_thread)?;
         let loader = Loader::new(reporter.clone());
         let surroundings = Surroundings {
-            load: options.load.clone(),
+            load: options.state.requests[0].read.clone(),
             backend: options.backend,
             folder: options.folder,
             files: Vec::new(),
@@ -145,9 +136,6 @@ impl Viewer {
             line_measure: options.line_measure,
             scene: None,
             drawings: Vec::new(),
-            drawings_number: 0,
-            inked: [None, None],
-            inked_of: None,
             picture_number: 0,
             drawn: None,
             drawn_number: 0,
@@ -161,7 +149,6 @@ impl Viewer {
             loads_going_on: 0,
             gone: None,
         };
-        viewer.state.load = options.load;
         viewer.open(viewer.state.models.clone());
         Ok(viewer)
     }
@@ -233,7 +220,6 @@ impl Viewer {
         let Some(job) = self.job() else { return };
         let is_picture = self.shows(LinesShown::Alone);
         self.lines.ask(self.line_job(&job), is_picture, &self.reporter);
-        self.ink();
         if let Some(pixel) = self.explained.next(self.pixel_job(&job)) {
             let sent = self.render_threads.explain(pixel);
             self.check(sent);
@@ -289,7 +275,10 @@ impl Viewer {
 
     /// A side's picture, with the exact lines if it shows them.
     pub fn picture(&self, side: Side) -> Option<&Picture> {
-        self.inked[side as usize].as_ref().or_else(|| self.drawing(side).map(|drawing| &drawing.picture))
+        match self.lines.found().and_then(|found| found.of_side(side)) {
+            Some((_, Lines::Alone(alone))) if self.state.lines_shown(side) == LinesShown::Alone => Some(alone),
+            _ => self.drawing(side).map(|drawing| &drawing.picture),
+        }
     }
 
     /// A side's picture by its style, with the time it took.
@@ -319,22 +308,33 @@ impl Viewer {
             orbit: self.state.orbit.clone(),
             settings: self.state.scene_settings(),
             drawings: Vec::new(),
-            lines_over: [None, None],
+            has_strokes: [false; 2],
+            found: [None, None],
             is_coarse: self.is_moving && self.state.is_coarse_while_moving,
             keeps_patches: false,
         };
-        let found = self.lines.found().filter(|found| found.job.style == self.state.line_style());
-        let is_fast =
-            found.is_some_and(|found| found.ms < LINES_AT_ONCE_MS && Arc::ptr_eq(&found.job.view.scene, &job.scene));
         for side in self.state.sides() {
-            let (style, show) = self.state.buffer.drawn(self.state.style(*side));
-            let shown = self.state.lines_shown(*side);
-            // Until exact lines are found there are none: other borders would flicker.
-            let is_replaced = shown == LinesShown::Over;
-            let style = if is_replaced { style.without_borders().unwrap_or(style) } else { style };
-            job.keeps_patches |= self.is_moving && style.far_tones().is_some();
-            job.drawings.extend((shown != LinesShown::Alone).then_some((*side, style, show)));
-            job.lines_over[*side as usize] = (shown == LinesShown::Over && is_fast).then(|| self.state.line_style());
+            let (mut drawn, shown) = (self.state.drawn(*side), self.state.lines_shown(*side));
+            if shown == LinesShown::Alone {
+                continue;
+            }
+            let found = self.lines.found().filter(|found| Arc::ptr_eq(&found.job.scene, &job.scene));
+            match found.and_then(|found| Some((found, found.of_side(*side)?))) {
+                Some((found, (request, Lines::Around(around)))) if *request == drawn => {
+                    let is_of_view = found.job.is_of_same_picture(&job);
+                    job.has_strokes[*side as usize] = is_of_view || found.ms < LINES_AT_ONCE_MS;
+                    job.found[*side as usize] = is_of_view.then(|| around.clone());
+                    // They have the size of a fine picture.
+                    job.is_coarse &= !is_of_view;
+                }
+                _ => {}
+            }
+            if !job.has_strokes[*side as usize] {
+                // Until slow strokes are found, tones stand for themselves, without the style's own borders, which would flicker.
+                drawn.options.remove(HATCH);
+            }
+            job.keeps_patches |= self.is_moving && drawn.style.far_tones().is_some();
+            job.drawings.push((*side, drawn));
         }
         Some(job)
     }
@@ -344,54 +344,28 @@ impl Viewer {
         let (side, pixel) = self.state.pointed.filter(|_| self.state.explains && !self.is_moving)?;
         let size = view.settings.size;
         let has_it = pixel[0] < size.width && pixel[1] < size.height;
-        let (_, style, _) = view.drawings.iter().find(|(drawn, ..)| *drawn == side)?;
-        has_it.then(|| PixelJob { view: view.clone(), style: style.clone(), pixel })
+        let (_, request) = view.drawings.iter().find(|(drawn, _)| *drawn == side)?;
+        let mut request = Request { show: Show::Final, ..request.clone() };
+        request.options.remove(HATCH);
+        has_it.then(|| PixelJob { view: view.of(vec![(side, request)]), pixel })
     }
 
-    /// The exact lines to find, if a visible side shows them.
-    fn line_job(&self, job: &Job) -> Option<LineJob> {
+    /// The lines to find: those of the sides that show them.
+    fn line_job(&self, job: &Job) -> Option<Job> {
         // Lines that are drawn at once with the picture need no search of their own while the model moves.
-        let is_drawn = self.is_moving && job.lines_over.iter().any(Option::is_some);
-        let is_wanted = self.shows(LinesShown::Over) && !is_drawn || self.shows(LinesShown::Alone);
-        let view = Job { drawings: Vec::new(), lines_over: [None, None], ..job.clone().at_rest() };
-        is_wanted.then(|| LineJob { view, style: self.state.line_style() })
+        let is_wanted = |side: &&Side| match self.state.lines_shown(**side) {
+            LinesShown::None => false,
+            LinesShown::Over => !(self.is_moving && job.has_strokes[**side as usize]),
+            LinesShown::Alone => true,
+        };
+        let drawings: Vec<_> =
+            self.state.sides().iter().filter(is_wanted).map(|side| (*side, self.state.drawn(*side))).collect();
+        (!drawings.is_empty()).then(|| job.of(drawings))
     }
 
     /// Whether a side that is seen shows this of the exact lines.
     fn shows(&self, lines: LinesShown) -> bool {
         self.state.sides().iter().any(|side| self.state.lines_shown(*side) == lines)
-    }
-
-    /// Lays the found lines over the pictures of the same view.
-    fn ink(&mut self) {
-        let lines = [Side::Left, Side::Right].map(|side| match self.state.lines_shown(side) {
-            LinesShown::Over if !self.has_ink_over(side) => LinesShown::None,
-            shown => shown,
-        });
-        let of = Some((self.drawings_number, self.lines.number, lines));
-        if of == self.inked_of {
-            return;
-        }
-        let found = self.lines.found();
-        self.inked = [Side::Left, Side::Right].map(|side| match lines[side as usize] {
-            LinesShown::None => None,
-            LinesShown::Over => found.zip(self.drawing(side)).map(|(found, under)| {
-                let mut picture = under.picture.clone();
-                lay_strokes(&found.strokes, picture.size, &mut picture.pixels);
-                picture
-            }),
-            LinesShown::Alone => found.map(|found| found.alone()),
-        });
-        self.inked_of = of;
-        self.picture_number += 1;
-    }
-
-    /// Whether the lines that were found are those of a side's picture.
-    fn has_ink_over(&self, side: Side) -> bool {
-        let Some((found, drawn)) = self.lines.found().zip(self.drawn.as_ref()) else { return false };
-        let is_of_it = found.job.style == self.state.line_style() && found.job.view.is_of_same_picture(drawn);
-        let is_under = |drawing: &Drawing| drawing.picture.size == found.job.view.settings.size;
-        is_of_it && drawn.lines_over[side as usize].is_none() && self.drawing(side).is_some_and(is_under)
     }
 
     /// The command lines that draw the active side: its style's picture, its exact lines.
@@ -420,8 +394,8 @@ impl Viewer {
     fn open(&mut self, models: Vec<String>) {
         self.loads_going_on += 1;
         self.stage = Some(Stage { text: "starting to read".to_owned(), share: 0.0 });
-        let rules = self.state.line_style().lines.parts;
-        if let Err(error) = self.loader.start(models, self.state.load.clone(), rules) {
+        let (read, rules) = (self.state.requests[0].read.clone(), self.state.part_rules(Side::Left));
+        if let Err(error) = self.loader.start(models, read, rules) {
             self.loads_going_on -= 1;
             self.stage = None;
             self.problem =
@@ -512,7 +486,10 @@ impl Viewer {
                 }
             }
             Report::Measured(number, errors) => self.costs.measured(number, errors),
-            Report::Lines(found) => self.lines.take(*found),
+            Report::Lines(found) => {
+                self.lines.take(*found);
+                self.picture_number += 1;
+            }
             Report::Chosen(models) if models.is_empty() => self.state.message = Some(NOTHING_CHOSEN.to_owned()),
             Report::Chosen(models) => self.open(models),
             Report::ModelChanged => self.open(self.state.models.clone()),
@@ -563,7 +540,6 @@ impl Viewer {
         self.drawn = Some(job);
         // Sides that show exact lines alone need no new picture.
         if !drawings.is_empty() || !self.drawings.is_empty() {
-            self.drawings_number += 1;
             self.picture_number += 1;
         }
         self.drawings = drawings;

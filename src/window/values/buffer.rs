@@ -3,6 +3,7 @@
 use crate::choice::Choice;
 use crate::edges::{Class, ClassSet};
 use crate::error::ParseError;
+use crate::request::Request;
 use crate::scene::Color;
 use crate::styles::{ClassColors, Inking, PaintMode, Show, Style, StyleName};
 use std::str::FromStr;
@@ -34,12 +35,13 @@ impl Buffer {
         }
     }
 
-    /// The style and picture that draw this buffer of a style; the finished picture if the style lacks the buffer.
-    pub fn drawn(self, style: &Style) -> (Style, Show) {
+    /// The request that draws this buffer of another; the finished picture if its style lacks the buffer.
+    pub fn drawn(self, request: &Request) -> Request {
+        let drawn = Request { show: Show::Final, ..request.clone() };
         match self {
-            Self::EdgeClasses => (edge_classes(), Show::Final),
-            Self::Show(show) if buffers(style.style_name()).contains(&self) => (style.clone(), show),
-            Self::Show(_) => (style.clone(), Show::Final),
+            Self::EdgeClasses => Request { style: edge_classes(), exact_lines: false, ..drawn },
+            Self::Show(show) if buffers(request.style.style_name()).contains(&self) => Request { show, ..drawn },
+            Self::Show(_) => drawn,
         }
     }
 }
@@ -98,8 +100,8 @@ mod tests {
                 let is_known = buffers(style).contains(&Buffer::Show(show));
                 assert_eq!(Style::named(style).plan(&scene, show).is_ok(), is_known, "{name} {show:?}");
             }
-            let (classes, show) = Buffer::EdgeClasses.drawn(&Style::named(style));
-            assert!(classes.plan(&scene, show).is_ok());
+            let classes = Buffer::EdgeClasses.drawn(&Request::of_style(style));
+            assert!(classes.style.plan(&scene, classes.show).is_ok());
         }
     }
 

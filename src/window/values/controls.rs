@@ -1,14 +1,13 @@
-//! The settings of the styles as controls: the panel's selection, and how they are read and set.
+//! The settings of a request as controls: the panel's selection, and how they are read and set.
 //!
 //! Values are the texts that the command line takes: a control, a recorded event and a command use the same words. The settings
-//! are declared with the styles; this file lists none.
+//! are declared in the request's table; this file chooses those of a window.
 
 use crate::error::Result;
-use crate::mesh::LoadOptions;
 use crate::preset::{LOOKS, Look};
-use crate::request::{OptionLayer, Request};
+use crate::request::Request;
 use crate::scene::SceneSettings;
-use crate::settings::{HasSettings, Kind, Options, Setting, Table};
+use crate::settings::{HasSettings, Kind, Options, Setting};
 use crate::styles::{Style, StyleName};
 use crate::window::values::line_style::LINE_SETTINGS;
 
@@ -19,32 +18,61 @@ pub(crate) const SCENE_SETTINGS: [&str; 8] =
 /// The settings for reading models that a window offers; the others are for untrusted files.
 const LOAD_SETTINGS: [&str; 7] = ["up-axis", "normals", "smooth-angle", "reach", "weld", "model-frame", "skin"];
 
-/// The same style with its source's settings.
-fn published(style: &Style) -> Style {
-    Style::named(style.style_name())
+/// What settings are about.
+#[derive(Clone, Copy)]
+pub(in crate::window) enum Group {
+    /// The style.
+    Style,
+    /// The scene.
+    Scene,
+    /// The reading of models.
+    Models,
 }
 
-/// The controls of a style: all of its settings but those that have one value only, or stand for several others.
-pub(in crate::window) fn of(style: &Style) -> Vec<Control<Style>> {
-    let all = of_table(Style::table(), style, &published(style));
-    all.into_iter().filter(|control| is_shown(style, control.setting.name)).collect()
+impl Group {
+    /// The settings that a window has of it.
+    fn settings(self, of: &Request) -> impl Iterator<Item = &'static Setting<Request>> {
+        let draws_lines = of.style.style_name().draws_lines();
+        let has = move |name: &str| match self {
+            Self::Style if draws_lines => LINE_SETTINGS.contains(&name),
+            Self::Style => Style::table().find(&of.style, name).is_some(),
+            Self::Scene => SCENE_SETTINGS.contains(&name),
+            Self::Models => LOAD_SETTINGS.contains(&name),
+        };
+        let settings = Request::table().settings.iter();
+        settings.filter(move |setting| has(setting.name) && setting.value(of).is_some())
+    }
+
+    /// The controls of it: all settings but those that have one value only, or stand for several others.
+    pub(in crate::window) fn controls(self, of: &Request) -> Vec<Control> {
+        let published = published(of);
+        let turns = |setting: &&Setting<Request>| match &setting.kind {
+            Kind::Choice(names) => names.len() > 1,
+            Kind::Recipe(_) => false,
+            _ => true,
+        };
+        let text = |setting: &Setting<Request>, of| setting.value(of).unwrap_or_default();
+        let control = |setting| Control { setting, value: text(setting, of), default: text(setting, &published) };
+        self.settings(of).filter(turns).map(control).collect()
+    }
 }
 
-/// Whether a window has this setting of a style.
-fn is_shown(style: &Style, name: &str) -> bool {
-    !style.style_name().draws_lines() || LINE_SETTINGS.contains(&name)
+/// The request's style with its source's settings, and all else at its default.
+fn published(of: &Request) -> Request {
+    Request::of_style(of.style.style_name())
 }
 
-/// The controls of the scene.
-pub(in crate::window) fn of_scene(scene: &SceneSettings) -> Vec<Control<SceneSettings>> {
-    let all = of_table(SceneSettings::table(), scene, &SceneSettings::default());
-    all.into_iter().filter(|control| SCENE_SETTINGS.contains(&control.setting.name)).collect()
+/// Gives a request this style, and the options that make it.
+pub(in crate::window) fn put_style(request: &mut Request, style: Style) {
+    request.options.retain(|name, _| Style::table().find(&style, name).is_none());
+    // A style that no text describes is drawn and not remembered.
+    request.options.extend(style.to_options().unwrap_or_default());
+    request.style = style;
 }
 
-/// The controls of how models are read.
-pub(in crate::window) fn of_load(load: &LoadOptions) -> Vec<Control<LoadOptions>> {
-    let all = of_table(LoadOptions::table(), load, &LoadOptions::default());
-    all.into_iter().filter(|control| LOAD_SETTINGS.contains(&control.setting.name)).collect()
+/// The request in another style with the options that it has; as published if it does not accept them.
+pub(in crate::window) fn in_style(request: &Request, name: StyleName) -> Request {
+    request.in_style(name).unwrap_or_else(|_| Request { style: Style::named(name), ..request.clone() })
 }
 
 /// Another style with a look's settings; as published if it does not accept them.
@@ -60,63 +88,33 @@ pub(in crate::window) fn look_of_sibling(style: &Style) -> Option<Look> {
     LOOKS.into_iter().rev().find(is_of)
 }
 
-/// Returns the style, the exact lines over its picture, and the scene that a look or a preset makes of these; a layer without a
-/// style keeps the drawn one.
-///
-/// # Errors
-///
-/// As [`Request::from_layers`].
-pub(in crate::window) fn of_layer(
-    layer: OptionLayer,
-    drawn: StyleName,
-    mut scene: SceneSettings,
-) -> Result<(Style, Option<Style>, SceneSettings)> {
+/// Sets what looks say of a scene back to the defaults.
+pub(in crate::window) fn forget_looks(scene: &mut SceneSettings) -> Result<()> {
     let table = SceneSettings::table();
-    if let OptionLayer::Look(_) = layer {
-        // Settings of another look return to their defaults.
-        for other in LOOKS {
-            for name in of_scene_in(&other.preset()?.options).keys() {
-                if let Some(setting) = table.find(&scene, name) {
-                    setting.set(&mut scene, &table.default_of(setting))?;
-                }
+    for look in LOOKS {
+        for name in of_scene_in(&look.preset()?.options).keys() {
+            if let Some(setting) = table.find(scene, name) {
+                setting.set(scene, &table.default_of(setting))?;
             }
         }
     }
-    let (request, _) = Request::from_layers(&[OptionLayer::Style(drawn), layer])?;
-    table.apply(&mut scene, &of_scene_in(&request.options)).map_err(|error| request.attributed(error))?;
-    let has_lines_over = request.contents(false)?.lines_over().is_some();
-    let lines = has_lines_over.then(|| request.in_style(StyleName::Lines)).transpose()?;
-    Ok((request.style, lines.map(|request| request.style), scene))
-}
-
-/// The same for settings of any table.
-fn of_table<T: Clone + 'static>(table: &'static Table<T>, of: &T, published: &T) -> Vec<Control<T>> {
-    let turns = |kind: &Kind| match kind {
-        Kind::Choice(names) => names.len() > 1,
-        Kind::Recipe(_) => false,
-        _ => true,
-    };
-    let control = |setting: &'static Setting<T>| {
-        let (value, default) = (setting.value(of)?, setting.value(published).unwrap_or_default());
-        Some(Control { setting, value, default })
-    };
-    table.of(Some(of)).into_iter().filter(|setting| turns(&setting.kind)).filter_map(control).collect()
+    Ok(())
 }
 
 /// A colour to begin with.
 const WHITE: &str = "#ffffff";
 
 /// A setting as a panel shows it.
-pub(in crate::window) struct Control<T: 'static> {
+pub(in crate::window) struct Control {
     /// The setting.
-    pub setting: &'static Setting<T>,
+    pub setting: &'static Setting<Request>,
     /// Its value.
     pub value: String,
     /// Its value as published.
     pub default: String,
 }
 
-impl<T: Clone + 'static> Control<T> {
+impl Control {
     /// Its option, as events and the command line have it.
     pub(in crate::window) fn option(&self) -> String {
         format!("--{}", self.setting.name)
@@ -145,62 +143,37 @@ impl<T: Clone + 'static> Control<T> {
     }
 }
 
-/// Sets a style's control; options may mean different things in different styles.
+/// Sets an option of a request, or sets it back to its published value.
 ///
 /// # Errors
 ///
-/// Returns a sentence that begins with the option, for a style without it and for invalid values. The style's plan refuses
+/// A sentence that begins with the option, for one that a window does not have and for invalid values. The style's plan refuses
 /// invalid combinations.
-pub(in crate::window) fn turn(style: &mut Style, option: &str, value: &str) -> std::result::Result<(), String> {
-    let setting = find(style, option)?;
-    set(setting, style, option, value)
-}
-
-/// The window's settings other than those of styles.
-pub(in crate::window) struct Group {
-    /// The owner of the settings, for the error about an unknown one.
-    what: &'static str,
-    names: &'static [&'static str],
-}
-
-/// Those of the scene, and of reading models.
-pub(in crate::window) const SCENE: Group = Group { what: "", names: &SCENE_SETTINGS };
-pub(in crate::window) const LOAD: Group = Group { what: " of models", names: &LOAD_SETTINGS };
-
-/// Sets a control of a group.
-///
-/// # Errors
-///
-/// A sentence that begins with the option, for one that a window does not have and for values it cannot have.
-pub(in crate::window) fn turn_in<T: HasSettings>(
-    group: &Group,
-    of: &mut T,
+pub(in crate::window) fn set(
+    request: &mut Request,
+    group: Group,
     option: &str,
-    value: &str,
+    value: Option<&str>,
 ) -> std::result::Result<(), String> {
-    set(find_in(group, option)?, of, option, value)
-}
-
-/// Sets it back to its default.
-///
-/// # Errors
-///
-/// Those of [`turn_in`].
-pub(in crate::window) fn turn_back_in<T: HasSettings>(
-    group: &Group,
-    of: &mut T,
-    option: &str,
-) -> std::result::Result<(), String> {
-    let setting: &Setting<T> = find_in(group, option)?;
-    turned(setting.set(of, &T::table().default_of(setting)))
-}
-
-fn find_in<T: HasSettings>(group: &Group, option: &str) -> std::result::Result<&'static Setting<T>, String> {
+    // Recordings of earlier versions name options that the command line did not have without dashes.
     let name = option.trim_start_matches("--");
-    let setting = T::table().settings.iter().find(|setting| setting.name == name);
-    setting.filter(|setting| group.names.contains(&setting.name)).ok_or_else(|| {
-        format!("{option}: the window has no such setting{}; it has {}", group.what, group.names.join(", "))
-    })
+    let setting = group.settings(request).find(|setting| setting.name == name).ok_or_else(|| match group {
+        Group::Style => format!("{option}: the style {} has no such setting", request.style.name()),
+        Group::Scene => format!("{option}: the window has no such setting; it has {}", SCENE_SETTINGS.join(", ")),
+        Group::Models => {
+            format!("{option}: the window has no such setting of models; it has {}", LOAD_SETTINGS.join(", "))
+        }
+    })?;
+    let value = value.map(|value| value.trim().to_owned());
+    let value = value.or_else(|| setting.value(&published(request))).unwrap_or_default();
+    if let Kind::Numbers { .. } = setting.kind
+        && value.split(',').any(|number| number.trim().parse().is_ok_and(|number: f64| !number.is_finite()))
+    {
+        return Err(format!("{option} {value}: give a finite number"));
+    }
+    setting.set(request, &value).map_err(|error| error.with_dashes())?;
+    put_style(request, request.style.clone());
+    Ok(())
 }
 
 /// Those of the options that say something of the scene that a window can set.
@@ -209,80 +182,43 @@ pub(in crate::window) fn of_scene_in(options: &Options) -> Options {
     options.iter().filter(|(name, _)| is_one(name)).map(|(name, value)| (name.clone(), value.clone())).collect()
 }
 
-fn set<T: Clone + 'static>(
-    setting: &Setting<T>,
-    of: &mut T,
-    option: &str,
-    value: &str,
-) -> std::result::Result<(), String> {
-    let value = value.trim();
-    if let Kind::Numbers { .. } = setting.kind
-        && value.split(',').any(|number| number.trim().parse().is_ok_and(|number: f64| !number.is_finite()))
-    {
-        return Err(format!("{option} {value}: give a finite number"));
-    }
-    turned(setting.set(of, value))
-}
-
-/// Restores the published value.
-///
-/// # Errors
-///
-/// Those of [`turn`].
-pub(in crate::window) fn turn_back(style: &mut Style, option: &str) -> std::result::Result<(), String> {
-    let setting = find(style, option)?;
-    let default = setting.value(&published(style)).unwrap_or_default();
-    turned(setting.set(style, &default))
-}
-
-fn turned(result: Result<()>) -> std::result::Result<(), String> {
-    result.map_err(|error| error.with_dashes())
-}
-
-/// Recordings of earlier versions name options that the command line did not have without dashes.
-fn find(style: &Style, option: &str) -> std::result::Result<&'static Setting<Style>, String> {
-    let name = option.trim_start_matches("--");
-    let setting = Style::table().find(style, name).filter(|_| is_shown(style, name));
-    setting.ok_or_else(|| format!("{option}: the style {} has no such setting", style.name()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn is_faithful(style: &Style) -> bool {
-        *style == published(style)
-    }
-
-    fn styles() -> impl Iterator<Item = Style> {
-        StyleName::ALL.into_iter().map(|(_, name)| Style::named(name))
+    fn styles() -> impl Iterator<Item = Request> {
+        StyleName::ALL.into_iter().map(|(_, name)| Request::of_style(name))
     }
 
     #[test]
     fn every_style_has_controls_and_none_twice() {
-        for style in styles() {
-            let options: Vec<String> = of(&style).iter().map(Control::option).collect();
-            assert!(options.len() >= 3, "{}: {options:?}", style.name());
+        for request in styles() {
+            let options: Vec<String> = Group::Style.controls(&request).iter().map(Control::option).collect();
+            assert!(options.len() >= 3, "{}: {options:?}", request.style.name());
             let different: std::collections::HashSet<_> = options.iter().collect();
-            assert_eq!(different.len(), options.len(), "{}: {options:?}", style.name());
+            assert_eq!(different.len(), options.len(), "{}: {options:?}", request.style.name());
         }
     }
 
     #[test]
     fn every_dial_turns_and_goes_back() {
         let mut count = 0;
-        for style in styles() {
-            for control in of(&style) {
-                let mut turned = style.clone();
-                turn(&mut turned, &control.option(), &control.value).unwrap();
-                assert_eq!(turned, style, "{} of {}", control.option(), style.name());
+        for request in styles() {
+            let published = &request.style;
+            for control in Group::Style.controls(&request) {
+                let option = control.option();
+                let mut turned = request.clone();
+                set(&mut turned, Group::Style, &option, Some(&control.value)).unwrap();
+                assert_eq!(turned.style, *published, "{option} of {}", published.name());
                 for other in
                     control.setting.kind.samples(&control.value).iter().filter(|sample| **sample != control.value)
                 {
-                    turn(&mut turned, &control.option(), other).unwrap_or_else(|problem| panic!("{problem}"));
-                    assert!(!is_faithful(&turned), "{} {other}", control.option());
-                    turn_back(&mut turned, &control.option()).unwrap();
-                    assert!(is_faithful(&turned), "{} of {}", control.option(), style.name());
+                    set(&mut turned, Group::Style, &option, Some(other)).unwrap_or_else(|problem| panic!("{problem}"));
+                    assert!(turned.style != *published, "{option} {other}");
+                    let again = turned.in_style(published.style_name()).unwrap();
+                    assert_eq!(again.style, turned.style, "its options make it: {option} {other}");
+                    set(&mut turned, Group::Style, &option, None).unwrap();
+                    assert_eq!(turned.style, *published, "{option} of {}", published.name());
                     count += 1;
                 }
             }
@@ -292,16 +228,16 @@ mod tests {
 
     #[test]
     fn of_exact_lines_a_window_has_no_settings_of_paper() {
-        let mut style = Style::named(StyleName::Lines);
-        assert_eq!(of(&style).len(), LINE_SETTINGS.len());
-        assert_eq!(turn(&mut style, "--dpi", "300").unwrap_err(), "--dpi: the style lines has no such setting");
+        let mut request = Request::of_style(StyleName::Lines);
+        assert_eq!(Group::Style.controls(&request).len(), LINE_SETTINGS.len());
+        let problem = set(&mut request, Group::Style, "--dpi", Some("300")).unwrap_err();
+        assert_eq!(problem, "--dpi: the style lines has no such setting");
     }
 
     #[test]
     fn a_control_is_found_by_words_of_its_name_and_its_help_and_by_no_others() {
         let found = |words: &str| {
-            let scene = SceneSettings::default();
-            let controls = of_scene(&scene);
+            let controls = Group::Scene.controls(&Request::default());
             let found = controls.iter().filter(|control| control.is_found_by(words));
             found.map(|control| control.setting.name).collect::<Vec<_>>()
         };
@@ -314,59 +250,46 @@ mod tests {
 
     #[test]
     fn a_colour_that_is_the_models_own_can_be_given_and_taken_back() {
-        let mut scene = SceneSettings::default();
-        let control = of_scene(&scene).into_iter().find(|control| control.setting.name == "color").unwrap();
+        let mut request = Request::default();
+        let controls = Group::Scene.controls(&request);
+        let control = controls.into_iter().find(|control| control.setting.name == "color").unwrap();
         assert_eq!((control.value.as_str(), &control.setting.kind), ("own", &Kind::Color));
-        turn_in(&SCENE, &mut scene, "--color", &control.given()).unwrap();
-        assert_eq!(control.setting.value(&scene).as_deref(), Some(WHITE));
-        turn_back_in(&SCENE, &mut scene, "--color").unwrap();
-        assert_eq!(scene, SceneSettings::default());
+        set(&mut request, Group::Scene, "--color", Some(&control.given())).unwrap();
+        assert_eq!(control.setting.value(&request).as_deref(), Some(WHITE));
+        set(&mut request, Group::Scene, "--color", None).unwrap();
+        assert_eq!(request.scene, SceneSettings::default());
     }
 
     #[test]
     fn what_can_be_left_open_is_given_numbers_and_left_open_again() {
-        for mut style in styles() {
-            for control in of(&style) {
+        for mut request in styles() {
+            for control in Group::Style.controls(&request) {
                 let (Some(open), Kind::Numbers { .. }) = (control.setting.open, &control.setting.kind) else {
                     continue;
                 };
-                turn(&mut style, &control.option(), &control.given()).unwrap();
-                assert_ne!(control.setting.value(&style).as_deref(), Some(open), "{}", control.option());
-                turn(&mut style, &control.option(), open).unwrap();
-                assert_eq!(control.setting.value(&style).as_deref(), Some(open), "{}", control.option());
+                let option = control.option();
+                set(&mut request, Group::Style, &option, Some(&control.given())).unwrap();
+                assert_ne!(control.setting.value(&request).as_deref(), Some(open), "{option}");
+                set(&mut request, Group::Style, &option, Some(open)).unwrap();
+                assert_eq!(control.setting.value(&request).as_deref(), Some(open), "{option}");
             }
         }
-    }
-
-    #[test]
-    fn a_setting_is_a_dial_wherever_it_is_declared() {
-        let table: &'static Table<f32> = Box::leak(Box::new(Table {
-            settings: vec![
-                Setting::field("grain-size", "PIXELS", "How large grains are; more is coarser", |grain: &mut f32| {
-                    grain
-                })
-                .range(1.0, 9.0, 1),
-            ],
-            defaults: vec![2.0],
-        }));
-        let controls = of_table(table, &3.5, &2.0);
-        let [control] = &controls[..] else { panic!("one control") };
-        assert_eq!((control.option().as_str(), control.setting.label().as_str()), ("--grain-size", "grain size"));
-        assert_eq!((control.value.as_str(), control.default.as_str(), control.is_default()), ("3.5", "2", false));
     }
 
     #[test]
     fn nonsense_is_refused_in_a_sentence_that_names_the_option() {
-        for style in styles() {
-            for control in of(&style).iter().filter(|control| control.setting.kind != Kind::File) {
+        for request in styles() {
+            for control in Group::Style.controls(&request).iter().filter(|control| control.setting.kind != Kind::File) {
                 for nonsense in ["", "much?", "NaN", "inf", "1,2,3,4,5,6"] {
-                    let problem = turn(&mut style.clone(), &control.option(), nonsense).unwrap_err();
-                    assert!(problem.starts_with(&control.option()), "{problem}");
+                    let option = control.option();
+                    let problem = set(&mut request.clone(), Group::Style, &option, Some(nonsense)).unwrap_err();
+                    assert!(problem.starts_with(&option), "{problem}");
                 }
             }
         }
-        let problem = turn(&mut Style::named(StyleName::Phong), "--tones", "2").unwrap_err();
+        let tones = |style, option: &str| set(&mut Request::of_style(style), Group::Style, option, Some("2"));
+        let problem = tones(StyleName::Phong, "--tones").unwrap_err();
         assert_eq!(problem, "--tones: the style phong has no such setting");
-        assert!(turn(&mut Style::named(StyleName::Ink), "least-gap", "2").is_ok(), "as older recordings name it");
+        assert!(tones(StyleName::Ink, "least-gap").is_ok(), "as older recordings name it");
     }
 }

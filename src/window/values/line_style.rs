@@ -17,10 +17,9 @@ pub(in crate::window) const LINE_SETTINGS: [&str; 12] = [
 ];
 
 /// How a side shows exact lines.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LinesShown {
     /// No lines.
-    #[default]
     None,
     /// They lie over the style's picture.
     Over,

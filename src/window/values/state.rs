@@ -2,16 +2,16 @@
 
 use crate::camera::CameraSettings;
 use crate::camera::View;
-use crate::error::Error;
-use crate::mesh::LoadOptions;
+use crate::error::Result as DrawingResult;
+use crate::lines::PartRules;
 use crate::orbit::Orbit;
 use crate::preset::{LOOKS, Look, Preset};
-use crate::request::{EXACT_LINES, OptionLayer};
+use crate::request::{OptionLayer, Request};
 use crate::scene::{SceneSettings, Size};
-use crate::settings::{OptionValue, Options};
-use crate::styles::{LineStyle, Style, StyleName, is_of_exact_lines};
+use crate::settings::HasSettings;
+use crate::styles::{Style, StyleName};
 use crate::window::values::buffer::{Buffer, buffers};
-use crate::window::values::controls;
+use crate::window::values::controls::{self, Group};
 use crate::window::values::event::{Effect, Layout, Save, Side, ViewerEvent};
 use crate::window::values::line_style::LinesShown;
 
@@ -20,16 +20,11 @@ use crate::window::values::line_style::LinesShown;
 pub struct ViewerState {
     /// The models, as the user named them.
     pub models: Vec<String>,
-    /// How they are read.
-    pub(in crate::window) load: LoadOptions,
     /// The view of them.
     pub orbit: Orbit,
-    /// The styles of both sides by their names, each with its last settings.
-    pub(in crate::window) styles: [Vec<Style>; 2],
-    /// The shown style of each side.
-    pub(in crate::window) chosen: [StyleName; 2],
-    /// Whether exact lines lie over it.
-    pub(in crate::window) has_lines_over: [bool; 2],
+    /// What each side draws. Its options keep what was said of other styles, too. Scene and reading are the same on both sides; a
+    /// pane gives the scene's size, and the orbit its view.
+    pub(in crate::window) requests: [Request; 2],
     /// The side that number keys and the panel are for.
     pub active: Side,
     /// How the two styles are laid out.
@@ -38,8 +33,6 @@ pub struct ViewerState {
     pub divider: f64,
     /// The shown buffer of the styles.
     pub buffer: Buffer,
-    /// The scene of both sides; a pane gives its size, and the orbit its view.
-    pub(in crate::window) scene: SceneSettings,
     /// Whether pictures may be coarser while the view moves.
     pub is_coarse_while_moving: bool,
     /// Size of the drawing area, pixels.
@@ -75,19 +68,14 @@ const LARGEST_SIDE: u32 = 16_384;
 
 impl Default for ViewerState {
     fn default() -> Self {
-        let all = || StyleName::ALL.into_iter().map(|(_, name)| Style::named(name)).collect();
         Self {
             models: Vec::new(),
-            load: LoadOptions::default(),
             orbit: Orbit::default(),
-            styles: [all(), all()],
-            chosen: [StyleName::ThreePass, StyleName::Inking],
-            has_lines_over: [false; 2],
+            requests: [StyleName::ThreePass, StyleName::Inking].map(Request::of_style),
             active: Side::Left,
             layout: Layout::Single,
             divider: 0.5,
             buffer: Buffer::default(),
-            scene: SceneSettings::default(),
             is_coarse_while_moving: false,
             area: SceneSettings::default().size,
             has_panel: false,
@@ -125,108 +113,107 @@ pub enum Content {
     Difference,
 }
 
+/// What a request draws, whatever the scene.
+fn of_any_scene(Request { style, show, exact_lines, options, .. }: Request) -> Request {
+    Request { style, show, exact_lines, options, ..Request::default() }
+}
+
 impl ViewerState {
     /// The first state for these models, seen so.
     pub fn new(models: Vec<String>, orbit: Orbit) -> Self {
         Self { models, orbit, ..Self::default() }
     }
 
+    /// Draws this on the left side, and its style's neighbour in the options of the right one; its scene and reading are both sides'.
+    pub(crate) fn put_request(&mut self, request: &Request) {
+        self.put_scene(request.scene.clone());
+        let right = Request { exact_lines: false, ..controls::in_style(request, self.style(Side::Right).style_name()) };
+        self.requests = [request.clone(), right];
+    }
+
     /// The style a side shows.
     pub fn style(&self, side: Side) -> &Style {
-        &self.styles[side as usize][self.chosen[side as usize] as usize]
+        &self.requests[side as usize].style
     }
 
-    /// How a side shows exact lines.
+    /// The request of a side's picture in its buffer, of any scene.
+    pub(in crate::window) fn drawn(&self, side: Side) -> Request {
+        of_any_scene(self.buffer.drawn(&self.requests[side as usize]))
+    }
+
+    /// How a side shows exact lines, or strokes that stand for tones.
     pub(in crate::window) fn lines_shown(&self, side: Side) -> LinesShown {
-        let is_over = self.has_lines_over[side as usize] && self.buffer == Buffer::default();
-        match (self.style(side).lines(), is_over) {
-            (Some(_), _) => LinesShown::Alone,
-            (None, true) => LinesShown::Over,
-            (None, false) => LinesShown::None,
+        let drawn = self.drawn(side);
+        match drawn.style.style_name().draws_lines() {
+            true => LinesShown::Alone,
+            false if drawn.contents(false).is_ok_and(|contents| contents.has_strokes()) => LinesShown::Over,
+            false => LinesShown::None,
         }
     }
 
-    /// The style of exact lines that lie over pictures, the same on both sides.
-    pub(in crate::window) fn style_of_lines(&self) -> &Style {
-        &self.styles[0][StyleName::Lines as usize]
+    /// The request of a side's drawing in vectors: its own if its style has areas of tone, else that of exact lines.
+    pub(in crate::window) fn drawing(&self, side: Side) -> Request {
+        let request = of_any_scene(Buffer::default().drawn(&self.requests[side as usize]));
+        let has_vectors = request.style.vectors(self.area).is_some();
+        if has_vectors { request } else { controls::in_style(&request, StyleName::Lines) }
     }
 
-    /// The style whose vectors a side's drawing has: its own if it has areas of tone, else that of exact lines.
-    pub(in crate::window) fn style_of_drawing(&self, side: Side) -> &Style {
-        let style = self.style(side);
-        if style.vectors(self.scene.size).is_some() { style } else { self.style_of_lines() }
-    }
-
-    /// Adds the options of the exact lines over a side's picture, which beat its style's.
-    pub(in crate::window) fn add_lines_over(&self, side: Side, options: &mut Options) -> Result<(), Error> {
-        if self.lines_shown(side) == LinesShown::Over {
-            options.retain(|name, _| !is_of_exact_lines(name));
-            let of_lines = self.style_of_lines().to_options()?;
-            options.extend(of_lines.into_iter().filter(|(name, _)| is_of_exact_lines(name)));
-            options.insert(EXACT_LINES.to_owned(), OptionValue::Switch(true));
-        }
-        Ok(())
-    }
-
-    /// The style of exact lines: of a side that shows them alone, or else of those over pictures.
-    pub(crate) fn line_style(&self) -> LineStyle {
-        let alone = self.sides().iter().find_map(|side| self.style(*side).lines());
-        alone.or_else(|| self.style_of_lines().lines()).unwrap_or_default()
+    /// What a side says of parts: all pictures follow the rules for surfaces.
+    pub(in crate::window) fn part_rules(&self, side: Side) -> PartRules {
+        let lines = controls::in_style(&self.requests[side as usize], StyleName::Lines).style.lines();
+        lines.map(|style| style.lines.parts).unwrap_or_default()
     }
 
     /// The name of a side's picture: a style, lines, or a style and lines.
     pub(in crate::window) fn drawn_name(&self, side: Side) -> String {
         let name = self.style(side).name();
         match self.lines_shown(side) {
-            LinesShown::Over => format!("{name}+{}", self.style_of_lines().name()),
+            LinesShown::Over => format!("{name}+{}", StyleName::Lines.name()),
             LinesShown::None | LinesShown::Alone => name.to_owned(),
         }
     }
 
-    /// Shows this style on a side, with these exact lines over it or none.
-    fn put_drawn(&mut self, side: Side, style: Style, lines_over: Option<Style>) {
-        self.put_style(side, style);
-        self.has_lines_over[side as usize] = lines_over.is_some();
-        if let Some(lines) = lines_over {
-            self.prepare_style(&lines);
-        }
+    /// A side's request with the scene as it is seen.
+    pub(in crate::window) fn seen(&self, side: Side) -> Request {
+        Request { scene: self.scene_settings(), ..self.requests[side as usize].clone() }
     }
 
     /// Shows this style on a side.
     pub fn put_style(&mut self, side: Side, style: Style) {
-        let name = style.style_name();
-        self.chosen[side as usize] = name;
-        // Exact lines look the same on both sides.
-        match name.draws_lines() {
-            true => self.prepare_style(&style),
-            false => self.styles[side as usize][name as usize] = style,
-        }
+        controls::put_style(&mut self.requests[side as usize], style);
     }
 
-    /// Sets a style's settings on both sides, for when it is chosen.
-    pub(crate) fn prepare_style(&mut self, style: &Style) {
-        for side in &mut self.styles {
-            side[style.style_name() as usize] = style.clone();
+    /// Sets an option of a side, or of both if it is the scene's or the models', or back to its default.
+    fn set(&mut self, side: Side, group: Group, option: &str, value: Option<&str>) -> Result<(), String> {
+        let mut request = self.seen(side);
+        if matches!(group, Group::Style) && request.style.style_name().draws_lines() {
+            return self.set_lines(option, value);
         }
-    }
-
-    /// Changes the style that a side shows.
-    fn change_style(
-        &mut self,
-        side: Side,
-        change: impl FnOnce(&mut Style) -> Result<(), String>,
-    ) -> Result<(), String> {
-        let mut style = self.style(side).clone();
-        change(&mut style)?;
-        self.put_style(side, style);
+        controls::set(&mut request, group, option, value)?;
+        match group {
+            Group::Style => self.requests[side as usize] = request,
+            Group::Scene => self.put_scene(request.scene),
+            Group::Models => self.requests.iter_mut().for_each(|side| side.read = request.read.clone()),
+        }
         Ok(())
     }
 
-    /// Changes how exact lines look.
-    fn change_lines(&mut self, change: impl FnOnce(&mut Style) -> Result<(), String>) -> Result<(), String> {
-        let mut style = self.style_of_lines().clone();
-        change(&mut style)?;
-        self.prepare_style(&style);
+    /// Sets an option of exact lines on both sides; a style without lines over it keeps an own setting of that name.
+    fn set_lines(&mut self, option: &str, value: Option<&str>) -> Result<(), String> {
+        let mut requests = self.requests.clone();
+        for (side, request) in [Side::Left, Side::Right].into_iter().zip(&mut requests) {
+            let is_own = Style::table().find(&request.style, option.trim_start_matches('-')).is_some();
+            if is_own && self.lines_shown(side) == LinesShown::None {
+                continue;
+            }
+            let mut lines = controls::in_style(request, StyleName::Lines);
+            controls::set(&mut lines, Group::Style, option, value)?;
+            request.options = lines.options;
+            if is_own {
+                *request = request.in_style(request.style.style_name()).map_err(|error| error.with_dashes())?;
+            }
+        }
+        self.requests = requests;
         Ok(())
     }
 
@@ -263,8 +250,8 @@ impl ViewerState {
 
     /// The scene settings without the user's moves and zoom.
     pub(in crate::window) fn scene_settings(&self) -> SceneSettings {
-        let camera = self.orbit.fitted(&self.scene.camera);
-        SceneSettings { size: self.picture_size(), camera, ..self.scene.clone() }
+        let scene = &self.requests[0].scene;
+        SceneSettings { size: self.picture_size(), camera: self.orbit.fitted(&scene.camera), ..scene.clone() }
     }
 
     /// Applies scene settings; of the camera the view, the projection and the target.
@@ -274,15 +261,7 @@ impl ViewerState {
             self.orbit.look_from(view);
         }
         (self.orbit.parallel, self.orbit.fov_y_degrees) = (parallel, fov_y_degrees);
-        self.scene = scene;
-    }
-
-    /// Sets a setting of the scene.
-    fn set_scene(&mut self, option: &str, value: &str) -> Result<(), String> {
-        let mut scene = self.scene_settings();
-        controls::turn_in(&controls::SCENE, &mut scene, option, value)?;
-        self.put_scene(scene);
-        Ok(())
+        self.requests.iter_mut().for_each(|side| side.scene = scene.clone());
     }
 
     /// The models' files without their folders.
@@ -327,18 +306,14 @@ impl ViewerState {
             ViewerEvent::View(name) => self.orbit.look_from(name.parse()?),
             ViewerEvent::Projection => self.orbit.parallel = !self.orbit.parallel,
             ViewerEvent::Style(side, name) => self.choose_style(side, name.parse()?),
-            ViewerEvent::Set(side, option, value) => {
-                self.change_style(side, |style| controls::turn(style, &option, &value))?;
-            }
-            ViewerEvent::Default(side, option) => {
-                self.change_style(side, |style| controls::turn_back(style, &option))?;
-            }
-            ViewerEvent::Faithful(side) => self.put_style(side, Style::named(self.chosen[side as usize])),
+            ViewerEvent::Set(side, option, value) => self.set(side, Group::Style, &option, Some(&value))?,
+            ViewerEvent::Default(side, option) => self.set(side, Group::Style, &option, None)?,
+            ViewerEvent::Faithful(side) => self.put_style(side, Style::named(self.style(side).style_name())),
             ViewerEvent::Overlay(side, is_over) => {
-                self.has_lines_over[side as usize] = is_over && self.style(side).lines().is_none();
+                self.requests[side as usize].exact_lines = is_over && !self.style(side).style_name().draws_lines();
             }
-            ViewerEvent::Lines(option, value) => self.change_lines(|style| controls::turn(style, &option, &value))?,
-            ViewerEvent::LinesDefault(option) => self.change_lines(|style| controls::turn_back(style, &option))?,
+            ViewerEvent::Lines(option, value) => self.set_lines(&option, Some(&value))?,
+            ViewerEvent::LinesDefault(option) => self.set_lines(&option, None)?,
             ViewerEvent::Choose(side) => self.active = side,
             ViewerEvent::Layout(layout) => self.lay_out(layout),
             ViewerEvent::NextLayout => self.lay_out(match self.layout {
@@ -349,19 +324,15 @@ impl ViewerState {
             ViewerEvent::Divide(share) => self.divider = finite(share)?.clamp(DIVIDER_MARGIN, 1.0 - DIVIDER_MARGIN),
             ViewerEvent::NextBuffer => self.buffer = self.next_buffer(),
             ViewerEvent::Buffer(name) => self.buffer = name.parse()?,
-            ViewerEvent::Background(color) => self.set_scene("background", &color)?,
-            ViewerEvent::Scene(option, value) => self.set_scene(&option, &value)?,
-            ViewerEvent::SceneDefault(option) => {
-                let mut scene = self.scene_settings();
-                controls::turn_back_in(&controls::SCENE, &mut scene, &option)?;
-                self.put_scene(scene);
-            }
+            ViewerEvent::Background(color) => self.set(self.active, Group::Scene, "background", Some(&color))?,
+            ViewerEvent::Scene(option, value) => self.set(self.active, Group::Scene, &option, Some(&value))?,
+            ViewerEvent::SceneDefault(option) => self.set(self.active, Group::Scene, &option, None)?,
             ViewerEvent::Model(option, value) => {
-                controls::turn_in(&controls::LOAD, &mut self.load, &option, &value)?;
+                self.set(self.active, Group::Models, &option, Some(&value))?;
                 return Ok(self.read_again());
             }
             ViewerEvent::ModelDefault(option) => {
-                controls::turn_back_in(&controls::LOAD, &mut self.load, &option)?;
+                self.set(self.active, Group::Models, &option, None)?;
                 return Ok(self.read_again());
             }
             ViewerEvent::Coarse(is_allowed) => self.is_coarse_while_moving = is_allowed,
@@ -400,8 +371,9 @@ impl ViewerState {
     }
 
     fn choose_style(&mut self, side: Side, name: StyleName) {
-        self.chosen[side as usize] = name;
-        self.has_lines_over[side as usize] &= !name.draws_lines();
+        let mut request = controls::in_style(&self.requests[side as usize], name);
+        request.exact_lines &= !name.draws_lines();
+        self.requests[side as usize] = request;
         // The buffer stays if the new style has it, to let a key compare two styles' maps.
         if !self.sides().iter().any(|side| buffers(self.style(*side).style_name()).contains(&self.buffer)) {
             self.buffer = Buffer::default();
@@ -421,13 +393,26 @@ impl ViewerState {
         known.get((index + 1) % known.len().max(1)).copied().unwrap_or_default()
     }
 
+    /// What a look or a preset draws on a side; it replaces all that was said of the side. A layer without a style keeps the drawn
+    /// one, and reading stays.
+    fn of_layer(&self, side: Side, layer: OptionLayer) -> DrawingResult<Request> {
+        let own = &self.requests[side as usize];
+        let mut scene = self.scene_settings();
+        if let OptionLayer::Look(_) = layer {
+            controls::forget_looks(&mut scene)?;
+        }
+        let (request, _) = Request::from_layers(&[OptionLayer::Style(own.style.style_name()), layer])?;
+        let of_scene = controls::of_scene_in(&request.options);
+        SceneSettings::table().apply(&mut scene, &of_scene).map_err(|error| request.attributed(error))?;
+        request.contents(false)?;
+        Ok(Request { scene, read: own.read.clone(), ..request })
+    }
+
     /// Puts a look or a preset on the active side, and its scene settings on both.
     fn put_layer(&mut self, layer: OptionLayer) -> Result<(), String> {
-        let drawn = self.chosen[self.active as usize];
-        let (style, lines, scene) =
-            controls::of_layer(layer, drawn, self.scene_settings()).map_err(|error| error.to_string())?;
-        self.put_drawn(self.active, style, lines);
-        self.put_scene(scene);
+        let request = self.of_layer(self.active, layer).map_err(|error| error.to_string())?;
+        self.put_scene(request.scene.clone());
+        self.requests[self.active as usize] = request;
         Ok(())
     }
 
@@ -436,7 +421,7 @@ impl ViewerState {
         // A side still unseen and unchanged starts with settings that fit the look.
         let other = if self.active == Side::Left { Side::Right } else { Side::Left };
         if self.layout == Layout::Single && controls::look_of_sibling(self.style(other)).is_some() {
-            self.put_style(other, controls::sibling(look, self.chosen[other as usize]));
+            self.put_style(other, controls::sibling(look, self.style(other).style_name()));
         }
         Ok(())
     }
@@ -448,13 +433,11 @@ impl ViewerState {
 
     /// The look that a side has, from wherever it is seen.
     pub(in crate::window) fn look_of(&self, side: Side) -> Option<Look> {
-        let (shown, seen) = (self.style(side), self.scene_settings());
-        let lines = (self.lines_shown(side) == LinesShown::Over).then(|| self.style_of_lines().clone());
+        let (own, seen) = (self.requests[side as usize].contents(false).ok()?, self.scene_settings());
         let has = |look: &Look| {
-            let of_look = controls::of_layer(OptionLayer::Look(*look), shown.style_name(), seen.clone());
-            of_look.is_ok_and(|(style, over, mut scene)| {
-                scene.camera.view = seen.camera.view;
-                style == *shown && scene == seen && over == lines
+            self.of_layer(side, OptionLayer::Look(*look)).is_ok_and(|mut of_look| {
+                of_look.scene.camera.view = seen.camera.view;
+                of_look.scene == seen && of_look.contents(false).is_ok_and(|contents| contents == own)
             })
         };
         LOOKS.into_iter().find(has)

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::settings::{HasSettings, Options};
-use crate::styles::{Cartoon, Charcoal, CharcoalRecipe};
+use crate::styles::{Cartoon, Charcoal, CharcoalRecipe, LineStyle};
 
 fn after(events: impl IntoIterator<Item = ViewerEvent>) -> ViewerState {
     let mut state = ViewerState { models: vec!["a/bust.obj".to_owned()], ..ViewerState::default() };
@@ -11,6 +11,10 @@ fn after(events: impl IntoIterator<Item = ViewerEvent>) -> ViewerState {
         assert_eq!(state.message, None);
     });
     state
+}
+
+fn line_style(state: &ViewerState) -> LineStyle {
+    controls::in_style(&state.requests[0], StyleName::Lines).style.lines().unwrap()
 }
 
 fn set(option: &str, value: &str) -> ViewerEvent {
@@ -32,8 +36,15 @@ fn a_style_keeps_its_settings_while_another_is_shown() {
     let state = after([set("--tones", "2"), style("phong"), style("three-pass")]);
     let Style::ThreePass(Cartoon { tones, .. }) = state.style(Side::Left) else { panic!("three-pass") };
     assert_eq!(tones.count, 2);
-    let Style::ThreePass(right) = &state.styles[1][StyleName::ThreePass as usize] else { panic!("three-pass") };
+    let mut right = state.clone();
+    right.update(ViewerEvent::Style(Side::Right, "three-pass".to_owned()));
+    let Style::ThreePass(right) = right.style(Side::Right) else { panic!("three-pass") };
     assert_eq!(right.tones.count, 3, "the other side has its own");
+    // As at the command line, an option is that of every style that has it.
+    let mut other = state;
+    other.update(style("two-pass"));
+    let Style::TwoPass(other) = other.style(Side::Left) else { panic!("two-pass") };
+    assert_eq!(other.tones.count, 2);
 }
 
 #[test]
@@ -202,7 +213,7 @@ fn a_look_of_vectors_shows_exact_lines_and_the_next_takes_them_back() {
     let options = Look::of_name("technical").unwrap().preset().unwrap().options;
     assert_eq!(technical.lines_shown(Side::Left), LinesShown::Alone);
     assert_eq!(*technical.style(Side::Left), Style::from_options(&options).unwrap());
-    assert_ne!(technical.line_style(), LineStyle::default());
+    assert_ne!(line_style(&technical), LineStyle::default());
     assert!(technical.scene_settings().camera.parallel);
     assert_eq!(technical.look().map(|look| look.name), Some("technical"));
     let print = after([look("technical"), look("print")]);
@@ -231,9 +242,9 @@ fn exact_lines_are_a_style_and_lie_over_one() {
     // Their settings are those of both sides, and of the side's style while they are it.
     let dashed = after([style("lines"), set("--hidden", "dashed")]);
     let over = after([ViewerEvent::Lines("--hidden".to_owned(), "dashed".to_owned())]);
-    assert_eq!(dashed.line_style(), over.line_style());
+    assert_eq!(line_style(&dashed), line_style(&over));
     let back = after([style("lines"), set("--hidden", "dashed"), ViewerEvent::Faithful(Side::Left)]);
-    assert_eq!(back.line_style(), LineStyle::default());
+    assert_eq!(line_style(&back), LineStyle::default());
     let mut state = after([style("lines")]);
     state.update(set("--tones", "2"));
     assert!(state.message.as_ref().is_some_and(|message| message.starts_with("--tones: ")), "{:?}", state.message);
@@ -253,16 +264,17 @@ fn a_preset_of_lines_shows_them_as_it_says() {
 #[test]
 fn every_setting_of_the_scene_is_set_from_the_window_and_goes_back() {
     let default = ViewerState::default().scene_settings();
-    for control in controls::of_scene(&default) {
+    let controls = Group::Scene.controls(&Request::default());
+    for control in &controls {
         let samples = control.setting.kind.samples(&control.value);
         let other = samples.iter().find(|sample| **sample != control.value).unwrap();
         let mut state = after([ViewerEvent::Scene(control.option(), other.clone())]);
-        let set = control.setting.value(&state.scene_settings());
+        let set = control.setting.value(&state.seen(Side::Left));
         assert_ne!(set.as_deref(), Some(&*control.value), "{}", control.option());
         state.update(ViewerEvent::SceneDefault(control.option()));
         assert_eq!(state.scene_settings(), default, "{}", control.option());
     }
-    assert_eq!(controls::of_scene(&default).len(), controls::SCENE_SETTINGS.len(), "each is a setting of the scene");
+    assert_eq!(controls.len(), controls::SCENE_SETTINGS.len(), "each is a setting of the scene");
     let mut state = ViewerState::default();
     state.update(ViewerEvent::Scene("copies".to_owned(), "2".to_owned()));
     assert!(state.message.is_some_and(|message| message.starts_with("copies: the window has no such setting")));

@@ -3,7 +3,6 @@
 use crate::keys::{Action, action};
 use crate::styles::StyleName;
 use crate::window::values::event::{Side, ViewerEvent};
-use crate::window::values::line_style::LinesShown;
 use crate::window::values::state::ViewerState;
 use egui::{Key, Modifiers};
 
@@ -31,7 +30,7 @@ pub(in crate::window) fn event_of(action: Action, state: &ViewerState) -> Option
         Action::View(name) => ViewerEvent::View(name.to_owned()),
         Action::Style(number) => style(StyleName::ALL.get(number)?.0),
         Action::Lines => style(StyleName::Lines.name()),
-        Action::Overlay => ViewerEvent::Overlay(state.active, state.lines_shown(state.active) != LinesShown::Over),
+        Action::Overlay => ViewerEvent::Overlay(state.active, !state.requests[state.active as usize].exact_lines),
         Action::Layout => ViewerEvent::NextLayout,
         Action::OtherSide => ViewerEvent::Choose(match state.active {
             Side::Left if state.sides().len() > 1 => Side::Right,

@@ -1,10 +1,10 @@
 //! The panel: a widget for every control of the active style. It reads the state and makes events.
 
 use crate::keys::about;
-use crate::preset::{LOOKS, Look, SHIPPED};
+use crate::preset::{LOOKS, SHIPPED};
 use crate::styles::{Origin, StyleName};
 use crate::window::threads::viewer::Viewer;
-use crate::window::values::controls::{self, Control};
+use crate::window::values::controls::{Control, Group, in_style};
 use crate::window::values::event::{Layout, Side, ViewerEvent};
 use crate::window::values::line_style::LinesShown;
 use crate::window::values::state::ViewerState;
@@ -30,9 +30,7 @@ pub(in crate::window) fn show(ui: &mut Ui, viewer: &Viewer, events: &mut Vec<Vie
     models(ui, state, events);
     drawn(ui, state, events);
     presets(ui, state, events);
-    let style = state.style(state.active);
-    let look = state.look().filter(|look| look.has_settings());
-    changes(ui, style.style_name().info().origin, look, &controls::of(style), state.active, events);
+    changes(ui, state, events);
     ui.separator();
     egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         settings(ui, state, events);
@@ -81,7 +79,7 @@ fn drawn(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
         events.push(ViewerEvent::Style(side, name.to_owned()));
     });
     if lines != LinesShown::Alone {
-        let mut is_over = lines == LinesShown::Over;
+        let mut is_over = state.requests[side as usize].exact_lines;
         if ui.checkbox(&mut is_over, "exact lines over it").changed() {
             events.push(ViewerEvent::Overlay(side, is_over));
         }
@@ -121,19 +119,20 @@ fn presets(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
 /// The controls of the lines, the style, the scene and the models.
 fn settings(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
     let side = state.active;
-    let style = state.style(side);
+    let request = state.seen(side);
     let mut list = Listed { words: search(ui), events };
     if state.lines_shown(side) == LinesShown::Over {
         let title = |_: &str| "Exact lines of both sides".to_owned();
-        let of_lines = controls::of(state.style_of_lines());
+        let of_lines = Group::Style.controls(&in_style(&request, StyleName::Lines));
         list.show(ui, "lines", of_lines, title, ViewerEvent::Lines, ViewerEvent::LinesDefault);
     }
-    let title = |heading: &str| of_style_heading(heading, style.name());
+    let title = |heading: &str| of_style_heading(heading, request.style.name());
     let set = |option, value| ViewerEvent::Set(side, option, value);
-    list.show(ui, side, controls::of(style), title, set, |option| ViewerEvent::Default(side, option));
-    let of_scene = controls::of_scene(&state.scene_settings());
+    let of_style = Group::Style.controls(&request);
+    list.show(ui, side, of_style, title, set, |option| ViewerEvent::Default(side, option));
+    let of_scene = Group::Scene.controls(&request);
     list.show(ui, "scene", of_scene, by_heading, ViewerEvent::Scene, ViewerEvent::SceneDefault);
-    let of_models = controls::of_load(&state.load);
+    let of_models = Group::Models.controls(&request);
     list.show(ui, "models", of_models, by_heading, ViewerEvent::Model, ViewerEvent::ModelDefault);
 }
 
@@ -182,17 +181,17 @@ struct Listed<'a> {
 
 impl Listed<'_> {
     /// Shows controls under their headings, which fold unless a search is active.
-    fn show<T: Clone + 'static>(
+    fn show(
         &mut self,
         ui: &mut Ui,
         id: impl std::hash::Hash + Copy,
-        controls: Vec<Control<T>>,
+        controls: Vec<Control>,
         title: impl Fn(&str) -> String,
         set: impl Fn(String, String) -> ViewerEvent,
         back: impl Fn(String) -> ViewerEvent,
     ) {
-        let found: Vec<Control<T>> = controls.into_iter().filter(|control| control.is_found_by(&self.words)).collect();
-        let mut one = |ui: &mut Ui, control: &Control<T>| {
+        let found: Vec<Control> = controls.into_iter().filter(|control| control.is_found_by(&self.words)).collect();
+        let mut one = |ui: &mut Ui, control: &Control| {
             let change = ui.push_id((id, control.setting.name), |ui| widget::show(ui, control)).inner;
             self.events.extend(change.map(|change| match change {
                 Change::Set(value) => set(control.option(), value),
@@ -249,14 +248,10 @@ fn file(ui: &mut Ui, label: &str, open: RichText, about: &str) -> Option<String>
 }
 
 /// Whether all settings are the article's, if there is one, as a state to return to; or a look's.
-fn changes<T: Clone + 'static>(
-    ui: &mut Ui,
-    origin: Origin,
-    look: Option<Look>,
-    controls: &[Control<T>],
-    side: Side,
-    events: &mut Vec<ViewerEvent>,
-) {
+fn changes(ui: &mut Ui, state: &ViewerState, events: &mut Vec<ViewerEvent>) {
+    let side = state.active;
+    let origin = state.style(side).style_name().info().origin;
+    let controls = Group::Style.controls(&state.seen(side));
     let changed = controls.iter().filter(|control| !control.is_default()).count();
     ui.horizontal(|ui| {
         if changed == 0 {
@@ -267,7 +262,7 @@ fn changes<T: Clone + 'static>(
             ui.colored_label(FAITHFUL, said)
                 .on_hover_text("every setting has its default: the text's value where it gives one");
         } else {
-            match look {
+            match state.look().filter(|look| look.has_settings()) {
                 Some(look) => ui.colored_label(FAITHFUL, format!("● as in the look {}", look.name)),
                 None => ui.colored_label(CHANGED, format!("○ {changed} changed")),
             };

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::gl::Backend;
-use crate::mesh::LoadOptions;
 use crate::scene::Size;
 use crate::window::{Layout, ViewerOptions, ViewerState};
 use egui::{Event, Modifiers, MouseWheelUnit, PointerButton, RawInput};
@@ -17,10 +16,9 @@ struct Frames {
 impl Frames {
     fn new() -> Self {
         let state = ViewerState::new(vec!["builtin:open-box".to_owned()], Default::default());
-        let (load, backend, folder) = (LoadOptions::default(), Backend::Auto, std::env::temp_dir());
+        let (backend, folder) = (Backend::Auto, std::env::temp_dir());
         let viewer =
-            Viewer::start(ViewerOptions { state, load, backend, shaders: None, folder, line_measure: None }, || {})
-                .unwrap();
+            Viewer::start(ViewerOptions { state, backend, shaders: None, folder, line_measure: None }, || {}).unwrap();
         let context = Context::default();
         context.set_fonts(crate::window::values::shown::fonts());
         let mut frames = Self { viewer, context, textures: Textures::default() };

@@ -15,7 +15,7 @@ pub(in crate::window) enum Change {
 }
 
 /// A control: its name, its widget, and a reset to the published value. Returns the change.
-pub(in crate::window) fn show<T: Clone + 'static>(ui: &mut Ui, control: &Control<T>) -> Option<Change> {
+pub(in crate::window) fn show(ui: &mut Ui, control: &Control) -> Option<Change> {
     let (setting, value) = (control.setting, &control.value);
     let mut change = None;
     ui.horizontal(|ui| {
