@@ -231,7 +231,7 @@ fn picture(rendering: &Rendering<'_>, session: &mut Session) -> Result<Verdict> 
         }
     }
     let verdict = match run.verify {
-        true => prune::verify(output, renderer, scene, (published, &drawn.around), picture)?,
+        true => prune::verify(output, renderer, resolved, (published, &drawn.around), picture)?,
         false => Verdict::Good,
     };
     if run.is_told() {

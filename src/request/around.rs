@@ -87,13 +87,13 @@ impl Resolved {
 }
 
 impl Around {
-    /// Carries out a plan, and puts its picture between ground and lines.
+    /// Carries out a plan of a view, and puts its picture between ground and lines.
     ///
     /// # Errors
     ///
     /// As [`Renderer::draw`].
-    pub fn drawn(&self, scene: &Scene, plan: &Plan, renderer: &mut Renderer) -> Result<Picture> {
-        let mut picture = renderer.draw(scene, plan)?;
+    pub fn drawn(&self, view: &Resolved, plan: &Plan, renderer: &mut Renderer) -> Result<Picture> {
+        let mut picture = renderer.draw(view.lit(), plan)?;
         self.put(plan, &mut picture);
         Ok(picture)
     }

@@ -281,7 +281,7 @@ impl Resolved {
     /// Those of [`Resolved::plans`], [`Resolved::around`] and [`Renderer::draw`].
     pub fn picture(&self, renderer: &mut Renderer) -> Result<Picture> {
         let (_, Pruned { plan, .. }) = self.plans(renderer)?;
-        self.around(&Progress::default())?.drawn(self.lit(), &plan, renderer)
+        self.around(&Progress::default())?.drawn(self, &plan, renderer)
     }
 
     /// Draws a plan, pruned of everything that cannot change the picture, between the ground and exact lines.

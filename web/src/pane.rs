@@ -85,7 +85,7 @@ impl Pane {
             self.lines_ms = around.found_ms;
         }
         let (_, pruned) = view.plans(&mut self.renderer).map_err(said)?;
-        let picture = around.drawn(view.lit(), &pruned.plan, &mut self.renderer).map_err(said)?;
+        let picture = around.drawn(&view, &pruned.plan, &mut self.renderer).map_err(said)?;
         let width = picture.size.width;
         self.drawn = Some(picture);
         Ok(width)

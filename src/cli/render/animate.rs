@@ -89,11 +89,11 @@ pub(super) fn run(rendering: &Rendering<'_>, target: &AnimationTarget, session: 
             remarks.iter().for_each(|remark| super::super::say(&format!("tinta: {remark}")));
         }
         let around = view.around(&LineProgress::default())?;
-        let picture = around.drawn(scene, &plan, renderer)?;
+        let picture = around.drawn(view, &plan, renderer)?;
         frame_ms.push(milliseconds_since(frame));
         empty.extend(empty_remark(scene, &published, Some(&around), &picture, renderer)?);
         if run.verify && verdict == Verdict::Good {
-            verdict = prune::verify(output, renderer, scene, (&published, &around), &picture)?;
+            verdict = prune::verify(output, renderer, view, (&published, &around), &picture)?;
         }
         writer.add(picture)?;
         progress.step();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use tinta::plan::Plan;
 use tinta::plan::prune::{Omission, Pruned, Pruning, prune};
 use tinta::renderer::median;
-use tinta::request::Around;
+use tinta::request::{Around, Resolved};
 use tinta::{Picture, Renderer, Result, Scene, Target};
 
 /// Least rounds that time an omission.
@@ -18,11 +18,11 @@ const MOST_ROUNDS: usize = 101;
 pub(super) fn verify(
     output: &str,
     renderer: &mut Renderer,
-    scene: &Scene,
+    view: &Resolved,
     (published, around): (&Plan, &Around),
     picture: &Picture,
 ) -> Result<Verdict> {
-    let full = around.drawn(scene, published, renderer)?;
+    let full = around.drawn(view, published, renderer)?;
     let path = difference_path(output);
     if full.pixels == picture.pixels {
         // A file from an earlier run would be out of date.
@@ -120,12 +120,12 @@ mod tests {
         let size = Size { width: 32, height: 32 };
         let scene = Scene::new([mesh], &SceneSettings { size, ..SceneSettings::default() }).unwrap();
         let mut renderer = Renderer::new(request.backend).unwrap();
-        let view = request.still(scene.clone(), false).unwrap();
+        let view = request.still(scene, false).unwrap();
         let (plan, around) = (view.plan().unwrap(), view.around(&Progress::default()).unwrap());
-        let mut picture = around.drawn(&scene, &plan, &mut renderer).unwrap();
+        let mut picture = around.drawn(&view, &plan, &mut renderer).unwrap();
         let mut verified = |picture| {
             capture();
-            let verdict = verify(&output, &mut renderer, &scene, (&plan, &around), picture).unwrap();
+            let verdict = verify(&output, &mut renderer, &view, (&plan, &around), picture).unwrap();
             let said = captured().said.join("\n");
             (verdict, said, folder.path().join("a-difference.png").exists())
         };

@@ -167,9 +167,7 @@ impl Drawer {
             }
             let start = Instant::now();
             let picture = match around {
-                Some(around) => {
-                    around.drawn(&view.scene, &view.plans(&mut self.renderer)?.1.plan, &mut self.renderer)?
-                }
+                Some(around) => around.drawn(&view, &view.plans(&mut self.renderer)?.1.plan, &mut self.renderer)?,
                 None => self.passes(&view)?,
             };
             let frame_ms = milliseconds_since(start);
@@ -192,7 +190,7 @@ impl Drawer {
     /// A view's picture without strokes.
     fn passes(&mut self, view: &Resolved) -> Result<Picture> {
         let (_, pruned) = view.plans(&mut self.renderer)?;
-        self.renderer.draw(&view.scene, &pruned.plan)
+        self.renderer.draw(view.lit(), &pruned.plan)
     }
 
     /// A job's picture of a scene. While the view moves, its light stays.

@@ -163,12 +163,12 @@ fn explain(arguments: &Arguments, request: &Request, output: Option<Target>, ses
 
 /// What exact lines make of a pixel: its red, green and blue, and the share of it that they cover, 0 to 1.
 fn with_lines(resolved: &Resolved, renderer: &mut Renderer, place: DVec2) -> Result<([u8; 3], f64)> {
-    let scene = resolved.lit();
+    let size = resolved.scene.size;
     let [x, y] = [place.x, place.y].map(|at| at.floor() as i64);
     let (plan, _) = resolved.plans(renderer)?;
     let around = resolved.around(&Progress::default())?;
-    let [red, green, blue, _] = around.drawn(scene, &plan, renderer)?.pixel(x, y);
-    Ok(([red, green, blue], f64::from(around.lines_alone(&plan, scene.size).pixel(x, y)[3]) / 255.0))
+    let [red, green, blue, _] = around.drawn(resolved, &plan, renderer)?.pixel(x, y);
+    Ok(([red, green, blue], f64::from(around.lines_alone(&plan, size).pixel(x, y)[3]) / 255.0))
 }
 
 /// The file of a sheet.

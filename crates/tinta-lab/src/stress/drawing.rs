@@ -134,9 +134,9 @@ impl Subject {
         let look = request.still(scene, false)?;
         let (published, Pruned { plan, .. }) = look.plans(renderer)?;
         let around = look.around(&Progress::default())?;
-        let picture = around.drawn(&look.scene, &plan, renderer)?;
-        let full = around.drawn(&look.scene, &published, renderer)?;
-        let empty_said = empty_remark(&look.scene, &published, Some(&around), &picture, renderer)?.is_some();
+        let picture = around.drawn(&look, &plan, renderer)?;
+        let full = around.drawn(&look, &published, renderer)?;
+        let empty_said = empty_remark(look.lit(), &published, Some(&around), &picture, renderer)?.is_some();
         let mut figures = self.figures.clone();
         figures.insert("silently_empty", f64::from(covered_px(&picture) == 0.0 && !empty_said));
         figures.insert("pruned_differing_px", differing_px(&picture, &full));
