@@ -164,3 +164,22 @@ fn the_first_ten_minutes_go_as_they_are_written() {
     }
     assert!(count >= 11, "only {count} commands were found");
 }
+
+#[test]
+fn the_documents_drawings_are_those_that_their_recipes_draw() {
+    let again = |path: &std::path::Path| {
+        Command::new(env!("CARGO_BIN_EXE_tinta")).arg("again").arg(path).current_dir(root()).output().unwrap()
+    };
+    let files = std::fs::read_dir(root().join("docs/pictures")).unwrap().map(|file| file.unwrap().path());
+    let drawings = files.filter(|path| {
+        path.extension().is_some_and(|ending| ending == "svg")
+            && std::fs::read_to_string(path).unwrap().contains("<tinta:recipe")
+    });
+    let (mut count, mut others) = (0, Vec::new());
+    for path in drawings {
+        let output = again(&path);
+        count += 1;
+        others.extend((!output.status.success()).then(|| String::from_utf8_lossy(&output.stderr).into_owned()));
+    }
+    assert!(count >= 10 && others.is_empty(), "{count} drawings; draw these anew by again -o: {others:#?}");
+}

@@ -40,7 +40,7 @@ pub(super) fn verify(
     target.write(&different)?;
     super::super::say(&format!(
         "tinta: {count} of {} pixels differ from the full drawing, black in {}; --full draws as published, please report this",
-        scene.size.pixel_count(),
+        view.scene.size.pixel_count(),
         path.display()
     ));
     Ok(Verdict::Different)
