@@ -16,6 +16,7 @@
 //! ```
 
 mod cases;
+mod closed_form;
 mod drawing;
 mod failing;
 mod figures;

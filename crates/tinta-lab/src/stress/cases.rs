@@ -17,17 +17,10 @@ pub use case::{Case, Check, Content, Drawing, Expected, Group, Study, Work};
 
 /// All cases in the groups' order; `seed` decides the `mixes` random ones.
 pub fn cases(seed: u64, mixes: usize) -> Vec<Case> {
-    let mut all = scale::cases();
-    all.extend(depth::cases());
-    all.extend(topology::cases());
-    all.extend(thresholds::cases());
-    all.extend(pictures::cases());
-    all.extend(inputs::cases());
-    all.extend(mixes::cases(seed, mixes));
-    all.extend(turntable::cases());
-    all.extend(files::cases());
-    all.extend(faults::cases());
-    all
+    let still =
+        [scale::cases(), depth::cases(), topology::cases(), thresholds::cases(), pictures::cases(), inputs::cases()];
+    let others = [mixes::cases(seed, mixes), turntable::cases(), files::cases(), faults::cases()];
+    [still.concat(), others.concat()].concat()
 }
 
 #[cfg(test)]

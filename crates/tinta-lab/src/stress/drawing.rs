@@ -1,9 +1,12 @@
 //! Draws a case by every backend, with and without pruning, and takes its measurements.
 
 use super::cases::{Drawing, Study, side_px};
-use super::figures::{Exact, Figures, covered_px, darkness, differing_px, doubled_pairs, non_finite};
+use super::figures::{
+    Exact, Figures, covered_px, darkness, differing_px, doubled_pairs, non_finite, popped, shades_popped,
+};
 use super::jitter::{Flips, Popped, flips, jittered};
 use super::outcome::Outcome;
+use super::run::ANSWERS;
 use super::variants::Variant;
 use crate::compare::InkMask;
 use crate::measure::{Ink, LineError, shading_of};
@@ -77,7 +80,8 @@ impl Subject {
                 let exact = Exact::of(subject.scene.clone())?;
                 let moved = jittered(&subject.scene);
                 let flips = flips(&subject.scene, &moved);
-                subject.figures.extend(exact.figures());
+                subject.figures.extend(exact.figures()?);
+                subject.figures.extend(subject.off_closed_form(drawing));
                 subject.exact = Some((exact, Exact::of(moved)?, flips));
             }
             Study::Turn => {
@@ -94,10 +98,32 @@ impl Subject {
         Ok(subject)
     }
 
+    /// By how much its lines and areas miss the closed form that its shape has.
+    fn off_closed_form(&self, drawing: &Drawing) -> Option<(&'static str, f64)> {
+        let mut shape = drawing.shape.unhidden().filter(|_| drawing.copies == 1)?;
+        shape.points.iter_mut().for_each(|point| *point = *point * drawing.scale + drawing.offset);
+        let off = shape.figures(&self.scene)?.into_iter().map(|(name, value)| (value - self.figures[name]).abs());
+        Some(("off_closed_form", off.fold(0.0, f64::max)))
+    }
+
     fn twin_lines(&self) -> Result<Option<(&'static str, f64)>> {
         let (Some(twin), Some((exact, ..))) = (&self.twin, &self.exact) else { return Ok(None) };
         let [twin, here] = [Exact::of(twin.clone())?.lines(), exact.lines()];
         Ok(Some(("twin_lines_differing", here.differing(&twin) as f64 / twin.count().max(1) as f64)))
+    }
+
+    /// The figures of any of its pictures, and of the same drawn in full.
+    fn figures(&self, picture: &Picture, full: &Picture, empty_said: bool) -> Figures {
+        let covered_px = covered_px(picture);
+        let mut figures = self.figures.clone();
+        figures.extend([
+            ("covered_px", covered_px),
+            ("darkness", darkness(picture)),
+            ("empty_said", f64::from(empty_said)),
+            ("silently_empty", f64::from(covered_px == 0.0 && !empty_said)),
+            ("pruned_differing_px", differing_px(picture, full)),
+        ]);
+        figures
     }
 
     /// Draws it in a style; `is_first` for the backend that also measures the effect of a jitter or a turn.
@@ -107,19 +133,12 @@ impl Subject {
         let pruning = renderer.pruning();
         let picture = renderer.draw(&self.scene, &prune(&plan, &self.scene, &pruning).plan)?;
         let full = renderer.draw(&self.scene, &plan)?;
-        let mut figures = self.figures.clone();
         let empty_said = empty_remark(&self.scene, &plan, None, &picture, renderer)?.is_some();
-        let covered_px = covered_px(&picture);
-        figures.extend([
-            ("covered_px", covered_px),
-            ("darkness", darkness(&picture)),
-            ("empty_said", f64::from(empty_said)),
-            ("silently_empty", f64::from(covered_px == 0.0 && !empty_said)),
-        ]);
-        figures.insert("pruned_differing_px", differing_px(&picture, &full));
+        let mut figures = self.figures(&picture, &full, empty_said);
         if let Some(twin) = &self.twin {
             let twin = renderer.draw(twin, &style.plan(twin, Show::Final)?)?;
             figures.insert("twin_differing", differing_px(&twin, &full) / twin.size.pixel_count() as f64);
+            figures.insert("twin_darker", darkness(&twin) - darkness(&full));
         }
         if is_first {
             self.study(renderer, variant, &mut figures)?;
@@ -137,14 +156,13 @@ impl Subject {
         let picture = around.drawn(&look, &plan, renderer)?;
         let full = around.drawn(&look, &published, renderer)?;
         let empty_said = empty_remark(look.lit(), &published, Some(&around), &picture, renderer)?.is_some();
-        let mut figures = self.figures.clone();
-        figures.insert("silently_empty", f64::from(covered_px(&picture) == 0.0 && !empty_said));
-        figures.insert("pruned_differing_px", differing_px(&picture, &full));
+        let mut figures = self.figures(&picture, &full, empty_said);
         let exact = self.exact.as_ref().filter(|(exact, ..)| is_first && exact.reference.length_px() > LEAST_LINES_PX);
         if let Some((exact, ..)) = exact {
             let alone = around.lines_alone(&plan, look.scene.size);
             let darkness = alone.pixels.chunks_exact(4).map(|pixel| pixel[3]).collect();
             figures.extend(found(&Ink { size: alone.size, darkness }.error(&exact.reference, TOLERANCE_PX)));
+            figures.insert("look_lines_off", 1.0 - figures["f1"]);
         }
         Ok((picture, figures))
     }
@@ -158,6 +176,11 @@ impl Subject {
             if let Some(ink) = before.ink.as_ref().filter(|_| variant.style.has_lines()) {
                 figures.insert("ink_px", ink.mask().count() as f64);
                 figures.extend(found(&ink.error(&exact.reference, TOLERANCE_PX)));
+            }
+            // Charcoal also draws its paper, where rays meet nothing; of two faces in one place either may show.
+            let is_known = self.figures.get("doubled_pairs") <= Some(&0.0) && !variant.name.starts_with("charcoal");
+            if let Some(by_rays) = exact.shading(&variant.style)?.filter(|_| is_known) {
+                figures.insert("shades_differing", shades_popped(&before.shading, &by_rays));
             }
             let after = Shown::of(renderer, &moved.scene, variant)?;
             note(OF_JITTER, &Popped::of([exact, moved], variant, [&before, &after])?, figures);
@@ -200,10 +223,13 @@ impl Shown {
 }
 
 impl Popped {
-    fn of(exact: [&Exact; 2], variant: &Variant, shown: [&Shown; 2]) -> Result<Self> {
-        let [before, after] = shown;
-        let ink = [&before.mask(), &after.mask()];
-        Self::between(exact, &variant.style, ink, [&before.shading, &after.shading])
+    /// Compares a style's ink and shading before and after.
+    fn of([before, after]: [&Exact; 2], variant: &Variant, [was, is]: [&Shown; 2]) -> Result<Self> {
+        let ink = was.mask().zip(is.mask());
+        let ink = ink.map(|(was, is)| [popped(&was, &is), popped(&before.lines(), &after.lines())]);
+        let exact = before.shading(&variant.style)?.zip(after.shading(&variant.style)?);
+        let shown = shades_popped(&was.shading, &is.shading);
+        Ok(Self { ink, shades: exact.map(|(before, after)| [shown, shades_popped(&before, &after)]) })
     }
 }
 
@@ -224,7 +250,7 @@ fn note(names: [&'static str; 4], popped: &Popped, figures: &mut Figures) {
 }
 
 /// The scene of a drawing; sizes that stand for a backend's largest become it.
-fn scene(drawing: &Drawing, largest: Size, folder: &Path, options: &LoadOptions) -> Result<Scene> {
+pub(super) fn scene(drawing: &Drawing, largest: Size, folder: &Path, options: &LoadOptions) -> Result<Scene> {
     let mesh = drawing.shape.mesh(drawing.scale, drawing.offset, folder, options)?;
     let place = |point: DVec3| point * drawing.scale + drawing.offset;
     let of_matrix = |matrix| {
@@ -262,7 +288,7 @@ pub(super) fn outcomes(
         }
     }
     let mut draw_by_all = |name: &str, draw: &dyn Fn(&Subject, &mut Renderer, bool) -> Result<Drawn>| {
-        let mut first: Option<Picture> = None;
+        let mut first: Option<Drawn> = None;
         for (index, (backend, renderer)) in renderers.iter_mut().enumerate() {
             let largest = renderer.context().largest_picture;
             let subject = subjects.iter().find(|(known, _)| *known == largest).or(subjects.first());
@@ -272,10 +298,14 @@ pub(super) fn outcomes(
                 Ok(subject) => match draw(subject, renderer, index == 0) {
                     Err(error) => Outcome::refused(&error),
                     Ok((picture, mut figures)) => {
-                        if let Some(first) = first.as_ref().filter(|first| first.size == picture.size) {
-                            figures.insert("backends_differing_px", differing_px(first, &picture));
+                        if let Some((first, known)) = first.as_ref().filter(|(first, _)| first.size == picture.size) {
+                            let differing_px = differing_px(first, &picture);
+                            figures.insert("backends_differing_px", differing_px);
+                            // The same picture has the same answers.
+                            let known = ANSWERS.iter().filter_map(|(answer, _)| known.get_key_value(answer));
+                            figures.extend(known.filter(|_| differing_px == 0.0));
                         }
-                        first.get_or_insert(picture);
+                        first.get_or_insert((picture, figures.clone()));
                         Outcome::Rendered(figures)
                     }
                 },

@@ -1,21 +1,20 @@
 //! Draws with a failing driver, and checks the program's state afterwards.
 
-use super::Shape;
+use super::cases::Drawing;
+use super::drawing::scene;
 use super::outcome::Outcome;
 use super::variants::Variant;
-use glam::DVec3;
 use std::path::Path;
-use std::sync::Arc;
 use tinta::error::{Error, Result};
 use tinta::gl::{Backend, Fault};
 use tinta::mesh::LoadOptions;
 use tinta::renderer::Renderer;
-use tinta::scene::{Scene, SceneSettings, Size};
 
 /// Draws a cube with the fault; then `sound`, another context of the same thread, must draw it unaffected.
 pub(super) fn outcome(backend: Backend, fault: Fault, variant: &Variant, sound: &mut Renderer) -> Outcome {
     let mut attempt = || -> Result<Outcome> {
-        let scene = scene()?;
+        let cube = Drawing::default();
+        let scene = scene(&cube, cube.size, Path::new(""), &LoadOptions::default())?;
         let before = sound.render(&scene, &variant.style)?;
         let failed =
             Renderer::with_fault(backend, fault).and_then(|mut failing| failing.render(&scene, &variant.style));
@@ -28,10 +27,4 @@ pub(super) fn outcome(backend: Backend, fault: Fault, variant: &Variant, sound: 
         })
     };
     attempt().unwrap_or_else(|error| Outcome::refused(&error))
-}
-
-fn scene() -> Result<Scene> {
-    let mesh = Shape::Cube.mesh(1.0, DVec3::ZERO, Path::new(""), &LoadOptions::default())?;
-    let size = Size { width: 64, height: 64 };
-    Scene::new(vec![Arc::new(mesh)], &SceneSettings { size, ..SceneSettings::default() })
 }

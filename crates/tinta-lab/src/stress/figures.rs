@@ -3,16 +3,25 @@
 use crate::compare::InkMask;
 use crate::measure::{Reference, ReferenceLight};
 use glam::Vec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use tinta::edges::Class;
 use tinta::error::Result;
-use tinta::lines::{LineSettings, VisibleLines};
+use tinta::lines::{LineSettings, Regions, VisibleLines};
 use tinta::picture::Picture;
 use tinta::scene::Scene;
 use tinta::styles::Style;
 
 /// Figures by name.
 pub(super) type Figures = BTreeMap<&'static str, f64>;
+
+/// Classes of lines, with the figures that count their edges and those of them that are seen.
+pub(super) const LINES: [(&str, &str, Class); 5] = [
+    ("boundary", "seen_boundary", Class::Boundary),
+    ("non_manifold", "seen_non_manifold", Class::NonManifold),
+    ("silhouette", "seen_silhouette", Class::Silhouette),
+    ("crease", "seen_crease", Class::Crease),
+    ("intersection", "seen_intersection", Class::Intersection),
+];
 
 /// How far a channel may move before it is a change, of 255: a grey step that an eye sees.
 const SEEN: u8 = 8;
@@ -22,7 +31,7 @@ const MOVED_PX: u32 = 1;
 
 /// A scene with its exact lines.
 #[derive(Debug)]
-pub struct Exact {
+pub(super) struct Exact {
     /// The scene.
     pub scene: Scene,
     /// Its lines.
@@ -33,39 +42,45 @@ pub struct Exact {
 
 impl Exact {
     /// Computes both without GL.
-    pub fn of(scene: Scene) -> Result<Self> {
+    pub(super) fn of(scene: Scene) -> Result<Self> {
         let reference = Reference::of(&scene, &LineSettings::as_published())?;
         let light = ReferenceLight::of(&scene);
         Ok(Self { scene, reference, light })
     }
 
     /// The pixels that visible lines pass through.
-    pub fn lines(&self) -> InkMask {
+    pub(super) fn lines(&self) -> InkMask {
         InkMask::of_points(self.scene.size, self.reference.samples.iter().map(|sample| sample.px))
     }
 
     /// A style's shading; `None` for a style whose shading is not computed in f64.
-    pub fn shading(&self, style: &Style) -> Result<Option<Picture>> {
+    pub(super) fn shading(&self, style: &Style) -> Result<Option<Picture>> {
         self.light.picture(style, &self.scene)
     }
 
-    /// The figures of the scene in any style: edges by class, visible length, numbers that are not finite.
-    pub fn figures(&self) -> Figures {
+    /// The figures of the scene in any style: edges and visible lines by class, visible length, connected areas of surface, numbers
+    /// that are not finite.
+    pub(super) fn figures(&self) -> Result<Figures> {
         let lines = &self.reference.lines;
         let mut counts = lines.edges;
         let mut figures = Figures::new();
-        for (name, class) in [
-            ("boundary", Class::Boundary),
-            ("non_manifold", Class::NonManifold),
-            ("silhouette", Class::Silhouette),
-            ("crease", Class::Crease),
-            ("intersection", Class::Intersection),
-        ] {
+        for (name, seen, class) in LINES {
             figures.insert(name, *counts.of(class) as f64);
+            let of_class = lines.segments.iter().filter(|segment| segment.is_visible && segment.class == class);
+            // An edge may be visible in several pieces; an intersection has no edge.
+            let edges = of_class.enumerate().map(|(number, segment)| {
+                segment.edge.map_or([u32::MAX, number as u32, 0], |[from, to]| [segment.object, from, to])
+            });
+            figures.insert(seen, edges.collect::<BTreeSet<_>>().len() as f64);
         }
-        figures.insert("lines_px", self.reference.length_px());
-        figures.insert("non_finite", (non_finite(&self.scene) + non_finite_ends(lines)) as f64);
-        figures
+        let surfaces = Regions::of(&self.scene)?.joined(|seen| seen.map(|_| ())).regions;
+        figures.extend([
+            ("areas", surfaces.len() as f64),
+            ("areas_px", surfaces.iter().map(|surface| surface.area_px).sum()),
+            ("lines_px", self.reference.length_px()),
+            ("non_finite", (non_finite(&self.scene) + non_finite_ends(lines)) as f64),
+        ]);
+        Ok(figures)
     }
 }
 

@@ -1,16 +1,11 @@
 //! Moves a scene by a millionth of its size to find the unstable parts of its picture.
 
-use super::figures::{Exact, popped, shades_popped};
-use crate::compare::InkMask;
 use glam::DVec3;
 use std::sync::Arc;
 use tinta::edges::{ClassSet, Classes, CreaseAngle, EdgeList, Eye, Incidence, SilhouetteRule};
-use tinta::error::Result;
 use tinta::mesh::Mesh;
-use tinta::picture::Picture;
 use tinta::random::Random;
 use tinta::scene::{Object, Scene};
-use tinta::styles::Style;
 
 /// How far vertices and camera are moved, scene radii.
 const JITTER: f64 = 1e-6;
@@ -39,28 +34,6 @@ pub struct Popped {
     pub ink: Option<[f64; 2]>,
     /// The popped share of a style's shading, and of the same formula in f64, if computed.
     pub shades: Option<[f64; 2]>,
-}
-
-impl Popped {
-    /// Compares a style's ink and shading before and after.
-    pub fn between(
-        exact: [&Exact; 2],
-        style: &Style,
-        ink: [&Option<InkMask>; 2],
-        shading: [&Picture; 2],
-    ) -> Result<Self> {
-        let [before, after] = exact;
-        let ink = match ink {
-            [Some(was), Some(is)] => Some([popped(was, is), popped(&before.lines(), &after.lines())]),
-            _ => None,
-        };
-        let references = [before.shading(style)?, after.shading(style)?];
-        let shades = match &references {
-            [Some(was), Some(is)] => Some([shades_popped(shading[0], shading[1]), shades_popped(was, is)]),
-            _ => None,
-        };
-        Ok(Self { ink, shades })
-    }
 }
 
 /// The scene with every vertex and the camera moved by up to a millionth of its radius along each axis.

@@ -1,6 +1,7 @@
 //! The shapes that stiff cases are made of: small, each with one thing wrong or extreme, in units of about 1.
 
 use super::Written;
+use super::closed_form::Unhidden;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -18,12 +19,22 @@ pub enum Shape {
     InsideOut(u32),
     /// A cube from 0 to 1.
     Cube,
+    /// A box from 0 to 1 along x, this high and this deep.
+    Solid(f64, f64),
     /// A cube from 0 to 1 and, before the middle of its front, another this much smaller.
     CubeAndSmaller(f64),
+    /// The same with the smaller cube beside it.
+    CubeBesideSmaller(f64),
+    /// Eight cubes with sides of this length, at the corners of a larger one.
+    Specks(f64),
+    /// Two cubes with a side in common.
+    Touching,
+    /// A box on a floor two thousand times as wide.
+    OnAFloor,
     /// An empty mesh.
     Nothing,
-    /// One triangle.
-    Triangle,
+    /// One triangle, 1 wide and this high.
+    Triangle(f64),
     /// Three vertices in one place.
     Point,
     /// Three vertices on a line.
@@ -58,6 +69,8 @@ pub enum Shape {
     Hinge(f64),
     /// Four squares side by side, each a tenth of a unit behind the last: seen from the front they differ by depth only.
     Terraces,
+    /// A sheet 1 high with this many folds of 90 degrees.
+    Corrugated(u32),
     /// A wavy sheet, pressed flat along z, of this many squares along each side.
     Flat(u32),
     /// A comb of this many separate teeth, each as wide as the gap beside it.
@@ -97,64 +110,74 @@ impl Shape {
         Mesh::of_triangles("a stiff case", positions, &triangles, options)
     }
 
+    /// Its faces, if none of them hides part of another one that faces the eye.
+    pub(super) fn unhidden(self) -> Option<Unhidden> {
+        let is_closed = match self {
+            Self::Cube | Self::Solid(..) | Self::CubeBesideSmaller(_) | Self::Specks(_) | Self::Touching => true,
+            Self::Ball(_) => true,
+            Self::Corrugated(_) | Self::Triangle(_) | Self::Hinge(_) => false,
+            _ => return None,
+        };
+        let (points, faces) = self.triangles();
+        Some(Unhidden { points, faces, is_closed })
+    }
+
     fn triangles(self) -> Triangles {
         let unit = || cube(DVec3::ZERO, DVec3::ONE);
+        let of_side = |low: DVec3, side: f64| cube(low, low + side);
         match self {
             Self::Builtin(_) | Self::Written(_) | Self::Nothing => Default::default(),
             Self::Ball(cuts) => ball(cuts),
             Self::InsideOut(cuts) => turned_round(ball(cuts)),
             Self::Cube => unit(),
+            Self::Solid(height, depth) => cube(DVec3::ZERO, DVec3::new(1.0, height, depth)),
             Self::CubeAndSmaller(times) => {
                 let side = 1.0 / times;
-                let corner = DVec3::new(0.5 - side * 0.5, 0.5 - side * 0.5, 1.0 + side);
-                both(unit(), cube(corner, corner + side))
+                both(unit(), of_side(DVec3::new(0.5 - side * 0.5, 0.5 - side * 0.5, 1.0 + side), side))
             }
-            Self::Triangle => (vec![DVec3::ZERO, DVec3::X, DVec3::Y], vec![[0, 1, 2]]),
+            Self::CubeBesideSmaller(times) => both(unit(), of_side(DVec3::X * 1.5, times.recip())),
+            Self::Specks(side) => {
+                unit().0.into_iter().fold(Triangles::default(), |all, corner| both(all, of_side(corner, side)))
+            }
+            Self::Touching => both(unit(), of_side(DVec3::X, 1.0)),
+            Self::OnAFloor => {
+                let floor = cube(DVec3::new(-500.0, -1.0, -500.0), DVec3::new(500.0, 0.0, 500.0));
+                both(floor, cube(DVec3::new(-0.25, 0.0, -0.25), DVec3::new(0.25, 1.0, 0.25)))
+            }
+            Self::Triangle(height) => (vec![DVec3::ZERO, DVec3::X, DVec3::Y * height], vec![[0, 1, 2]]),
             Self::Point => (vec![DVec3::splat(0.25); 3], vec![[0, 1, 2]]),
             Self::Line => (vec![DVec3::ZERO, DVec3::X, DVec3::X * 2.0], vec![[0, 1, 2]]),
-            Self::BadVertex(bad) => {
-                let (mut points, mut faces) = unit();
-                points.push(DVec3::new(bad, 0.5, 0.5));
-                faces.push([0, 1, 8]);
-                (points, faces)
-            }
+            Self::BadVertex(bad) => both((vec![DVec3::new(bad, 0.5, 0.5)], vec![[1, 2, 0]]), unit()),
             Self::Needle(ratio) => needle(ratio),
             Self::ZeroAreas => on_edges(ball(2), |a, _| a, |a, b, c| vec![[a, b, c], [a, b, b], [a, a, a]]),
             Self::Slivers => on_edges(ball(2), DVec3::midpoint, |a, b, c| vec![[a, b, c]]),
-            Self::Duplicates => {
-                let (points, faces) = unit();
-                (points, faces.repeat(3))
-            }
+            Self::Duplicates => (unit().0, unit().1.repeat(3)),
             Self::OppositeDuplicates => both(unit(), turned_round(unit())),
             Self::Fins(count) => fins(count),
             Self::Moebius => moebius(64),
             Self::TJunction => t_junction(),
             Self::Contact => both(unit(), cube(DVec3::new(0.25, 1.0, 0.25), DVec3::new(1.25, 1.5, 0.75))),
-            Self::Piercing => {
-                let (points, faces) = cube(DVec3::new(0.35, -0.2, 0.3), DVec3::new(0.75, 1.3, 0.8));
-                let turn = glam::DQuat::from_rotation_z(0.4) * glam::DQuat::from_rotation_x(0.3);
-                both(unit(), (points.into_iter().map(|point| turn * point).collect(), faces))
-            }
+            Self::Piercing => both(unit(), turned_cube()),
             Self::Isolated(count) => isolated(count),
             Self::Fan(count) => fan(count),
             Self::Hinge(degrees) => hinge(degrees),
-            Self::Terraces => {
-                let corner = |step: u32| DVec3::new(f64::from(step) * 0.5, 0.0, f64::from(step) * -0.1);
-                strips(4, 0.5, corner)
+            Self::Terraces => strips(4, |step| {
+                [0.0, 0.5].map(|more| DVec2::new(f64::from(step) * 0.5 + more, f64::from(step) * -0.1))
+            }),
+            Self::Corrugated(folds) => {
+                let ridge = |fold: u32| DVec2::new(f64::from(fold), f64::from(fold % 2)) / f64::from(folds + 1);
+                strips(folds + 1, |fold| [fold, fold + 1].map(ridge))
             }
             Self::Flat(side) => sheet(side),
             Self::Comb(teeth) => {
                 let width = 0.5 / f64::from(teeth);
-                strips(teeth, width, |number| DVec3::X * (f64::from(number) * 2.0 * width))
+                strips(teeth, |tooth| [0.0, width].map(|more| DVec2::X * (f64::from(tooth) * 2.0 * width + more)))
             }
             Self::Fence(bars) => (0..bars).fold(Triangles::default(), |fence, number| {
                 let low = DVec3::X * f64::from(number) * 0.04;
                 both(fence, cube(low, low + DVec3::new(0.02, 1.0, 0.02)))
             }),
-            Self::ThroughTheLight => {
-                let far = [(-0.6, -0.5), (0.6, -0.5), (0.0, 0.5)].map(|(x, y)| DVec3::new(x, y, -3.0));
-                (vec![DVec3::ONE, far[0], far[1], far[2]], vec![[0, 1, 2], [0, 2, 3], [0, 3, 1]])
-            }
+            Self::ThroughTheLight => through_the_light(),
         }
     }
 }
@@ -176,6 +199,17 @@ fn cube(low: DVec3, high: DVec3) -> Triangles {
     let points = (0..8).map(|corner| DVec3::new(pick(corner, 0), pick(corner, 1), pick(corner, 2))).collect();
     let squares = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
     (points, squares.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect())
+}
+
+fn turned_cube() -> Triangles {
+    let (points, faces) = cube(DVec3::new(0.35, -0.2, 0.3), DVec3::new(0.75, 1.3, 0.8));
+    let turn = glam::DQuat::from_rotation_z(0.4) * glam::DQuat::from_rotation_x(0.3);
+    (points.into_iter().map(|point| turn * point).collect(), faces)
+}
+
+fn through_the_light() -> Triangles {
+    let far = [(-0.6, -0.5), (0.6, -0.5), (0.0, 0.5)].map(|(x, y)| DVec3::new(x, y, -3.0));
+    (vec![DVec3::ONE, far[0], far[1], far[2]], vec![[0, 1, 2], [0, 2, 3], [0, 3, 1]])
 }
 
 /// An octahedron cut and rounded again and again.
@@ -242,11 +276,11 @@ fn hinge(degrees: f64) -> Triangles {
     (points, vec![[0, 1, 2], [0, 2, 3], [0, 4, 5], [0, 5, 1]])
 }
 
-/// Upright rectangles of this width and of height 1, each from its lower left corner.
-fn strips(count: u32, width: f64, corner: impl Fn(u32) -> DVec3) -> Triangles {
+/// Upright rectangles of height 1, each from its left to its right end in the plane of x and z.
+fn strips(count: u32, ends: impl Fn(u32) -> [DVec2; 2]) -> Triangles {
     let strip = |number: u32| {
-        let low = corner(number);
-        [(0.0, 0.0), (width, 0.0), (width, 1.0), (0.0, 1.0)].map(|(x, y)| DVec3::new(low.x + x, y, low.z))
+        let [left, right] = ends(number);
+        [(left, 0.0), (right, 0.0), (right, 1.0), (left, 1.0)].map(|(end, y)| DVec3::new(end.x, y, end.y))
     };
     let faces = (0..count).flat_map(|number| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|i| i + number * 4)));
     ((0..count).flat_map(strip).collect(), faces.collect())

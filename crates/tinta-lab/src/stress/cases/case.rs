@@ -3,12 +3,16 @@
 use crate::stress::{Shape, Variant};
 use glam::{DMat4, DVec3};
 use serde::Serialize;
-use tinta::camera::CameraSettings;
+use tinta::camera::{CameraSettings, View};
 use tinta::gl::Fault;
 use tinta::scene::Size;
 
 /// Placeholders for the largest side that a backend draws, and for one pixel more.
 pub(super) const LARGEST: u32 = u32::MAX - 1;
+
+/// Share of pixels that may differ between pictures of one surface whose numbers round differently: an edge that passes a pixel's
+/// middle by less than that falls on its other side.
+pub(super) const ROUNDED: f64 = 0.002;
 
 /// The extreme property of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -180,17 +184,23 @@ pub struct Case {
     pub is_degraded: bool,
 }
 
+/// A camera that looks from one place at another.
+pub(super) fn looking(eye: DVec3, target: DVec3) -> CameraSettings {
+    CameraSettings { eye: Some(eye), target: Some(target), ..CameraSettings::default() }
+}
+
+/// A camera fitted to a view by name.
+pub(super) fn viewed(view: &str) -> CameraSettings {
+    CameraSettings { view: view.parse().unwrap_or(View::DEFAULT), ..CameraSettings::default() }
+}
+
 impl Case {
+    pub(super) fn of(group: Group, name: impl Into<String>, work: Work, expected: Expected) -> Self {
+        Self { name: name.into(), group, work, expected, checks: Vec::new(), answer: "", is_degraded: false }
+    }
+
     pub(super) fn rendered(group: Group, name: impl Into<String>, drawing: Drawing) -> Self {
-        Self {
-            name: name.into(),
-            group,
-            work: Work::Draw(Box::new(drawing)),
-            expected: Expected::Rendered,
-            checks: Vec::new(),
-            answer: "",
-            is_degraded: false,
-        }
+        Self::of(group, name, Work::Draw(Box::new(drawing)), Expected::Rendered)
     }
 
     /// The same for a picture that loses something by design.
@@ -216,22 +226,13 @@ impl Case {
         kind: &'static str,
         words: &'static str,
     ) -> Self {
-        let expected = Expected::Refused { kind, words };
-        Self { expected, ..Self::rendered(group, name, Drawing { study: Study::Picture, ..drawing }) }
+        let drawing = Box::new(Drawing { study: Study::Picture, ..drawing });
+        Self::of(group, name, Work::Draw(drawing), Expected::Refused { kind, words })
     }
 
     /// The same with one more figure that must lie between two values.
     pub(super) fn with(mut self, figure: &'static str, least: f64, most: f64) -> Self {
         self.checks.push(Check { figure, least, most });
         self
-    }
-
-    /// The styles that draw it.
-    pub fn variants(&self) -> &[Variant] {
-        match &self.work {
-            Work::Draw(drawing) => &drawing.variants,
-            Work::Read(..) => &[],
-            Work::Fail(_, variant) => std::slice::from_ref(variant.as_ref()),
-        }
     }
 }

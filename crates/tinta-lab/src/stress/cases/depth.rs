@@ -1,6 +1,6 @@
 //! Planes far apart, angles near their ends, eyes where no eye should be.
 
-use super::case::{Case, Drawing, Group};
+use super::case::{Case, Drawing, Group, looking};
 use crate::stress::{Shape, Variant};
 use glam::DVec3;
 use tinta::camera::CameraSettings;
@@ -8,19 +8,16 @@ use tinta::styles::{Border, Cartoon, MapEncoding, Style, StyleName};
 
 pub(super) fn cases() -> Vec<Case> {
     let mut all = far_and_near();
-    let camera =
-        |eye: DVec3, target: DVec3| CameraSettings { eye: Some(eye), target: Some(target), ..Default::default() };
     let middle = DVec3::splat(0.5);
     let cube = |camera| Drawing { camera, ..Drawing::default() };
-    for degrees in [0.1, 1.0, 150.0, 179.0] {
+    let field = |degrees: f64| {
         let settings = CameraSettings { fov_y_degrees: degrees, ..CameraSettings::default() };
-        all.push(rendered(format!("a field of view of {degrees} degrees"), cube(settings)));
-    }
-    for degrees in [0.0, 180.0, f64::NAN, 1e-4] {
-        let settings = CameraSettings { fov_y_degrees: degrees, ..CameraSettings::default() };
-        let name = format!("a field of view of {degrees} degrees");
-        all.push(Case::refused(Group::Depth, name, cube(settings), "setting", "--fov"));
-    }
+        (format!("a field of view of {degrees} degrees"), cube(settings))
+    };
+    all.extend([0.1, 1.0, 150.0, 179.0].map(field).map(|(name, drawing)| rendered(name, drawing)));
+    let beyond = [0.0, 180.0, f64::NAN, 1e-4].map(field);
+    all.extend(beyond.map(|(name, drawing)| Case::refused(Group::Depth, name, drawing, "setting", "--fov")));
+    let front = DVec3::new(0.5, 0.5, 4.5);
     let places = [
         ("the eye on a vertex", DVec3::ONE, middle),
         ("the eye on an edge", DVec3::new(0.5, 1.0, 1.0), middle),
@@ -31,80 +28,87 @@ pub(super) fn cases() -> Vec<Case> {
         ("the eye on the line of an edge", DVec3::new(1.0, 1.0, 5.0), DVec3::new(1.0, 1.0, 0.0)),
         ("the eye 19000 radii away", DVec3::new(0.5, 0.5, 16_000.0), middle),
     ];
-    for (name, eye, target) in places {
-        all.push(rendered(name.to_owned(), cube(camera(eye, target))));
-    }
+    all.extend(places.map(|(name, eye, target)| rendered(name, cube(looking(eye, target)))));
     all.extend(empty());
-    let far_away = camera(DVec3::new(0.5, 0.5, 1e6), middle);
-    all.push(Case::refused(Group::Depth, "the eye a million radii away", cube(far_away), "setting", "--eye"));
-    let same = camera(middle, middle);
-    all.push(Case::refused(Group::Depth, "the eye at its target", cube(same), "setting", "same point"));
-    let through = CameraSettings { near: Some(0.6), ..camera(DVec3::new(0.7, 0.8, 1.5), middle) };
-    all.push(rendered("edges through the near plane".to_owned(), cube(through)));
-    let slice = CameraSettings { near: Some(3.9), far: Some(3.900_001), ..camera(DVec3::new(0.5, 0.5, 4.5), middle) };
-    all.push(rendered("planes a millionth of a unit apart".to_owned(), cube(slice)));
-    let crossed = CameraSettings { near: Some(3.0), far: Some(2.0), ..camera(DVec3::new(0.5, 0.5, 4.5), middle) };
-    all.push(Case::refused(Group::Depth, "near beyond far", cube(crossed), "setting", "--near"));
-    let parallel = CameraSettings { parallel: true, ..camera(DVec3::new(1.0, 0.5, 5.0), DVec3::new(1.0, 0.5, 0.0)) };
-    all.push(rendered("in parallel, two faces edge-on".to_owned(), cube(parallel)));
+    let planes = |near, far, camera| CameraSettings { near, far, ..camera };
+    // The cube's nearest corner is 3.45207 units before this eye.
+    let eye = DVec3::new(2.9, 2.6, 3.4);
+    let drawn = [
+        ("edges through the near plane", planes(Some(0.6), None, looking(DVec3::new(0.7, 0.8, 1.5), middle))),
+        ("planes a millionth of a unit apart", planes(Some(3.9), Some(3.900_001), looking(front, middle))),
+        ("a near plane a ten thousandth before the cube", planes(Some(3.4517), None, looking(eye, middle))),
+        ("a near plane a hundredth of a unit before the eye", planes(Some(0.01), Some(10.0), looking(eye, middle))),
+    ];
+    all.extend(drawn.map(|(name, camera)| rendered(name, cube(camera))));
+    // A thousandth of the far plane's distance, which a near plane has by itself, would cut this box.
+    let near = |near| Drawing {
+        shape: Shape::OnAFloor,
+        camera: planes(near, None, looking(DVec3::new(0.1, 1.2, 0.4), DVec3::new(0.0, 0.9, 0.2))),
+        ..Drawing::default()
+    };
+    let own = Drawing { twin: Some(Box::new(near(Some(0.05)))), ..near(None) };
+    all.push(rendered("the eye close to a box on a wide floor", own).with("twin_lines_differing", 0.0, 0.0));
+    let refused = [
+        ("the eye a million radii away", looking(DVec3::new(0.5, 0.5, 1e6), middle), "--eye"),
+        ("the eye at its target", looking(middle, middle), "same point"),
+        ("near beyond far", planes(Some(3.0), Some(2.0), looking(front, middle)), "--near"),
+    ];
+    all.extend(refused.map(|(name, camera, words)| Case::refused(Group::Depth, name, cube(camera), "setting", words)));
+    let parallel = looking(DVec3::new(1.0, 0.5, 5.0), DVec3::new(1.0, 0.5, 0.0));
+    all.push(rendered("in parallel, two faces edge-on", cube(CameraSettings { parallel: true, ..parallel })));
     all
 }
 
 /// A far plane ever farther beyond the near one.
 fn far_and_near() -> Vec<Case> {
-    let mut all = Vec::new();
-    for ratio in [1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9] {
-        let camera = CameraSettings {
-            eye: Some(DVec3::new(1.4, 1.6, 2.6)),
-            target: Some(DVec3::splat(0.5)),
-            near: Some(8.0 / ratio),
-            far: Some(8.0),
-            ..CameraSettings::default()
-        };
+    let of = |name: String, drawing: Drawing, is_refused: bool| match is_refused {
+        true => Case::refused(Group::Depth, name, drawing, "setting", "--near"),
+        false => rendered(name, drawing),
+    };
+    let contact = |ratio: f64| {
+        let camera = looking(DVec3::new(1.4, 1.6, 2.6), DVec3::splat(0.5));
+        let camera = CameraSettings { near: Some(8.0 / ratio), far: Some(8.0), ..camera };
         let drawing = Drawing { shape: Shape::Contact, camera, variants: encodings(), ..Drawing::default() };
-        let name = format!("far {ratio:e} times as far as near");
-        all.push(match ratio <= 1e5 {
-            // Normals show these cubes' edges; the cubes behind must not show through.
-            true => rendered(name, drawing).with("precision", 0.95, 1.0),
-            false => Case::refused(Group::Depth, name, drawing, "setting", "--near"),
-        });
-    }
-    for ratio in [1.3, 3.0, 10.0, 1e2, 1e3, 1e4, 1e5] {
-        let camera = CameraSettings {
-            eye: Some(DVec3::new(1.0, 0.5, 4.0)),
-            target: Some(DVec3::new(1.0, 0.5, 0.0)),
-            near: Some(4.6 / ratio),
-            far: Some(4.6),
-            ..CameraSettings::default()
-        };
-        let drawing = Drawing { shape: Shape::Terraces, camera, variants: encodings(), ..Drawing::default() };
+        let case = of(format!("far {ratio:e} times as far as near"), drawing, ratio > 1e5);
+        // Normals show these cubes' edges; the cubes behind must not show through.
+        if ratio > 1e5 { case } else { case.with("precision", 0.95, 1.0) }
+    };
+    let steps = |ratio: f64| {
         let name = format!("steps in depth, far {ratio:e} times as far as near");
-        all.push(match ratio <= 1e4 {
-            true => rendered(name, drawing),
-            false => Case::refused(Group::Depth, name, drawing, "setting", "--near"),
-        });
-    }
+        of(name, terraces(ratio, encodings()), ratio > 1e4)
+    };
+    let mut all = [1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9].map(contact).to_vec();
+    all.extend([1.3, 3.0, 10.0, 1e2, 1e3, 1e4, 1e5].map(steps));
     all
+}
+
+/// Distance of the far plane of [`terraces`], file units.
+pub(super) const FAR: f64 = 4.6;
+
+/// [`Shape::Terraces`] from the front, the far plane so many times as far as the near one.
+pub(super) fn terraces(ratio: f64, variants: Vec<Variant>) -> Drawing {
+    let camera = looking(DVec3::new(1.0, 0.5, 4.0), DVec3::new(1.0, 0.5, 0.0));
+    let camera = CameraSettings { near: Some(FAR / ratio), far: Some(FAR), ..camera };
+    Drawing { shape: Shape::Terraces, camera, variants, ..Drawing::default() }
 }
 
 /// Pictures in which nothing is seen, which the program says.
 fn empty() -> Vec<Case> {
     let (front, middle) = (DVec3::new(0.5, 0.5, 5.0), DVec3::splat(0.5));
-    let looking = |target| CameraSettings { eye: Some(front), target: Some(target), ..CameraSettings::default() };
-    let planes = |near, far| CameraSettings { near: Some(near), far: Some(far), ..looking(middle) };
+    let planes = |near, far| CameraSettings { near: Some(near), far: Some(far), ..looking(front, middle) };
     let cameras = [
-        ("everything behind the eye", looking(DVec3::new(0.5, 0.5, 9.0))),
-        ("everything beside the picture", looking(DVec3::new(90.0, 0.5, 4.0))),
+        ("everything behind the eye", looking(front, DVec3::new(0.5, 0.5, 9.0))),
+        ("everything beside the picture", looking(front, DVec3::new(90.0, 0.5, 4.0))),
         ("everything before the near plane", planes(100.0, 200.0)),
         ("everything beyond the far plane", planes(1.0, 2.0)),
     ];
     let said = |(name, camera): (&str, CameraSettings)| {
-        rendered(name.to_owned(), Drawing { camera, ..Drawing::default() }).with("empty_said", 1.0, 1.0)
+        rendered(name, Drawing { camera, ..Drawing::default() }).with("empty_said", 1.0, 1.0)
     };
     cameras.into_iter().map(said).collect()
 }
 
-fn rendered(name: String, drawing: Drawing) -> Case {
+fn rendered(name: impl Into<String>, drawing: Drawing) -> Case {
     Case::rendered(Group::Depth, name, drawing)
 }
 

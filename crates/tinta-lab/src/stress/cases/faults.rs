@@ -6,14 +6,9 @@ use tinta::gl::Fault;
 use tinta::styles::StyleName;
 
 pub(super) fn cases() -> Vec<Case> {
-    let fails = |name: &str, fault, style, kind, words| Case {
-        name: name.to_owned(),
-        group: Group::Faults,
-        work: Work::Fail(fault, Box::new(Variant::published(style))),
-        expected: Expected::Refused { kind, words },
-        checks: Vec::new(),
-        answer: "",
-        is_degraded: false,
+    let fails = |name: &str, fault, style, kind, words| {
+        let work = Work::Fail(fault, Box::new(Variant::published(style)));
+        Case::of(Group::Faults, name, work, Expected::Refused { kind, words })
     };
     use StyleName::{Charcoal, Inking, Mrt, ThreePass};
     vec![

@@ -60,13 +60,5 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 fn case(name: &str, file: &'static str, content: Content, expected: Expected) -> Case {
-    Case {
-        name: name.to_owned(),
-        group: Group::Files,
-        work: Work::Read(file, content),
-        expected,
-        checks: Vec::new(),
-        answer: "",
-        is_degraded: false,
-    }
+    Case::of(Group::Files, name, Work::Read(file, content), expected)
 }

@@ -1,18 +1,15 @@
 //! What GL is given: normals, texture coordinates and skins of files, camera matrices of other programs, mirrored models, many
 //! vertices, and depth in 8 bits.
 
-use super::case::{Case, Drawing, Expected, Group, Study};
+use super::case::{Case, Drawing, Expected, Group, ROUNDED, Study, viewed};
+use super::depth::{FAR, terraces};
 use crate::stress::{Shape, Variant, Written};
 use glam::{DMat4, DVec3, DVec4};
-use tinta::camera::{CameraSettings, View};
 use tinta::scene::Size;
 use tinta::styles::{Border, Cartoon, Charcoal, Inking, MapEncoding, PaintMode, Style, StyleName};
 
-/// Share of pixels that may differ between pictures of one surface whose numbers round differently.
-const ROUNDED: f64 = 0.002;
-
 pub(super) fn cases() -> Vec<Case> {
-    [normals(), textures(), matrices(), models(), exponents(), combs(), depths()].concat()
+    [normals(), textures(), matrices(), models(), combs(), depths()].concat()
 }
 
 fn drawn(name: impl Into<String>, answer: &'static str, drawing: Drawing) -> Case {
@@ -51,44 +48,36 @@ fn textured() -> Vec<Variant> {
 fn textures() -> Vec<Case> {
     let of = |shape| Drawing { variants: textured(), ..written(shape) };
     let coordinates = |times| of(Written::Coordinates(times));
-    let mut all = vec![
-        same(
-            "texture coordinates that are no numbers",
-            "corners without usable coordinates read the picture's corner",
-            coordinates(Some(f64::NAN)),
-            coordinates(Some(0.0)),
-        ),
-        drawn(
-            "texture coordinates of 1e30",
-            "each pixel reads some texel, because 24 bits hold no fraction of such a number",
-            coordinates(Some(1e30)),
-        )
-        .degrades(),
-        drawn("a skin of one texel", "the surface has its colour", of(Written::Skin(1, 1))),
-        drawn(
-            "a skin 16,384 texels high",
-            "it is drawn, or refused by the driver's limit",
-            of(Written::Skin(2, 16_384)),
-        ),
-        drawn("a skin 65,537 texels high", "a skin beyond the driver's limit is refused", of(Written::Skin(2, 65_537))),
+    let unusable = "corners without usable coordinates read the picture's corner";
+    let mut all = vec![same(
+        "texture coordinates that are no numbers",
+        unusable,
+        coordinates(Some(f64::NAN)),
+        coordinates(Some(0.0)),
+    )];
+    let some = "each pixel reads some texel, because 24 bits hold no fraction of such a number";
+    let [few, many] = [16, 1024].map(|side| of(Written::Skin(side, side)));
+    let many = Drawing { twin: Some(Box::new(few)), ..many };
+    let many = drawn("a skin with some seventy texels for a pixel", "it is as dark as one with few texels", many);
+    all.push(many.with("twin_darker", -0.002, 0.002));
+    all.push(drawn("texture coordinates of 1e30", some, coordinates(Some(1e30))).degrades());
+    let skins = [
+        ("a skin of one texel", "the surface has its colour", 1, 1),
+        ("a skin 16,384 texels high", "it is drawn, or refused by the driver's limit", 2, 16_384),
+        ("a skin 65,537 texels high", "a skin beyond the driver's limit is refused", 2, 65_537),
     ];
-    for case in &mut all[3..] {
-        case.expected = Expected::Either(&["picture", "gl"]);
-    }
+    all.extend(skins.map(|(name, answer, width, height)| {
+        let case = drawn(name, answer, of(Written::Skin(width, height)));
+        Case { expected: Expected::Either(&["picture", "gl"]), ..case }
+    }));
     let grain = |side: u32| {
-        let texture_size = Size { width: side, height: side };
-        let style = Style::Charcoal(Charcoal { texture_size, ..Charcoal::default() });
-        Drawing {
-            shape: Shape::Ball(3),
-            variants: vec![Variant::new(format!("charcoal --texture-size {side}"), style)],
-            study: Study::Picture,
-            ..Drawing::default()
-        }
+        let style = Charcoal { texture_size: Size { width: side, height: side }, ..Charcoal::default() };
+        let variants = vec![Variant::new(format!("charcoal --texture-size {side}"), Style::Charcoal(style))];
+        Drawing { shape: Shape::Ball(3), variants, study: Study::Picture, ..Drawing::default() }
     };
-    all.push(drawn("charcoal's textures of one texel", "grain, noise and paper are one tone each", grain(1)));
     all.push(drawn("charcoal's largest textures", "they are drawn", grain(4096)));
-    let refused =
-        Case::refused(Group::Inputs, "charcoal's textures one texel larger", grain(4097), "setting", "texture-size");
+    let larger = "charcoal's textures one texel larger";
+    let refused = Case::refused(Group::Inputs, larger, grain(4097), "setting", "texture-size");
     all.push(Case { answer: "the limit is named", ..refused });
     all
 }
@@ -110,23 +99,18 @@ fn matrices() -> Vec<Case> {
     let of = |matrix| Drawing { matrix: Some(matrix), study: Study::Picture, ..Drawing::default() };
     let scaled = |x: f64, y: f64, z: f64| DMat4::from_scale(DVec3::new(x, y, z)) * matrix();
     let factor = "a matrix to clip space has any factor";
-    let mut all = vec![
-        same("a camera matrix times 1e-30", factor, of(matrix() * 1e-30), of(matrix())),
-        same("a camera matrix times 1e30", factor, of(matrix() * 1e30), of(matrix())),
-        same(
-            "a camera matrix with half the depth",
-            "depth runs as the program chooses",
-            of(scaled(1.0, 1.0, 0.5)),
-            of(matrix()),
-        ),
+    let wider = "its vertical scale counts, and --camera says what its sides lose";
+    let sames = [
+        ("a camera matrix times 1e-30", factor, matrix() * 1e-30, 1.0),
+        ("a camera matrix times 1e30", factor, matrix() * 1e30, 1.0),
+        ("a camera matrix with half the depth", "depth runs as the program chooses", scaled(1.0, 1.0, 0.5), 1.0),
+        ("a camera matrix five times as wide", wider, scaled(5.0, 1.0, 1.0), 0.2),
     ];
-    let wider = same(
-        "a camera matrix five times as wide",
-        "its vertical scale counts, and --camera says what its sides lose",
-        of(scaled(5.0, 1.0, 1.0)),
-        of(matrix()),
-    );
-    all.push(wider.with("matrix_aspect", 0.2 - 1e-9, 0.2 + 1e-9));
+    let case = |(name, answer, matrix, aspect): (&str, _, _, f64)| {
+        let case = same(name, answer, of(matrix), of(self::matrix()));
+        case.with("matrix_aspect", aspect - 1e-9, aspect + 1e-9)
+    };
+    let mut all = sames.map(case).to_vec();
     let mut sheared = DMat4::IDENTITY;
     sheared.y_axis.x = 0.3;
     let refused = [
@@ -137,10 +121,8 @@ fn matrices() -> Vec<Case> {
         ("a mirrored camera matrix", scaled(-1.0, 1.0, 1.0), "mirror"),
         ("a camera matrix with y down", scaled(1.0, -1.0, 1.0), "mirror"),
     ];
-    for (name, matrix, words) in refused {
-        let case = Case::refused(Group::Inputs, name, of(matrix), "setting", words);
-        all.push(Case { answer: "no camera of the program has it", ..case });
-    }
+    let case = |(name, matrix, words)| Case::refused(Group::Inputs, name, of(matrix), "setting", words);
+    all.extend(refused.map(|of| Case { answer: "no camera of the program has it", ..case(of) }));
     all
 }
 
@@ -154,38 +136,15 @@ fn models() -> Vec<Case> {
         Drawing { shape: Shape::Flat(side), variants, study: Study::Picture, ..Drawing::default() }
     };
     let none = Drawing { scale: 1e-310, ..Drawing::default() };
+    let none = Case::refused(Group::Inputs, "a model of denormal numbers", none, "model", "radius");
+    let other = "its lines are the same; its faces are inside out and their tones those of the other side";
     vec![
-        drawn(
-            "a mirrored model",
-            "its lines are the same; its faces are inside out and their tones those of the other side",
-            mirrored,
-        )
-        .degrades()
-        .with("twin_lines_differing", 0.0, ROUNDED),
+        drawn("a mirrored model", other, mirrored).degrades().with("twin_lines_differing", 0.0, ROUNDED),
         same("a vertex at 1e-310", "a denormal number is next to nothing", denormal(1e-310), denormal(0.0)),
         same("a vertex at 1e-40", "and so is one that only f32 makes denormal", denormal(1e-40), denormal(0.0)),
-        Case {
-            answer: "a model of that size has no radius",
-            ..Case::refused(Group::Inputs, "a model of denormal numbers", none, "model", "radius")
-        },
+        Case { answer: "a model of that size has no radius", ..none },
         same("90,601 vertices in one draw", "indices beyond 65,535 reach their vertices", many(300), many(250)),
     ]
-}
-
-fn exponents() -> Vec<Case> {
-    let of = |contrast_exponent: f32| {
-        let style = Style::Charcoal(Charcoal { contrast_exponent, ..Charcoal::default() });
-        let variants = vec![Variant::new(format!("charcoal --contrast-exponent {contrast_exponent:e}"), style)];
-        Drawing { shape: Shape::Ball(3), variants, ..Drawing::default() }
-    };
-    let answers = [
-        (1e-30, "all that is lit is white"),
-        (0.5, "light is raised, not lowered"),
-        (1e30, "all that is not lit fully is black"),
-    ];
-    let case =
-        |(exponent, answer): (f32, _)| drawn(format!("a contrast exponent of {exponent:e}"), answer, of(exponent));
-    answers.into_iter().map(case).collect()
 }
 
 /// Smoothed lines write depth even where their alpha is next to 0, and GL_LESS refuses every later line there: what lies
@@ -196,7 +155,7 @@ fn combs() -> Vec<Case> {
         let option = if writes_depth { "write" } else { "test" };
         let drawing = Drawing {
             shape: Shape::Comb(teeth),
-            camera: CameraSettings { view: "front".parse().unwrap_or(View::DEFAULT), ..CameraSettings::default() },
+            camera: viewed("front"),
             size: Size { width: 512, height: 512 },
             variants: vec![Variant::new(format!("inking --paint none --ink-depth {option}"), Style::Inking(inking))],
             study: Study::Picture,
@@ -212,9 +171,8 @@ fn combs() -> Vec<Case> {
     all
 }
 
-/// Distances of the eye from the four squares of [`Shape::Terraces`], of the planes' far one, and a pixel's width at distance 1.
+/// Distances of the eye from the four squares of [`Shape::Terraces`], and a pixel's width at distance 1.
 const SQUARES: [f64; 4] = [4.0, 4.1, 4.2, 4.3];
-const FAR: f64 = 4.6;
 const PIXEL: f64 = 0.0042;
 
 /// The share of the outlines' length that 8 bits of window depth keep: where depth steps by more than the filter's least gap, two
@@ -238,17 +196,7 @@ fn depths() -> Vec<Case> {
     let border = Border { detection_factor: 1.0, slope_threshold: true, ..Border::default() };
     let cartoon = Cartoon { border: Some(border), map_encoding: MapEncoding::Published, ..Cartoon::default() };
     let name = "three-pass --detection-factor 1 --slope-threshold on --map-encoding paper";
-    let of = |ratio: f64| {
-        let camera = CameraSettings {
-            eye: Some(DVec3::new(1.0, 0.5, 4.0)),
-            target: Some(DVec3::new(1.0, 0.5, 0.0)),
-            near: Some(FAR / ratio),
-            far: Some(FAR),
-            ..CameraSettings::default()
-        };
-        let variants = vec![Variant::new(name, Style::ThreePass(cartoon.clone()))];
-        Drawing { shape: Shape::Terraces, camera, variants, ..Drawing::default() }
-    };
+    let of = |ratio: f64| terraces(ratio, vec![Variant::new(name, Style::ThreePass(cartoon.clone()))]);
     let case = |ratio: f64| {
         let name = format!("outlines by 8 bits of depth, far {ratio:e} times as far as near");
         let answer = "the outlines survive whose step in depth is more than two of 255 steps";

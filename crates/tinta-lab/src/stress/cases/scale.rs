@@ -1,46 +1,28 @@
 //! Models of any size anywhere: only the shape counts.
 
-use super::case::{Case, Drawing, Group};
+use super::case::{Case, Drawing, Group, ROUNDED, looking, viewed};
 use crate::stress::{Shape, Study, Variant};
 use glam::DVec3;
 use tinta::camera::CameraSettings;
 
-/// Share of the pixels that may differ from the picture of the unscaled model: its coordinates round differently, and an edge
-/// that passes a pixel's middle by less than that falls on its other side.
-const ROUNDED: f64 = 0.002;
-
 pub(super) fn cases() -> Vec<Case> {
     let mut all = sizes_and_places();
     let smaller = Shape::CubeAndSmaller(1e6);
-    all.push(rendered(
-        "a cube and one a million times smaller".to_owned(),
-        Drawing { shape: smaller, ..Drawing::default() },
-    ));
-    // A millionth of a unit wide, seen from three millionths away, with the large cube's front behind it.
+    all.push(rendered("a cube and one a million times smaller", Drawing { shape: smaller, ..Drawing::default() }));
+    // A millionth of a unit wide, seen from three millionths away, with the large cube's front behind it. The smaller cube's faces
+    // must be seen there by rays and in areas, too, as by GL.
     let middle = DVec3::new(0.5, 0.5, 1.0 + 1.5e-6);
-    let camera = CameraSettings {
-        eye: Some(middle + DVec3::new(1.5e-6, 1e-6, 3e-6)),
-        target: Some(middle),
-        near: Some(1e-6),
-        ..CameraSettings::default()
-    };
+    let camera = looking(middle + DVec3::new(1.5e-6, 1e-6, 3e-6), middle);
+    let camera = CameraSettings { near: Some(1e-6), ..camera };
     let near = Drawing { shape: smaller, camera, ..Drawing::default() };
-    all.push(rendered("the smaller cube seen from nearby".to_owned(), near).with("lines_px", 100.0, 600.0));
-    all.push(rendered("flat in one axis".to_owned(), Drawing { shape: Shape::Flat(12), ..Drawing::default() }));
-    let edge_on =
-        CameraSettings { view: "right".parse().unwrap_or(CameraSettings::default().view), ..Default::default() };
-    all.push(rendered(
-        "flat in one axis, seen edge-on".to_owned(),
-        Drawing { shape: Shape::Flat(12), camera: edge_on, ..Drawing::default() },
-    ));
-    let many = Drawing {
-        shape: Shape::Cube,
-        copies: 2500,
-        study: Study::Picture,
-        variants: Variant::of_lines(),
-        ..Drawing::default()
-    };
-    all.push(rendered("2500 copies of a cube".to_owned(), many));
+    all.push(rendered("the smaller cube seen from nearby", near).with("lines_px", 100.0, 600.0));
+    all.push(rendered("flat in one axis", Drawing { shape: Shape::Flat(12), ..Drawing::default() }));
+    let edge_on = Drawing { shape: Shape::Flat(12), camera: viewed("right"), ..Drawing::default() };
+    all.push(rendered("flat in one axis, seen edge-on", edge_on));
+    let variants = Variant::of_lines();
+    let many = Drawing { copies: 2500, study: Study::Picture, variants, ..Drawing::default() };
+    all.push(rendered("2500 copies of a cube", many));
+    all.extend(parts());
     for (shape, name) in [(Shape::Point, "a single point"), (Shape::Line, "a line"), (Shape::Nothing, "nothing at all")]
     {
         let drawing = Drawing { shape, variants: Variant::of_lines(), ..Drawing::default() };
@@ -49,48 +31,69 @@ pub(super) fn cases() -> Vec<Case> {
     all
 }
 
+/// Parts and solids that are small or thin beside the whole: each with the number of its separate areas.
+fn parts() -> Vec<Case> {
+    let parts = [
+        ("parts a thousandth of their distance in size", Shape::Specks(1e-3), 8.0),
+        ("parts a hundred thousandth of their distance in size", Shape::Specks(1e-5), 8.0),
+        ("a cube beside one a thousand times smaller", Shape::CubeBesideSmaller(1e3), 2.0),
+        ("a cube beside one a hundred thousand times smaller", Shape::CubeBesideSmaller(1e5), 2.0),
+        ("a plate 10,000 times as wide as thick", Shape::Solid(1e-4, 1.0), 1.0),
+        ("a rod 10,000 times as long as thick", Shape::Solid(1e-4, 1e-4), 1.0),
+        ("a triangle 10,000 times as long as high", Shape::Triangle(1e-4), 1.0),
+        ("a sheet with 20 folds", Shape::Corrugated(20), 1.0),
+        ("a sheet with 500 folds", Shape::Corrugated(500), 1.0),
+    ];
+    let case = |(name, shape, areas): (&str, Shape, f64)| {
+        let camera = if let Shape::Corrugated(_) = shape { viewed("0,20") } else { CameraSettings::default() };
+        rendered(name, Drawing { shape, camera, ..Drawing::default() }).with("areas", areas, areas)
+    };
+    parts.map(case).to_vec()
+}
+
 /// Models of any size, and any distance from the origin.
 fn sizes_and_places() -> Vec<Case> {
-    let mut all = Vec::new();
-    for scale in [1e-30, 1e-6, 1e6, 1e30] {
-        let drawing = compared(Drawing { shape: Shape::Builtin("builtin:gear"), scale, ..Drawing::default() });
-        let case = rendered(format!("a gear {scale:e} times as large"), drawing);
-        all.push(case.with("twin_differing", 0.0, ROUNDED).with("twin_lines_differing", 0.0, ROUNDED));
-    }
-    for scale in [1e-58, 1e58] {
-        let drawing = compared(Drawing { shape: Shape::Cube, scale, ..Drawing::default() });
-        all.push(rendered(format!("a cube {scale:e} times as large"), drawing).with("twin_differing", 0.0, ROUNDED));
-    }
-    for (scale, kind, words) in [(1e-62, "model", "radius"), (1e61, "model", "scale it down")] {
-        let drawing = Drawing { shape: Shape::Cube, scale, ..Drawing::default() };
+    let gear = Shape::Builtin("builtin:gear");
+    let sizes = [(gear, 1e-30), (gear, 1e-6), (gear, 1e6), (gear, 1e30), (Shape::Cube, 1e-58), (Shape::Cube, 1e58)];
+    let sized = |(shape, scale): (Shape, f64)| {
+        let name = format!("a {} {scale:e} times as large", if shape == gear { "gear" } else { "cube" });
+        same(name, Drawing { shape, scale, ..Drawing::default() }, ROUNDED)
+    };
+    let mut all = sizes.map(sized).to_vec();
+    for (scale, words) in [(1e-62, "radius"), (1e61, "scale it down")] {
         let name = format!("a cube {scale:e} times as large");
-        all.push(Case::refused(Group::Scale, name, drawing, kind, words));
+        all.push(Case::refused(Group::Scale, name, Drawing { scale, ..Drawing::default() }, "model", words));
     }
     // Beyond 1e8 an f64 knows a unit model's coordinates to 1e-8 only, and welding at 1e-7 of its size still holds.
-    for (distance, differing) in [(1e3, ROUNDED), (1e5, ROUNDED), (1e7, ROUNDED), (1e9, 0.01)] {
-        let offset = DVec3::new(1.0, -0.7, 0.4) * distance;
-        let drawing = compared(Drawing { shape: Shape::Builtin("builtin:gear"), offset, ..Drawing::default() });
-        let case = rendered(format!("a gear {distance:e} units away from the origin"), drawing);
-        let case = case.with("twin_differing", 0.0, differing).with("twin_lines_differing", 0.0, differing);
-        all.push(case.with("far_said", 0.0, 0.0));
-    }
-    // All coordinates are whole numbers, but numbers there are up to an eighth apart, which exact lines cannot know.
-    for distance in [1e14, 1e15] {
-        let offset = DVec3::new(1.0, -1.0, 1.0) * distance;
-        let drawing = Drawing { shape: Shape::Cube, scale: 2.0, offset, study: Study::Picture, ..Drawing::default() };
-        all.push(
-            rendered(format!("a cube {distance:e} units away from the origin"), drawing).with("far_said", 1.0, 1.0),
-        );
-    }
+    all.extend([(1e3, ROUNDED), (1e5, ROUNDED), (1e7, ROUNDED), (1e9, 0.01)].map(|(distance, differing)| {
+        let drawing = Drawing { shape: gear, offset: DVec3::new(1.0, -0.7, 0.4) * distance, ..Drawing::default() };
+        let case = same(format!("a gear {distance:e} units away from the origin"), drawing, differing);
+        case.with("far_said", 0.0, 0.0)
+    }));
+    // All coordinates are whole numbers, but at last numbers are up to an eighth apart, which exact lines cannot know.
+    let full = Study::Full;
+    let places = [
+        (1e4, full, 0.0),
+        (1e7, full, 0.0),
+        (1e10, full, 0.0),
+        (1e14, Study::Picture, 1.0),
+        (1e15, Study::Picture, 1.0),
+    ];
+    all.extend(places.map(|(distance, study, said)| {
+        let drawing =
+            Drawing { scale: 2.0, offset: DVec3::new(1.0, -1.0, 1.0) * distance, study, ..Drawing::default() };
+        rendered(format!("a cube {distance:e} units away from the origin"), drawing).with("far_said", said, said)
+    }));
     all
 }
 
-fn rendered(name: String, drawing: Drawing) -> Case {
+fn rendered(name: impl Into<String>, drawing: Drawing) -> Case {
     Case::rendered(Group::Scale, name, drawing)
 }
 
 /// Beside the unscaled shape. Its scale is not 1: an unscaled built-in model would bring its normals and materials.
-fn compared(drawing: Drawing) -> Drawing {
+fn same(name: String, drawing: Drawing, differing: f64) -> Case {
     let unit = Drawing { scale: 1.0 + f64::EPSILON, offset: DVec3::ZERO, ..drawing.clone() };
-    Drawing { twin: Some(Box::new(unit)), ..drawing }
+    let case = rendered(name, Drawing { twin: Some(Box::new(unit)), ..drawing });
+    case.with("twin_differing", 0.0, differing).with("twin_lines_differing", 0.0, differing)
 }

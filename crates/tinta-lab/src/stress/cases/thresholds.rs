@@ -1,19 +1,16 @@
 //! Settings and geometry at the very edge of a decision.
 
-use super::case::{Case, Drawing, Group, Study};
+use super::case::{Case, Drawing, Group, Study, looking};
 use crate::stress::{Shape, Variant};
 use glam::DVec3;
 use tinta::camera::CameraSettings;
 use tinta::edges::CreaseAngle;
 use tinta::lines::{Length, LineSettings};
+use tinta::scene::Size;
 use tinta::styles::{Border, Cartoon, Charcoal, Dietrich, Inking, Phong, Style, Tones};
 
 pub(super) fn cases() -> Vec<Case> {
-    let mut all = geometry();
-    all.extend(tones());
-    all.extend(borders());
-    all.extend(charcoal());
-    all
+    [geometry(), tones(), borders(), charcoal()].concat()
 }
 
 fn rendered(name: impl Into<String>, drawing: Drawing) -> Case {
@@ -31,34 +28,21 @@ fn geometry() -> Vec<Case> {
     // The cube's right side is visible only from beyond its plane; then the outline goes around two faces. In or nearly in its
     // plane both outlines count: an eye just beside the plane sees one or the other.
     for (offset, silhouettes) in [(-1e-8, 4.0), (-1e-12, 7.0), (0.0, 7.0), (1e-12, 7.0), (1e-8, 6.0)] {
-        let camera = CameraSettings {
-            eye: Some(DVec3::new(1.0 + offset, 0.3, 5.0)),
-            target: Some(DVec3::splat(0.5)),
-            ..CameraSettings::default()
-        };
+        let camera = looking(DVec3::new(1.0 + offset, 0.3, 5.0), DVec3::splat(0.5));
         let name = format!("the eye {offset:e} beyond a face's plane");
         all.push(rendered(name, Drawing { camera, ..Drawing::default() }).with("silhouette", silhouettes, silhouettes));
     }
     // Eye space is in scene radii around the eye: this shape's is 1.
-    let camera = CameraSettings {
-        eye: Some(DVec3::ZERO),
-        target: Some(DVec3::NEG_Z),
-        fov_y_degrees: 60.0,
-        ..CameraSettings::default()
-    };
+    let camera = CameraSettings { fov_y_degrees: 60.0, ..looking(DVec3::ZERO, DVec3::NEG_Z) };
     let drawing = Drawing { shape: Shape::ThroughTheLight, camera, ..Drawing::default() };
     all.push(rendered("a vertex where the light stands", drawing));
     all
 }
 
 fn tones() -> Vec<Case> {
-    let with = |name: &str, diffuse_threshold: f32, specular_threshold: f32| {
+    let with = |diffuse_threshold: f32, specular_threshold: f32| {
         let tones = Tones { diffuse_threshold, specular_threshold, ..Tones::default() };
-        let style = Style::ThreePass(Cartoon { tones, ..Cartoon::default() });
-        (
-            name.to_owned(),
-            Drawing { shape: Shape::Ball(3), variants: vec![Variant::new("three-pass", style)], ..Drawing::default() },
-        )
+        Variant::new("three-pass", Style::ThreePass(Cartoon { tones, ..Cartoon::default() }))
     };
     let drawn = [
         ("tone thresholds that are equal", 0.5, 0.5),
@@ -68,22 +52,13 @@ fn tones() -> Vec<Case> {
         ("a tone threshold that the light reaches exactly", 1.0, 1.0),
         ("tone thresholds of 1e38", 1e38, -1e38),
     ];
-    let mut all: Vec<Case> = drawn
-        .iter()
-        .map(|(name, diffuse, specular)| {
-            let (name, drawing) = with(name, *diffuse, *specular);
-            rendered(name, drawing)
-        })
-        .collect();
-    for (name, threshold) in
-        [("a tone threshold that is no number", f32::NAN), ("an infinite tone threshold", f32::INFINITY)]
-    {
-        let (name, drawing) = with(name, threshold, 0.5);
-        all.push(Case::refused(Group::Thresholds, name, drawing, "setting", "--tone-thresholds"));
-    }
-    let levels = Tones { levels: [2.0, 0.0, -1.0], ..Tones::default() };
-    let style = Style::ThreePass(Cartoon { tones: levels, ..Cartoon::default() });
-    all.push(refused("tones brighter than all light", Variant::new("three-pass", style), "--tone-levels"));
+    let drawn = drawn.map(|(name, diffuse, specular)| rendered(name, of_ball(with(diffuse, specular))));
+    let never = [("a tone threshold that is no number", f32::NAN), ("an infinite tone threshold", f32::INFINITY)];
+    let never = never.map(|(name, threshold)| refused(name, with(threshold, 0.5), "--tone-thresholds"));
+    let mut all: Vec<Case> = drawn.into_iter().chain(never).collect();
+    let tones = Tones { levels: [2.0, 0.0, -1.0], ..Tones::default() };
+    let levels = Variant::new("three-pass", Style::ThreePass(Cartoon { tones, ..Cartoon::default() }));
+    all.push(refused("tones brighter than all light", levels, "--tone-levels"));
     let phong = Style::Phong(Phong { shininess: 1e30, ..Phong::default() });
     all.push(rendered("a shininess of 1e30", of_ball(Variant::new("phong", phong))));
     let dietrich = Style::Dietrich(Dietrich { threshold: 1.0, ..Dietrich::default() });
@@ -101,18 +76,19 @@ fn borders() -> Vec<Case> {
     let huge = rendered("a detection factor of 1e9", of_ball(with(1e9))).with("ink_px", 100.0, 1e5);
     let mut all = vec![none, negative, huge];
     all.push(refused("a detection factor that is no number", with(f32::NAN), "--detection-factor"));
+    let inking = |name: &str, inking: Inking| {
+        let variants = vec![Variant::new("inking", Style::Inking(inking))];
+        rendered(name, Drawing { variants, ..Drawing::default() })
+    };
     for (name, degrees) in [("a crease angle of 0 degrees", 0.0), ("a crease angle of 180 degrees", 180.0)] {
         let crease_angle = CreaseAngle::from_degrees(degrees).unwrap_or_default();
-        let inking = Style::Inking(Inking { crease_angle, ..Inking::default() });
-        all.push(rendered(name, Drawing { variants: vec![Variant::new("inking", inking)], ..Drawing::default() }));
+        all.push(inking(name, Inking { crease_angle, ..Inking::default() }));
     }
     for (name, width) in [("a line width of 1e-6", 1e-6), ("a line width of 1e3", 1e3)] {
-        let inking = Style::Inking(Inking { line_width: Length::Px(width), ..Inking::default() });
-        let drawing = Drawing { variants: vec![Variant::new("inking", inking)], ..Drawing::default() };
-        all.push(Case { expected: super::Expected::Either(&["setting"]), ..rendered(name, drawing) });
+        let case = inking(name, Inking { line_width: Length::Px(width), ..Inking::default() });
+        all.push(Case { expected: super::Expected::Either(&["setting"]), ..case });
     }
-    let offset = Style::Inking(Inking { polygon_offset: [1e9, -1e9], ..Inking::default() });
-    all.push(rendered("a polygon offset of 1e9", of_ball(Variant::new("inking", offset))));
+    all.push(inking("a polygon offset of 1e9", Inking { polygon_offset: [1e9, -1e9], ..Inking::default() }));
     all
 }
 
@@ -121,19 +97,24 @@ fn charcoal() -> Vec<Case> {
     let base = Charcoal::default;
     let exponent = |contrast_exponent| with(Charcoal { contrast_exponent, ..base() });
     let density = |density_percent| with(Charcoal { density_percent, ..base() });
+    let texture_size = Size { width: 1, height: 1 };
     let lights = |lights: [[f32; 3]; 2]| with(Charcoal { lights: lights.map(Some), ..base() });
     let drawn = [
-        ("a contrast exponent of 1", exponent(1.0)),
-        ("a contrast exponent of 1000", exponent(1000.0)),
-        ("a density of 0 percent", density(0.0)),
-        ("a density of 100 percent", density(100.0)),
-        ("a saturation of a million", with(Charcoal { saturation: 1e6, ..base() })),
-        ("a saturation of 0", with(Charcoal { saturation: 0.0, ..base() })),
-        ("lights as short as 1e-30", lights([[1e-30, 0.0, 0.0], [0.0, 1e-30, 0.0]])),
-        ("lights as long as 1e30", lights([[1e30, 0.0, 0.0], [0.0, 1e30, 1e30]])),
-        ("a grain of one texel", with(Charcoal { texture_size: tinta::scene::Size { width: 1, height: 1 }, ..base() })),
+        ("a contrast exponent of 1e-30", "all that is lit is white", exponent(1e-30)),
+        ("a contrast exponent of 0.5", "light is raised, not lowered", exponent(0.5)),
+        ("a contrast exponent of 1", "", exponent(1.0)),
+        ("a contrast exponent of 1000", "", exponent(1000.0)),
+        ("a contrast exponent of 1e30", "all that is not lit fully is black", exponent(1e30)),
+        ("a density of 0 percent", "", density(0.0)),
+        ("a density of 100 percent", "", density(100.0)),
+        ("a saturation of a million", "", with(Charcoal { saturation: 1e6, ..base() })),
+        ("a saturation of 0", "", with(Charcoal { saturation: 0.0, ..base() })),
+        ("lights as short as 1e-30", "", lights([[1e-30, 0.0, 0.0], [0.0, 1e-30, 0.0]])),
+        ("lights as long as 1e30", "", lights([[1e30, 0.0, 0.0], [0.0, 1e30, 1e30]])),
+        ("textures of one texel", "each is one tone", with(Charcoal { texture_size, ..base() })),
     ];
-    let mut all: Vec<Case> = drawn.into_iter().map(|(name, variant)| rendered(name, of_ball(variant))).collect();
+    let drawn = drawn.map(|(name, answer, variant)| Case { answer, ..rendered(name, of_ball(variant)) });
+    let mut all = drawn.to_vec();
     let never = [
         ("a contrast exponent of 0", exponent(0.0), "--contrast-exponent"),
         ("a negative contrast exponent", exponent(-1.0), "--contrast-exponent"),

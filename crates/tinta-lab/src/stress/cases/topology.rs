@@ -11,7 +11,7 @@ pub(super) fn cases() -> Vec<Case> {
     };
     let infinite = f64::INFINITY;
     vec![
-        rendered("one triangle", Shape::Triangle).with("boundary", 3.0, 3.0),
+        rendered("one triangle", Shape::Triangle(1.0)).with("boundary", 3.0, 3.0),
         // Its base lies on a side of the triangle, which is split there: their common side is no boundary.
         rendered("a needle a million times as long as wide", Shape::Needle(1e6)).with("boundary", 5.0, 5.0),
         rendered("triangles without area among others", Shape::ZeroAreas).with("boundary", 0.0, 0.0),
@@ -27,6 +27,12 @@ pub(super) fn cases() -> Vec<Case> {
         rendered("a Moebius strip", Shape::Moebius).with("boundary", 128.0, 128.0),
         rendered("inside out", Shape::InsideOut(3)).with("boundary", 0.0, 0.0),
         rendered("T-junctions", Shape::TJunction),
+        // Both squares between them are inside.
+        rendered("cubes with a side in common", Shape::Touching).with("areas", 1.0, 1.0).with(
+            "doubled_pairs",
+            0.0,
+            0.0,
+        ),
         rendered("cubes that share part of a face", Shape::Contact),
         rendered("cubes that pass through one another", Shape::Piercing).with("intersection", 1.0, 40.0),
         rendered("a vertex that is not a number", Shape::BadVertex(f64::NAN)).with("boundary", 0.0, 0.0),
