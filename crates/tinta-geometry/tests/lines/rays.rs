@@ -68,6 +68,8 @@ pub struct Rays<'a> {
     /// Largest shift of a point by rounding, file units.
     noise: f64,
     creases: Creases,
+    /// Distances of the rays from a line, pixels; a point is wrong if the rays at each of them say so.
+    asides_px: &'static [f64],
 }
 
 /// Which creases are lines.
@@ -167,7 +169,12 @@ impl<'a> Rays<'a> {
                 });
             }
         }
-        Self { scene, faces, edges, welds, noise: ROUNDING * farthest, creases }
+        Self { scene, faces, edges, welds, noise: ROUNDING * farthest, creases, asides_px: &[ASIDE_PX] }
+    }
+
+    /// The same for thin models: lines may be wrong by 0.004 pixels.
+    pub fn of_thin(scene: &'a Scene, creases: Creases) -> Self {
+        Self { asides_px: &[ASIDE_PX, 4e-3], ..Self::new(scene, creases) }
     }
 
     fn is_parallel(&self) -> bool {
@@ -355,12 +362,16 @@ impl<'a> Rays<'a> {
             let share = (sample as f64 + random.number()) / count as f64;
             let place = share.clamp(FROM_ENDS_PX / length_px, 1.0 - FROM_ENDS_PX / length_px);
             let point = self.at(piece.ends_world, place);
-            let aside = self.aside(point, along_px, ASIDE_PX);
-            let sides = [aside, -aside].map(|aside| self.side(point, aside, &line));
-            let is_wrong = match piece.is_visible {
+            let sides_at = |aside_px: f64| {
+                let aside = self.aside(point, along_px, aside_px);
+                [aside, -aside].map(|aside| self.side(point, aside, &line))
+            };
+            let is_wrong_at = |sides: [Side; 2]| match piece.is_visible {
                 true => sides == [Side::Covered; 2],
                 false => sides.contains(&Side::Open) && !self.is_under_nearer(point, piece, lines),
             };
+            let sides = sides_at(ASIDE_PX);
+            let is_wrong = self.asides_px.iter().all(|aside_px| is_wrong_at(sides_at(*aside_px)));
             *(if piece.is_visible { &mut found.visible } else { &mut found.hidden }) += 1;
             let is_decided = match piece.is_visible {
                 true => sides.contains(&Side::Open),
