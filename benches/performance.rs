@@ -1,5 +1,5 @@
-//! The savings of pruning, and how a frame's cost grows with triangles and with pixels, compared with lower bounds: clearing,
-//! drawing the mesh once, one filter over the picture. docs/results/measuring.md has the command.
+//! The savings of pruning, how a frame's cost grows with triangles and with pixels, compared with lower bounds (clearing, drawing
+//! the mesh once, one filter over the picture), and frames and cold starts of model files. docs/results/measuring.md has the command.
 //!
 //! Contestants take turns, round by round. The model turns by 3 degrees a round. Every frame includes making the plan and pruning
 //! it; the search for omissions that hold in all views is timed separately.
@@ -20,6 +20,7 @@ use serde_json::{Value, json};
 use sphere::bumpy_sphere;
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::process::Command;
 use std::sync::Arc;
 use std::time::Instant;
 use tinta::culling::DrawnFaces;
@@ -31,26 +32,30 @@ use tinta::styles::{Cartoon, Mrt};
 use tinta::{Backend, LoadOptions, Renderer, Scene, SceneSettings, Show, Size, Style, StyleName, load};
 
 const USAGE: &str =
-    "cargo bench --bench performance -- [--rounds N] [--largest N] [--only saved|search|sizes|triangles|pixels]
+    "cargo bench --bench performance -- [MODEL…] [--rounds N] [--largest N] [--only saved|search|sizes|triangles|pixels|models]
+  MODEL          model files beside the built-in ones; one that is missing is skipped
   --rounds N     interleaved rounds (default 21)
   --largest N    triangles of the largest mesh (default 4000000)
-  --only PART    one of the five tables";
+  --only PART    one of the six tables; models: frames and cold starts of each model file";
 
 struct Settings {
+    models: Vec<String>,
     rounds: usize,
     largest: usize,
     only: Option<String>,
 }
 
 fn settings() -> Option<Settings> {
-    let mut settings = Settings { rounds: 21, largest: 4_000_000, only: None };
+    let mut settings = Settings { models: Vec::new(), rounds: 21, largest: 4_000_000, only: None };
     let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--rounds" => settings.rounds = arguments.next()?.parse().ok()?,
             "--largest" => settings.largest = arguments.next()?.parse().ok()?,
             "--only" => settings.only = Some(arguments.next()?),
-            _ => return None,
+            option if option.starts_with("--") => return None,
+            missing if !Path::new(missing).is_file() => println!("SKIPPED: there is no file {missing}"),
+            _ => settings.models.push(argument),
         }
     }
     Some(settings)
@@ -66,10 +71,10 @@ fn main() {
     let is_wanted = |part: &str| settings.only.as_ref().is_none_or(|only| only == part);
     let mut record = json!({ "gl": renderer.context() });
     if is_wanted("saved") {
-        record["saved"] = saved(&mut renderer, settings.rounds);
+        record["saved"] = saved(&mut renderer, &settings);
     }
     if is_wanted("search") {
-        let scenes = scenes().map(|(name, scene)| (name, turned(&scene, 0.0))).collect::<Vec<_>>();
+        let scenes = scenes(&settings.models).map(|(name, scene)| (name, turned(&scene, 0.0))).collect::<Vec<_>>();
         record["search"] = search::ratios(&mut renderer, &scenes, settings.rounds);
     }
     if is_wanted("sizes") {
@@ -80,6 +85,9 @@ fn main() {
     }
     if is_wanted("pixels") {
         record["pixels"] = by_pixels(&mut renderer, settings.rounds);
+    }
+    if is_wanted("models") {
+        record["models"] = of_models(&mut renderer, &settings);
     }
     write_record("performance", &record);
 }
@@ -204,12 +212,13 @@ fn rows(series: &[Series]) -> Value {
     series.iter().map(|one| json!({ "name": one.name, "ms": one.times })).collect()
 }
 
-/// The bust filling the picture, gear and open box on about a quarter of it, and the files of TINTA_MODELS.
-fn scenes() -> impl Iterator<Item = (String, Scene)> {
-    let fitted = |model: &str| {
-        let mesh = Arc::new(load(model, &LoadOptions::default()).expect("a model").mesh);
-        Scene::new(vec![mesh], &SceneSettings::default()).expect("a scene")
-    };
+fn fitted(model: &str) -> Scene {
+    let mesh = Arc::new(load(model, &LoadOptions::default()).expect("a model").mesh);
+    Scene::new(vec![mesh], &SceneSettings::default()).expect("a scene")
+}
+
+/// The bust filling the picture, gear and open box on about a quarter of it, and model files.
+fn scenes(files: &[String]) -> impl Iterator<Item = (String, Scene)> {
     let from_afar = |model: &str, times: f64| {
         let mut scene = fitted(model);
         scene.camera.eye = scene.camera.target + (scene.camera.eye - scene.camera.target) * times;
@@ -220,17 +229,13 @@ fn scenes() -> impl Iterator<Item = (String, Scene)> {
         ("the gear, on a quarter of the picture", from_afar("builtin:gear", 1.85)),
         ("the open box, on a quarter of the picture", from_afar("builtin:open-box", 1.85)),
     ];
-    let files = std::env::var_os("TINTA_MODELS").map(std::fs::read_dir).into_iter().flatten().flatten().flatten();
-    let mut files: Vec<String> = files.map(|file| file.path().to_string_lossy().into_owned()).collect();
-    files.retain(|file| file.ends_with(".obj"));
-    files.sort();
     let built_in = built_in.map(|(name, scene)| (name.to_owned(), scene));
-    built_in.into_iter().chain(files.into_iter().map(move |file| (file.clone(), fitted(&file))))
+    built_in.into_iter().chain(files.iter().map(|file| (file.clone(), fitted(file))))
 }
 
 /// Styles in full and pruned over a turn.
-fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
-    let tables = scenes().map(|(name, scene)| {
+fn saved(renderer: &mut Renderer, settings: &Settings) -> Value {
+    let tables = scenes(&settings.models).map(|(name, scene)| {
         let view = turned(&scene, 0.0);
         let extent = view.extent_px(view.objects.iter(), view.size).map_or(0, |extent| extent.pixel_count());
         println!(
@@ -248,7 +253,7 @@ fn saved(renderer: &mut Renderer, rounds: usize) -> Value {
                     (name.to_owned(), Contestant::Pruned(Style::named(style))),
                     (format!("{name}, the faces that own a pixel"), Contestant::Ceiling(Style::named(style))),
                 ];
-                let series = race(renderer, &scene, &contestants, rounds);
+                let series = race(renderer, &scene, &contestants, settings.rounds);
                 let [full_ms, pruned, ceiling] = [0, 1, 2].map(|number| series[number].median());
                 println!(
                     "  {full:<24}{full_ms:>9.2} ms{pruned:>9.2} ms pruned: {:.2} x, at most {:.2} x",
@@ -398,4 +403,32 @@ fn by_pixels(renderer: &mut Renderer, rounds: usize) -> Value {
         .collect();
     finish(&curves, "Frames of the bust by size of the picture", "pixels", "frame-pixels.svg");
     Value::Array(tables)
+}
+
+/// Frames of each model file, and whole processes from the file to a PNG.
+fn of_models(renderer: &mut Renderer, settings: &Settings) -> Value {
+    let folder = tempfile::tempdir().expect("a folder");
+    let tables = settings.models.iter().map(|model| {
+        let scene = fitted(model);
+        println!("\nframes of {model}: {} triangles, {}", scene.triangle_count(), scene.size);
+        let frames = race(renderer, &scene, &contestants(&scene), settings.rounds);
+        print_table(&frames, "three-pass --full");
+        println!("\n  cold starts, {model} to PNG");
+        let looks: [&[&str]; 4] =
+            [&["--style", "phong"], &["--style", "three-pass"], &["--style", "ink"], &["--look", "print"]];
+        let mut starts: Vec<Series> = looks.iter().map(|look| Series::new(&look.join(" "))).collect();
+        for round in 0..=settings.rounds {
+            for (look, series) in looks.iter().zip(&mut starts) {
+                let mut tinta = Command::new(env!("CARGO_BIN_EXE_tinta"));
+                tinta.args(["render", model, "--size", "512", "-o"]).arg(folder.path().join("start.png")).args(*look);
+                let start = Instant::now();
+                assert!(tinta.status().expect("tinta starts").success(), "{model} {look:?}");
+                // The first picture of each contestant is not counted.
+                series.times.extend((round > 0).then(|| milliseconds_since(start)));
+            }
+        }
+        print_table(&starts, "--style phong");
+        json!({ "model": model, "frames": rows(&frames), "starts": rows(&starts) })
+    });
+    tables.collect()
 }

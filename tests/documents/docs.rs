@@ -232,6 +232,22 @@ fn cargo_fault(words: &[&str], manifest: &str, sources: &str) -> Option<String> 
     filter.filter(|(_, name)| !is_there(name)).map(|(_, name)| format!("no test is called {name}"))
 }
 
+/// An option after the name of a benchmark or a script that its source does not read.
+fn unread_option(words: &[&str]) -> Option<String> {
+    let bench = words.windows(2).find(|pair| pair[0] == "--bench").map(|pair| pair[1]);
+    let is_script = |word: &&str| word.ends_with(".py") || word.starts_with("scripts/");
+    let (is_name, paths): (&dyn Fn(&&str) -> bool, _) = match bench {
+        Some(name) => {
+            (&|word| *word == "--", [format!("benches/{name}.rs"), format!("crates/tinta-geometry/benches/{name}.rs")])
+        }
+        None => (&is_script, [(*words.iter().find(|word| is_script(word))?).to_owned(), String::new()]),
+    };
+    let source = paths.iter().find_map(|path| std::fs::read_to_string(root().join(path)).ok())?;
+    let own = words.iter().skip_while(|word| !is_name(word)).skip(1);
+    let unread = own.filter(|word| word.starts_with("--")).find(|option| !source.contains(**option));
+    unread.map(|option| format!("its source reads no {option}"))
+}
+
 #[test]
 fn every_cargo_and_script_command_in_the_documents_names_what_is_there() {
     let manifests = ["Cargo.toml", "crates/tinta-cli/Cargo.toml", "crates/tinta-lab/Cargo.toml"];
@@ -264,14 +280,16 @@ fn every_cargo_and_script_command_in_the_documents_names_what_is_there() {
             let is_variable = |word: &&str| word.split_once('=').is_some_and(|(name, _)| name.starts_with("TINTA_"));
             let words: Vec<&str> = command.split(' ').skip_while(is_variable).collect();
             let fault = match words.first().copied().unwrap_or_default() {
-                "cargo" => cargo_fault(&words, &manifest, &sources),
+                "cargo" => cargo_fault(&words, &manifest, &sources).or_else(|| unread_option(&words)),
+                python if python.contains("python") => unread_option(&words),
                 "scripts/fuzz" => words[1..]
                     .iter()
                     .filter(|word| word.parse::<u64>().is_err())
                     .find(|word| !root().join(format!("fuzz/fuzz_targets/{word}.rs")).exists())
                     .map(|word| format!("there is no fuzz target {word}")),
                 script if script.starts_with("scripts/") => {
-                    (!root().join(script).is_file()).then(|| format!("there is no {script}"))
+                    let is_there = root().join(script).is_file();
+                    if is_there { unread_option(&words) } else { Some(format!("there is no {script}")) }
                 }
                 _ => continue,
             };
@@ -288,6 +306,11 @@ fn every_cargo_and_script_command_in_the_documents_names_what_is_there() {
             cargo_fault(&command.split(' ').collect::<Vec<_>>(), &manifest, &sources).is_some(),
             "{command} was taken"
         );
+    }
+    for command in
+        ["cargo bench --bench lines -- --none 3", "python3 benches/league/run.py --none", "scripts/pages --none"]
+    {
+        assert!(unread_option(&command.split(' ').collect::<Vec<_>>()).is_some(), "{command} was taken");
     }
 }
 

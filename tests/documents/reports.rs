@@ -1,4 +1,5 @@
-//! The page of public reports names a test in each row, and the test is there.
+//! The page of public reports names a test in each row, and the test is there. Tables of figures have the columns and rows that the
+//! commands beside them print.
 
 use crate::support::root;
 
@@ -49,4 +50,89 @@ fn the_claims_are_a_record_with_its_date_and_no_command() {
     assert!(page.contains("measured on 2026-11-26"));
     let commands: Vec<&str> = page.lines().filter(|line| line.starts_with("    ")).collect();
     assert!(commands.is_empty(), "the code that ran them is gone: {commands:?}");
+}
+
+/// A page of figures, the command beside them, the source that prints them, and some of the columns and rows of both.
+const FIGURES: [(&str, &str, &str, &[&str]); 12] = [
+    (
+        "measuring.md",
+        "tinta measure ant.ply",
+        "crates/tinta-lab/src/report/columns.rs",
+        &["F1", "recall", "precision", "of all ink"],
+    ),
+    (
+        "measuring.md",
+        "cargo bench --bench cartoon -- stanford-bunny.obj",
+        "benches/cartoon.rs",
+        &[
+            "mrt --cull back",
+            "inking --silhouette exact --cull back",
+            "ink",
+            "Panda3D",
+            "VTK",
+            "PyVista",
+            "f3d",
+            "Freestyle",
+        ],
+    ),
+    (
+        "measuring.md",
+        "cargo bench --bench looks -- stanford-bunny.obj",
+        "benches/looks.rs",
+        &["default, png", "default, svg", "technical, svg", "lines, svg", "hatched, svg", "f3d"],
+    ),
+    (
+        "measuring.md",
+        "cargo bench --bench edges -- stanford-bunny.obj",
+        "benches/edges.rs",
+        &["edges + classes, one thread", "vtkFeatureEdges", "silhouette, one thread", "vtkPolyDataSilhouette"],
+    ),
+    (
+        "measuring.md",
+        "cargo bench --bench lines -- stanford-bunny.obj",
+        "benches/lines.rs",
+        &["tinta, lines", "Freestyle, lines", "Freestyle, process"],
+    ),
+    ("measuring.md", "cargo bench --bench batch", "benches/batch.rs", &["batch", "one process a picture"]),
+    (
+        "exactness.md",
+        "cargo bench -p tinta-geometry --bench contours -- breaks",
+        "crates/tinta-geometry/benches/contours.rs",
+        &["model", "triangles", "exact", "smooth", "crossings", "cusps"],
+    ),
+    (
+        "exactness.md",
+        "cargo bench -p tinta-geometry --bench contours -- truth",
+        "crates/tinta-geometry/benches/contours.rs",
+        &["exact", "smooth", "sphere", "torus", "patch"],
+    ),
+    (
+        "exactness.md",
+        "cargo bench --bench lines_growth",
+        "crates/tinta-geometry/tests/support/growth.rs",
+        &["soup", "sticks", "book", "fan", "spokes", "twins", "waffle", "hair", "comb", "lattice", "confetti"],
+    ),
+    ("pruning.md", "cargo bench --bench performance", "benches/performance.rs", &["bust", "gear", "open box"]),
+    (
+        "league.md",
+        "python benches/league/report.py league",
+        "benches/league/report.py",
+        &["program", "version", "F1", "worst", "found", "of the ink right", "one to one, 1 px", "hidden drawn", "MiB"],
+    ),
+    ("league.md", "python benches/league/truth.py", "benches/league/truth.py", &["model", "f64", "embree"]),
+];
+
+#[test]
+fn tables_have_the_columns_and_rows_that_the_commands_beside_them_print() {
+    for (page, command, source, labels) in FIGURES {
+        let text = std::fs::read_to_string(root().join("docs/results").join(page)).unwrap().replace('`', "");
+        assert!(text.contains(command), "{page} has no {command:?}");
+        let tables = text.lines().filter(|line| line.starts_with('|')).collect::<String>().to_lowercase();
+        let source_text = std::fs::read_to_string(root().join(source)).unwrap().to_lowercase();
+        for label in labels {
+            let label = label.to_lowercase();
+            assert!(tables.contains(&label), "{page} has no column or row {label:?}");
+            assert!(source_text.contains(&label), "{source} prints no {label:?}, which {page} has");
+        }
+    }
 }
