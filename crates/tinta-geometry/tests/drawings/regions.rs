@@ -6,7 +6,7 @@ mod hatching;
 use crate::support::families::{KINDS, scene_of_kind};
 use crate::support::growth::FAMILIES;
 use crate::support::lines::{explicit, scene_of_family, scenes_wanted, view};
-use crate::support::shapes::{Random, icosphere, mesh};
+use crate::support::shapes::{Random, cuboid, icosphere, joined, mesh};
 use crate::support::{PUBLIC_MODELS, public_meshes};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeSet;
@@ -525,4 +525,31 @@ fn regions_end_when_asked() {
     let progress = Progress::default();
     progress.cancel();
     assert!(matches!(Regions::with_progress(&Sight::of(&scene), &progress), Err(Error::Cancelled)));
+}
+
+#[test]
+fn a_part_seen_from_nearby_has_its_areas_however_small_it_is_beside_the_whole() {
+    let areas = |side: f64| {
+        let low = DVec3::new(0.5 - side * 0.5, 0.5 - side * 0.5, 1.0 + side);
+        let both = joined(&[cuboid(DVec3::ZERO, DVec3::ONE), cuboid(low, low + side)]);
+        let middle = low + side * 0.5;
+        let eye = middle + side * DVec3::new(1.5, 1.0, 3.0);
+        let camera =
+            CameraSettings { eye: Some(eye), target: Some(middle), near: Some(side), ..CameraSettings::default() };
+        let size = Size { width: 128, height: 128 };
+        let scene = Scene::new([both], &SceneSettings { camera, size, ..SceneSettings::default() }).unwrap();
+        let mut areas = [0.0; 12];
+        for region in Regions::of(&scene).unwrap().regions {
+            if let Some(place) = region.seen.and_then(|seen| seen.face.checked_sub(12)) {
+                areas[place as usize] += region.area_px;
+            }
+        }
+        areas
+    };
+    let usual = areas(1e-2);
+    assert_eq!(usual.iter().filter(|area| **area > 1.0).count(), 6, "{usual:?}");
+    for side in [1e-3, 1e-4, 1e-5, 1e-6] {
+        let found = areas(side);
+        assert!(found.iter().zip(usual).all(|(a, b)| (a - b).abs() < 0.5), "{side}: {found:?} instead of {usual:?}");
+    }
 }

@@ -81,7 +81,9 @@ pub(in crate::lines) fn nearest_hits(
     let Some(nearest) = hits.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)).copied() else { return hits };
     let [a, b, c] = faces.corners(nearest.place);
     let point = a * nearest.weights[0] + b * nearest.weights[1] + c * nearest.weights[2];
-    hits.retain(|hit| hit.place == nearest.place || FacePlane::new(space, faces, hit.place).touches(point));
+    let of_nearest = FacePlane::exact(faces, nearest.place);
+    let touches = |place: u32| FacePlane::exact(faces, place).touches(space, &of_nearest, point);
+    hits.retain(|hit| hit.place == nearest.place || touches(hit.place));
     hits
 }
 

@@ -180,9 +180,9 @@ impl FacePlane {
         Some(FaceCrossing { faces: places, ends: [point; 2], is_line: false, piercings, touching: [None; 2] })
     }
 
-    /// Whether a point touches the plane.
-    pub(in crate::lines) fn touches(&self, point: DVec3) -> bool {
-        self.normal.dot(point - self.corners[0]).abs() <= self.loose
+    /// Whether a point of another face touches the plane.
+    pub(in crate::lines) fn touches(&self, space: &Space, other: &Self, point: DVec3) -> bool {
+        self.normal.dot(point - self.corners[0]).abs() <= self.contact(space, other) * self.normal_length
     }
 
     /// Whether a point of the plane lies in the face, or so near its rim that the error is at most a needless cut.

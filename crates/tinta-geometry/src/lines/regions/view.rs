@@ -229,13 +229,13 @@ impl<'a> View<'a> {
     fn uncovered(&self, lines: &LineIndex, line: usize, lowest: u32, piece: [f64; 2]) -> Vec<[f64; 2]> {
         let LineInput { space, faces, .. } = &self.input;
         let Feature { own, ends, weld, plane, .. } = lines.features[line];
-        let is_inside_a_face = matches!(own, Own::Faces(_));
-        let Some(image) = lines.images[line].filter(|_| is_inside_a_face || plane != NO_GROUP) else {
+        let around = if let Own::Faces([place, _]) = own { Some(FacePlane::exact(faces, place)) } else { None };
+        let Some(image) = lines.images[line].filter(|_| around.is_some() || plane != NO_GROUP) else {
             return vec![piece];
         };
-        let is_in_plane = |place: u32| match is_inside_a_face {
-            true => ends.iter().all(|end| FacePlane::new(space, faces, place).touches(*end)),
-            false => faces.plane(faces.numbers[place as usize]) == plane,
+        let is_in_plane = |place: u32| match &around {
+            Some(around) => ends.iter().all(|end| FacePlane::exact(faces, place).touches(space, around, *end)),
+            None => faces.plane(faces.numbers[place as usize]) == plane,
         };
         let probed = (ProbedLine::new(faces, own, ends, weld), ends);
         let probe = OccluderProbe::new(space, probed, &image, piece, SearchDepth::Any);
