@@ -1,4 +1,4 @@
-//! The pixel under the pointer, explained by a drawing thread: the newest question is asked when the last one is answered.
+//! The pixel under the pointer, explained by a drawing thread: the newest question follows the answer to the one before.
 
 use crate::error::Result;
 use crate::pixel::Explanation;

@@ -67,7 +67,7 @@ impl Job {
         Self { is_coarse: false, keeps_patches: false, ..self }
     }
 
-    /// The same view, whatever is drawn of it.
+    /// The same view in other styles.
     pub(in crate::window) fn of(&self, drawings: Vec<(Side, Request)>) -> Self {
         Self { drawings, has_strokes: [false; 2], found: [None, None], ..self.clone().at_rest() }
     }
@@ -97,19 +97,19 @@ impl Job {
     }
 }
 
-/// What was found for a side.
+/// The strokes and shadow of a side.
 #[derive(Debug, Clone)]
 pub enum Lines {
     /// Lines alone, as a picture.
     Alone(Picture),
-    /// What lies around a picture of passes.
+    /// The strokes above a picture of passes, and the shadow below.
     Around(Arc<Around>),
 }
 
 /// Lines that were found.
 #[derive(Debug)]
 pub struct Found {
-    /// The view, and what was searched for in it.
+    /// The view, and the requests of its sides.
     pub job: Job,
     /// The lines of each of its drawings.
     pub lines: Vec<Lines>,
@@ -118,7 +118,7 @@ pub struct Found {
 }
 
 impl Found {
-    /// What was found for a side, and for which request.
+    /// The strokes and shadow of a side, and their request.
     pub(in crate::window) fn of_side(&self, side: Side) -> Option<(&Request, &Lines)> {
         let place = self.job.drawings.iter().position(|(of, _)| *of == side)?;
         Some((&self.job.drawings[place].1, &self.lines[place]))

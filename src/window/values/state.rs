@@ -22,7 +22,7 @@ pub struct ViewerState {
     pub models: Vec<String>,
     /// The view of them.
     pub orbit: Orbit,
-    /// What each side draws. Its options keep what was said of other styles, too. Scene and reading are the same on both sides; a
+    /// The request of each side. It keeps the options of other styles, too. Scene and reading are the same on both sides; a
     /// pane gives the scene's size, and the orbit its view.
     pub(in crate::window) requests: [Request; 2],
     /// The side that number keys and the panel are for.
@@ -113,7 +113,7 @@ pub enum Content {
     Difference,
 }
 
-/// What a request draws, whatever the scene.
+/// The contents of a request's drawing in any scene.
 fn of_any_scene(Request { style, show, exact_lines, options, .. }: Request) -> Request {
     Request { style, show, exact_lines, options, ..Request::default() }
 }
@@ -158,7 +158,7 @@ impl ViewerState {
         if has_vectors { request } else { controls::in_style(&request, StyleName::Lines) }
     }
 
-    /// What a side says of parts: all pictures follow the rules for surfaces.
+    /// A side's rules for parts: all pictures follow the rules for surfaces.
     pub(in crate::window) fn part_rules(&self, side: Side) -> PartRules {
         let lines = controls::in_style(&self.requests[side as usize], StyleName::Lines).style.lines();
         lines.map(|style| style.lines.parts).unwrap_or_default()
@@ -393,7 +393,7 @@ impl ViewerState {
         known.get((index + 1) % known.len().max(1)).copied().unwrap_or_default()
     }
 
-    /// What a look or a preset draws on a side; it replaces all that was said of the side. A layer without a style keeps the drawn
+    /// The options of a look or a preset for a side; they replace all earlier ones. A layer without a style keeps the drawn
     /// one, and reading stays.
     fn of_layer(&self, side: Side, layer: OptionLayer) -> DrawingResult<Request> {
         let own = &self.requests[side as usize];

@@ -40,7 +40,7 @@ pub(super) fn cases() -> Vec<Case> {
         ("a near plane a hundredth of a unit before the eye", planes(Some(0.01), Some(10.0), looking(eye, middle))),
     ];
     all.extend(drawn.map(|(name, camera)| rendered(name, cube(camera))));
-    // A thousandth of the far plane's distance, which a near plane has by itself, would cut this box.
+    // The default near plane, a thousandth of the far plane's distance, would cut this box.
     let near = |near| Drawing {
         shape: Shape::OnAFloor,
         camera: planes(near, None, looking(DVec3::new(0.1, 1.2, 0.4), DVec3::new(0.0, 0.9, 0.2))),
@@ -92,7 +92,7 @@ pub(super) fn terraces(ratio: f64, variants: Vec<Variant>) -> Drawing {
     Drawing { shape: Shape::Terraces, camera, variants, ..Drawing::default() }
 }
 
-/// Pictures in which nothing is seen, which the program says.
+/// Empty pictures, of which the program tells.
 fn empty() -> Vec<Case> {
     let (front, middle) = (DVec3::new(0.5, 0.5, 5.0), DVec3::splat(0.5));
     let planes = |near, far| CameraSettings { near: Some(near), far: Some(far), ..looking(front, middle) };
