@@ -283,10 +283,14 @@ mod tests {
     use crate::styles::StyleName;
 
     fn request(light: &str) -> Request {
+        request_with(light, &[])
+    }
+
+    fn request_with(light: &str, more: &[(&str, &str)]) -> Request {
         let options =
             [("tone-light", light), ("tone-thresholds", "0.2,0.56"), ("normals", "lasting"), ("view", "30,23")];
-        let options = options.map(|(name, value)| (name.to_owned(), OptionValue::text(value)));
-        let layers = [OptionLayer::Style(StyleName::Ink), OptionLayer::Given(options.into_iter().collect())];
+        let options = options.iter().chain(more).map(|(name, value)| ((*name).to_owned(), OptionValue::text(*value)));
+        let layers = [OptionLayer::Style(StyleName::Ink), OptionLayer::Given(options.collect())];
         Request::from_layers(&layers).unwrap().0.with_models(vec!["builtin:bust".to_owned()])
     }
 
@@ -322,10 +326,8 @@ mod tests {
     #[test]
     fn the_light_moves_no_line() {
         let found = |light: &str, silhouette: &str| {
-            let mut asked = request(light);
-            let more = [("look", "print"), ("tone-light", light), ("classes", "all"), ("silhouette", silhouette)];
-            let options = more.map(|(name, value)| (name.to_owned(), OptionValue::text(value)));
-            asked = Request::from_given(&options.into_iter().collect()).unwrap().with_models(asked.models);
+            let more = [("classes", "all"), ("silhouette", silhouette)];
+            let asked = request_with(light, &more);
             let resolved = asked.resolve(meshes(&asked), true).unwrap();
             let drawn = resolved.drawn_lines(Wanted::default(), &crate::lines::Progress::default()).unwrap();
             assert!(!Arc::ptr_eq(&resolved.lit().objects[0].mesh, &resolved.scene.objects[0].mesh), "patches go");

@@ -2,11 +2,10 @@
 
 use super::cases::{Drawing, Study, side_px};
 use super::figures::{
-    Exact, Figures, covered_px, darkness, differing_px, doubled_pairs, non_finite, popped, shades_popped,
+    ANSWERS, Exact, Figures, covered_px, darkness, differing_px, doubled_pairs, non_finite, popped, shades_popped,
 };
 use super::jitter::{Flips, Popped, flips, jittered};
 use super::outcome::Outcome;
-use super::run::ANSWERS;
 use super::variants::Variant;
 use crate::compare::InkMask;
 use crate::measure::{Ink, LineError, shading_of};

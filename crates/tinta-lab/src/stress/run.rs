@@ -1,7 +1,7 @@
 //! Runs cases, several at once, and judges them.
 
 use super::cases::{Case, Expected, Group, Work, cases};
-use super::figures::Figures;
+use super::figures::{ANSWERS, Figures};
 use super::outcome::Outcome;
 use super::{drawing, failing, reading};
 use serde::Serialize;
@@ -128,10 +128,6 @@ impl Summary {
 const ALWAYS_NONE: [&str; 5] =
     ["non_finite", "pruned_differing_px", "backends_differing_px", "edges_flipped_unexplained", "silently_empty"];
 
-/// Figures that compare with a right answer wherever they are known, and the most that each may be.
-pub(super) const ANSWERS: [(&str, f64); 3] =
-    [("off_closed_form", 0.02), ("shades_differing", 0.01), ("look_lines_off", 0.03)];
-
 impl Expected {
     fn text(&self) -> String {
         match self {
@@ -248,8 +244,11 @@ pub fn run(settings: &StressSettings, mut progress: impl FnMut(usize, usize)) ->
     Ok(Summary { version: env!("CARGO_PKG_VERSION"), renderers, missing, case_count: count, cases })
 }
 
+/// A backend and its renderer's name.
+type Named = (Backend, String);
+
 /// The available ones of the requested backends with their renderers' names, and the missing ones; an error if none opens.
-fn find(asked: &[Backend]) -> Result<(Vec<(Backend, String)>, Vec<MissingBackend>)> {
+fn find(asked: &[Backend]) -> Result<(Vec<Named>, Vec<MissingBackend>)> {
     let (mut found, mut missing, mut all_attempts) = (Vec::new(), Vec::new(), Vec::new());
     for backend in asked {
         match Renderer::new(*backend) {
