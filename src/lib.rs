@@ -113,9 +113,7 @@
 // Floors, from the ground up: a module uses only those above it in this list (`tests/documents/floors.rs`).
 
 // Geometry without GL: from a file to visible lines. A separate crate with its own list of floors.
-#[cfg(feature = "window")]
-use tinta_geometry::threads;
-use tinta_geometry::{bytes, clock, files, markup, values};
+use tinta_geometry::{bytes, clock, files, markup, threads, values};
 #[doc(no_inline)]
 pub use tinta_geometry::{camera, edges, error, lines, scene, settings};
 #[doc(hidden)]

@@ -66,7 +66,8 @@ impl Pieces {
         let count = soup.polygon_count();
         let pieces = in_parallel(count, threads_for(count), |polygons| {
             let mut pieces = Self { first: polygons.start, ..Self::default() };
-            pieces.reserve(polygons.len(), soup);
+            // The first has room for all.
+            pieces.reserve(if polygons.start == 0 { count } else { polygons.len() }, soup);
             let mut knife = Knife::default();
             let corners_of = |polygon: usize| match starts.as_slice() {
                 [] => &soup.corners[polygon * 3..][..3],
@@ -87,7 +88,6 @@ impl Pieces {
         });
         let mut pieces = pieces.into_iter();
         let mut all = pieces.next().unwrap_or_default();
-        all.reserve(count.saturating_sub(all.triangles.len()), soup);
         pieces.for_each(|piece| all.append(piece));
         all
     }
