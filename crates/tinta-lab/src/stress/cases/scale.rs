@@ -9,12 +9,12 @@ pub(super) fn cases() -> Vec<Case> {
     let mut all = sizes_and_places();
     let smaller = Shape::CubeAndSmaller(1e6);
     all.push(rendered("a cube and one a million times smaller", Drawing { shape: smaller, ..Drawing::default() }));
-    // A millionth of a unit wide, seen from three millionths away, with the large cube's front behind it. The smaller cube's faces
-    // must be seen there by rays and in areas, too, as by GL.
-    let middle = DVec3::new(0.5, 0.5, 1.0 + 1.5e-6);
-    let camera = looking(middle + DVec3::new(1.5e-6, 1e-6, 3e-6), middle);
-    let camera = CameraSettings { near: Some(1e-6), ..camera };
-    let near = Drawing { shape: smaller, camera, ..Drawing::default() };
+    // A hundred thousandth of a unit wide, seen from three away, with the large cube's front behind it. The smaller cube's faces must
+    // be seen there by rays and in areas, too, as by GL. One a tenth as wide is hardly wider than the distance at which positions are one.
+    let middle = DVec3::new(0.5, 0.5, 1.0 + 1.5e-5);
+    let camera = looking(middle + DVec3::new(1.5e-5, 1e-5, 3e-5), middle);
+    let camera = CameraSettings { near: Some(1e-5), ..camera };
+    let near = Drawing { shape: Shape::CubeAndSmaller(1e5), camera, ..Drawing::default() };
     all.push(rendered("the smaller cube seen from nearby", near).with("lines_px", 100.0, 600.0));
     all.push(rendered("flat in one axis", Drawing { shape: Shape::Flat(12), ..Drawing::default() }));
     let edge_on = Drawing { shape: Shape::Flat(12), camera: viewed("right"), ..Drawing::default() };
