@@ -125,6 +125,7 @@ impl ViewerState {
     }
 
     /// Draws this on the left side, and its style's neighbour in the options of the right one; its scene and reading are both sides'.
+    #[cfg(feature = "cli")]
     pub(crate) fn put_request(&mut self, request: &Request) {
         self.put_scene(request.scene.clone());
         let right = Request { exact_lines: false, ..controls::in_style(request, self.style(Side::Right).style_name()) };
