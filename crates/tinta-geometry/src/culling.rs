@@ -17,7 +17,7 @@
 //! ```
 
 use crate::mesh::{Part, VertexArrays};
-use crate::threads::{filled, threads_for};
+use crate::threads::{filled, threads_for, threads_for_items};
 use crate::tolerances::{CLIP_ROUNDING, SUBPIXEL_STEPS};
 use crate::values::Size;
 use glam::{Mat4, Vec2, Vec3, Vec3Swizzles, Vec4Swizzles};
@@ -69,7 +69,7 @@ pub(crate) fn moved(subpixel_bits: u32) -> f32 {
 /// Returns the vertices' places in the window, pixels, and their depths from 0 to 1; NaN for a vertex that the near or far plane may
 /// cut off.
 pub(crate) fn window_places(arrays: &VertexArrays, clip_from_object: Mat4, half: Vec2) -> Vec<Vec3> {
-    let threads = threads_for(arrays.vertices.len());
+    let threads = threads_for_items(arrays.vertices.len());
     filled(arrays.vertices.len(), threads, Vec3::ZERO, |vertex| {
         let [x, y, z, ..] = arrays.vertices[vertex];
         let clip = clip_from_object * Vec3::new(x, y, z).extend(1.0);

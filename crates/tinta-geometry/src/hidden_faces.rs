@@ -20,7 +20,7 @@
 
 use crate::culling::{DrawnFaces, moved, window_places, without};
 use crate::scene::Scene;
-use crate::threads::{each_piece, filled, listed, threads_for};
+use crate::threads::{each_piece, filled, listed, threads_for_items};
 use crate::values::Size;
 use glam::{Mat4, Vec2, Vec3, Vec3Swizzles, Vec4};
 use std::ops::Range;
@@ -46,7 +46,7 @@ const GROUP: usize = 4;
 
 /// The threads for so many faces and pixels of their boxes: a face takes as long as several simple items, a pixel less than one.
 fn threads(faces: usize, pixels: usize) -> usize {
-    threads_for(8 * faces + pixels / 8)
+    threads_for_items(8 * faces + pixels / 8)
 }
 
 /// Returns for each object the faces that may own a pixel, `None` where all may. A face that reaches the near or the far plane stays,

@@ -4,13 +4,21 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
+/// Number of faces below which a second thread costs more than it gains.
+const FACES_WORTH_A_THREAD: usize = 100_000;
+
 /// Returns the number of threads the machine runs at once.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Returns the number of threads worth starting for this many faces, edges or points.
-pub(crate) fn threads_for(count: usize) -> usize {
+/// Returns the number of threads worth starting for this many faces.
+pub(crate) fn threads_for(faces: usize) -> usize {
+    cores().min(faces / FACES_WORTH_A_THREAD).max(1)
+}
+
+/// Returns the number of threads worth starting for this many simple items, such as points.
+pub(crate) fn threads_for_items(count: usize) -> usize {
     const ITEMS_WORTH_A_THREAD: usize = 20_000;
     cores().min(count / ITEMS_WORTH_A_THREAD).max(1)
 }

@@ -9,7 +9,7 @@ use super::classes::CREASES;
 use super::usual_angles::UsualAngles;
 use super::{Class, ClassSet, Classes, CreaseAngle, EdgeList};
 use crate::mesh::{Mesh, triangle_normal};
-use crate::threads::{filled, threads_for};
+use crate::threads::{filled, threads_for, threads_for_items};
 use glam::DVec3;
 
 /// Least length of a lasting crease, as a share of the diagonal of the model's box.
@@ -107,7 +107,7 @@ impl LastingCreases {
                 () => Sharpness::Blunt,
             }
         };
-        let of_asked = filled(asked.len(), threads_for(asked.len()), Sharpness::Blunt, |at| found_at(asked[at]));
+        let of_asked = filled(asked.len(), threads_for_items(asked.len()), Sharpness::Blunt, |at| found_at(asked[at]));
         asked.iter().zip(of_asked).for_each(|(edge, found)| sharpness[*edge as usize] = found);
         found(at_less, sharpness)
     }

@@ -5,7 +5,7 @@ use crate::lines::eye::planes;
 use crate::lines::eye::space::{Space, at_depth};
 use crate::mesh::Mesh;
 use crate::scene::{Object, Scene};
-use crate::threads::{cores, filled, in_chunks, threads_for};
+use crate::threads::{cores, filled, in_chunks, threads_for_items};
 use crate::thresholds::THRESHOLDS;
 use crate::tolerances::{CONTACT, MARGIN_PX, WELD};
 use glam::{DVec2, DVec3};
@@ -67,7 +67,7 @@ impl Faces {
             objects.push(FacesOfObject { first_position, first_face, weld });
             first_face += mesh.triangles.len() as u32;
             let view = |index: usize| space.view(mesh.positions[index] + object.offset);
-            positions.extend(filled(mesh.positions.len(), threads_for(mesh.positions.len()), DVec3::ZERO, view));
+            positions.extend(filled(mesh.positions.len(), threads_for_items(mesh.positions.len()), DVec3::ZERO, view));
         }
         let sorted = SortedFaces::of(space, meshes, &objects, &positions);
         let (tree, order) = BoxTree::new(&sorted.boxes);
@@ -76,7 +76,7 @@ impl Faces {
             let (object, face) = in_object(&objects, numbers[place]);
             meshes[object].1.triangles[face as usize].map(|corner| corner + objects[object].first_position)
         };
-        let triangles = filled(numbers.len(), threads_for(numbers.len()), [0; 3], triangle);
+        let triangles = filled(numbers.len(), threads_for_items(numbers.len()), [0; 3], triangle);
         let is_cut = |place: &u32| sorted.cut_by_near.binary_search(&numbers[*place as usize]).is_ok();
         let cut_by_near =
             if sorted.cut_by_near.is_empty() { Vec::new() } else { (0..numbers.len() as u32).filter(is_cut).collect() };
@@ -185,7 +185,7 @@ struct SortedFaces {
 impl SortedFaces {
     /// Sorts the faces of all objects.
     fn of(space: &Space, meshes: &[(&Object, Arc<Mesh>)], objects: &[FacesOfObject], positions: &[DVec3]) -> Self {
-        let projected = filled(positions.len(), threads_for(positions.len()), (DVec2::ZERO, 0.0), |index| {
+        let projected = filled(positions.len(), threads_for_items(positions.len()), (DVec2::ZERO, 0.0), |index| {
             let view: DVec3 = positions[index];
             // Parts that are not in front of the near plane are cut off there first.
             if -view.z >= space.near { space.project(view) } else { (DVec2::NAN, f64::NAN) }

@@ -2,7 +2,7 @@
 //! skip such pairs as a group.
 
 use crate::bvh::{Box3, NO_GROUP};
-use crate::threads::{filled, threads_for};
+use crate::threads::{filled, threads_for_items};
 use crate::thresholds::THRESHOLDS;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -44,7 +44,7 @@ pub(in crate::lines) fn planes(
         let steps = |value: f64| (value / step).round() as i64;
         Some([normal.x * radius, normal.y * radius, normal.z * radius, normal.dot(a - centre)].map(steps))
     };
-    let keys = filled(large.len(), threads_for(large.len()), None, |index| plane(large[index]));
+    let keys = filled(large.len(), threads_for_items(large.len()), None, |index| plane(large[index]));
     // Most scenes have no such plane. This shows early where few keys share a remainder.
     let remainders = keys.len().next_power_of_two();
     let remainder = |key: &[i64; 4]| mix(key) as usize & (remainders - 1);

@@ -10,7 +10,7 @@ use crate::lines::eye::face_pair::FacePlane;
 use crate::lines::eye::faces::Faces;
 use crate::lines::eye::projected_face::ProjectedFace;
 use crate::lines::eye::space::Space;
-use crate::threads::{cores, filled, in_chunks, threads_for};
+use crate::threads::{cores, filled, in_chunks, threads_for_items};
 use crate::thresholds::THRESHOLDS;
 use glam::DVec2;
 
@@ -287,7 +287,7 @@ impl Pyramid {
     /// Returns for each face whether any part of it may be visible.
     pub(in crate::lines) fn seen(&self, space: &Space, faces: &Faces) -> Vec<bool> {
         let boxes = faces.tree.boxes();
-        filled(boxes.len(), threads_for(boxes.len()), false, |place| {
+        filled(boxes.len(), threads_for_items(boxes.len()), false, |place| {
             let [low, high] = boxes[place].corners();
             if !self.hides(low.truncate(), high.truncate(), low.z) {
                 let is_small = (high - low).truncate().max_element() <= 2.0 * self.cell_px;

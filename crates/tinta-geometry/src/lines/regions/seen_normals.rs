@@ -5,7 +5,7 @@
 
 use crate::lines::eye::space::Space;
 use crate::scene::{Object, Scene};
-use crate::threads::{filled, in_parallel, threads_for};
+use crate::threads::{filled, in_parallel, threads_for, threads_for_items};
 use glam::{DVec2, Vec3};
 
 /// The longest side of the picture, pixels.
@@ -110,7 +110,7 @@ impl SeenNormals {
 pub(super) fn places(object: &Object, space: &Space) -> Vec<(DVec2, f64)> {
     let positions = &object.mesh.positions;
     let scale = scale(space);
-    filled(positions.len(), threads_for(positions.len()), (DVec2::ZERO, 0.0), |position| {
+    filled(positions.len(), threads_for_items(positions.len()), (DVec2::ZERO, 0.0), |position| {
         let point = space.view(positions[position] + object.offset);
         if -point.z <= space.near {
             return (DVec2::NAN, f64::NAN);

@@ -17,7 +17,7 @@ use crate::lines::visible::contact::ProbedLine;
 use crate::lines::visible::half_planes::{HalfPlanes, SplitEdges};
 use crate::lines::visible::nearest_faces::NearestFaces;
 use crate::lines::visible::search::Search;
-use crate::threads::{cores, filled, in_chunks, spread_chunks, threads_for};
+use crate::threads::{cores, filled, in_chunks, spread_chunks, threads_for_items};
 use crate::thresholds::THRESHOLDS;
 use crate::tolerances::{CONTACT, SAME_PLACE};
 use glam::DVec3;
@@ -196,7 +196,7 @@ fn around_high_valence(
             Box3::new(low - margin, high + margin)
         })
     };
-    let sides = filled(faces.high_valence.len(), threads_for(faces.high_valence.len()), None, side_box);
+    let sides = filled(faces.high_valence.len(), threads_for_items(faces.high_valence.len()), None, side_box);
     let boxes = faces.tree.boxes();
     let add_of = |place: usize, kept: &mut Findings| {
         let Some(side) = sides[place].filter(|_| !progress.is_over()) else { return };

@@ -10,7 +10,7 @@
 use super::patches::{Neighbours, Patches};
 use super::persistent_creases::PersistentCreases;
 use crate::mesh::NONE;
-use crate::threads::{filled, threads_for};
+use crate::threads::{filled, threads_for_items};
 use glam::{DVec3, Vec3};
 
 /// How far at least where a longer way would erase form, in shares of the diagonal of the model's box.
@@ -231,7 +231,7 @@ struct Diffusion<'a> {
 
 impl<'a> Diffusion<'a> {
     fn new(neighbours: &'a Neighbours, places: &[Vec3]) -> Self {
-        let (count, threads) = (places.len(), threads_for(places.len()));
+        let (count, threads) = (places.len(), threads_for_items(places.len()));
         let length = |part: usize, other: &u32| places[*other as usize].distance(places[part]).max(f32::MIN_POSITIVE);
         let mut weights = Vec::with_capacity(neighbours.range(count - 1).end);
         (0..count).for_each(|part| weights.extend(neighbours.of(part).iter().map(|other| length(part, other).recip())));
@@ -244,7 +244,7 @@ impl<'a> Diffusion<'a> {
 
     /// Spreads values by the mean square distance `spread`, at least by the square of `least` distances to neighbours.
     fn spread(&self, values: &mut Vec<Vec3>, spread: f32, rounds: usize, least: f32) {
-        let (count, threads) = (values.len(), threads_for(values.len()));
+        let (count, threads) = (values.len(), threads_for_items(values.len()));
         // How far a value moves to the mean of its neighbours' in a round, over the sum of these weights. The mean square distance,
         // weighted likewise, is the sum of the distances over that of the weights.
         let steps = filled(count, threads, 0.0, |part| {
