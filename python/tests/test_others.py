@@ -308,6 +308,7 @@ class TestPyVista:
         plotter.add_point_labels([(0, 0, 1), (0, 0, 0)], ["above", "inside"])
         plotter.add_text("a cube\nof one")
         plotter.add_text("here", position=(0.25, 0.5), viewport=True)
+        plotter.add_text("small", position=(0.5, 0.5), viewport=True, font_size=5, color="red")
         plotter.add_legend()
         lines = tn.pv.lines(plotter)
         assert [(label["text"], label["visible"]) for label in lines.labels] == [("above", True), ("inside", False)]
@@ -317,7 +318,10 @@ class TestPyVista:
             text = file.read()
         for word in (">a cube<", ">of one<", ">here<", ">cube<", ">above<"):
             assert word in text, word
-        assert ">inside<" not in text and '<text x="80" y="117.6"' in text and "#d2b48c" in text
+        assert ">inside<" not in text and "#d2b48c" in text
+        # PyVista's letters are twice as high as its font size; this theme's colour is that of labels.
+        assert '<text x="80" y="112.8" font-size="36" fill="#000000">here<' in text
+        assert '<text x="160" y="118" font-size="10" fill="#ff0000">small<' in text
         for ending in ("pdf", "png", "json"):
             tn.pv.export_svg(plotter, f"texts.{ending}")
         plotter.close()
