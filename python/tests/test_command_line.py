@@ -23,7 +23,7 @@ import tinta_npr as tn
             ("--classes", "silhouette,boundary", "--class-colors", "silhouette=rgb(255 0 0)", "--class-widths", "outline=4"),
             {"classes": ["silhouette", "boundary"], "class_colors": {"silhouette": (1, 0, 0)}, "class_widths": {"outline": 4}},
         ),
-        (("--page", "A4", "--provenance", "--min-length", "1mm"), {"page": "A4", "provenance": True, "min_length": "1mm"}),
+        (("--page", "A4", "--pen", "--min-length", "1mm"), {"page": "A4", "pen": True, "min_length": "1mm"}),
         (("--weld", "0", "--normals", "flat", "--up-axis", "z"), {"weld": 0, "normals": "flat", "up_axis": "z"}),
     ],
 )

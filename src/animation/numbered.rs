@@ -41,7 +41,7 @@ impl NumberedName {
     }
 
     /// Returns the number in a name of this pattern.
-    pub fn number_in(&self, name: &str) -> Option<u32> {
+    pub(crate) fn number_in(&self, name: &str) -> Option<u32> {
         let number = name.strip_prefix(&self.before)?.strip_suffix(&self.after)?.parse().ok()?;
         (self.with(number) == name).then_some(number)
     }

@@ -14,16 +14,6 @@ use std::path::Path;
 /// The longest part of clap's message that is printed, in characters.
 const LONGEST_SENTENCE: usize = 400;
 
-/// Commands of earlier versions, and what took their place.
-const GONE_COMMANDS: [(&str, &str); 6] = [
-    ("completions", "tinta generate bash prints completions, for zsh and fish too"),
-    ("edges", "tinta info MODEL counts a model's edges by class"),
-    ("looks", "tinta render MODEL --look all -o DIR draws every look, and tinta render --help lists them"),
-    ("man", "tinta generate man -o DIR writes the manual pages"),
-    ("provenance", "docs/texts/errata.md says whose each value is"),
-    ("textures", "tinta figures draws charcoal's textures and the ramp"),
-];
-
 /// Turns clap's error about these words, the program's name first, into a sentence; `whole` is the command that parsed them.
 pub(super) fn sentence(error: &clap::Error, whole: &Command, words: &[OsString]) -> String {
     let command = words.iter().skip(1).find_map(|word| whole.find_subcommand(word)).unwrap_or(whole);
@@ -76,17 +66,8 @@ fn texts(error: &clap::Error, kind: ContextKind) -> Option<&[String]> {
     }
 }
 
-/// What took the place of a command of an earlier version; `None` for any other name.
-fn gone_command(name: &str) -> Option<String> {
-    let (_, instead) = GONE_COMMANDS.iter().find(|(gone, _)| *gone == name)?;
-    Some(format!("the command {name} is gone; {instead}"))
-}
-
 fn unknown_command(error: &clap::Error, whole: &Command) -> Option<String> {
     let name = text(error, ContextKind::InvalidSubcommand)?;
-    if let Some(problem) = gone_command(name) {
-        return Some(problem);
-    }
     if is_drawn_into(name) {
         let model = ["obj", "stl", "ply", "glb"].map(|ending| Path::new(name).with_extension(ending));
         if let Some(model) = model.iter().find(|model| model.is_file()) {

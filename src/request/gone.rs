@@ -8,15 +8,14 @@ use crate::styles::StyleName;
 const CONTOURS: &str = "--style lines --classes silhouette,boundary,crease,suggestive draws suggestive contours";
 
 /// Options of earlier versions, and what took their place.
-const GONE: [(&str, &str); 8] = [
+const GONE: [(&str, &str); 7] = [
     ("apparent-ridge-threshold", "apparent ridges are gone; --classes ridge,valley draws ridges in any view"),
     ("crease-by", "--exact-lines draws the lines that print drew by it, with --lasting-creases those of scans"),
-    ("partial", "--within alone writes all lines, or no file if the time is over"),
+    ("provenance", "-o drawing.json has each line's class, object, edge and angle"),
     ("remove-specks", "--quality best removes specks, and exact lines have none"),
     ("valley-depth", CONTOURS),
     ("valley-radius", CONTOURS),
     ("valley-share", CONTOURS),
-    ("variable", "tinta why MODEL X,Y -o sheet.png shows a pixel's variables in every step"),
 ];
 
 /// Why an option of an earlier version is unknown, and what took its place; `None` for any other name.

@@ -86,7 +86,6 @@ fn a_sheet_that_cannot_be_made_is_refused_in_one_sentence() {
     };
     refused(&["32,32", "-o", "a.svg"], &["a.svg", "pictures are not written as .svg", "png"]);
     refused(&["32,32", "-o", "a.npy"], &["a.npy", "pictures are not written as .npy"]);
-    refused(&["32,32", "--variable", "color"], &["--variable: this option is gone; tinta why MODEL X,Y -o sheet.png"]);
     refused(&["32,32", "-o", "-", "--json"], &["cannot share standard output"]);
     refused(&["32,32", "-o", "no/such/a.png"], &["no/such"]);
 }

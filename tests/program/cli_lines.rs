@@ -214,7 +214,6 @@ fn nonsense_for_lines_is_refused_by_the_options_name() {
     refuse(&["--page", "A4", "--page", "margin=105"], &["--page margin=105mm", "105 millimetres"]);
     refuse(&["--page", "margin=10mm"], &["--page margin", "--page A4"]);
     refuse(&["--fit-curves", "0"], &["--fit-curves 0", "0.01 to 100"]);
-    refuse(&["--fit-curves", "0.5", "--provenance"], &["--fit-curves", "--provenance"]);
     refuse(&["--silhouette", "round"], &["--silhouette", "exact, smooth"]);
 }
 
@@ -359,10 +358,6 @@ fn a_pdf_of_a_sheet_is_written_the_same_every_time() {
     let text = String::from_utf8_lossy(&bytes);
     assert!(text.starts_with("%PDF-1.") && text.contains("visible outline") && text.contains("drawing.pdf"));
     assert!(text.contains("[0 0 419.52756 595.27559]") || text.contains("[0 0 419.52756 595.2756]"), "A5, upright");
-    refused_in_one_line(
-        &["render", "builtin:gear", "-o", &first, "--provenance"],
-        &["--provenance", "a .pdf file has no place for it"],
-    );
 }
 
 #[test]
@@ -484,7 +479,7 @@ fn lines_that_are_not_found_in_time_end_with_a_sentence_and_no_file() {
         refused_in_one_line(&[&["render", "builtin:gear", "-o", &folder.path(out)][..], more].concat(), words);
     };
     of("a.svg", &["--within", "0"], &["--within", "above 0"]);
-    of("a.svg", &["--within", "5", "--partial"], &["--partial: this option is gone; --within alone"]);
+    of("a.svg", &["--provenance"], &["--provenance: this option is gone; -o drawing.json has each line's class"]);
     of("a.png", &["--style", "ink", "--within", "5"], &["--within", "exact lines"]);
 }
 

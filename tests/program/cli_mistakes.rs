@@ -27,7 +27,7 @@ const FILES: [(&str, &str); 16] = [
 ];
 
 /// Command lines and their errors.
-const MISTAKES: [(&str, &str); 120] = [
+const MISTAKES: [(&str, &str); 119] = [
     ("redner", "there is no command redner; did you mean render?"),
     ("render", "a model and --output are missing: tinta render cow.obj -o cow.png; see --help"),
     ("render triangle.obj", "--output is missing; name the picture to write: -o triangle.png; see --help"),
@@ -317,10 +317,6 @@ const MISTAKES: [(&str, &str); 120] = [
     ("info triangle.obj other.obj", "tinta info takes one model; other.obj is one too many; see --help"),
     ("info --crease-angle 30", "--crease-angle: it counts a model's edges; name the model; see --help"),
     ("render triangle.obj --look all -o out.png", "out.png: --look all draws a picture in each look; name a folder"),
-    (
-        "looks triangle.obj",
-        "the command looks is gone; tinta render MODEL --look all -o DIR draws every look, and tinta render --help lists them; see --help",
-    ),
     (
         "compare triangle.obj -o out.png --left phong",
         "--left phong: this style has no lines to compare; choose one of three-pass, two-pass, mrt, inking, dietrich, ink, back-faces, print, technical, sketch",

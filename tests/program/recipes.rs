@@ -54,7 +54,7 @@ fn pictures_of_every_kind_are_made_again_byte_for_byte() {
                 first,
             ],
         ),
-        ("svg", &["--style", "lines", "--hidden", "dashed", "--class-colors", "silhouette=red", "--provenance"]),
+        ("svg", &["--style", "lines", "--hidden", "dashed", "--class-colors", "silhouette=red"]),
         ("svg", &["--style", "lines", "--pen", "--page", "dpi=96.5", "--background", "transparent"]),
     ] {
         let [first, second] = ["first", "second"].map(|name| folder.path(&format!("{name}.{kind}")));

@@ -70,5 +70,6 @@ pub use section::{Cut, SECTION, SectionPlane, SectionPlanes};
 pub(crate) use shells::Shells;
 pub use triangle_mesh::{EmbeddedPicture, Material, Mesh, NONE, NamedPart, TextureAlpha, bounds};
 pub(crate) use triangle_mesh::{face_normals, triangle_normal};
+pub(crate) use up_axis_guess::hull;
 pub use vertices::{Part, VertexArrays};
 pub(crate) use weld::weld;

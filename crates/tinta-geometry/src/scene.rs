@@ -40,7 +40,7 @@ use crate::error::{Error, Result};
 use crate::limits::DRAWN_PIXELS;
 use crate::mesh::{Material, Mesh, VertexArrays, bounds};
 use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
-use crate::tolerances::SCENE_RADIUS;
+use crate::tolerances::{BASE_DEPTH, SCENE_RADIUS};
 use glam::{DMat4, DVec3, Mat4, Vec3};
 use std::sync::{Arc, LazyLock, OnceLock, Weak};
 
@@ -302,6 +302,12 @@ impl Scene {
     /// The height of the lowest point, y up.
     pub(crate) fn lowest(&self) -> f64 {
         self.objects.iter().flat_map(Object::box_corners).map(|corner| corner.y).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether one of the objects that are lowest stands.
+    pub fn stands(&self) -> bool {
+        let ground = self.lowest() + BASE_DEPTH * self.extent().y;
+        self.objects.iter().any(|object| object.offset.y + object.mesh.bounds().0.y <= ground && object.mesh.stands())
     }
 
     /// Objects with the given centre and radius, under these settings.

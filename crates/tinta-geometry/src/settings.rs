@@ -75,12 +75,11 @@ pub fn rule_text(name: &str, settings: Vec<(String, OptionValue)>) -> String {
 }
 
 /// Mutually exclusive settings: each with those that it excludes.
-pub const EXCLUSIVE: [(&str, &[&str]); 10] = [
+pub const EXCLUSIVE: [(&str, &[&str]); 9] = [
     ("eye", &["view"]),
     ("transparent", &["background"]),
     ("width-mm", &["dpi"]),
     ("page", &["width-mm", "dpi"]),
-    ("fit-curves", &["provenance"]),
     ("sheet", &["view", "eye", "target", "up", "height", "framing", "turntable"]),
     ("turntable", &["animate"]),
     ("animate", &["model-frame"]),

@@ -59,7 +59,7 @@ impl DrawingFormat {
 
     /// A picture's pixels.
     pub const PIXELS: Self = {
-        const PATHS: (&str, &str) = ("provenance pen fit-curves", "has pixels and no paths");
+        const PATHS: (&str, &str) = ("pen fit-curves", "has pixels and no paths");
         let lacks = &[PATHS, ("areas", "of exact lines has no areas")];
         Self { ending: "", is_of_lines_alone: false, lacks, content: DrawingContent::Pixels }
     };
@@ -68,16 +68,11 @@ impl DrawingFormat {
     pub const ALL: &'static [Self] = &[
         Self::SVG,
         #[cfg(feature = "pdf")]
-        Self {
-            ending: "pdf",
-            lacks: &[("provenance", "has no place for it")],
-            content: DrawingContent::Vectors(pdf::pdf_of_paths),
-            ..Self::SVG
-        },
+        Self { ending: "pdf", content: DrawingContent::Vectors(pdf::pdf_of_paths), ..Self::SVG },
         Self {
             ending: "dxf",
             is_of_lines_alone: true,
-            lacks: &[("provenance fit-curves areas", "holds polylines without curves, fills and their edges")],
+            lacks: &[("fit-curves areas", "holds polylines without curves, fills and their edges")],
             content: DrawingContent::Vectors(|lines, paths, areas, settings| {
                 Ok(dxf::dxf_of_paths(lines, paths, areas, settings)?.into())
             }),

@@ -1,7 +1,7 @@
 //! Whether a model seems to lie: put down on each of its six ends, it stands on one alone, and that end is not at the bottom.
 //!
 //! OBJ, PLY and STL do not say which axis is up. An animal stands on its feet and a bust on its base, and on nothing else. This only hints:
-//! parts of machines stand on several ends, and a slab may well stand on its edge.
+//! parts of machines stand on several ends, and a slab may well stand on its edge. What stands on its bottom has a shadow.
 
 use super::{Mesh, UpAxis};
 use crate::tolerances::{BASE_DEPTH, BASE_HEIGHT, BASE_MARGIN, BASE_SHARE};
@@ -30,6 +30,13 @@ pub(super) fn seems_to_lie(mesh: &Mesh, up: UpAxis) -> bool {
     // Most models do not stand there, and are done.
     stands(mesh, base, middle, BASE_MARGIN)
         && ends().filter(|end| *end != base).all(|end| !stands(mesh, end, middle, 0.0))
+}
+
+impl Mesh {
+    /// Whether it stands on its bottom: what touches the ground is wide, and the middle of the surface is above it.
+    pub(crate) fn stands(&self) -> bool {
+        stands(self, BOTTOM, middle_of_surface(self), 0.0)
+    }
 }
 
 /// All six, the bottom first: most models stand on it.
@@ -68,7 +75,7 @@ fn middle_of_surface(mesh: &Mesh) -> DVec3 {
 }
 
 /// The corners of the convex hull, counterclockwise (Andrew's monotone chain); fewer than three of points on a line.
-fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
+pub(crate) fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     points.dedup();
     let half = |points: &mut dyn Iterator<Item = &DVec2>| {

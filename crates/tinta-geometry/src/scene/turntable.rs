@@ -5,6 +5,7 @@
 use super::{FITTED_POINTS, Object, Scene};
 use crate::camera::{Camera, CameraSettings};
 use crate::error::{Error, Result};
+use crate::mesh::hull;
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -55,24 +56,13 @@ impl Scene {
             DVec2::new(up, (from_centre - axis * up).length())
         };
         let point_count: usize = self.objects.iter().map(|object| object.mesh.positions.len()).sum();
-        let mut points: Vec<DVec2> = if point_count <= FITTED_POINTS {
+        let points: Vec<DVec2> = if point_count <= FITTED_POINTS {
             let points = self.objects.iter().flat_map(|o| o.mesh.positions.iter().map(|point| *point + o.offset));
             points.map(outline).collect()
         } else {
             self.objects.iter().flat_map(Object::box_corners).map(outline).collect()
         };
-        points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-        let mut hull: Vec<DVec2> = Vec::new();
-        for point in points {
-            // Walk along the top from left to right and keep only right turns.
-            while let [.., a, b] = hull[..]
-                && (b - a).perp_dot(point - a) >= 0.0
-            {
-                hull.pop();
-            }
-            hull.push(point);
-        }
-        hull
+        hull(points)
     }
 }
 

@@ -163,15 +163,13 @@ fn pieces_are_chained_and_written_short() {
             segment(Class::Crease, true, at(k), at(k + 1))
         })
         .collect();
-    let text = svg(&lines(straight.clone()), &DrawingSettings::default()).unwrap();
+    let text = svg(&lines(straight), &DrawingSettings::default()).unwrap();
     assert_eq!(data(&text, "visible-crease"), ["M10 5L26.667 12.143"]);
-    let text = svg(&lines(straight), &DrawingSettings { has_provenance: true, ..DrawingSettings::default() }).unwrap();
-    assert_eq!(points(&data(&text, "visible-crease")[0]).len(), 51);
 }
 
 #[test]
 fn the_same_lines_are_the_same_bytes() {
-    let settings = DrawingSettings { hidden: Hidden::Ghost, has_provenance: true, ..DrawingSettings::default() };
+    let settings = DrawingSettings { hidden: Hidden::Ghost, ..DrawingSettings::default() };
     for is_for_pen in [false, true] {
         let settings = DrawingSettings { is_for_pen, ..settings.clone() };
         assert_eq!(svg(&drawing(), &settings).unwrap(), svg(&drawing(), &settings).unwrap());
@@ -222,23 +220,6 @@ fn any_command_and_title_can_be_read_back() {
     }
     let metadata = document.descendants().find(|node| node.has_tag_name("metadata")).unwrap();
     assert!(metadata.descendants().any(|node| node.tag_name().name() == "description"));
-}
-
-#[test]
-fn provenance_names_a_paths_edges_and_angles() {
-    let text = svg(&drawing(), &DrawingSettings { has_provenance: true, ..DrawingSettings::default() }).unwrap();
-    let document = Document::parse(&text).unwrap();
-    let path = |class: &str| {
-        let of_class = |node: &Node| node.attribute("data-class") == Some(class);
-        document.descendants().find(of_class).unwrap()
-    };
-    let silhouette = path("silhouette");
-    assert_eq!(silhouette.attribute("data-object"), Some("0"));
-    assert_eq!(silhouette.attribute("data-edges"), Some("100-100 100-20 20-20 100-20"));
-    assert_eq!(silhouette.attribute("data-angles"), Some("45.25 45.25 45.25 45.25"));
-    assert_eq!(path("intersection").attribute("data-edges"), Some("-"));
-    assert_eq!(path("intersection").attribute("data-angles"), Some("-"));
-    assert!(!svg(&drawing(), &DrawingSettings::default()).unwrap().contains("data-"));
 }
 
 #[test]
@@ -322,7 +303,7 @@ fn an_outline_is_a_layer_of_its_own_above_the_others_whatever_its_classes() {
     outlined.segments[0].class = Class::Boundary;
     let class_widths = "outline=3,silhouette=2.5".parse().unwrap();
     let class_colors = "outline=navy".parse().unwrap();
-    let settings = DrawingSettings { class_widths, class_colors, has_provenance: true, ..DrawingSettings::default() };
+    let settings = DrawingSettings { class_widths, class_colors, ..DrawingSettings::default() };
     let text = svg(&outlined, &settings).unwrap();
     assert_eq!(names(&text), ["visible-intersection", "visible-crease", "visible-outline"]);
     assert_eq!(data(&text, "visible-outline"), ["M100 10L100 70 20 70 20 10Z"]);
@@ -330,7 +311,6 @@ fn an_outline_is_a_layer_of_its_own_above_the_others_whatever_its_classes() {
     let layer = layers(&document).into_iter().last().unwrap();
     assert_eq!((layer.attribute("stroke"), layer.attribute("stroke-width")), (Some("#000080"), Some("3")));
     assert_eq!(layer.attribute((INKSCAPE, "label")), Some("visible outline"));
-    assert!(text.contains(r#"data-class="outline""#));
 }
 
 #[test]

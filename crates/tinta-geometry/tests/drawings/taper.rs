@@ -95,12 +95,11 @@ fn over_models_tips_are_as_long_as_what_their_lines_lost() {
 }
 
 #[test]
-fn a_pen_provenance_dxf_and_plain_values_keep_whole_lines() {
+fn a_pen_dxf_and_plain_values_keep_whole_lines() {
     let lines = lines(vec![segment(Crease, true, [20.0, 50.0], [80.0, 50.0])]);
     let tips = |settings: &DrawingSettings| svg(&lines, settings).unwrap().matches("stroke=\"none\"").count();
     assert_eq!(tips(&tapering()), 1);
     assert_eq!(tips(&DrawingSettings { is_for_pen: true, ..tapering() }), 0);
-    assert_eq!(tips(&DrawingSettings { has_provenance: true, ..tapering() }), 0);
     let whole = DrawingSettings { tapers: false, ..tapering() };
     assert_eq!(dxf(&lines, &tapering()).unwrap(), dxf(&lines, &whole).unwrap());
     assert_eq!(drawn_layers(&lines, &tapering()).unwrap(), drawn_layers(&lines, &whole).unwrap());

@@ -134,7 +134,7 @@ impl Figure {
     }
 
     /// Whether it needs the measurements of section 5 of Evangelista et al.
-    pub fn needs_numbers(&self) -> bool {
+    pub(crate) fn needs_numbers(&self) -> bool {
         matches!(self.content, Content::Frames | Content::OtherNumbers)
     }
 }

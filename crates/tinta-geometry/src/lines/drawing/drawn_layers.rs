@@ -82,7 +82,7 @@ pub fn drawn_layers(lines: &VisibleLines, settings: &DrawingSettings) -> Result<
     let settings = &DrawingSettings { tapers: false, ..settings.clone() };
     let mut layers = Drawing::new(&lines, chain(&lines.segments), None, settings)?.layers;
     for path in layers.iter_mut().flat_map(|layer| &mut layer.paths) {
-        path.points_px = settings.points_of(path);
+        path.points_px = points_of(path);
     }
     Ok(layers)
 }
@@ -129,7 +129,7 @@ impl<'a> Drawing<'a> {
             DrawnLayer { look, part, ..drawn }
         };
         let mut layers: Vec<DrawnLayer> = drawn.into_iter().map(styled).collect();
-        if settings.tapers && !settings.is_for_pen && !settings.has_provenance {
+        if settings.tapers && !settings.is_for_pen {
             taper_visible(&mut layers, lines.size);
         }
         let mut labels = drawn_labels(&lines.labels, settings, page.units);
@@ -214,9 +214,7 @@ impl DrawnLayer {
     }
 }
 
-impl DrawingSettings {
-    /// The points of a path that are written.
-    pub(in crate::lines) fn points_of(&self, path: &LinePath) -> Vec<DVec2> {
-        if self.has_provenance { path.points_px.clone() } else { simplified(&path.points_px, path.is_closed) }
-    }
+/// The points of a path that are written.
+pub(in crate::lines) fn points_of(path: &LinePath) -> Vec<DVec2> {
+    simplified(&path.points_px, path.is_closed)
 }

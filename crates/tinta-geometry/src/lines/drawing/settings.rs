@@ -48,9 +48,7 @@ pub struct DrawingSettings {
     /// The unit of the model's numbers. Default millimetres.
     pub units: ModelUnit,
     /// Whether each path names its class, object, mesh edges and angles; all its points are then written. Default
-    /// false.
-    pub has_provenance: bool,
-    /// Whether visible lines that end free taper off. Not for a pen, with [`Self::has_provenance`], or in DXF. Default false.
+    /// Whether visible lines that end free taper off. Not for a pen, or in DXF. Default false.
     pub tapers: bool,
     /// Whether the drawing is for a plotter. Paths are then sorted to shorten pen-up travel, dashes are separate
     /// lines, and the background and areas are omitted. Layers, widths and colours distinguish the pens; lines without a width
@@ -76,7 +74,6 @@ impl Default for DrawingSettings {
             margin: Millimetres(15.0),
             scale: None,
             units: ModelUnit::Mm,
-            has_provenance: false,
             tapers: false,
             is_for_pen: false,
         }
@@ -208,15 +205,9 @@ impl DrawingSettings {
                 &mut svg.units
             }),
             Setting::flag(
-                "provenance",
-                "Write each path's class, object, mesh edges and angles into the file, and keep all points",
-                |svg: &Self| svg.has_provenance,
-                |svg, is_on| svg.has_provenance = is_on,
-            ),
-            Setting::flag(
                 "taper",
                 "Let visible lines that end free taper off over 12 widths, as a pen leaves the paper; not in .dxf, or with \
-                 --pen or --provenance",
+                 --pen",
                 |svg: &Self| svg.tapers,
                 |svg, is_on| svg.tapers = is_on,
             ),
@@ -295,9 +286,6 @@ impl DrawingSettings {
             if !FIT_PX.contains(&error) {
                 let problem = format!("the error of curves is a number from {} to {}", FIT_PX.start(), FIT_PX.end());
                 return Err(Error::value("fit-curves", error, problem));
-            }
-            if self.has_provenance {
-                return Err(Error::setting("fit-curves", "--provenance keeps every point; leave out one of the two"));
             }
         }
         if self.margin != Self::default().margin && !matches!(self.page_size, PageSize::Paper(_)) {

@@ -28,12 +28,12 @@ pub(in crate::lines) fn number(value: f64) -> String {
     decimal(value, DECIMALS)
 }
 
-/// The points of a polyline as text; equal neighbours are written once unless `keep_all`.
-pub(in crate::lines) fn written_points(points_px: &[DVec2], is_closed: bool, keep_all: bool) -> Vec<[String; 2]> {
+/// The points of a polyline as text; equal neighbours are written once.
+pub(in crate::lines) fn written_points(points_px: &[DVec2], is_closed: bool) -> Vec<[String; 2]> {
     let mut written: Vec<[String; 2]> = Vec::with_capacity(points_px.len());
     for (index, point) in points_px.iter().enumerate() {
         let text = point.to_array().map(number);
-        let is_needed = keep_all || (index == points_px.len() - 1 && written.len() == 1 && !is_closed);
+        let is_needed = index == points_px.len() - 1 && written.len() == 1 && !is_closed;
         if is_needed || written.last() != Some(&text) {
             written.push(text);
         }
@@ -42,9 +42,9 @@ pub(in crate::lines) fn written_points(points_px: &[DVec2], is_closed: bool, kee
 }
 
 /// A polyline as path data, with the points of [`written_points`].
-pub(in crate::lines) fn path_data(points_px: &[DVec2], is_closed: bool, keep_all: bool) -> String {
+pub(in crate::lines) fn path_data(points_px: &[DVec2], is_closed: bool) -> String {
     let mut data = String::new();
-    for (index, [x, y]) in written_points(points_px, is_closed, keep_all).iter().enumerate() {
+    for (index, [x, y]) in written_points(points_px, is_closed).iter().enumerate() {
         data.push_str(match index {
             0 => "M",
             1 => "L",
@@ -118,10 +118,9 @@ mod tests {
     #[test]
     fn paths_are_compact() {
         let points = [[1.0, 2.0], [3.0, 4.0], [3.0001, 4.0], [5.0, 6.0]].map(DVec2::from_array);
-        assert_eq!(path_data(&points, true, false), "M1 2L3 4 5 6Z");
-        assert_eq!(path_data(&points, false, true), "M1 2L3 4 3 4 5 6");
+        assert_eq!(path_data(&points, true), "M1 2L3 4 5 6Z");
         let dot = [[1.0, 2.0], [1.0001, 2.0]].map(DVec2::from_array);
-        assert_eq!(path_data(&dot, false, false), "M1 2L1 2");
+        assert_eq!(path_data(&dot, false), "M1 2L1 2");
     }
 
     #[test]

@@ -71,7 +71,7 @@ pub(crate) fn dxf_of_paths(
     }
     out.begin(&layers);
     for (layer, (name, _)) in drawing.layers.iter().zip(&layers) {
-        for polyline in polylines(layer, settings) {
+        for polyline in polylines(layer) {
             out.polyline(name, &polyline.points_px, polyline.is_closed);
         }
     }

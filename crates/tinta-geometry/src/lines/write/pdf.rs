@@ -10,7 +10,7 @@ use crate::lines::VisibleLines;
 use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::{Step, fitted};
-use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
+use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY, points_of};
 use crate::lines::drawing::fills::{Fill, FillGroup, TRAP_PX};
 use crate::lines::drawing::settings::{DrawingSettings, mixed};
 use crate::lines::drawing::taper::outline;
@@ -287,7 +287,7 @@ fn write_fill(fill: &Fill, content: &mut Content) {
 }
 
 fn write_polyline(points: &[DVec2], is_closed: bool, content: &mut Content) {
-    write_points(&written_points(points, is_closed, false), content);
+    write_points(&written_points(points, is_closed), content);
     if is_closed {
         content.close_path();
     }
@@ -327,8 +327,7 @@ fn write_path(settings: &DrawingSettings, path: &LinePath, content: &mut Content
             };
         }
     } else {
-        let points = settings.points_of(path);
-        write_points(&written_points(&points, path.is_closed, settings.has_provenance), content);
+        write_points(&written_points(&points_of(path), path.is_closed), content);
     }
     if path.is_closed {
         content.close_and_stroke()

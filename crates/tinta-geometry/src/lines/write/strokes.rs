@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::lines::VisibleLines;
 use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
-use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
+use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY, points_of};
 use crate::lines::drawing::layers::Layer;
 use crate::lines::drawing::length::Units;
 use crate::lines::drawing::pen::dashes;
@@ -80,29 +80,29 @@ pub fn strokes_of_paths(
 
 /// The strokes of a drawing.
 pub(in crate::lines) fn strokes_of(drawing: &Drawing<'_>) -> Vec<Strokes> {
-    drawing.layers.iter().map(|layer| of_layer(layer, drawing.settings, drawing.page.units)).collect()
+    drawing.layers.iter().map(|layer| of_layer(layer, drawing.page.units)).collect()
 }
 
 /// The polylines of a layer, each dash one.
-pub(in crate::lines) fn polylines(drawn: &DrawnLayer, settings: &DrawingSettings) -> Vec<Polyline> {
+pub(in crate::lines) fn polylines(drawn: &DrawnLayer) -> Vec<Polyline> {
     let of_path = |path: &LinePath| match drawn.dash_px.is_empty() {
         false => dashes(path, &drawn.dash_px)
             .into_iter()
             .map(|dash| Polyline { points_px: dash.points_px, is_closed: false })
             .collect(),
-        true => vec![Polyline { points_px: settings.points_of(path), is_closed: path.is_closed }],
+        true => vec![Polyline { points_px: points_of(path), is_closed: path.is_closed }],
     };
     drawn.paths.iter().flat_map(of_path).collect()
 }
 
-fn of_layer(drawn: &DrawnLayer, settings: &DrawingSettings, units: Units) -> Strokes {
+fn of_layer(drawn: &DrawnLayer, units: Units) -> Strokes {
     Strokes {
         layer: drawn.layer,
         color: drawn.color,
         width_px: drawn.width_px,
         width_mm: units.px_per_mm.map(|px| drawn.width_px / px),
         opacity: if drawn.is_ghost { GHOST_OPACITY } else { 1.0 },
-        polylines: polylines(drawn, settings),
+        polylines: polylines(drawn),
         tips: drawn.tips.clone(),
     }
 }

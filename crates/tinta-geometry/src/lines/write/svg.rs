@@ -11,7 +11,7 @@ use crate::lines::drawing::areas::Areas;
 use crate::lines::drawing::chain::{LinePath, chain};
 use crate::lines::drawing::curves::fitted;
 use crate::lines::drawing::drawn_labels::height_px;
-use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY};
+use crate::lines::drawing::drawn_layers::{Drawing, DrawnLayer, GHOST_OPACITY, points_of};
 use crate::lines::drawing::fills::{FillGroup, GROUND, TRAP_PX};
 use crate::lines::drawing::key::Key;
 use crate::lines::drawing::layers::Layer;
@@ -149,7 +149,7 @@ pub(super) fn begin(drawing: &Drawing<'_>, out: &mut String) {
 fn write_fills(group: &FillGroup, out: &mut String) {
     let object = group.object;
     let data = |polylines: &[Vec<DVec2>], is_closed: bool| {
-        polylines.iter().map(|points| path_data(points, is_closed, false)).collect::<String>()
+        polylines.iter().map(|points| path_data(points, is_closed)).collect::<String>()
     };
     let (name, label) = match group.material {
         GROUND if object == NONE => ("fill-ground".to_owned(), "shadow on the ground".to_owned()),
@@ -195,17 +195,16 @@ fn write_fills(group: &FillGroup, out: &mut String) {
 /// Writes a layer; in it each named part is a group with its name.
 fn write_layer(drawing: &Drawing<'_>, drawn: &DrawnLayer, names: &[String], out: &mut String) {
     out.push_str(&layer_tag(drawn));
-    let [_, class] = drawn.layer.words();
     for (part, paths) in by_part(drawing, drawn, names) {
         if !part.is_empty() {
             let (layer, id, name) = (drawn.id(), in_id(part), escaped(part));
             let _ = writeln!(out, "<g id=\"{layer}_{id}\" data-part=\"{name}\">\n<title>{name}</title>");
         }
-        paths.iter().for_each(|path| write_path(drawing, class, path, out));
+        out.extend(paths.iter().map(|path| format!("<path d=\"{}\"/>\n", path_data_of(drawing, path))));
         out.push_str(if part.is_empty() { "" } else { "</g>\n" });
     }
     if !drawn.tips.is_empty() {
-        let outlines = drawn.tips.iter().map(|tip| path_data(&outline(tip, drawn.width_px), true, false));
+        let outlines = drawn.tips.iter().map(|tip| path_data(&outline(tip, drawn.width_px), true));
         let (fill, data) = (hexadecimal(drawn.color), outlines.collect::<String>());
         let _ = writeln!(out, r#"<path fill="{fill}" stroke="none" d="{data}"/>"#);
     }
@@ -234,29 +233,10 @@ pub(super) fn layer_tag(drawn: &DrawnLayer) -> String {
     tag
 }
 
-fn write_path(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut String) {
-    out.push_str("<path");
-    // Strokes of tones are made of no segments.
-    if drawing.settings.has_provenance && !path.segments.is_empty() {
-        write_provenance(drawing, class, path, out);
-    }
-    let _ = writeln!(out, r#" d="{}"/>"#, path_data_of(drawing, path));
-}
-
 /// A path's data, with curves where they are wanted.
 pub(super) fn path_data_of(drawing: &Drawing<'_>, path: &LinePath) -> String {
     match drawing.settings.fit_px {
         Some(error_px) => curve_data(&fitted(path, error_px), path.is_closed),
-        None => path_data(&drawing.settings.points_of(path), path.is_closed, drawing.settings.has_provenance),
+        None => path_data(&points_of(path), path.is_closed),
     }
-}
-
-/// Class, object, and for each segment of the path its mesh edge and angle, or `-`.
-fn write_provenance(drawing: &Drawing<'_>, class: &str, path: &LinePath, out: &mut String) {
-    let known = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
-    let pieces = || path.segments.iter().map(|piece| &drawing.lines.segments[*piece]);
-    let edges: Vec<String> = pieces().map(|piece| known(piece.edge.map(|[a, b]| format!("{a}-{b}")))).collect();
-    let angles: Vec<String> = pieces().map(|piece| known(piece.angle_degrees.map(number))).collect();
-    let (object, edges, angles) = (path.object, edges.join(" "), angles.join(" "));
-    let _ = write!(out, r#" data-class="{class}" data-object="{object}" data-edges="{edges}" data-angles="{angles}""#);
 }

@@ -333,14 +333,14 @@ fn a_drawing_has_a_layer_of_strokes_for_each_tone_and_lines_alone_have_none() {
     let counts: Vec<usize> = strokes.iter().map(|hatch| hatch.strokes.len()).collect();
     let areas = Areas { hatches: strokes, ..Areas::around(&regions) };
     for is_for_pen in [false, true] {
-        let settings = DrawingSettings { is_for_pen, has_provenance: true, ..settings.clone() };
+        let settings = DrawingSettings { is_for_pen, ..settings.clone() };
         let text = svg_of_paths(&lines, chain(&lines.segments), Some(&areas), &settings).unwrap();
         let layers: Vec<&str> = text.split("<g ").skip(1).collect();
         for (layer, (tone, count)) in layers.iter().zip([1, 0].into_iter().zip(&counts)) {
             let head = format!(r#"id="hatch-{tone}" inkscape:groupmode="layer" inkscape:label="hatch {tone}""#);
             assert!(layer.starts_with(&head) && layer.contains(&format!(r#"data-tone="{tone}""#)), "{layer}");
             assert!(layer.contains(r##"stroke="#010203""##));
-            assert_eq!(layer.matches("<path d=").count(), *count, "no provenance");
+            assert_eq!(layer.matches("<path d=").count(), *count);
         }
         assert!(layers[2].starts_with(r#"id="visible-"#), "{}", layers[2]);
     }
