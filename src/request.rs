@@ -107,6 +107,8 @@ tinta_geometry::choices! {
         None = "none",
         /// A plane below the lowest point that shows the models' shadow alone.
         Shadow = "shadow",
+        /// The shadow of models that stand, in a still picture; nothing below others.
+        Auto = "auto",
     }
 }
 
@@ -204,7 +206,7 @@ fn settings() -> Vec<Setting<Request>> {
     let ground = Setting::field(
         "ground",
         "GROUND",
-        "Ground below the models: none, or shadow (the shadow that they cast on it, one grey area)",
+        "Ground below the models: none, shadow (the shadow that they cast on it, one grey area), or auto (a shadow for models that stand)",
         |request: &mut Request| &mut request.ground,
     );
     let title = Setting::open_field(
@@ -391,16 +393,17 @@ impl Request {
         options
     }
 
-    /// Whether a recipe has this request's options, and besides those only the light that drawing chooses. `None` where its view is
+    /// Whether a recipe has this request's options, and besides those only the light and the ground that drawing chooses. `None` where its view is
     /// either a flat sheet's, which drawing chooses too, or another request's.
     #[cfg(feature = "cli")]
     pub(crate) fn is_kept_in(&self, recipe: &Recipe) -> Option<bool> {
         let mut options = self.kept_options(recipe.gl.is_some());
         let is_chosen = |light: &&OptionValue| LIGHTS.iter().any(|known| **light == OptionValue::text(known.text()));
         let chooses_light = self.style.far_tones().is_some_and(|(light, _)| light.known().is_none());
-        if let Some(light) = recipe.options.get("tone-light").filter(is_chosen).filter(|_| chooses_light) {
-            options.insert("tone-light".to_owned(), light.clone());
-        }
+        let light = recipe.options.get("tone-light").filter(is_chosen).filter(|_| chooses_light);
+        let ground = recipe.options.get("ground").filter(|_| self.ground == Ground::Auto);
+        let chosen = [("tone-light", light), ("ground", ground)];
+        options.extend(chosen.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?.clone()))));
         let view =
             recipe.options.get("view").filter(|view| self.is_of_look("view") && options.get("view") != Some(*view));
         options.extend(view.map(|view| ("view".to_owned(), view.clone())));

@@ -53,15 +53,29 @@ impl Resolved {
 
     /// Adds the shadow on the ground, if the request has one.
     pub(super) fn add_shadow(&self, below: &mut Areas, progress: &Progress) -> Result<()> {
-        if self.request.ground == Ground::None {
+        if self.request.ground != Ground::Shadow {
             return Ok(());
         }
         let ground = match self.scene.background {
             Background::Color(Color(channels)) => channels,
             Background::Transparent => [1.0; 3],
         };
-        let shadow = ground_shadow(&self.scene, self.request.shadow_light(&self.scene), progress)?;
-        below.add_ground(&shadow, Color([0, 1, 2].map(|channel| ground[channel] * SHADE[channel])));
+        self.find_shadow(progress)?;
+        let shade = Color([0, 1, 2].map(|channel| ground[channel] * SHADE[channel]));
+        self.shadow.get().into_iter().for_each(|shadow| below.add_ground(shadow, shade));
+        Ok(())
+    }
+
+    /// Finds the shadow on the ground, if the request has one and it is not known.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`ground_shadow`].
+    pub(super) fn find_shadow(&self, progress: &Progress) -> Result<()> {
+        if self.request.ground == Ground::Shadow && self.shadow.get().is_none() {
+            let shadow = ground_shadow(&self.scene, self.request.shadow_light(&self.scene), progress)?;
+            self.shadow.get_or_init(|| shadow);
+        }
         Ok(())
     }
 
@@ -80,8 +94,8 @@ impl Resolved {
             _ => style,
         };
         match ground {
-            Ground::None => style.plan(self.lit(), *show),
             Ground::Shadow => style.plan(&Scene { background: Background::Transparent, ..self.lit().clone() }, *show),
+            Ground::None | Ground::Auto => style.plan(self.lit(), *show),
         }
     }
 }

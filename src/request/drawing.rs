@@ -233,12 +233,14 @@ impl Resolved {
     /// Those of [`Resolved::all_lines`] and [`Resolved::drawing`].
     pub fn drawn_lines(&self, wanted: Wanted, progress: &Progress) -> Result<DrawnLines> {
         let sight = Sight::of(&self.scene);
-        // The light takes one thread, and the lines leave one free at times.
+        // Light and shadow take one thread, and the lines leave one free at times.
         let has_tones = matches!(self.contents.below, Below::Tones(..));
-        let (lines, ()) = both(
+        let (lines, _) = both(
             || self.all_lines(&sight, wanted, progress),
             || {
                 has_tones.then(|| self.lit());
+                // What ends it is told where it is drawn.
+                self.find_shadow(&progress.beside())
             },
         );
         self.drawing(&sight, Arc::new(lines?), wanted, progress)

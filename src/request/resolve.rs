@@ -8,9 +8,9 @@ use super::{Ground, Request};
 use crate::camera::View;
 use crate::edges::Class;
 use crate::error::Result;
-use crate::lines::{DrawingSettings, LineSettings, PartRules, SeenNormals, ground_light};
+use crate::lines::{DrawingSettings, LineSettings, PageSize, PartRules, Regions, SeenNormals, ground_light};
 use crate::mesh::{LoadOptions, Mesh, Normals};
-use crate::scene::{Scene, SceneSettings};
+use crate::scene::{Background, Scene, SceneSettings};
 use crate::settings::{HasSettings, OptionValue, Options, Value as _};
 use crate::styles::{Below, Contents, FarLight, Show, Style};
 use glam::DVec3;
@@ -37,15 +37,17 @@ pub struct Resolved {
     pub contents: Contents,
     /// The light of a still picture's tones.
     light: Option<Arc<StillLight>>,
+    /// The shadow on the ground, once it was asked for.
+    pub(super) shadow: Arc<OnceLock<Regions<()>>>,
 }
 
 /// A light, and the scene as it shows it.
 #[derive(Debug)]
 struct StillLight {
-    seen: SeenNormals,
     towards: [f32; 3],
     thresholds: [f64; 2],
-    /// Made when it is first asked for.
+    /// Both are made when they are first asked for.
+    seen: OnceLock<SeenNormals>,
     lit: OnceLock<Scene>,
 }
 
@@ -151,6 +153,7 @@ impl Request {
             framed.options.insert("view".to_owned(), OptionValue::text(view.text()));
             scene = scene.seen_with(&framed.scene)?;
         }
+        framed.put_ground(&scene)?;
         if framed.ground == Ground::Shadow {
             framed.put_light(|light, thresholds| light.towards(&scene, thresholds));
             let light = framed.shadow_light(&scene);
@@ -166,16 +169,19 @@ impl Request {
     /// Those of [`Request::contents`].
     pub fn still(&self, scene: Scene, as_vectors: bool) -> Result<Resolved> {
         let mut request = self.clone();
+        request.put_ground(&scene)?;
         let light = self.style.far_tones().map(|(light, thresholds)| {
-            let (seen, thresholds) = (SeenNormals::of(&scene), thresholds.map(f64::from));
-            let towards = light.known().unwrap_or_else(|| seen.best_light(thresholds));
+            let (seen, thresholds) = (OnceLock::new(), thresholds.map(f64::from));
+            let best = || seen.get_or_init(|| SeenNormals::of(&scene)).best_light(thresholds);
+            let towards = light.known().unwrap_or_else(best);
             request.put_light(|_, _| towards);
-            Arc::new(StillLight { seen, towards, thresholds, lit: OnceLock::new() })
+            Arc::new(StillLight { towards, thresholds, seen, lit: OnceLock::new() })
         });
-        Ok(Resolved { contents: request.contents(as_vectors)?, request, scene, light })
+        Ok(Resolved { contents: request.contents(as_vectors)?, request, scene, light, shadow: Arc::default() })
     }
 
-    /// Resolves a view of a turning scene, with this light of its tones or one chosen for it: all patches stay.
+    /// Resolves a view of a turning scene, with this light of its tones or one chosen for it: all patches stay. It has a shadow where the
+    /// request asks for one.
     ///
     /// # Errors
     ///
@@ -183,7 +189,7 @@ impl Request {
     pub fn moving(&self, scene: Scene, light: Option<[f32; 3]>, as_vectors: bool) -> Result<Resolved> {
         let mut request = self.clone();
         request.put_light(|chosen, thresholds| light.unwrap_or_else(|| chosen.towards(&scene, thresholds)));
-        Ok(Resolved { contents: request.contents(as_vectors)?, request, scene, light: None })
+        Ok(Resolved { contents: request.contents(as_vectors)?, request, scene, light: None, shadow: Arc::default() })
     }
 
     /// Resolves pictures of an animation, which share the first one's light.
@@ -237,6 +243,23 @@ impl Request {
         }
     }
 
+    /// Decides whether the models have a shadow where the request leaves that open; a recipe names it. Standing models have one in still
+    /// pictures that show all of them on a coloured ground, but not on paper, and not where strokes stand for tones.
+    fn put_ground(&mut self, scene: &Scene) -> Result<()> {
+        if self.ground != Ground::Auto {
+            return Ok(());
+        }
+        let drawing = self.contents(true)?.drawing;
+        let is_of_paper = matches!(drawing.page_size, PageSize::Paper(_)) || drawing.is_for_pen;
+        let is_drawing = is_of_paper || drawing.hatching.spacing.is_some();
+        let shows_all = self.scene.camera.eye.is_none() && scene.background != Background::Transparent;
+        let extent = scene.extent();
+        let stands = || extent.y > FLAT * extent.max_element() && scene.stands();
+        self.ground = if shows_all && !is_drawing && stands() { Ground::Shadow } else { Ground::None };
+        self.options.insert("ground".to_owned(), OptionValue::text(self.ground.text()));
+        Ok(())
+    }
+
     /// The direction towards the light of the shadow on the ground, world space.
     pub(super) fn shadow_light(&self, scene: &Scene) -> DVec3 {
         ground_light(
@@ -260,13 +283,16 @@ impl Resolved {
         // Without a style among them they are of lines all the same.
         let named = options.clone().into_iter().chain([("style".to_owned(), style)]).collect();
         let request = Request { models, title, options, ..Request::from_given(&named)? };
-        Ok(Self { contents: request.contents(true)?, request, scene: self.scene.clone(), light: self.light.clone() })
+        Ok(Self { contents: request.contents(true)?, request, ..self.clone() })
     }
 
     /// The scene as its tones show it: in a still picture without patches too small to draw. Its normals are others, so lines are found
     /// in the scene itself.
     pub fn lit(&self) -> &Scene {
-        let lit = |light: &StillLight| light.seen.lit(&self.scene, light.towards, light.thresholds);
+        let lit = |light: &StillLight| {
+            let seen = light.seen.get_or_init(|| SeenNormals::of(&self.scene));
+            seen.lit(&self.scene, light.towards, light.thresholds)
+        };
         self.light.as_ref().map_or(&self.scene, |light| light.lit.get_or_init(|| lit(light)))
     }
 

@@ -13,8 +13,8 @@ use tinta::{LoadOptions, SceneSettings, Style, StyleName};
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsError, JsValue};
 
-/// The option of exact lines over a style's picture.
-const EXACT_LINES: &str = "exact-lines";
+/// The options of what lies over and under a style's picture.
+const AROUND: [&str; 2] = ["exact-lines", "ground"];
 
 /// Whether a setting has a control in the page; the mouse sets the view.
 fn is_of_page(name: &str) -> bool {
@@ -26,7 +26,7 @@ fn is_of_page(name: &str) -> bool {
 #[wasm_bindgen]
 pub fn tables() -> String {
     let request = Request::default();
-    let exact_lines = Request::table().find(&request, EXACT_LINES).map(|setting| control(setting, &request));
+    let around = AROUND.map(|name| Request::table().find(&request, name).map(|setting| control(setting, &request)));
     let styles: Vec<Value> = StyleName::ALL
         .into_iter()
         // WebGL does not draw faces as lines.
@@ -34,8 +34,8 @@ pub fn tables() -> String {
         .map(|(name, of)| {
             let style = Style::named(of);
             let shows: Vec<Value> = of.info().shows.iter().map(|show| json!(show)).collect();
-            let over = exact_lines.iter().filter(|_| of != StyleName::Lines).cloned();
-            let settings: Vec<Value> = controls(&style).into_iter().chain(over).collect();
+            let around = around.iter().flatten().filter(|_| of != StyleName::Lines).cloned();
+            let settings: Vec<Value> = controls(&style).into_iter().chain(around).collect();
             json!({ "name": name, "draws_lines": of.draws_lines(), "shows": shows, "settings": settings })
         })
         .collect();
@@ -84,7 +84,7 @@ pub fn look(name: &str) -> Result<String, JsError> {
     };
     let is_of_scene = |name: &str| is_of_page(name) && SceneSettings::table().has(name);
     let is_of_reading = |name: &str| LoadOptions::table().has(name);
-    let is_of_style = |name: &str| name == EXACT_LINES || Style::table().has(name);
+    let is_of_style = |name: &str| AROUND.contains(&name) || Style::table().has(name);
     let settings = of(&|name| is_of_style(name) && !is_of_scene(name) && !is_of_reading(name));
     let (mut scene, mut read) = (of(&is_of_scene), of(&is_of_reading));
     // Settings of another look return to their defaults.

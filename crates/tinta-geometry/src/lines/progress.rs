@@ -3,7 +3,7 @@
 use crate::clock::Instant;
 use crate::error::{Error, Result};
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 /// The progress of long work, for another thread to watch or cancel.
@@ -31,7 +31,7 @@ pub struct Progress {
     done: AtomicUsize,
     total: AtomicUsize,
     compared: AtomicU64,
-    is_cancelled: AtomicBool,
+    is_cancelled: Arc<AtomicBool>,
     /// When each phase began, in order.
     begins: Mutex<Vec<(Phase, Instant)>>,
     deadline: Option<Deadline>,
@@ -74,7 +74,7 @@ impl Phase {
     }
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Deadline {
     end: Instant,
     limit: Duration,
@@ -86,6 +86,11 @@ impl Progress {
         // A limit beyond the clock's range is no limit.
         let deadline = Instant::now().checked_add(limit).map(|end| Deadline { end, limit });
         Self { deadline, ..Self::default() }
+    }
+
+    /// The progress of work beside this one: it ends with this one, and has phases of its own.
+    pub fn beside(&self) -> Self {
+        Self { is_cancelled: self.is_cancelled.clone(), deadline: self.deadline.clone(), ..Self::default() }
     }
 
     /// The current phase.

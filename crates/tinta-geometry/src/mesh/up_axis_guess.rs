@@ -1,7 +1,7 @@
 //! Whether a model seems to lie: put down on each of its six ends, it stands on one alone, and that end is not at the bottom.
 //!
 //! OBJ, PLY and STL do not say which axis is up. An animal stands on its feet and a bust on its base, and on nothing else. This only hints:
-//! parts of machines stand on several ends, and a slab may well stand on its edge. What stands on its bottom has a shadow.
+//! parts of machines stand on several ends, and a slab may well stand on its edge. A model that stands on its bottom has a shadow.
 
 use super::{Mesh, UpAxis};
 use crate::tolerances::{BASE_DEPTH, BASE_HEIGHT, BASE_MARGIN, BASE_SHARE};
@@ -33,7 +33,7 @@ pub(super) fn seems_to_lie(mesh: &Mesh, up: UpAxis) -> bool {
 }
 
 impl Mesh {
-    /// Whether it stands on its bottom: what touches the ground is wide, and the middle of the surface is above it.
+    /// Whether it stands on its bottom: its base is wide, and the middle of the surface is above it.
     pub(crate) fn stands(&self) -> bool {
         stands(self, BOTTOM, middle_of_surface(self), 0.0)
     }
