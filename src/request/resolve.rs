@@ -253,9 +253,7 @@ impl Request {
         let is_of_paper = matches!(drawing.page_size, PageSize::Paper(_)) || drawing.is_for_pen;
         let is_drawing = is_of_paper || drawing.hatching.spacing.is_some();
         let shows_all = self.scene.camera.eye.is_none() && scene.background != Background::Transparent;
-        let extent = scene.extent();
-        let stands = || extent.y > FLAT * extent.max_element() && scene.stands();
-        self.ground = if shows_all && !is_drawing && stands() { Ground::Shadow } else { Ground::None };
+        self.ground = if shows_all && !is_drawing && scene.stands() { Ground::Shadow } else { Ground::None };
         self.options.insert("ground".to_owned(), OptionValue::text(self.ground.text()));
         Ok(())
     }
@@ -347,6 +345,18 @@ mod tests {
         assert_eq!(normals("crease", "none"), Normals::Flat);
         assert_eq!(normals("crease,normal", "none"), Normals::Lasting);
         assert_eq!(normals("crease", "*: classes=normal"), Normals::Lasting);
+    }
+
+    #[test]
+    fn a_standing_model_has_a_shadow_but_on_paper_and_under_strokes() {
+        let ground = |more: &[(&str, &str)]| {
+            let asked = request_with("auto", &[&[("ground", "auto")], more].concat());
+            let resolved = asked.resolve(meshes(&asked), true).unwrap().request;
+            assert_eq!(resolved.options["ground"], OptionValue::text(resolved.ground.text()));
+            resolved.ground
+        };
+        assert_eq!(ground(&[]), Ground::Shadow);
+        assert_eq!([ground(&[("page", "A5")]), ground(&[("hatch", "auto")])], [Ground::None; 2]);
     }
 
     #[test]

@@ -190,7 +190,8 @@ pub(crate) const AVERAGED_SHARE: f64 = 0.1;
 /// along that axis.
 pub(crate) const BASE_DEPTH: f64 = 0.02;
 
-/// Least height of a model above such an end, as a share of its largest extent: slabs and reliefs may well face z.
+/// Least height of a model above such an end, as a share of its largest extent: slabs and reliefs may well face z, and
+/// their shadows are slivers.
 pub(crate) const BASE_HEIGHT: f64 = 0.5;
 
 /// Least share of the bounding box's side that touches the ground at a base. Among the tested models that stand on one end, the

@@ -21,9 +21,7 @@ pub(super) fn seems_to_lie(mesh: &Mesh, up: UpAxis) -> bool {
         UpAxis::Y => (2, true),
         _ => return false,
     };
-    let (low, high) = mesh.bounds();
-    let extent = high - low;
-    if extent[base.0] < BASE_HEIGHT * extent.max_element() {
+    if is_slab(mesh, base) {
         return false;
     }
     let middle = middle_of_surface(mesh);
@@ -32,10 +30,17 @@ pub(super) fn seems_to_lie(mesh: &Mesh, up: UpAxis) -> bool {
         && ends().filter(|end| *end != base).all(|end| !stands(mesh, end, middle, 0.0))
 }
 
+/// Whether a model is low above an end.
+fn is_slab(mesh: &Mesh, (axis, _): End) -> bool {
+    let (low, high) = mesh.bounds();
+    let extent = high - low;
+    extent[axis] < BASE_HEIGHT * extent.max_element()
+}
+
 impl Mesh {
-    /// Whether it stands on its bottom: its base is wide, and the middle of the surface is above it.
+    /// Whether it stands on its bottom: its base is wide, the middle of the surface is above it, and it is no slab.
     pub(crate) fn stands(&self) -> bool {
-        stands(self, BOTTOM, middle_of_surface(self), 0.0)
+        !is_slab(self, BOTTOM) && stands(self, BOTTOM, middle_of_surface(self), 0.0)
     }
 }
 
@@ -100,6 +105,7 @@ pub(crate) fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::{LoadOptions, load};
 
     /// A pyramid as high as wide that stands on four corners at the lowest z, closed below or not.
     fn pyramid(has_base: bool) -> Mesh {
@@ -113,6 +119,16 @@ mod tests {
 
     fn turned(mesh: &Mesh, up: UpAxis) -> Mesh {
         Mesh { positions: mesh.positions.iter().map(|point| up.to_y_up(*point)).collect(), ..mesh.clone() }
+    }
+
+    #[test]
+    fn a_bust_stands_and_a_slab_and_a_pyramid_on_its_side_do_not() {
+        let mesh = |name: &str| load(name, &LoadOptions::default()).unwrap().mesh;
+        assert!(mesh("../../models/bust.obj").stands());
+        assert!(!pyramid(true).stands());
+        let mut slab = mesh("../../models/open-box.obj");
+        slab.positions.iter_mut().for_each(|place| place.y *= 0.3);
+        assert!(!slab.stands());
     }
 
     #[test]
