@@ -238,7 +238,8 @@ fn cold_table(settings: &Settings, peers: &[Peer], size: Size, folder: &Path, di
     };
     let mut contestants: Vec<(&str, Command)> = vec![
         // The default picture.
-        ("tinta, look print", tinta(&["--look", "print"])),
+        // As the others, without a shadow.
+        ("tinta, look print", tinta(&["--look", "print", "--ground", "none"])),
         ("tinta ink", tinta(&["--style", "ink"])),
         ("tinta three-pass", tinta(&["--style", "three-pass"])),
         ("tinta phong, no lines", tinta(&["--style", "phong"])),

@@ -29,8 +29,9 @@ const USAGE: &str =
 const LINES: &str = "lines, svg";
 
 /// The looks: a name, the ending of the file, the options.
-const LOOKS: [(&str, &str, &[&str]); 7] = [
+const LOOKS: [(&str, &str, &[&str]); 8] = [
     ("default, png", "png", &[]),
+    ("default without its shadow, png", "png", &["--ground", "none"]),
     ("default, svg", "svg", &[]),
     ("technical, svg", "svg", &["--look", "technical"]),
     ("published, png", "png", &["--look", "published"]),

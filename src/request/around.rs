@@ -135,8 +135,12 @@ impl Around {
         let mut ground = raster_of_strokes(&[], picture.size, self.background).pixels;
         lay_fills(areas, picture.size, &mut ground);
         for (below, pixel) in ground.chunks_exact_mut(4).zip(picture.pixels.chunks_exact(4)) {
-            let [red, green, blue, opacity] = [0, 1, 2, 3].map(|channel| f32::from(pixel[channel]) / 255.0);
-            lay_over(below, Color([red, green, blue]), opacity);
+            if pixel[3] == 255 {
+                below.copy_from_slice(pixel);
+            } else if pixel[3] > 0 {
+                let [red, green, blue, opacity] = [0, 1, 2, 3].map(|channel| f32::from(pixel[channel]) / 255.0);
+                lay_over(below, Color([red, green, blue]), opacity);
+            }
         }
         picture.pixels = ground;
     }

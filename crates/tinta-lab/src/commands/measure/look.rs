@@ -2,7 +2,7 @@
 
 use crate::measure::{FrameTimes, Ink, MeasureSettings, Measured, Row, RunTime, Subject, error_picture};
 use tinta::lines::{DrawingFormat, Progress};
-use tinta::request::{DrawingFile, Request, Resolved, Wanted};
+use tinta::request::{DrawingFile, Ground, Request, Resolved, Wanted};
 use tinta::styles::Below;
 use tinta::{Error, Picture, Renderer, Result};
 
@@ -20,7 +20,8 @@ pub(super) fn measure_look(
     options: String,
     how: &MeasureSettings,
 ) -> Result<Measured> {
-    let resolved = request.still(subject.scene.clone(), false)?;
+    // A shadow has no lines.
+    let resolved = Request { ground: Ground::None, ..request.clone() }.still(subject.scene.clone(), false)?;
     let ink = Ink::on_white(&exact_lines(&resolved)?);
     let has_passes = matches!(resolved.contents.below, Below::Passes(_));
     let draw = |renderer: &mut Renderer| if has_passes { resolved.picture(renderer) } else { exact_lines(&resolved) };
