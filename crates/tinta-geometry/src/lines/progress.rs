@@ -89,6 +89,7 @@ impl Progress {
     }
 
     /// The progress of work beside this one: it ends with this one, and has phases of its own.
+    #[must_use]
     pub fn beside(&self) -> Self {
         Self { is_cancelled: self.is_cancelled.clone(), deadline: self.deadline.clone(), ..Self::default() }
     }

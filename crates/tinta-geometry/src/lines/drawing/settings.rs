@@ -282,11 +282,9 @@ impl DrawingSettings {
             }
         }
         self.hatching.check(WIDTHS, has_paper)?;
-        if let Some(error) = self.fit_px {
-            if !FIT_PX.contains(&error) {
-                let problem = format!("the error of curves is a number from {} to {}", FIT_PX.start(), FIT_PX.end());
-                return Err(Error::value("fit-curves", error, problem));
-            }
+        if let Some(error) = self.fit_px.filter(|error| !FIT_PX.contains(error)) {
+            let problem = format!("the error of curves is a number from {} to {}", FIT_PX.start(), FIT_PX.end());
+            return Err(Error::value("fit-curves", error, problem));
         }
         if self.margin != Self::default().margin && !matches!(self.page_size, PageSize::Paper(_)) {
             return Err(Error::setting("margin", "only a sheet of paper has a margin; add --page A4, or leave it out"));

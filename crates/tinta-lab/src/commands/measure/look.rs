@@ -20,13 +20,13 @@ pub(super) fn measure_look(
     options: String,
     how: &MeasureSettings,
 ) -> Result<Measured> {
+    let mut resolved = request.still(subject.scene.clone(), false)?;
     // A shadow has no lines.
-    let resolved = Request { ground: Ground::None, ..request.clone() }.still(subject.scene.clone(), false)?;
+    resolved.request.ground = Ground::None;
     let ink = Ink::on_white(&exact_lines(&resolved)?);
     let has_passes = matches!(resolved.contents.below, Below::Passes(_));
     let draw = |renderer: &mut Renderer| if has_passes { resolved.picture(renderer) } else { exact_lines(&resolved) };
-    let drawing = draw(renderer)?;
-    let mut times = FrameTimes::default();
+    let (drawing, mut times) = (draw(renderer)?, FrameTimes::default());
     for _ in 0..how.frames {
         times.add_work(|| draw(renderer).map(drop))?;
     }
