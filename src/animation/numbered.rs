@@ -41,6 +41,7 @@ impl NumberedName {
     }
 
     /// Returns the number in a name of this pattern.
+    #[cfg(any(feature = "cli", test))]
     pub(crate) fn number_in(&self, name: &str) -> Option<u32> {
         let number = name.strip_prefix(&self.before)?.strip_suffix(&self.after)?.parse().ok()?;
         (self.with(number) == name).then_some(number)
