@@ -3,8 +3,8 @@
 use crate::figures::page::{FigureRecord, PictureRecord, Shown, page, png_source, svg_source};
 use crate::figures::plot::{PLOT_SIZE, plot, title};
 use crate::figures::{
-    Artist, Content, Drawing, Figure, HowToMeasure, NO_TEXTURED_MODEL, Numbers, Panel, TRIANGLES, Turn, figures,
-    measure, only, pass_columns, triangles_a_turn,
+    Artist, Content, Drawing, HowToMeasure, NO_TEXTURED_MODEL, Numbers, Panel, TRIANGLES, Turn, figures, measure, only,
+    pass_columns, triangles_a_turn,
 };
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -111,7 +111,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let mut artist = Artist::new(arguments.textured()?);
     let mut renderer = Renderer::new(arguments.backend)?;
     let how = arguments.how_to_measure();
-    let is_measured = chosen.iter().any(Figure::needs_numbers);
+    let is_measured = chosen.iter().any(|figure| matches!(figure.content, Content::Frames | Content::OtherNumbers));
     let panels: usize = chosen.iter().map(|figure| figure.panels().len()).sum();
     let progress = TimedProgress::new("drawing", &expected(panels, is_measured, &how));
     let mut records = Vec::new();

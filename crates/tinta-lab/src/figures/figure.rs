@@ -132,11 +132,6 @@ impl Figure {
             Content::Frames | Content::OtherNumbers | Content::Passes | Content::NotDrawn(_) => &[],
         }
     }
-
-    /// Whether it needs the measurements of section 5 of Evangelista et al.
-    pub(crate) fn needs_numbers(&self) -> bool {
-        matches!(self.content, Content::Frames | Content::OtherNumbers)
-    }
 }
 
 impl Panel {
