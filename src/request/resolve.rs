@@ -153,7 +153,7 @@ impl Request {
             framed.options.insert("view".to_owned(), OptionValue::text(view.text()));
             scene = scene.seen_with(&framed.scene)?;
         }
-        framed.put_ground(&scene)?;
+        framed.put_ground(Some(&scene))?;
         if framed.ground == Ground::Shadow {
             framed.put_light(|light, thresholds| light.towards(&scene, thresholds));
             let light = framed.shadow_light(&scene);
@@ -169,7 +169,7 @@ impl Request {
     /// Those of [`Request::contents`].
     pub fn still(&self, scene: Scene, as_vectors: bool) -> Result<Resolved> {
         let mut request = self.clone();
-        request.put_ground(&scene)?;
+        request.put_ground(None)?;
         let light = self.style.far_tones().map(|(light, thresholds)| {
             let (seen, thresholds) = (OnceLock::new(), thresholds.map(f64::from));
             let best = || seen.get_or_init(|| SeenNormals::of(&scene)).best_light(thresholds);
@@ -244,16 +244,16 @@ impl Request {
     }
 
     /// Decides whether the models have a shadow where the request leaves that open; a recipe names it. Standing models have one in still
-    /// pictures that show all of them on a coloured ground, but not on paper, and not where strokes stand for tones.
-    fn put_ground(&mut self, scene: &Scene) -> Result<()> {
+    /// pictures on a coloured ground whose camera is framed around them, but not on paper or where strokes stand for tones.
+    fn put_ground(&mut self, framed: Option<&Scene>) -> Result<()> {
         if self.ground != Ground::Auto {
             return Ok(());
         }
-        let drawing = self.contents(true)?.drawing;
-        let is_of_paper = matches!(drawing.page_size, PageSize::Paper(_)) || drawing.is_for_pen;
-        let is_drawing = is_of_paper || drawing.hatching.spacing.is_some();
-        let shows_all = self.scene.camera.eye.is_none() && scene.background != Background::Transparent;
-        self.ground = if shows_all && !is_drawing && scene.stands() { Ground::Shadow } else { Ground::None };
+        let DrawingSettings { page_size, is_for_pen, hatching, .. } = self.contents(true)?.drawing;
+        let is_drawing = matches!(page_size, PageSize::Paper(_)) || is_for_pen || hatching.spacing.is_some();
+        let shows_all = self.scene.camera.eye.is_none() && self.scene.background != Background::Transparent;
+        let stands = shows_all && !is_drawing && framed.is_some_and(Scene::stands);
+        self.ground = if stands { Ground::Shadow } else { Ground::None };
         self.options.insert("ground".to_owned(), OptionValue::text(self.ground.text()));
         Ok(())
     }
