@@ -237,8 +237,7 @@ fn cold_table(settings: &Settings, peers: &[Peer], size: Size, folder: &Path, di
         command
     };
     let mut contestants: Vec<(&str, Command)> = vec![
-        // The default picture.
-        // As the others, without a shadow.
+        // The default picture, without a shadow as the others.
         ("tinta, look print", tinta(&["--look", "print", "--ground", "none"])),
         ("tinta ink", tinta(&["--style", "ink"])),
         ("tinta three-pass", tinta(&["--style", "three-pass"])),

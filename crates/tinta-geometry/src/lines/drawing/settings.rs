@@ -47,7 +47,6 @@ pub struct DrawingSettings {
     pub scale: Option<Scale>,
     /// The unit of the model's numbers. Default millimetres.
     pub units: ModelUnit,
-    /// Whether each path names its class, object, mesh edges and angles; all its points are then written. Default
     /// Whether visible lines that end free taper off. Not for a pen, or in DXF. Default false.
     pub tapers: bool,
     /// Whether the drawing is for a plotter. Paths are then sorted to shorten pen-up travel, dashes are separate
