@@ -2,6 +2,8 @@
 
 use crate::support::names;
 use std::process::{Command, Stdio};
+use tinta::lines::DrawingFormat;
+use tinta::mesh::Format;
 
 /// Files in the folder where the commands are typed.
 const FILES: [(&str, &str); 16] = [
@@ -190,11 +192,11 @@ const MISTAKES: [(&str, &str); 119] = [
     ),
     (
         "render triangle.obj -o out.xyz",
-        "out.xyz: tinta writes no .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf, .json for lines, .gif or .apng for an animation",
+        "out.xyz: tinta writes no .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, FILES_OF_LINES for lines, .gif or .apng for an animation",
     ),
     (
         "render triangle.obj -o out",
-        "out: the name has no extension; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf, .json for lines, .gif or .apng for an animation",
+        "out: the name has no extension; use .png, .jpg, .bmp, .tga or .ppm for a picture, FILES_OF_LINES for lines, .gif or .apng for an animation",
     ),
     (
         "render triangle.obj -o out.svg --class-colors silhouete=red",
@@ -277,10 +279,7 @@ const MISTAKES: [(&str, &str); 119] = [
     ("render none.obj -o out.png", "none.obj: there is no such file; check the name"),
     ("render dir -o out.png", "dir: this is a directory; name a model file in it"),
     ("render empty.obj -o out.png", "empty.obj: the file is empty; export the model again"),
-    (
-        "render notes.txt -o out.png",
-        "notes.txt: this is not a model in a supported format; use one of OBJ, STL, PLY, MD2, 3DS, 3MF, glTF",
-    ),
+    ("render notes.txt -o out.png", "notes.txt: this is not a model in a supported format; use one of MODELS"),
     (
         "render cut.obj -o out.png",
         "cut.obj: line 3: a vertex is not three numbers; correct this line or export the model again",
@@ -344,7 +343,7 @@ const MISTAKES: [(&str, &str); 119] = [
     ),
     (
         "batch triangle.obj -o {name}.xyz",
-        "./triangle.xyz: tinta writes no .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, .svg, .pdf, .dxf, .json for lines, .gif or .apng for an animation",
+        "./triangle.xyz: tinta writes no .xyz; use .png, .jpg, .bmp, .tga or .ppm for a picture, FILES_OF_LINES for lines, .gif or .apng for an animation",
     ),
     (
         "render triangle.obj twice.obj -o dir/",
@@ -385,7 +384,10 @@ fn every_mistake_is_one_sentence_that_says_what_to_do() {
     FILES.iter().for_each(|(name, content)| std::fs::write(folder.join(name), content).unwrap());
     let before = names(folder);
     let mut wrong = Vec::new();
+    let drawings: Vec<String> = DrawingFormat::ALL.iter().map(|format| format!(".{}", format.ending)).collect();
     for (line, sentence) in MISTAKES {
+        let sentence = sentence.replace("FILES_OF_LINES", &drawings.join(", "));
+        let sentence = sentence.replace("MODELS", &Format::names().join(", "));
         let mut command = Command::new(env!("CARGO_BIN_EXE_tinta"));
         let output = command.args(line.split(' ')).current_dir(folder).stdin(Stdio::null()).output().unwrap();
         let (said, code) = (String::from_utf8_lossy(&output.stderr), output.status.code());
