@@ -4,7 +4,7 @@
 //! are declared in the request's table; this file chooses those of a window.
 
 use crate::error::Result;
-use crate::preset::{LOOKS, Look};
+use crate::preset::LOOKS;
 use crate::request::Request;
 use crate::scene::SceneSettings;
 use crate::settings::{HasSettings, Kind, Options, Setting};
@@ -73,19 +73,6 @@ pub(in crate::window) fn put_style(request: &mut Request, style: Style) {
 /// The request in another style with the options that it has; as published if it does not accept them.
 pub(in crate::window) fn in_style(request: &Request, name: StyleName) -> Request {
     request.in_style(name).unwrap_or_else(|_| Request { style: Style::named(name), ..request.clone() })
-}
-
-/// Another style with a look's settings; as published if it does not accept them.
-pub(in crate::window) fn sibling(look: Look, name: StyleName) -> Style {
-    let options = look.preset().map(|preset| preset.options);
-    options.and_then(|options| Style::with_options(name, &options)).unwrap_or_else(|_| Style::named(name))
-}
-
-/// The look whose sibling a style is; the published one if it has only its own settings.
-pub(in crate::window) fn look_of_sibling(style: &Style) -> Option<Look> {
-    let is_of = |look: &Look| sibling(*look, style.style_name()) == *style;
-    // A style that a look does not mention is as published.
-    LOOKS.into_iter().rev().find(is_of)
 }
 
 /// Sets what looks say of a scene back to the defaults.
@@ -157,12 +144,11 @@ pub(in crate::window) fn set(
 ) -> std::result::Result<(), String> {
     // Recordings of earlier versions name options that the command line did not have without dashes.
     let name = option.trim_start_matches("--");
+    let has = || group.settings(request).map(|setting| setting.name).collect::<Vec<_>>().join(", ");
     let setting = group.settings(request).find(|setting| setting.name == name).ok_or_else(|| match group {
         Group::Style => format!("{option}: the style {} has no such setting", request.style.name()),
-        Group::Scene => format!("{option}: the window has no such setting; it has {}", SCENE_SETTINGS.join(", ")),
-        Group::Models => {
-            format!("{option}: the window has no such setting of models; it has {}", LOAD_SETTINGS.join(", "))
-        }
+        Group::Scene => format!("{option}: the window has no such setting; it has {}", has()),
+        Group::Models => format!("{option}: the window has no such setting of models; it has {}", has()),
     })?;
     let value = value.map(|value| value.trim().to_owned());
     let value = value.or_else(|| setting.value(&published(request))).unwrap_or_default();

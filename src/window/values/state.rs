@@ -359,7 +359,7 @@ impl ViewerState {
             ViewerEvent::SaveLines => return Ok(Some(Effect::Save(Save::Lines))),
             ViewerEvent::SaveTurn => return Ok(Some(Effect::Save(Save::Turn))),
             ViewerEvent::SavePreset => return Ok(Some(Effect::Save(Save::Preset))),
-            ViewerEvent::Look(name) => self.choose_look(Look::of_name(&name)?)?,
+            ViewerEvent::Look(name) => self.put_layer(OptionLayer::Look(Look::of_name(&name)?))?,
             ViewerEvent::OpenPreset(name) => {
                 self.put_layer(OptionLayer::File(Preset::read(&name).map_err(|error| error.to_string())?))?;
             }
@@ -414,16 +414,6 @@ impl ViewerState {
         let request = self.of_layer(self.active, layer).map_err(|error| error.to_string())?;
         self.put_scene(request.scene.clone());
         self.requests[self.active as usize] = request;
-        Ok(())
-    }
-
-    fn choose_look(&mut self, look: Look) -> Result<(), String> {
-        self.put_layer(OptionLayer::Look(look))?;
-        // A side still unseen and unchanged starts with settings that fit the look.
-        let other = if self.active == Side::Left { Side::Right } else { Side::Left };
-        if self.layout == Layout::Single && controls::look_of_sibling(self.style(other)).is_some() {
-            self.put_style(other, controls::sibling(look, self.style(other).style_name()));
-        }
         Ok(())
     }
 
