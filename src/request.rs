@@ -394,7 +394,7 @@ impl Request {
     }
 
     /// Whether a recipe has this request's options, and besides those only the light and the ground that drawing chooses. `None` where
-    /// its view is either a flat sheet's, which drawing chooses too, or another request's.
+    /// its view is either the one that suits the models, which drawing chooses, or another request's.
     #[cfg(feature = "cli")]
     pub(crate) fn is_kept_in(&self, recipe: &Recipe) -> Option<bool> {
         let mut options = self.kept_options(recipe.gl.is_some());

@@ -122,14 +122,16 @@ fn run(arguments: &Arguments) -> Result<()> {
     let loaded = load(&arguments.model, &request.read).map_err(|error| request.attributed(error))?;
     loaded.remarks.iter().for_each(|remark| say(&format!("tinta: {remark}")));
     let files = files(&arguments.model, &loaded)?;
-    let scene = request.placed(vec![Arc::new(loaded.mesh)]);
-    scene.and_then(|scene| request.style.plan(&scene, request.show)).map_err(|error| request.attributed(error))?;
+    let attributed = |error| request.attributed(error);
+    let scene = request.placed(vec![Arc::new(loaded.mesh)]).map_err(attributed)?;
+    request.style.plan(&scene, request.show).map_err(attributed)?;
+    let view = request.suited_view(&scene);
     let shaders: BTreeMap<String, String> = request.shaders()?.into_iter().collect();
     if let Some(folder) = &request.glsl {
         say(&format!("tinta: {}", rewritten(folder, &shaders)?));
     }
     let page = built(arguments.from.as_deref())?;
-    let page = with_lesson(&page, arguments.lecture, &link(arguments, &request, &shaders), &files);
+    let page = with_lesson(&page, arguments.lecture, &link(arguments, (&request, view), &shaders), &files);
     let page = page.ok_or_else(|| {
         let name = arguments.from.clone().unwrap_or_default();
         Error::model(name, "this is no page that scripts/web built; name its web/dist/page.html")
@@ -230,7 +232,7 @@ fn rewritten(folder: &str, shaders: &BTreeMap<String, String>) -> Result<String>
 }
 
 /// What the page shows at first, as its links say it.
-fn link(arguments: &Arguments, request: &Request, shaders: &BTreeMap<String, String>) -> String {
+fn link(arguments: &Arguments, (request, view): (&Request, View), shaders: &BTreeMap<String, String>) -> String {
     let mut words = String::new();
     let mut put = |name: &str, value: &str| {
         let _ = write!(words, "{}{}={}", if words.is_empty() { "" } else { "&" }, encoded(name), encoded(value));
@@ -265,7 +267,7 @@ fn link(arguments: &Arguments, request: &Request, shaders: &BTreeMap<String, Str
         let published = tinta::glsl::source(path).unwrap_or_default();
         put(&format!("shader:{path}"), &format!("0,{},{text}", published.len()));
     }
-    let View { azimuth_degrees, elevation_degrees } = request.scene.camera.view;
+    let View { azimuth_degrees, elevation_degrees } = view;
     let fov = request.scene.camera.fov_y_degrees;
     put("orbit", &format!("{azimuth_degrees},{elevation_degrees},1,0,0,{fov},perspective"));
     words

@@ -20,9 +20,6 @@ use std::sync::{Arc, OnceLock};
 /// Distance of the strokes on a cut of a drawing to scale, millimetres on paper.
 const HATCHING_MM: f64 = 2.5;
 
-/// The thickness of a sheet, as a share of its length.
-const FLAT: f64 = 1e-3;
-
 /// The light that shadows follow where a style's tones have none: from the left, eye space.
 const LIGHT: [f32; 3] = [-0.4, 1.0, 0.6];
 
@@ -148,7 +145,8 @@ impl Request {
         // One view is drawn to scale in a parallel projection.
         framed.scene.camera.parallel |= drawing.scale.is_some() && sheet.is_none();
         let mut scene = scene(&framed.scene)?.with_fills(&self.part_rules()?);
-        if let Some(view) = self.view_of_sheet(&scene) {
+        let view = self.suited_view(&scene);
+        if view != framed.scene.camera.view {
             framed.scene.camera.view = view;
             framed.options.insert("view".to_owned(), OptionValue::text(view.text()));
             scene = scene.seen_with(&framed.scene)?;
@@ -226,12 +224,11 @@ impl Request {
         Ok(Scene::new(meshes, &self.scene)?.with_fills(&self.part_rules()?))
     }
 
-    /// The view along the normal of models that are a flat sheet, in place of a look's. It shows the sheet's true shape.
-    fn view_of_sheet(&self, scene: &Scene) -> Option<View> {
+    /// The view, or in place of a look's the one that suits the models.
+    pub(crate) fn suited_view(&self, scene: &Scene) -> View {
+        let view = self.scene.camera.view;
         let is_free = self.is_of_look("view") && !["eye", "target"].iter().any(|name| self.options.contains_key(*name));
-        let extent = scene.extent();
-        let thin = (0..3).find(|axis| extent[*axis] <= FLAT * extent.max_element()).filter(|_| is_free)?;
-        ["right", "top", "front"][thin].parse().ok()
+        if is_free { scene.suited(view) } else { view }
     }
 
     /// Gives the tones a light if they name none; a recipe names it.

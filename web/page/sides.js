@@ -102,7 +102,7 @@ export function sides(app) {
           else state[part][setting] = value;
         }
       }
-      if (view) app.pane()?.look(view);
+      if (view) app.pane()?.look(view, true);
       if (JSON.stringify(state.read) !== before) app.reread();
       all();
       changed(() => {});

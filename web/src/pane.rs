@@ -221,14 +221,15 @@ impl Pane {
         self.orbit.zoom_by(factor);
     }
 
-    /// Looks from here at the whole scene: a view as the command line has it.
+    /// Looks from here at the whole scene: a view as the command line has it, or in place of a look's the one that suits the model.
     ///
     /// # Errors
     ///
     /// If the view is unknown.
-    pub fn look(&mut self, view: &str) -> Result<(), JsError> {
+    pub fn look(&mut self, view: &str, is_of_look: Option<bool>) -> Result<(), JsError> {
         let view: View = view.parse().map_err(|error| JsError::new(&format!("{error}")))?;
-        self.orbit.look_from(view);
+        let scene = self.scene.as_ref().filter(|_| is_of_look == Some(true));
+        self.orbit.look_from(scene.map_or(view, |scene| scene.suited(view)));
         Ok(())
     }
 

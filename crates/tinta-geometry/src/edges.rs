@@ -23,6 +23,7 @@ mod classes;
 mod cracks;
 mod edge_list;
 mod fitted_surfaces;
+mod flat_faces;
 mod lasting_creases;
 mod mesh_edges;
 mod orientation;

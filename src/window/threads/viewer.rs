@@ -516,6 +516,10 @@ impl Viewer {
         let _ = self.watched.send(files.clone());
         (self.surroundings.files, self.surroundings.load) = (files, options);
         self.state.models = models;
+        let request = &self.state.requests[0];
+        if self.scene.is_none() && request.scene.camera.view == self.state.orbit.view {
+            self.state.orbit.look_from(request.suited_view(&scene));
+        }
         self.scene = Some(scene);
         self.costs.view_changed();
     }

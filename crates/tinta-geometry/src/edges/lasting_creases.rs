@@ -18,9 +18,6 @@ const LEAST_LENGTH: f64 = 0.06;
 /// The cosine of the largest turn along one crease.
 const STRAIGHT: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// The least cosine between triangles of one flat face: half a degree, as exported planes keep.
-const FLAT: f64 = 0.99996;
-
 /// Most creases at a position; more of them do not continue.
 const MOST_CREASES: usize = 16;
 
@@ -65,12 +62,16 @@ pub(crate) struct LastingCreases {
 }
 
 impl LastingCreases {
-    /// Finds the edges' classes in `wanted` and those of lasting creases.
-    pub(crate) fn find(mesh: &Mesh, edges: &EdgeList, angle: CreaseAngle, wanted: ClassSet, by_normals: bool) -> Self {
+    /// Finds the edges' classes in `wanted` and those of lasting creases, with whether each triangle is part of a flat face.
+    pub(super) fn find(
+        of: (&Mesh, &EdgeList, &[bool]),
+        angle: CreaseAngle,
+        wanted: ClassSet,
+        by_normals: bool,
+    ) -> Self {
+        let (mesh, edges, is_flat) = of;
         // Where normals do not decide, only creases are read from these classes.
         let at_angle = Classes::new(mesh, edges, angle, if by_normals { wanted } else { wanted.and(CREASES) });
-        let normals = face_normals(mesh);
-        let is_flat = flat_faces(edges, &normals);
         let ends_flat = |edge: u32| edges.faces(edge).iter().any(|face| is_flat[*face as usize]);
         let found = |classes, sharpness: Vec<Sharpness>| {
             let lasts = lasting(mesh, edges, &sharpness);
@@ -90,6 +91,7 @@ impl LastingCreases {
         let at_less = Classes::new(mesh, edges, less, wanted);
         let has = |classes: &Classes, edge: u32| !classes.of_edges[edge as usize].and(CREASES).is_empty();
         let asked: Vec<u32> = all().filter(|edge| has(&at_less, *edge)).collect();
+        let normals = face_normals(mesh);
         let usual = UsualAngles::new(mesh, edges, &normals, &asked);
         let mut sharpness = vec![Sharpness::Blunt; edges.len()];
         let found_at = |edge: u32| {
@@ -180,16 +182,4 @@ fn lasting(mesh: &Mesh, edges: &EdgeList, sharpness: &[Sharpness]) -> Vec<bool> 
 fn face_normals(mesh: &Mesh) -> Vec<DVec3> {
     let normal = |face: &[u32; 3]| mesh.corners(face).and_then(triangle_normal).unwrap_or(DVec3::ZERO);
     filled(mesh.triangles.len(), threads_for(mesh.triangles.len()), DVec3::ZERO, |face| normal(&mesh.triangles[face]))
-}
-
-/// Returns for each face whether a neighbour lies in its plane.
-fn flat_faces(edges: &EdgeList, normals: &[DVec3]) -> Vec<bool> {
-    let mut is_flat = vec![false; normals.len()];
-    for edge in 0..edges.len() as u32 {
-        let &[first, second] = edges.faces(edge) else { continue };
-        if normals[first as usize].dot(normals[second as usize]).abs() > FLAT {
-            (is_flat[first as usize], is_flat[second as usize]) = (true, true);
-        }
-    }
-    is_flat
 }

@@ -1,6 +1,7 @@
 //! A mesh's edges with the data kept between views: the list, its classes, the faces' planes.
 
 use super::axes::{Axis, axes};
+use super::flat_faces::{areas, flat_faces};
 use super::{
     Class, ClassSet, Classes, CreaseAngle, EdgeList, Eye, LastingCreases, SilhouetteRule, Silhouettes, SmoothSurface,
 };
@@ -18,6 +19,7 @@ pub struct MeshEdges {
     classes: Mutex<Option<(ClassSet, Arc<Classes>)>>,
     /// For the latest settings.
     lasting: Mutex<Option<Arc<LastingCreases>>>,
+    is_flat: OnceLock<Vec<bool>>,
     /// For the latest angle.
     smooth: Mutex<Option<Arc<SmoothSurface>>>,
     axes: OnceLock<Vec<Axis>>,
@@ -33,7 +35,8 @@ impl MeshEdges {
     /// Takes a list built from the mesh.
     pub(crate) fn with_list(mesh: Arc<Mesh>, list: EdgeList) -> Self {
         let (classes, lasting, smooth) = (Mutex::new(None), Mutex::new(None), Mutex::new(None));
-        Self { mesh, list, silhouettes: OnceLock::new(), classes, lasting, smooth, axes: OnceLock::new() }
+        let (silhouettes, is_flat, axes) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Self { mesh, list, silhouettes, classes, lasting, is_flat, smooth, axes }
     }
 
     /// The mesh.
@@ -81,11 +84,21 @@ impl MeshEdges {
                 known.clone()
             }
             _ => {
-                let found = Arc::new(LastingCreases::find(&self.mesh, &self.list, angle, wanted, by_normals));
+                let of = (&*self.mesh, &self.list, self.flat_faces());
+                let found = Arc::new(LastingCreases::find(of, angle, wanted, by_normals));
                 *kept = Some(found.clone());
                 found
             }
         }
+    }
+
+    fn flat_faces(&self) -> &[bool] {
+        self.is_flat.get_or_init(|| flat_faces(&self.mesh, &self.list))
+    }
+
+    /// The area of flat faces of several triangles, and of all faces, in units of the model's own.
+    pub(crate) fn areas(&self) -> [f64; 2] {
+        areas(&self.mesh, self.flat_faces())
     }
 
     /// Returns the smooth surface that the faces approximate, sharp at creases of this angle; keeps the latest one.

@@ -115,7 +115,7 @@ pub(super) fn fill_missing(
     });
     let first = normals.len() as u32;
     normals.reserve_exact(found.iter().map(|found| found.normals.len()).sum());
-    let mut corners = incidence.all_corners().iter();
+    let mut corners = incidence.all_corners.iter();
     for mut found in found {
         let before = normals.len() as u32;
         normals.append(&mut found.normals);

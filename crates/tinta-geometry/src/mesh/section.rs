@@ -17,6 +17,7 @@ use crate::tolerances::ON_PLANE;
 use cutter::Cutter;
 pub use cutter::SECTION;
 use glam::DVec3;
+pub(crate) use rings::double_area;
 
 const NO_PLANE: &str = "its numbers must be finite, and its normal not 0";
 

@@ -3,7 +3,7 @@
 //! OBJ, PLY and STL do not say which axis is up. An animal stands on its feet and a bust on its base, and on nothing else. This only hints:
 //! parts of machines stand on several ends, and a slab may well stand on its edge. A model that stands on its bottom has a shadow.
 
-use super::{Mesh, UpAxis};
+use super::{Mesh, UpAxis, double_area};
 use crate::tolerances::{BASE_DEPTH, BASE_HEIGHT, BASE_MARGIN, BASE_SHARE};
 use glam::{DVec2, DVec3};
 
@@ -62,9 +62,9 @@ fn stands(mesh: &Mesh, (axis, is_highest): End, middle: DVec3, margin: f64) -> b
         return false;
     }
     let sides = || rim.iter().zip(rim.iter().cycle().skip(1));
-    let area = sides().map(|(a, b)| a.perp_dot(*b)).sum::<f64>() / 2.0;
     let inside = sides().map(|(a, b)| (*b - *a).normalize_or_zero().perp_dot(flat(middle) - *a));
-    area >= BASE_SHARE * side.x * side.y && inside.fold(f64::INFINITY, f64::min) > margin * (side.x * side.y).sqrt()
+    double_area(&rim) >= 2.0 * BASE_SHARE * side.x * side.y
+        && inside.fold(f64::INFINITY, f64::min) > margin * (side.x * side.y).sqrt()
 }
 
 /// The middle of a model's surface, every piece of it by its area.

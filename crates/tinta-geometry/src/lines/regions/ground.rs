@@ -7,12 +7,13 @@
 use super::cut::cut;
 use super::region::{Region, Regions};
 use super::view::View;
-use crate::camera::{CameraSettings, Framing};
+use crate::camera::{self, CameraSettings, Framing};
 use crate::error::Result;
 use crate::lines::eye::space::Space;
 use crate::lines::progress::Progress;
 use crate::lines::sight::Sight;
 use crate::memory::AREAS;
+use crate::mesh::double_area;
 use crate::scene::{Scene, SceneSettings, Size};
 use glam::{DVec2, DVec3};
 
@@ -53,13 +54,10 @@ pub fn ground_shadow(scene: &Scene, light: DVec3, progress: &Progress) -> Result
     {
         return Ok(shadow);
     }
-    let camera = CameraSettings {
-        eye: Some(scene.centre + light * scene.radius * 4.0),
-        target: Some(scene.centre),
-        parallel: true,
-        framing: Framing::Middle,
-        ..CameraSettings::default()
-    };
+    let [azimuth_degrees, elevation_degrees] = [light.x.atan2(light.z), light.y.asin()].map(f64::to_degrees);
+    let from_light = camera::View { azimuth_degrees, elevation_degrees };
+    let camera =
+        CameraSettings { view: from_light, parallel: true, framing: Framing::Middle, ..CameraSettings::default() };
     let size = Size { width: LIGHT_PX, height: LIGHT_PX };
     let lit = scene.seen_with(&SceneSettings { camera, size, ..SceneSettings::default() })?;
     let sight = Sight::of(&lit);
@@ -79,7 +77,7 @@ pub fn ground_shadow(scene: &Scene, light: DVec3, progress: &Progress) -> Result
     };
     for Region { loops, .. } in outline.regions.iter().filter(|region| region.seen.is_some()) {
         let loops: Vec<Vec<DVec2>> = loops.iter().map(ring).filter(|corners| corners.len() > 2).collect();
-        let area_px = loops.iter().map(|corners| signed_area(corners)).sum::<f64>().abs();
+        let area_px = loops.iter().map(|corners| double_area(corners)).sum::<f64>().abs() * 0.5;
         shadow.regions.push(Region { seen: (), loops, area_px });
     }
     let largest = shadow.regions.iter().map(|part| part.area_px).fold(0.0, f64::max);
@@ -100,11 +98,6 @@ fn before(corners: &[DVec3], near: f64) -> Vec<DVec3> {
         }
     }
     kept
-}
-
-fn signed_area(corners: &[DVec2]) -> f64 {
-    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
-    sides.map(|(from, to)| from.perp_dot(*to)).sum::<f64>() * 0.5
 }
 
 #[cfg(test)]

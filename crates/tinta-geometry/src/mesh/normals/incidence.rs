@@ -6,7 +6,8 @@ use std::ops::Range;
 /// For every position the triangle corners that meet there, as `3 * triangle + corner`.
 pub(in crate::mesh) struct Incidence {
     starts: Vec<u32>,
-    corners: Vec<u32>,
+    /// The corners at all vertices, one after the other.
+    pub(super) all_corners: Vec<u32>,
 }
 
 impl Incidence {
@@ -19,13 +20,13 @@ impl Incidence {
             starts[vertex + 1] += starts[vertex];
         }
         let mut next = starts.clone();
-        let mut corners = vec![0u32; triangles.len() * 3];
+        let mut all_corners = vec![0u32; triangles.len() * 3];
         for (corner, index) in triangles.as_flattened().iter().enumerate() {
             let slot = &mut next[*index as usize];
-            corners[*slot as usize] = corner as u32;
+            all_corners[*slot as usize] = corner as u32;
             *slot += 1;
         }
-        Self { starts, corners }
+        Self { starts, all_corners }
     }
 
     /// How many vertices there are.
@@ -35,17 +36,12 @@ impl Incidence {
 
     /// The corners at some vertices, one after the other.
     pub(super) fn corners_of(&self, vertices: &Range<usize>) -> &[u32] {
-        &self.corners[self.starts[vertices.start] as usize..self.starts[vertices.end] as usize]
-    }
-
-    /// The corners at all vertices, one after the other.
-    pub(super) fn all_corners(&self) -> &[u32] {
-        &self.corners
+        &self.all_corners[self.starts[vertices.start] as usize..self.starts[vertices.end] as usize]
     }
 
     /// The corners at a vertex.
     pub(in crate::mesh) fn corners(&self, vertex: usize) -> &[u32] {
-        &self.corners[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+        &self.all_corners[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
     }
 }
 

@@ -12,6 +12,7 @@ use super::patches::{Neighbours, gathered};
 use crate::disjoint_sets::DisjointSets;
 use crate::mesh::bounds;
 use crate::threads::{both, filled, in_parallel, threads_for};
+use crate::tolerances::{FLAT_FACE, MOST_OF_FIGURES};
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -19,18 +20,11 @@ use std::collections::HashMap;
 /// models looked at, less far than the edges of their shortest chamfers.
 const LEAST_REACH: f64 = 0.04;
 
-/// The least cosine between triangles of one flat face: half a degree, as exported planes keep.
-const FLAT: f64 = 0.99996;
-
 /// Fewest triangles of a flat face around which a smaller angle is enough: those of a hexagon. Facets of round shapes have two.
 const LEAST_TRIANGLES: usize = 4;
 
 /// How much larger such a face is than the one beside it. Facets around a round shape are as large as one another.
 const LARGER: f64 = 4.0;
-
-/// The largest share of its surface that a figure has in flat faces of several triangles. Measured figures and scans have
-/// up to 0.26, parts and turned shapes 0.84 and more.
-const MOST_FLAT: f64 = 0.5;
 
 /// The cosine of the angle above which an edge of a figure is sharp, if it is not larger: facets of low models stand at up to 50
 /// degrees to one another where the form is round.
@@ -91,36 +85,31 @@ impl PersistentCreases {
             let [face, other] = edge.faces.map(|face| given[face as usize]);
             face.dot(other)
         };
-        let corners = |face: usize| triangles[face].map(|vertex| positions[vertex as usize]);
         let threads = threads_for(triangles.len());
         let own_areas = filled(triangles.len(), threads, 0.0, |face| {
-            let [a, b, c] = corners(face);
+            let [a, b, c] = triangles[face].map(|vertex| positions[vertex as usize]);
             (b - a).cross(c - a).length() * 0.5
         });
         let gather = || {
             let neighbours = Neighbours::new(triangles.len(), edges().map(|edge| edge.faces));
             let begins = |first: u32| own_areas[first as usize];
             let joins = |_, face: u32, other: u32, _| {
-                (given[face as usize].dot(given[other as usize]) > FLAT).then(|| own_areas[other as usize])
+                (given[face as usize].dot(given[other as usize]) > FLAT_FACE).then(|| own_areas[other as usize])
             };
-            let gathered = gathered(&neighbours, triangles.len(), begins, joins);
-            (neighbours, gathered)
+            gathered(&neighbours, triangles.len(), begins, joins)
         };
         let angle = |corner: usize| angle_at(positions, triangles, corner as u32);
         let measure = || filled(triangles.len() * 3, threads, 0.0, angle);
-        let ((neighbours, (flat, flat_areas)), angles) = both(gather, measure);
+        let ((flat, flat_areas), angles) = both(gather, measure);
         let areas: Vec<f64> = flat.iter().map(|face| flat_areas[*face as usize]).collect();
-        let several = filled(triangles.len(), threads, false, |face| {
-            neighbours.of(face).iter().any(|other| flat[*other as usize] == flat[face])
-        });
-        let in_flat: f64 =
-            own_areas.iter().zip(&several).map(|(area, several)| if *several { *area } else { 0.0 }).sum();
-        let is_figure = in_flat < MOST_FLAT * own_areas.iter().sum::<f64>();
+        let mut flat_counts = vec![0; triangles.len()];
+        flat.iter().for_each(|face| flat_counts[*face as usize] += 1);
+        let in_flat = own_areas.iter().zip(&flat).filter(|(_, face)| flat_counts[**face as usize] > 1);
+        let in_flat = in_flat.map(|(area, _)| area).sum::<f64>();
+        let is_figure = in_flat < MOST_OF_FIGURES * own_areas.iter().sum::<f64>();
         let cos_smooth = if is_figure { cos_smooth.min(COS_OF_FIGURES) } else { cos_smooth };
         let diagonal = diagonal_of(positions);
         let faces = Faces { triangles, normals: given, areas: &own_areas, angles: &angles };
-        let mut flat_counts = vec![0; triangles.len()];
-        flat.iter().for_each(|face| flat_counts[*face as usize] += 1);
         let is_border = |edge: &Edge| {
             let [face, other] = edge.faces.map(|face| flat[face as usize]);
             let is_larger = |face: u32, other: u32| {

@@ -1,6 +1,6 @@
 //! The caps over the cut of one solid: triangles that use every side of their rings.
 
-use super::rings::{area, nested, rings};
+use super::rings::{double_area, nested, rings};
 use crate::tolerances::ON_PLANE;
 use earcut::Earcut;
 use glam::DVec2;
@@ -91,7 +91,8 @@ fn cut(rings: &[&[u32]], flat: &[DVec2]) -> Vec<[u32; 3]> {
     Earcut::new().earcut(flat.iter().map(|point| point.to_array()), &starts[..starts.len() - 1], &mut indices);
     let corners = || indices.chunks_exact(3).map(|it| [it[0], it[1], it[2]]);
     // All turn one way, slivers too, whose own areas may round to the other sign.
-    let is_clockwise = corners().map(|corners| area(&corners.map(|corner| flat[corner as usize]))).sum::<f64>() < 0.0;
+    let is_clockwise =
+        corners().map(|corners| double_area(&corners.map(|corner| flat[corner as usize]))).sum::<f64>() < 0.0;
     let of_positions = corners().map(|corners| corners.map(|corner| positions[corner as usize]));
     of_positions.map(|[a, b, c]| if is_clockwise { [a, c, b] } else { [a, b, c] }).collect()
 }

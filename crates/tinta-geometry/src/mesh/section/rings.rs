@@ -58,7 +58,7 @@ fn leftmost(nexts: &[u32], before: u32, corner: u32, in_plane: &impl Fn(u32) -> 
 }
 
 /// Twice a ring's area, positive counter-clockwise.
-pub(super) fn area(ring: &[DVec2]) -> f64 {
+pub(crate) fn double_area(ring: &[DVec2]) -> f64 {
     (1..ring.len().saturating_sub(1)).map(|at| (ring[at] - ring[0]).perp_dot(ring[at + 1] - ring[0])).sum()
 }
 
@@ -73,7 +73,7 @@ fn encloses(ring: &[DVec2], point: DVec2) -> bool {
 
 /// The counter-clockwise rings, each with its holes: the clockwise rings that no smaller one encloses.
 pub(super) fn nested(rings: &[Vec<DVec2>]) -> Vec<(usize, Vec<usize>)> {
-    let areas: Vec<f64> = rings.iter().map(|ring| area(ring)).collect();
+    let areas: Vec<f64> = rings.iter().map(|ring| double_area(ring)).collect();
     let mut nested: Vec<(usize, Vec<usize>)> =
         (0..rings.len()).filter(|ring| areas[*ring] > 0.0).map(|ring| (ring, Vec::new())).collect();
     for hole in (0..rings.len()).filter(|ring| areas[*ring] <= 0.0) {
