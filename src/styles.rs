@@ -416,11 +416,6 @@ impl Show {
         let shown = (self != Self::Final).then(|| ("show".to_owned(), OptionValue::text(self.choice_name())));
         shown.into_iter().collect()
     }
-
-    /// Whether only charcoal and sand draw this picture.
-    fn is_of_charcoal(self) -> bool {
-        matches!(self, Self::Diffuse | Self::Cem | Self::Cet | Self::Paper)
-    }
 }
 
 #[cfg(test)]

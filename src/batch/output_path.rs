@@ -15,7 +15,7 @@ pub fn place_in(folder: &Path, output: &str) -> Result<PathBuf, String> {
             _ => "a job writes in the batch's folder; give a name without .. that is not absolute".to_owned(),
         });
     };
-    if names.first().is_some_and(|first| is_own_file(first)) {
+    if names.first().is_some_and(|first| first.starts_with("batch-") && first.ends_with(".jsonl")) {
         return Err("the batch's own files have such names; give it another".to_owned());
     }
     let mut place = folder.to_path_buf();
@@ -24,11 +24,6 @@ pub fn place_in(folder: &Path, output: &str) -> Result<PathBuf, String> {
         place.push("");
     }
     Ok(place)
-}
-
-/// Whether a batch keeps its own files under such a name: `batch-3-of-8.jsonl` and so on.
-fn is_own_file(name: &str) -> bool {
-    name.starts_with("batch-") && name.ends_with(".jsonl")
 }
 
 /// The output's normalised name, equal for equal places; `None` where [`place_in`] refuses it.

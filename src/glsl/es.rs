@@ -224,7 +224,7 @@ fn rewritten(stage: Stage, tokens: &[Token<'_>]) -> Result<Vec<String>, String> 
     for (number, place) in places.iter().enumerate() {
         let text = tokens[*place].text;
         match tokens[*place].kind {
-            Kind::Number => texts[*place] = without_suffix(text).to_owned(),
+            Kind::Number => texts[*place] = text.strip_suffix(['f', 'F']).unwrap_or(text).to_owned(),
             Kind::Word if text == "ftransform" => {
                 texts[*place] = format!("({} * {})", UNIFORMS[2].2, ATTRIBUTES[0].2);
                 places[number + 1..].iter().take(2).for_each(|bracket| texts[*bracket].clear());
@@ -253,10 +253,6 @@ fn rewritten(stage: Stage, tokens: &[Token<'_>]) -> Result<Vec<String>, String> 
         bound_loop(tokens, &places[number..], &mut texts)?;
     }
     Ok(texts)
-}
-
-fn without_suffix(number: &str) -> &str {
-    number.strip_suffix(['f', 'F']).unwrap_or(number)
 }
 
 /// Returns the new name of a name in 1.20, if it differs.

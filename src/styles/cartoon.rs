@@ -150,7 +150,7 @@ impl Cartoon {
     }
 
     pub(super) fn check(&self, scene: &Scene, show: Show) -> Result<()> {
-        if show.is_of_charcoal() {
+        if matches!(show, Show::Diffuse | Show::Cem | Show::Cet | Show::Paper) {
             return Err(Error::setting(
                 "show",
                 "diffuse, cem, cet and paper are pictures of the styles charcoal and sand; show final, normals, depth, map, \

@@ -282,14 +282,10 @@ impl Ink {
 
     /// Redraws the ink without its specks.
     fn without_specks(&self, scene: &Scene, surface: Size) -> Draw {
-        let size = self.speck_size(scene);
+        // A mark less than twice as long as wide is no stroke.
+        let size = (2 * self.line_width.pixels(scene.size) * self.supersample().factor()).min(LARGEST_SPECK);
         let uniforms = vec![supersample::texture_unit(surface), Uniform::new("speckSize", Value::Float(size as f32))];
         over_the_picture(vec!["improved/specks.frag"], uniforms, vec![("inkMask", Texture::BorderMap)], size + 1)
-    }
-
-    /// Largest width and height of a speck, in drawn pixels: a mark less than twice as long as wide is no stroke.
-    fn speck_size(&self, scene: &Scene) -> u32 {
-        (2 * self.line_width.pixels(scene.size) * self.supersample().factor()).min(LARGEST_SPECK)
     }
 }
 

@@ -13,7 +13,10 @@ use tinta::{Backend, Picture, Size, Style, StyleName, View};
 /// A viewer of these models without a window, at rest.
 fn viewer(models: &[&str], backend: Backend, shaders: Option<&Path>) -> Viewer {
     let models = models.iter().map(|model| (*model).to_owned()).collect();
-    let mut state = ViewerState::new(models, Default::default());
+    viewer_of(ViewerState::new(models, Default::default()), backend, shaders)
+}
+
+fn viewer_of(mut state: ViewerState, backend: Backend, shaders: Option<&Path>) -> Viewer {
     state.update(ViewerEvent::Resize([160, 120]));
     let options = ViewerOptions {
         state,
@@ -88,6 +91,16 @@ fn the_viewers_picture_is_the_one_its_command_line_draws_byte_for_byte() {
             let difference = drawn.difference(&picture.opaque()).unwrap();
             assert_eq!(difference.pixels, 0, "step {number} on {name}: {command}");
         }
+    }
+}
+
+#[test]
+fn a_look_shows_the_first_model_from_where_the_command_draws_it() {
+    for (model, elevation_degrees) in [("builtin:bust", 12.0), ("builtin:gear", 23.0)] {
+        let mut state = ViewerState::new(vec![model.to_owned()], Default::default());
+        state.update(ViewerEvent::Look("print".to_owned()));
+        let viewer = viewer_of(state, Backend::Auto, None);
+        assert_eq!(viewer.state.orbit.view, View { azimuth_degrees: 30.0, elevation_degrees }, "{model}");
     }
 }
 

@@ -12,7 +12,7 @@ use tinta::plan::Step;
 use tinta::recipe::Driver;
 use tinta::renderer::Renderer;
 use tinta::request::{LINES_AT_ONCE_MS, Request, Resolved};
-use tinta::settings::{HasSettings, Options};
+use tinta::settings::HasSettings;
 use tinta::styles::{Show, coarse};
 use tinta::{Picture, Scene, SceneSettings, Style, StyleName, View};
 use tinta_lab::measure::Ink;
@@ -251,7 +251,7 @@ impl Pane {
     pub fn camera(&self, options: &str) -> Result<String, JsError> {
         let settings = self.settings(&asked(StyleName::ThreePass, options)?)?;
         let camera = SceneSettings { camera: settings.camera, ..SceneSettings::default() };
-        json_of(&camera.to_options().map_err(said)?)
+        serde_json::to_string(&camera.to_options().map_err(said)?).map_err(unreadable)
     }
 }
 
@@ -286,8 +286,4 @@ fn picture_asked(options: &str, show: &str) -> Result<Request, JsError> {
     let mut request = asked(StyleName::ThreePass, options)?;
     request.show = show.parse().map_err(|error| JsError::new(&format!("{error}")))?;
     Ok(request)
-}
-
-fn json_of(options: &Options) -> Result<String, JsError> {
-    serde_json::to_string(options).map_err(unreadable)
 }

@@ -57,11 +57,6 @@ impl Job {
         Arc::ptr_eq(&self.scene, &other.scene) && self.settings.size == other.settings.size
     }
 
-    /// Whether they are seen from the same place, as another's are.
-    pub(in crate::window) fn is_of_same_view(&self, other: &Self) -> bool {
-        self.orbit == other.orbit && self.settings.camera == other.settings.camera
-    }
-
     /// The job of a view that has come to rest.
     pub(in crate::window) fn at_rest(self) -> Self {
         Self { is_coarse: false, keeps_patches: false, ..self }

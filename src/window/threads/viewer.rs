@@ -533,11 +533,7 @@ impl Viewer {
     }
 
     fn drawn(&mut self, job: Job, drawings: Vec<Drawing>) {
-        let is_same_view = self
-            .drawn
-            .as_ref()
-            .is_some_and(|before| before.is_of_same_view(&job) && before.is_of_same_scene_and_size(&job));
-        match is_same_view {
+        match self.drawn.as_ref().is_some_and(|before| before.is_of_same_picture(&job)) {
             true => self.costs.style_changed(),
             false => self.costs.view_changed(),
         }
