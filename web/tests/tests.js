@@ -91,7 +91,7 @@ for (const name of ["bust", "gear", "soldier"]) {
       const isLook = words[0] === "--look";
       const model = Model.builtin(name, JSON.stringify(isLook ? print.read : {}));
       pane.show(model);
-      pane.look(isLook ? print.view : "30,15");
+      pane.look(isLook ? print.view : "30,15", isLook);
       const shares = [];
       for (const round of [1, 2]) {
         pane.draw(JSON.stringify({ style, size: SIZE, ...options }), "final", false);
