@@ -152,8 +152,8 @@ pub const FLAT: f64 = 1e-6;
 /// Least cosine between triangles of one flat face: half a degree, as exported planes keep.
 pub(crate) const FLAT_FACE: f64 = 0.99996;
 
-/// Largest share of its surface that a figure has in flat faces of several triangles. Measured figures and scans have up to 0.65,
-/// parts and turned shapes 0.84 and more.
+/// Largest share of its surface that a figure has in flat faces of several triangles. Of measured figures and scans
+/// all but a rabbit of coarse spheres have up to 0.65, parts and turned shapes 0.84 and more.
 pub(crate) const MOST_OF_FIGURES: f64 = 0.7;
 
 /// A face's side crosses a line when the sine of its angle to the line's perpendicular is below this: a point moved aside from
