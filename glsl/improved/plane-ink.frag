@@ -5,8 +5,7 @@
 // In:  planeMap, of plane-map.frag or normal-map.frag; textureUnit, 1 / picture size in pixels; footprint, as there;
 //      reach: how many pixels away these are, to the left or below and to the right or above; together the width of the outline, what
 //      borders on the background; innerReach: the same for all other lines;
-//      gapThreshold: x the least gap between two surfaces that is a line, in widths of a pixel; y what is added for each
-//      unit of slope.
+//      gapThreshold: the least gap between two surfaces that is a line, in widths of a pixel.
 // Out: gl_FragColor, black with the ink as alpha, 0 or 1.
 
 uniform sampler2D planeMap;
@@ -14,7 +13,10 @@ uniform vec2 textureUnit;
 uniform vec2 footprint;
 uniform vec2 reach;
 uniform vec2 innerReach;
-uniform vec2 gapThreshold;
+uniform float gapThreshold;
+
+// Added to it for each unit of slope towards the eye, because the map is less exact on steep surfaces.
+const float gapPerSlope = 0.3;
 
 float depthOf(vec4 texel, vec2 place);
 // What depths and their differences are known to.
@@ -66,7 +68,7 @@ void main() {
     // The planes meet between the pixels where the two expectations lie on either side of the step.
     vec2 gap = min(abs(first), abs(second)) * step(0.0, first * second);
     // The map's rounding is no gap: wide where planes are far apart, a hundredth of a pixel where they were fitted.
-    vec2 least = gapThreshold.x + gapThreshold.y * min(abs(near), abs(far)) + depthRounding() / pixel;
+    vec2 least = gapThreshold + gapPerSlope * min(abs(near), abs(far)) + depthRounding() / pixel;
     bool hides = any(greaterThan(gap, least));
     if (!(isOutline || hides || turns(left, right, below, above))) discard;
     gl_FragColor = vec4(0.0, 0.0, 0.0, 1.0);

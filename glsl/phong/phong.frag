@@ -1,17 +1,16 @@
 #version 120
 // Phong's equation with the light of the cartoon styles: ambient + diffuse + specular, none of them weaker with the light's
 // distance. Weights and exponent are ours, for the paper prints none (errata E14).
-// In:  normalEye, positionEye, gl_Color; ambient, specular: weights; shininess: exponent.
+// In:  normalEye, positionEye, gl_Color.
 // Out: gl_FragColor, opaque.
-
-uniform float ambient;
-uniform float specular;
-uniform float shininess;
 
 varying vec3 normalEye;
 varying vec3 positionEye;
 
 const vec3 lightPos = vec3(1.0, 1.0, 1.0);
+const float ambient = 0.25;
+const float specular = 0.35;
+const float shininess = 24.0;
 
 void main() {
     vec3 normal = normalize(normalEye);

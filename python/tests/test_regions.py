@@ -470,9 +470,8 @@ def test_a_png_has_the_areas_below_its_lines():
     for place, color in expected.items():
         assert np.abs(colors[place][:3] - color).max() < 0.01, place
     assert np.abs(yellow[..., :3]).sum(axis=2).min() < 0.01, "lines are black"
-    for settings in ({"background": "transparent"}, {"transparent": True}):
-        clear = drawn("clear.png", **settings)
-        assert clear[0, 0].tolist() == [0, 0, 0, 0] and clear[25, 50] == pytest.approx((0, 0, 1, 0.5), abs=0.01)
+    clear = drawn("clear.png", background="transparent")
+    assert clear[0, 0].tolist() == [0, 0, 0, 0] and clear[25, 50] == pytest.approx((0, 0, 1, 0.5), abs=0.01)
     plotter.close()
 
 

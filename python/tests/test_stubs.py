@@ -110,7 +110,7 @@ lines = tinta_npr.lines(mesh, view="iso", hidden="dashed", width_mm=85, class_co
 lines.save(io.BytesIO(), format="pdf", title="A triangle")
 total: float = float(np.linalg.norm(lines.segments[lines.visible]))
 place = lines.project((0, 0, 0)).tolist()
-picture = tinta_npr.render(mesh, look="print", style="three-pass", size=(64, 48), transparent=True)
+picture = tinta_npr.render(mesh, look="print", style="three-pass", size=(64, 48), background="transparent")
 picture.save("a.png")
 drawn = tinta_npr.mpl.draw(Figure().add_subplot(), lines, color="C0")
 drawn.set_label("lines")

@@ -271,9 +271,6 @@ def _drawn(function, mesh, faces, name, camera, settings, basis, free=(None, Non
         if settings.get(key) is not None:
             raise ValueError(f"camera: it says {key}, which is given too; leave one of them out")
     settings.update(camera)
-    if settings.get("background") == "transparent":
-        # As the command line reads it.
-        settings.update(background=None, transparent=True)
     _native.check(function, settings)
     asked = _reading(settings)
     reading = {**_native.reading(function, *basis), **asked}

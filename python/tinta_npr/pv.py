@@ -87,7 +87,7 @@ def export_svg(plotter, file, *, fill=False, format=None, title=None, look=None,
     background = None
     if fill and ending == "png":
         background = _background(settings)
-        settings = {**settings, "transparent": True, "background": None}
+        settings = {**settings, "background": "transparent"}
     whole = plotter.window_size if settings.get("size") is None else size_of(settings)
     letter = _LETTER_MM * whole[0] / float(settings["width_mm"]) if settings.get("width_mm") else _LETTER
     views, keys, count = [], [], 0
@@ -306,7 +306,7 @@ def _views(renderer, shown, free, box, settings, fill, first):
 
 def _background(settings):
     """The background of pictures with these settings: red, green, blue and opacity, from 0 to 1."""
-    settings = {name: settings.get(name) for name in ("look", "preset", "background", "transparent")}
+    settings = {name: settings.get(name) for name in ("look", "preset", "background")}
     # A corner of a picture of two points in the middle.
     return _pixels.of_png(_lines(points=[(0, 0, 0), (1, 0, 0)], size=64, **settings).png())[0, 0]
 

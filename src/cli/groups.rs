@@ -162,8 +162,6 @@ mod tests {
     fn values_are_split_at_the_names_of_settings_alone() {
         let text = OptionValue::text;
         assert_eq!(split("page", "A4,margin=1cm"), Ok(vec![("page", text("A4")), ("margin", text("1cm"))]));
-        assert_eq!(split("background", "rgb(1,2,3)"), Ok(vec![("background", text("rgb(1,2,3)"))]));
-        assert_eq!(split("background", "transparent"), Ok(vec![("transparent", OptionValue::Switch(true))]));
         let lights = vec![("light-1", text("1,-2,3")), ("light-2", text("0,0,1"))];
         assert_eq!(split("light", "light-1=1,-2,3,light-2=0,0,1"), Ok(lights));
         assert!(split("grain", "densty=3").unwrap_err().contains("did you mean density?"));
@@ -175,7 +173,7 @@ mod tests {
             ("--margin 3km: give a length", "--page margin=3km: give a length"),
             ("--margin: give a length", "--page margin: give a length"),
             ("--tone-light has no effect on lines", "--light tone-light has no effect on lines"),
-            ("--near and --far: they are equal", "--clip near and --clip far: they are equal"),
+            ("--light-1 and --light-2: they are equal", "--light light-1 and --light light-2: they are equal"),
             ("leave out --transparent, or --tones 2", "leave out --background transparent, or --tones 2"),
             ("a -- b --no-such", "a -- b --no-such"),
             ("/a--near/b --near.obj: gone", "/a--near/b --near.obj: gone"),

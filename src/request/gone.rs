@@ -7,12 +7,21 @@ use crate::styles::StyleName;
 /// What took the place of the style `suggestive` and of its options.
 const CONTOURS: &str = "--style lines --classes silhouette,boundary,crease,suggestive draws suggestive contours";
 
+/// What took the place of the options of `phong`.
+const PHONG: &str = "glsl/phong/phong.frag has it; --glsl takes yours";
+
 /// Options of earlier versions, and what took their place.
-const GONE: [(&str, &str); 7] = [
+const GONE: [(&str, &str); 13] = [
+    ("ambient", PHONG),
     ("apparent-ridge-threshold", "apparent ridges are gone; --classes ridge,valley draws ridges in any view"),
     ("crease-by", "--exact-lines draws the lines that print drew by it, with --lasting-creases those of scans"),
+    ("gap-per-slope", "glsl/improved/plane-ink.frag has it; --glsl takes yours"),
     ("provenance", "-o drawing.json has each line's class, object, edge and angle"),
     ("remove-specks", "--quality best removes specks, and exact lines have none"),
+    ("shininess", PHONG),
+    ("specular", PHONG),
+    ("surface-crease-angle", "the smooth surface breaks at 66.4 degrees; --form-lines curvature-smoothing leaves out small edges"),
+    ("transparent", "--background transparent leaves the background out"),
     ("valley-depth", CONTOURS),
     ("valley-radius", CONTOURS),
     ("valley-share", CONTOURS),

@@ -73,11 +73,7 @@ impl Read {
     /// Checks each option alone, then that none excludes another.
     fn check(mut self) -> Result<Self> {
         let table = Request::table();
-        for (mut name, mut value) in std::mem::take(&mut self.options) {
-            // As the command line writes it.
-            if name == "background" && value == OptionValue::text("transparent") {
-                (name, value) = ("transparent".to_owned(), OptionValue::Switch(true));
-            }
+        for (name, value) in std::mem::take(&mut self.options) {
             let mut settings = table.settings.iter().filter(|setting| setting.name == name);
             let Some(setting) = settings.next() else { return Err(self.refuse(&name, unknown(&name))) };
             let kept =

@@ -115,7 +115,8 @@ impl Cartoon {
             return self.three_pass(scene, show);
         };
         if scene.background == Background::Transparent && self.background_square {
-            return Err(Error::setting(
+            return Err(Error::value(
+                "background",
                 "transparent",
                 "two-pass draws its outer borders on an opaque background square; use --style three-pass, or \
                  --background-quad off and lose them",
@@ -174,7 +175,7 @@ impl Cartoon {
             None => {}
         }
         if scene.background == Background::Transparent && matches!(show, Show::Normals | Show::Depth) {
-            return Err(Error::setting("transparent", "normals and depth are opaque pictures; leave it out here"));
+            return Err(Error::value("background", "transparent", "normals and depth are opaque pictures; leave it out here"));
         }
         Ok(())
     }

@@ -39,9 +39,6 @@ pub struct Ink {
     pub inner_width: Option<LineWidth>,
     /// The least step from one surface to another that is a line, in widths of a pixel. Default 1.5; more draws fewer lines.
     pub least_gap_px: f32,
-    /// Added to it per unit of a surface's slope towards the eye, because the map is less exact on steep surfaces. Default 0.3;
-    /// more draws fewer lines near outlines.
-    pub gap_per_slope: f32,
     /// A distant light; `None`, the default, is the listing's near light at (1, 1, 1).
     pub tone_light: Option<FarLight>,
     /// The tones below. Default those of the three passes.
@@ -72,7 +69,6 @@ impl Default for Ink {
             is_inked: true,
             crease_angle: CreaseAngle::of_drawings(),
             least_gap_px: 1.5,
-            gap_per_slope: 0.3,
             line_width: LineWidth::Pixels(2),
             inner_width: None,
             tone_light: None,
@@ -137,14 +133,6 @@ impl Ink {
                 |ink: &mut Self| &mut ink.least_gap_px,
             )
             .range(0.0, 20.0, 2),
-            Setting::field(
-                "gap-per-slope",
-                "PIXELS",
-                "Addition to --least-gap per unit of slope; more draws fewer lines near outlines",
-                |ink: &mut Self| &mut ink.gap_per_slope,
-            )
-            .inside("least-gap")
-            .range(0.0, 5.0, 2),
         ];
         under(ALL_STYLES, common)
             .chain(within(Tones::settings(), |ink: &mut Self| Some(&mut ink.tones)))
@@ -264,11 +252,10 @@ impl Ink {
         let float = |name: &'static str, value: f64| Uniform::new(name, Value::Float(value as f32));
         let (scale, width) = (self.supersample().factor(), self.line_width.pixels(scene.size));
         let inner_width = self.inner_width.unwrap_or(self.line_width).pixels(scene.size);
-        let gap = [self.least_gap_px * scale as f32, self.gap_per_slope];
         let mut uniforms = vec![
             supersample::texture_unit(surface),
             lens::footprint(scene, surface, DepthRange::of_scene(scene)),
-            Uniform::new("gapThreshold", Value::Vec2(gap)),
+            float("gapThreshold", f64::from(self.least_gap_px * scale as f32)),
             float("creaseCosine", self.crease_angle.cosine),
             reach("reach", Some(width), scale, false),
             reach("innerReach", Some(inner_width), scale, false),

@@ -263,7 +263,7 @@ fn ink_agrees_with_its_twin_on_the_cpu() {
                 map,
                 footprint: pair("footprint"),
                 angle: number("pixelAngle"),
-                gap: pair("gapThreshold"),
+                gap: [number("gapThreshold"), 0.3],
                 cosine: number("creaseCosine"),
             };
             let drawn = &steps.last().unwrap().picture;

@@ -27,7 +27,7 @@ fn a_jobs_options_are_those_of_the_command_line_and_its_pictures_too() {
     let preset = folder.file("mine.toml", b"tones = 2\n");
     let [_, second] = backend_names();
     let by_second = format!(r#","backend":"{second}","style":"ink""#);
-    let pairs: [(&str, &str, &[&str]); 7] = [
+    let pairs: [(&str, &str, &[&str]); 6] = [
         ("plain", "", &[]),
         (
             "numbers",
@@ -36,10 +36,9 @@ fn a_jobs_options_are_those_of_the_command_line_and_its_pictures_too() {
         ),
         (
             "switches",
-            r#","parallel":true,"transparent":true,"full":false"#,
+            r#","parallel":true,"background":"transparent","full":false"#,
             &["--parallel", "--background", "transparent"],
         ),
-        ("ground", r#","background":"transparent""#, &["--background", "transparent"]),
         (
             "styles",
             r#","style":"inking","joints":false,"silhouette":"exact""#,

@@ -105,8 +105,8 @@ fn nonsensical_settings_are_refused_by_name() {
     render(&["--eye", "0,0,9", "--target", "0,0,0", "--up", "0,0,1"], &["--up", "along the view"]);
     render(&["--fov", "180"], &["--fov 180"]);
     render(&["--fov", "-1"], &["--fov -1"]);
-    render(&["--clip", "near=5", "--clip", "far=4"], &["--clip near and --clip far", "5 and 4 away"]);
-    render(&["--clip", "near=0"], &["--clip near"]);
+    render(&["--near", "5", "--far", "4"], &["--near and --far", "5 and 4 away"]);
+    render(&["--near", "0"], &["--near"]);
     render(&["--tones", "4"], &["--tones 4"]);
     render(&["--tones", "tone-levels=1,2"], &["tone-levels=1,2", "3 numbers"]);
     render(&["--detection-factor", "nan"], &["--detection-factor NaN"]);

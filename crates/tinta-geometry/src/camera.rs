@@ -293,16 +293,14 @@ impl CameraSettings {
                 "fitted",
                 "Distance from the eye to the near plane, in model units",
                 |camera: &mut Self| &mut camera.near,
-            )
-            .inside("clip"),
+            ),
             Setting::open_field(
                 "far",
                 "LENGTH",
                 "fitted",
                 "Distance from the eye to the far plane, in model units",
                 |camera: &mut Self| &mut camera.far,
-            )
-            .inside("clip"),
+            ),
         ];
         under(HEADING, settings).collect()
     }

@@ -95,6 +95,12 @@ impl Curvatures {
         Self { corners: surface.corners, positions, at, feature_size }
     }
 
+    /// The curvatures for form lines, whose creases are the listing's: sharper than 66.4 degrees, because a coarse mesh of a round
+    /// shape has many edges above the 30 degrees at which a drawing shows a crease.
+    pub(crate) fn of_form(mesh: &Mesh, edges: &EdgeList, smoothing: f64) -> Self {
+        Self::new(mesh, edges, CreaseAngle::default(), smoothing)
+    }
+
     /// Each triangle's three vertices, in the order of the mesh's triangles and their corners.
     pub fn corners(&self) -> &[[u32; 3]] {
         &self.corners
@@ -125,23 +131,17 @@ impl Curvatures {
 
 /// The curvatures of a mesh for the latest settings.
 #[derive(Debug, Default)]
-pub(crate) struct KeptCurvatures(Mutex<Option<(CreaseAngle, f64, Arc<Curvatures>)>>);
+pub(crate) struct KeptCurvatures(Mutex<Option<(f64, Arc<Curvatures>)>>);
 
 impl KeptCurvatures {
     /// Returns those of a mesh, which must be the same in every call.
-    pub(crate) fn get(
-        &self,
-        mesh: &Mesh,
-        edges: &EdgeList,
-        crease_angle: CreaseAngle,
-        smoothing: f64,
-    ) -> Arc<Curvatures> {
+    pub(crate) fn get(&self, mesh: &Mesh, edges: &EdgeList, smoothing: f64) -> Arc<Curvatures> {
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         match &*kept {
-            Some((angle, kept, curvatures)) if *angle == crease_angle && *kept == smoothing => curvatures.clone(),
+            Some((kept, curvatures)) if *kept == smoothing => curvatures.clone(),
             _ => {
-                let curvatures = Arc::new(Curvatures::new(mesh, edges, crease_angle, smoothing));
-                *kept = Some((crease_angle, smoothing, curvatures.clone()));
+                let curvatures = Arc::new(Curvatures::of_form(mesh, edges, smoothing));
+                *kept = Some((smoothing, curvatures.clone()));
                 curvatures
             }
         }

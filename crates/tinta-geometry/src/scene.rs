@@ -35,11 +35,11 @@ pub use unseen::Unseen;
 
 use crate::camera::{Camera, CameraSettings, Projection, View};
 use crate::curvature::{Curvatures, KeptCurvatures};
-use crate::edges::{CreaseAngle, Eye, MeshEdges, SilhouetteRule};
+use crate::edges::{Eye, MeshEdges, SilhouetteRule};
 use crate::error::{Error, Result};
 use crate::limits::DRAWN_PIXELS;
 use crate::mesh::{Material, Mesh, VertexArrays, bounds};
-use crate::settings::{HasSettings, Setting, Table, Value as _, under, within};
+use crate::settings::{HasSettings, Setting, Table, under, within};
 use crate::tolerances::{BASE_DEPTH, MOST_OF_FIGURES, SCENE_RADIUS};
 use glam::{DMat4, DVec3, Mat4, Vec3};
 use std::sync::{Arc, LazyLock, OnceLock, Weak};
@@ -149,40 +149,19 @@ impl HasSettings for SceneSettings {
 impl SceneSettings {
     /// The settings, for tables of structs that contain a scene.
     pub fn settings() -> Vec<Setting<Self>> {
-        let default = || Self::default().background;
-        let background = Setting::of(
-            "background",
-            "COLOR",
-            Color::kind(),
-            "Colour behind the scene: a CSS name, #rrggbb, rgb(r,g,b), or transparent",
-            move |scene: &Self| match (scene.background, default()) {
-                (Background::Color(color), _) | (Background::Transparent, Background::Color(color)) => color.text(),
-                _ => String::new(),
-            },
-            |scene, text| {
-                scene.background = Background::Color(Color::parse(text)?);
-                Ok(())
-            },
-        );
         let settings = vec![
             Setting::field("size", "WxH", "Size in pixels, or one number for a square", |scene: &mut Self| {
                 &mut scene.size
             })
             .common(),
-            background.said("white").common(),
-            Setting::flag(
-                "transparent",
-                "Alpha 0 outside the model",
-                |scene: &Self| scene.background == Background::Transparent,
-                |scene, is_on| {
-                    if is_on {
-                        scene.background = Background::Transparent;
-                    } else if scene.background == Background::Transparent {
-                        scene.background = Self::default().background;
-                    }
-                },
+            Setting::field(
+                "background",
+                "COLOR",
+                "Colour behind the scene: a CSS name, #rrggbb, rgb(r,g,b), or transparent",
+                |scene: &mut Self| &mut scene.background,
             )
-            .inside("background")
+            .open("transparent")
+            .said("white")
             .common(),
             Setting::open_field("color", "COLOR", "own", "One colour for all surfaces", |scene: &mut Self| {
                 &mut scene.color
@@ -379,10 +358,10 @@ impl Scene {
         object.edges.get_or_init(|| MeshEdges::new(object.mesh.clone()))
     }
 
-    /// The curvature of an object's surface between creases, smoothed as in [`Curvatures::new`]. The result for the
-    /// latest settings is cached.
-    pub(crate) fn curvatures(&self, object: &Object, crease_angle: CreaseAngle, smoothing: f64) -> Arc<Curvatures> {
-        object.curvatures.get(&object.mesh, self.edges(object).list(), crease_angle, smoothing)
+    /// The curvature of an object's surface between creases, smoothed as in [`Curvatures::new`]. The latest result
+    /// is cached.
+    pub(crate) fn curvatures(&self, object: &Object, smoothing: f64) -> Arc<Curvatures> {
+        object.curvatures.get(&object.mesh, self.edges(object).list(), smoothing)
     }
 
     /// The eye in an object's mesh coordinates; for the listing's rule always the camera's axis.
@@ -566,6 +545,7 @@ fn on_grid(meshes: &[Arc<Mesh>], copies: u32) -> Vec<Object> {
 mod tests {
     use super::*;
     use crate::mesh::{LoadOptions, load};
+    use crate::settings::Value as _;
 
     fn open_box(settings: &SceneSettings) -> Scene {
         let mesh = load("../../models/open-box.obj", &LoadOptions::default()).unwrap().mesh;

@@ -75,9 +75,8 @@ pub fn rule_text(name: &str, settings: Vec<(String, OptionValue)>) -> String {
 }
 
 /// Mutually exclusive settings: each with those that it excludes.
-pub const EXCLUSIVE: [(&str, &[&str]); 9] = [
+pub const EXCLUSIVE: [(&str, &[&str]); 8] = [
     ("eye", &["view"]),
-    ("transparent", &["background"]),
     ("width-mm", &["dpi"]),
     ("page", &["width-mm", "dpi"]),
     ("sheet", &["view", "eye", "target", "up", "height", "framing", "turntable"]),

@@ -176,7 +176,6 @@ fn all_options_together_survive_too() {
     let file = picture_file();
     let excluded = [
         "no-borders",
-        "transparent",
         "eye",
         "dpi",
         "page",

@@ -1,7 +1,7 @@
 //! How values are written and read: each type's text reads back as the same value.
 
 use super::{Choice, Kind, Problem, on_off};
-use crate::values::{Color, Size};
+use crate::values::{Background, Color, Size};
 use glam::DVec3;
 use std::path::PathBuf;
 
@@ -169,6 +169,23 @@ impl Value for Color {
 
     fn parse(text: &str) -> Result<Self, Problem> {
         Ok(text.parse()?)
+    }
+}
+
+impl Value for Background {
+    fn kind() -> Kind {
+        Kind::Color
+    }
+
+    fn text(&self) -> String {
+        match self {
+            Self::Color(color) => color.to_string(),
+            Self::Transparent => "transparent".to_owned(),
+        }
+    }
+
+    fn parse(text: &str) -> Result<Self, Problem> {
+        Ok(if text == "transparent" { Self::Transparent } else { Self::Color(text.parse()?) })
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use tinta::error::Result;
 use tinta::picture::{Picture, material_pictures};
 use tinta::scene::Scene;
-use tinta::styles::{CetCoordinate, CetFilter, Charcoal, ContrastOperator, Noise, Phong, Style, Tones};
+use tinta::styles::{CetCoordinate, CetFilter, Charcoal, ContrastOperator, Noise, Style, Tones};
 
 /// The surface at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +27,7 @@ pub(super) struct Surface {
 pub(super) enum Shading<'a> {
     /// In tones: a pixel has one of them.
     Tones(&'a Tones),
-    Phong(&'a Phong),
+    Phong,
     /// Noise, contrast-enhanced texture and paper; for sand each object's material pictures.
     Charcoal {
         charcoal: &'a Charcoal,
@@ -49,7 +49,7 @@ impl<'a> Shading<'a> {
             Style::ThreePass(cartoon) | Style::TwoPass(cartoon) => Some(Self::Tones(&cartoon.tones)),
             Style::Mrt(mrt) => Some(Self::Tones(&mrt.0.tones)),
             Style::Ink(ink) => ink.tone_light.is_none().then_some(Self::Tones(&ink.tones)),
-            Style::Phong(phong) => Some(Self::Phong(phong)),
+            Style::Phong(_) => Some(Self::Phong),
             Style::Charcoal(charcoal) | Style::Sand(charcoal) => {
                 let is_computed = charcoal.operator == ContrastOperator::Power
                     && !charcoal.improve.go_beyond_the_text()
@@ -84,7 +84,7 @@ impl<'a> Shading<'a> {
                 let [diffuse, specular] = surface.light;
                 surface.color * f64::from(tones.tone(diffuse as f32, specular as f32))
             }
-            Self::Phong(phong) => self::phong(phong, surface),
+            Self::Phong => phong(surface),
             Self::Charcoal { charcoal, noise, cet, paper, sand } => {
                 let drawing = self::charcoal(charcoal, [noise, cet, paper], surface);
                 match sand {
@@ -97,18 +97,18 @@ impl<'a> Shading<'a> {
     }
 }
 
-fn phong(phong: &Phong, surface: &Surface) -> DVec3 {
+/// With the numbers of `phong.frag`.
+fn phong(surface: &Surface) -> DVec3 {
     let normal = surface.normal.normalize_or_zero();
     let to_light = (DVec3::ONE - surface.point).normalize_or_zero();
     let to_eye = (-surface.point).normalize_or_zero();
     let diffuse = to_light.dot(normal).max(0.0);
     let reflected = 2.0 * to_light.dot(normal) * normal - to_light;
     let highlight = match diffuse > 0.0 {
-        true => reflected.dot(to_eye).max(0.0).powf(f64::from(phong.shininess)),
+        true => reflected.dot(to_eye).max(0.0).powf(24.0),
         false => 0.0,
     };
-    let ambient = f64::from(phong.ambient);
-    surface.color * (ambient + (1.0 - ambient) * diffuse) + f64::from(phong.specular) * highlight
+    surface.color * (0.25 + 0.75 * diffuse) + 0.35 * highlight
 }
 
 /// Valente 2007, section 3.3.

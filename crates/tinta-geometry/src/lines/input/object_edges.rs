@@ -108,12 +108,11 @@ impl ObjectEdges<'_> {
 
     /// The curvature of the smooth surface, for form lines.
     pub(in crate::lines) fn curvatures(&self, scene: &Scene, settings: &FormSettings) -> Arc<Curvatures> {
-        let &FormSettings { crease_angle, smoothing, .. } = settings;
         match &self.edges {
-            Edges::OfScene(_) => scene.curvatures(self.object, crease_angle, smoothing),
+            Edges::OfScene(_) => scene.curvatures(self.object, settings.smoothing),
             Edges::Repaired(repaired) => {
                 let edges = &repaired.edges;
-                Arc::new(Curvatures::new(edges.mesh(), edges.list(), crease_angle, smoothing))
+                Arc::new(Curvatures::of_form(edges.mesh(), edges.list(), settings.smoothing))
             }
         }
     }

@@ -7,7 +7,7 @@ use tinta::camera::CameraSettings;
 use tinta::edges::CreaseAngle;
 use tinta::lines::{Length, LineSettings};
 use tinta::scene::Size;
-use tinta::styles::{Border, Cartoon, Charcoal, Dietrich, Inking, Phong, Style, Tones};
+use tinta::styles::{Border, Cartoon, Charcoal, Dietrich, Inking, Style, Tones};
 
 pub(super) fn cases() -> Vec<Case> {
     [geometry(), tones(), borders(), charcoal()].concat()
@@ -59,8 +59,6 @@ fn tones() -> Vec<Case> {
     let tones = Tones { levels: [2.0, 0.0, -1.0], ..Tones::default() };
     let levels = Variant::new("three-pass", Style::ThreePass(Cartoon { tones, ..Cartoon::default() }));
     all.push(refused("tones brighter than all light", levels, "--tone-levels"));
-    let phong = Style::Phong(Phong { shininess: 1e30, ..Phong::default() });
-    all.push(rendered("a shininess of 1e30", of_ball(Variant::new("phong", phong))));
     let dietrich = Style::Dietrich(Dietrich { threshold: 1.0, ..Dietrich::default() });
     all.push(rendered("an outline threshold of 1", of_ball(Variant::new("dietrich", dietrich))));
     all

@@ -1,6 +1,5 @@
 //! The settings of form lines.
 
-use crate::edges::CreaseAngle;
 use crate::error::{Error, Result};
 use crate::settings::{Setting, under};
 
@@ -13,10 +12,6 @@ pub struct FormSettings {
     pub suggestive_threshold: f64,
     /// Least curvature of a ridge or valley. Default 0.1; a larger value keeps only sharp ones.
     pub ridge_threshold: f64,
-    /// Angle between faces above which the smooth surface breaks. Default the listing's 66.4 degrees, because a
-    /// coarse mesh of a round shape has many edges above the 30 degrees at which a drawing shows a crease. A larger
-    /// angle smooths over sharper edges.
-    pub crease_angle: CreaseAngle,
     /// Standard deviation of the Gaussian that smooths normals before curvature is computed, in edge lengths. Default
     /// 1; a larger value draws fewer, longer lines and moves them off small features.
     pub smoothing: f64,
@@ -27,7 +22,7 @@ const LARGEST_SMOOTHING: f64 = 10.0;
 
 impl Default for FormSettings {
     fn default() -> Self {
-        Self { suggestive_threshold: 0.01, ridge_threshold: 0.1, crease_angle: CreaseAngle::default(), smoothing: 1.0 }
+        Self { suggestive_threshold: 0.01, ridge_threshold: 0.1, smoothing: 1.0 }
     }
 }
 
@@ -51,15 +46,6 @@ impl FormSettings {
             )
             .inside("form-lines")
             .range(0.0, 1.0, 2),
-            Setting::field(
-                "surface-crease-angle",
-                "DEGREES",
-                "Smallest angle between two faces that stays sharp in the smooth surface, in degrees; more smooths \
-                 over sharper edges",
-                |forms: &mut Self| &mut forms.crease_angle,
-            )
-            .inside("form-lines")
-            .said("66.4"),
             Setting::field(
                 "curvature-smoothing",
                 "EDGES",

@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// The lines of a class on a mesh, in the mesh's space.
 pub(super) fn traced(mesh: &Mesh, class: Class, eye: Eye, settings: &FormSettings) -> Vec<[DVec3; 2]> {
     let settings = LineSettings { classes: ClassSet::of(&[class]), forms: settings.clone(), ..LineSettings::default() };
-    let curvatures = Curvatures::new(mesh, &EdgeList::new(mesh), settings.forms.crease_angle, settings.forms.smoothing);
+    let curvatures = Curvatures::of_form(mesh, &EdgeList::new(mesh), settings.forms.smoothing);
     let forms = Forms::new(mesh, &curvatures, eye, &settings);
     let mut found = Vec::new();
     for (face, triangle) in mesh.triangles.iter().enumerate() {
