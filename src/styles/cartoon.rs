@@ -175,7 +175,11 @@ impl Cartoon {
             None => {}
         }
         if scene.background == Background::Transparent && matches!(show, Show::Normals | Show::Depth) {
-            return Err(Error::value("background", "transparent", "normals and depth are opaque pictures; leave it out here"));
+            return Err(Error::value(
+                "background",
+                "transparent",
+                "normals and depth are opaque pictures; leave it out here",
+            ));
         }
         Ok(())
     }

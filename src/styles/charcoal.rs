@@ -361,7 +361,7 @@ impl Charcoal {
         let above_zero = |x: f32| x > 0.0 && x.is_finite();
         if !above_zero(self.contrast_exponent) {
             return Err(Error::value(
-                "contrast-exponent",
+                "contrast",
                 self.contrast_exponent,
                 "the exponent is a finite number above 0; below 1 it lightens",
             ));

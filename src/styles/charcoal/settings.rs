@@ -73,12 +73,11 @@ impl Charcoal {
         ];
         let drawing = vec![
             Setting::field(
-                "contrast-exponent",
+                "contrast",
                 "M",
                 "Exponent of the light's contrast; more darkens everything except the brightest parts",
                 |charcoal: &mut Self| &mut charcoal.contrast_exponent,
             )
-            .inside("contrast")
             .range(0.1, 6.0, 2),
             Setting::field(
                 "saturation",

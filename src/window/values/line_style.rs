@@ -1,13 +1,11 @@
 //! The settings of exact lines in the window's panel.
 
 /// The settings of exact lines that the panel shows and sets: the others are of files and of paper, and count where a drawing is saved.
-pub(in crate::window) const LINE_SETTINGS: [&str; 12] = [
+pub(in crate::window) const LINE_SETTINGS: [&str; 10] = [
     "classes",
     "crease-angle",
     "lasting-creases",
-    "suggestive-threshold",
-    "ridge-threshold",
-    "surface-crease-angle",
+    "form-lines",
     "curvature-smoothing",
     "class-colors",
     "line-width",

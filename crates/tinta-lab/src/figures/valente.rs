@@ -75,7 +75,7 @@ pub(super) fn figures(size: Size) -> Vec<Figure> {
              The report shows the picture of the work it follows; ours is the bust.",
             vec![
                 face("valente-4-left", "diffuse light", base.clone(), "").showing(Show::Diffuse, "diffuse"),
-                face("valente-4-right", "contrast enhanced, m = 3", contrast(3.0), " --contrast contrast-exponent=3")
+                face("valente-4-right", "contrast enhanced, m = 3", contrast(3.0), " --contrast 3")
                     .showing(Show::Cem, "cem"),
             ],
         ),

@@ -119,7 +119,7 @@ impl<'a> Forms<'a> {
             Eye::Point(eye) => (eye - mesh.positions[curvatures.positions()[vertex] as usize]).normalize_or_zero(),
             Eye::Direction(direction) => direction.normalize_or_zero(),
         };
-        let least = forms.suggestive_threshold / (size * size);
+        let least = 0.01 * forms.strength / (size * size);
         let depends_on_view = count(&[Class::Suggestive]);
         let cosines = filled(depends_on_view, threads, 0.0, |vertex| to_eye(vertex).dot(all[vertex].normal));
         Self {
@@ -133,7 +133,7 @@ impl<'a> Forms<'a> {
                 let at = &all[vertex];
                 Crest { strength: at.principal[0], direction: at.directions[0], growth: at.derivative[0] }
             }),
-            least: forms.ridge_threshold / size,
+            least: 0.1 * forms.strength / size,
             cosines,
         }
     }

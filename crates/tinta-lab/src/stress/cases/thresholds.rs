@@ -114,9 +114,9 @@ fn charcoal() -> Vec<Case> {
     let drawn = drawn.map(|(name, answer, variant)| Case { answer, ..rendered(name, of_ball(variant)) });
     let mut all = drawn.to_vec();
     let never = [
-        ("a contrast exponent of 0", exponent(0.0), "--contrast-exponent"),
-        ("a negative contrast exponent", exponent(-1.0), "--contrast-exponent"),
-        ("a contrast exponent that is no number", exponent(f32::NAN), "--contrast-exponent"),
+        ("a contrast exponent of 0", exponent(0.0), "--contrast"),
+        ("a negative contrast exponent", exponent(-1.0), "--contrast"),
+        ("a contrast exponent that is no number", exponent(f32::NAN), "--contrast"),
         ("a density of 101 percent", density(101.0), "--density"),
         ("a light without direction", lights([[0.0; 3], [1.0; 3]]), "--light"),
     ];

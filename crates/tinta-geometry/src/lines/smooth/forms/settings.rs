@@ -3,15 +3,14 @@
 use crate::error::{Error, Result};
 use crate::settings::{Setting, under};
 
-/// Which form lines are strong enough to be drawn. Thresholds have no unit, because lengths are relative to the
+/// Which form lines are strong enough to be drawn. Curvatures have no unit, because lengths are relative to the
 /// model's feature size, of [`crate::curvature`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormSettings {
-    /// Least growth of the curvature along the view, towards the eye, for a suggestive contour. Default 0.01; a
-    /// larger value drops shallow contours, which come and go as the model turns.
-    pub suggestive_threshold: f64,
-    /// Least curvature of a ridge or valley. Default 0.1; a larger value keeps only sharp ones.
-    pub ridge_threshold: f64,
+    /// Least strength, in multiples of the usual. Default 1: curvature along the view that grows by 0.01 towards the eye for
+    /// a suggestive contour, curvature of 0.1 for a ridge or valley. A larger value drops shallow lines, which come and go
+    /// as the model turns.
+    pub strength: f64,
     /// Standard deviation of the Gaussian that smooths normals before curvature is computed, in edge lengths. Default
     /// 1; a larger value draws fewer, longer lines and moves them off small features.
     pub smoothing: f64,
@@ -22,7 +21,7 @@ const LARGEST_SMOOTHING: f64 = 10.0;
 
 impl Default for FormSettings {
     fn default() -> Self {
-        Self { suggestive_threshold: 0.01, ridge_threshold: 0.1, smoothing: 1.0 }
+        Self { strength: 1.0, smoothing: 1.0 }
     }
 }
 
@@ -31,21 +30,12 @@ impl FormSettings {
     pub fn settings() -> Vec<Setting<Self>> {
         let settings = vec![
             Setting::field(
-                "suggestive-threshold",
-                "NUMBER",
-                "Least growth of the curvature along the view that makes a suggestive contour; more draws fewer",
-                |forms: &mut Self| &mut forms.suggestive_threshold,
+                "form-lines",
+                "STRENGTH",
+                "Least strength of form lines, in multiples of the usual; more draws fewer",
+                |forms: &mut Self| &mut forms.strength,
             )
-            .inside("form-lines")
-            .range(0.0, 0.1, 3),
-            Setting::field(
-                "ridge-threshold",
-                "NUMBER",
-                "Least curvature of a ridge or valley; more draws fewer",
-                |forms: &mut Self| &mut forms.ridge_threshold,
-            )
-            .inside("form-lines")
-            .range(0.0, 1.0, 2),
+            .range(0.0, 10.0, 1),
             Setting::field(
                 "curvature-smoothing",
                 "EDGES",
@@ -60,10 +50,8 @@ impl FormSettings {
 
     /// Refuses invalid thresholds.
     pub(in crate::lines) fn check(&self) -> Result<()> {
-        let thresholds =
-            [("suggestive-threshold", self.suggestive_threshold), ("ridge-threshold", self.ridge_threshold)];
-        if let Some((name, value)) = thresholds.into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0)) {
-            return Err(Error::value(name, value, "the threshold is a number, 0 or more"));
+        if !(self.strength.is_finite() && self.strength >= 0.0) {
+            return Err(Error::value("form-lines", self.strength, "the strength is a number, 0 or more"));
         }
         if !(0.0..=LARGEST_SMOOTHING).contains(&self.smoothing) {
             let problem = format!("the smoothing is between 0 and {LARGEST_SMOOTHING} edge lengths");

@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 /// Without smoothing, and with every suggestive contour.
 fn whole() -> FormSettings {
-    FormSettings { suggestive_threshold: 0.0, ..raw() }
+    FormSettings { strength: 0.0, ..raw() }
 }
 
 const ALL: [Class; 3] = [Class::Suggestive, Class::Ridge, Class::Valley];
@@ -31,7 +31,7 @@ fn scattered(point: DVec3) -> f64 {
 #[test]
 fn crests_of_waves_that_are_nearly_flat_are_where_those_of_high_ones_are() {
     let eye = Eye::Direction(DVec3::new(0.1, 0.2, 1.0));
-    let all = FormSettings { ridge_threshold: 0.0, ..raw() };
+    let all = FormSettings { strength: 0.0, ..raw() };
     for height in [0.6, 1e-3, 1e-6, 1e-9] {
         for (class, at, count) in [(Class::Ridge, 0.0, 3.0), (Class::Valley, PI, 2.0)] {
             let found = traced(&waves(height, |_| 0.0), class, eye, &all);

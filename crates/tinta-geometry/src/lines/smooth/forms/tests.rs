@@ -65,7 +65,7 @@ pub(super) fn parameters(large: f64, point: DVec3) -> [f64; 2] {
 fn suggestive_contours_of_a_torus_are_where_the_curvature_along_the_view_is_zero() {
     let radii = [1.0, 0.4];
     let to_eye = DVec3::new(1.0, 0.2, 0.5).normalize();
-    let all = FormSettings { suggestive_threshold: 0.0, ..raw() };
+    let all = FormSettings { strength: 0.0, ..raw() };
     let errors = [50, 100, 200].map(|count| {
         let mesh = torus([2 * count, count], radii);
         let found = traced(&mesh, Class::Suggestive, Eye::Direction(to_eye), &all);
@@ -208,7 +208,7 @@ fn raising_a_threshold_only_takes_away_and_scale_changes_nothing() {
     let eye = |scale: f64| Eye::Point(scale * DVec3::new(2.0, -3.0, 4.0));
     for class in [Class::Suggestive, Class::Ridge, Class::Valley] {
         let with = |factor: f64, scale: f64| {
-            let forms = FormSettings { suggestive_threshold: 0.01 * factor, ridge_threshold: 0.03 * factor, ..raw() };
+            let forms = FormSettings { strength: factor * if class == Class::Suggestive { 1.0 } else { 0.3 }, ..raw() };
             length(&traced(&bumpy(scale), class, eye(scale), &forms)) / scale
         };
         let lengths = [0.5, 1.0, 2.0, 4.0].map(|factor| with(factor, 1.0));
@@ -229,8 +229,7 @@ fn hostile_meshes_give_lines_with_finite_ends_or_none() {
     let triangles: Vec<[u32; 3]> =
         (0..58).map(|k| [k, k + 1, k + 2]).chain((0..50).map(|k| [k, k + 9, k + 5])).collect();
     let soup = Mesh::of_triangles("soup", points, &triangles, &LoadOptions::default()).unwrap();
-    let all =
-        FormSettings { suggestive_threshold: 0.0, ridge_threshold: 0.0, smoothing: 2.0, ..FormSettings::default() };
+    let all = FormSettings { strength: 0.0, smoothing: 2.0, ..FormSettings::default() };
     for class in [Class::Suggestive, Class::Ridge, Class::Valley] {
         for eye in [Eye::Point(soup.positions[3]), Eye::Direction(DVec3::Z), Eye::Point(DVec3::splat(1e9))] {
             let found = traced(&soup, class, eye, &all);

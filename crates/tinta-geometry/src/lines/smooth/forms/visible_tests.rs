@@ -88,7 +88,7 @@ fn lines_hang_together_from_face_to_face() {
 fn every_class_together_is_drawn_and_the_default_is_without_form_lines() {
     let scene = seen_from(vec![torus([80, 40], [3.0, 1.2])], DVec3::new(14.0, 3.0, 6.0));
     let mut settings = LineSettings { classes: ClassSet::ALL, ..of(&[]) };
-    settings.forms.suggestive_threshold = 0.0;
+    settings.forms.strength = 0.0;
     let all = VisibleLines::of(&scene, &settings).unwrap();
     all.check().unwrap();
     assert!(length(&all, Class::Suggestive, true) > 10.0);
@@ -105,8 +105,8 @@ fn thresholds_that_are_none_are_refused() {
     let scene = seen_from(vec![waves()], DVec3::Z * 20.0);
     type Change = fn(&mut FormSettings);
     let wrong: [(&str, Change); 3] = [
-        ("suggestive-threshold", |forms| forms.suggestive_threshold = -1.0),
-        ("ridge-threshold", |forms| forms.ridge_threshold = f64::NAN),
+        ("form-lines", |forms| forms.strength = -1.0),
+        ("form-lines", |forms| forms.strength = f64::NAN),
         ("curvature-smoothing", |forms| forms.smoothing = 11.0),
     ];
     for (name, change) in wrong {
